@@ -15,12 +15,11 @@
 #define KD_BASE_JSON_H
 
 #include "base/buffer.h"
+#include "base/media.h"
 
 #include <stdbool.h>
 
 enum { KD_JSON_DEPTH = 32, KD_JSON_NUMBER = 32 };
-
-#define KD_JSON_TYPE "application/json" /* its media type */
 
 struct kd_json {
     struct kd_buffer *out;

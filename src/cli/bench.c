@@ -135,12 +135,9 @@ static enum kd_status measure(struct arguments *a, struct kd_accuracy_table *t, 
     enum kd_status status = kd_renderer_create(&(struct kd_renderer_params) { .device = a->device }, &renderer, error);
     if (status)
         return status;
-    kd_progress_init(&progress);
-    kd_progress_catch_signals();
+    kd_progress_begin(&progress, 1);
     status = kd_accuracy_measure(renderer, &a->params, kd_progress_update, &progress, t, error);
-    kd_progress_finish(&progress);
-    if (status == KD_EDEVICE)
-        kd_cli_device_lost(error);
+    kd_progress_end(&progress, status, error);
     if (!status && summarise(t, said))
         status = kd_error_set(error, KD_ENOMEM, "out of memory");
     if (!status)

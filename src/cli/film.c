@@ -6,7 +6,7 @@
 #include "cli/film_state.h"
 #include "cli/frames.h"
 #include "cli/progress.h"
-#include "cli/scene_options.h"
+#include "cli/scene_command.h"
 #include "cli/stats.h"
 #include "job/exposure.h"
 #include "job/frame.h"
@@ -21,14 +21,12 @@
 enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER, KEY_ONLY };
 
 struct arguments {
-    struct kd_scene_options scene; /* its document is the film's request */
-    const char *device, *output, *state;
+    struct kd_scene_command base; /* its document is the film's request */
+    const char *state;
     const struct kd_gather_format *kind; /* format of the film; NULL: none, only frames are made */
     unsigned rate, samples, first, last; /* first, last: numbers of the first and the last frame to render */
     bool only;
     double shutter;
-    uint64_t memory;
-    bool stats;
 };
 
 static const struct argp_option table[] = {
@@ -82,14 +80,6 @@ static error_t parse(int key, char *text, struct argp_state *state)
     struct arguments *arguments = state->input;
     char *end;
     switch (key) {
-    case ARGP_KEY_INIT:
-        arguments->scene.document_is_over = true;
-        state->child_inputs[0] = &arguments->scene;
-        state->child_inputs[1] = &arguments->device;
-        return 0;
-    case 'o': arguments->output = text; return 0;
-    case 't': arguments->stats = true; return 0;
-    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case KEY_RATE: arguments->rate = kd_cli_number(state, "--rate", text, 1, KD_FILM_RATE_MAX); return 0;
     case KEY_SAMPLES: arguments->samples = kd_cli_number(state, "--samples", text, 1, KD_BLUR_SAMPLES); return 0;
     case KEY_SHUTTER:
@@ -100,23 +90,23 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_STATE: arguments->state = text; return 0;
     case KEY_ONLY: read_only(arguments, text, state); return 0;
     case ARGP_KEY_END:
-        if (arguments->only && (arguments->output || arguments->rate))
+        if (arguments->only && (arguments->base.output || arguments->rate))
             argp_error(state, "--only cannot be used with %s, because it makes frames and no film",
-                       arguments->output ? "-o" : "--rate");
+                       arguments->base.output ? "-o" : "--rate");
         else if (arguments->only && !arguments->state)
             argp_error(state, "--state is missing; --only needs it as the folder of its frames");
-        else if (!arguments->only && !arguments->output)
+        else if (!arguments->only && !arguments->base.output)
             argp_error(state, "-o FILE is missing; it names the film");
-        else if (!arguments->scene.document)
+        else if (!arguments->base.options.document)
             argp_error(state, "KEYFRAMES.json is missing; it must have keyframes, as in {\"scene\": {}, \"keyframes\": "
                               "[{\"frame\": 47, \"scene\": {\"camera\": {\"azimuth_deg\": 90}}}]}");
         if (!arguments->only)
-            arguments->kind = kind_of(arguments->output, state);
+            arguments->kind = kind_of(arguments->base.output, state);
         if (arguments->rate && arguments->kind && !arguments->kind->waits)
             argp_error(state, "--rate cannot be used with .zip, because numbered pictures have no frame rate");
         return 0;
     }
-    return ARGP_ERR_UNKNOWN;
+    return kd_scene_command_parse(key, text, state);
 }
 
 struct work {
@@ -131,7 +121,7 @@ struct work {
     struct kd_playground *bodies; /* playground of a film, in its state at the next frame */
     struct kd_encoder encoder;
     struct kd_progress progress;
-    unsigned reused, done, measured, traced; /* reused: number of frames found in the folder */
+    unsigned reused, measured, traced; /* reused: number of frames found in the folder */
 };
 
 static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error)
@@ -143,7 +133,7 @@ static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error
  * are applied last. */
 static enum kd_status read_request(struct work *w, struct kd_error *error)
 {
-    struct kd_scene_options *options = &w->arguments->scene, beneath = *options;
+    struct kd_scene_options *options = &w->arguments->base.options, beneath = *options;
     struct kd_scene scene;
     enum kd_status status;
     options->assets.later = beneath.assets.later = true;
@@ -184,7 +174,7 @@ done:
  * these name. */
 static enum kd_status identify(struct work *w, struct kd_error *error)
 {
-    const struct kd_scene_options *options = &w->arguments->scene;
+    const struct kd_scene_options *options = &w->arguments->base.options;
     struct kd_buffer all = { 0 };
     struct kd_scene scene;
     struct kd_scene_options beneath = *options;
@@ -262,15 +252,7 @@ done:
     return status;
 }
 
-static bool progress(void *user, double fraction)
-{
-    struct work *w = user;
-    const struct arguments *a = w->arguments;
-    return kd_progress_update(&w->progress,
-                              ((w->done > a->first ? w->done - a->first : 0) + fraction) / (a->last - a->first + 1));
-}
-
-static bool go_on(void *user) { return progress(user, 0); }
+static bool go_on(void *progress) { return kd_progress_update(progress, 0); }
 
 static enum kd_status measure(struct work *w, unsigned number, double *stops, struct kd_error *error)
 {
@@ -281,7 +263,7 @@ static enum kd_status measure(struct work *w, unsigned number, double *stops, st
     enum kd_status status;
     kd_renderer_capacity(w->renderer, &capacity);
     KD_TRY(kd_job_exposure_plan(&w->spec, number, &capacity, &scene, &plan, error));
-    KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    KD_TRY(kd_render(w->renderer, &scene, &plan, kd_progress_update, &w->progress, &frame, error));
     *stops = frame.exposure;
 done:
     kd_frame_finish(&frame);
@@ -316,7 +298,7 @@ static enum kd_status move(struct work *w, unsigned number, double begin, struct
         kd_playground_begin(w->bodies, time, &run);
     while (more) {
         more = kd_playground_go_on(w->bodies, &run, 1);
-        if (!go_on(w))
+        if (!go_on(&w->progress))
             return kd_error_set(error, KD_ECANCELLED, "stopped during the simulation of the bodies of frame %u",
                                 number);
     }
@@ -335,10 +317,11 @@ static enum kd_status render(struct work *w, unsigned number, const struct kd_dy
     enum kd_status status;
     kd_renderer_capacity(w->renderer, &capacity);
     KD_TRY(kd_job_frame_plan(&w->spec, number, dynamic, 0, INFINITY, &capacity, &scene, &plan, error));
-    KD_TRY(blur.samples ? kd_render_blurred(&(struct kd_blurred) { w->renderer, &blur, &scene, &plan,
-                                                                   .progress = progress, .user = w },
-                                            &frame, error)
-                        : kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    KD_TRY(blur.samples
+               ? kd_render_blurred(&(struct kd_blurred) { w->renderer, &blur, &scene, &plan,
+                                                          .progress = kd_progress_update, .user = &w->progress },
+                                   &frame, error)
+               : kd_render(w->renderer, &scene, &plan, kd_progress_update, &w->progress, &frame, error));
     w->traced += (!frame.lens_reused && plan.lens.planes) + frame.others_traced;
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
     KD_TRY(kd_encode(w->frames.format, &picture, KD_EFFORT_KEEP, &w->encoder, &file, error));
@@ -353,26 +336,22 @@ static enum kd_status render_all(struct work *w, struct kd_error *error)
 {
     struct kd_dynamic_bodies *dynamic = NULL;
     enum kd_status status;
-    kd_progress_init(&w->progress);
-    kd_progress_catch_signals();
+    kd_progress_begin(&w->progress, w->arguments->last - w->arguments->first + 1);
     KD_TRY(expose(w, error));
     if (w->spec.every > 0 && w->reused < w->spec.frames)
         KD_TRY(kd_job_spec_playground((const char *)w->text.data, w->text.size, &w->bodies, error));
     const double begin = w->bodies ? w->bodies->t : 0;
-    for (w->done = w->arguments->first; w->done <= w->arguments->last; w->done++) {
+    for (unsigned i = w->arguments->first; i <= w->arguments->last; i++, w->progress.done++) {
         if (w->bodies)
-            KD_TRY(move(w, w->done, begin, &dynamic, error));
-        if (!kd_frames_has(&w->frames, w->done))
-            KD_TRY(render(w, w->done, dynamic, error));
+            KD_TRY(move(w, i, begin, &dynamic, error));
+        if (!kd_frames_has(&w->frames, i))
+            KD_TRY(render(w, i, dynamic, error));
         kd_dynamic_bodies_release(dynamic);
         dynamic = NULL;
     }
 done:
     kd_dynamic_bodies_release(dynamic);
-    kd_progress_finish(&w->progress);
-    if (status == KD_EDEVICE)
-        kd_cli_device_lost(error);
-    return status;
+    return kd_progress_end(&w->progress, status, error);
 }
 
 static enum kd_status print_stats(const struct work *w, double render_s, double write_s, struct kd_error *error)
@@ -391,21 +370,20 @@ static enum kd_status print_stats(const struct work *w, double render_s, double 
     return kd_stats_print(&json, &line, error);
 }
 
-static enum kd_status run(struct work *w, struct kd_error *error)
+static enum kd_status make(struct work *w, struct kd_error *error)
 {
+    struct kd_scene_command *base = &w->arguments->base;
     const struct arguments *arguments = w->arguments;
     enum kd_status status;
     KD_TRY(read_request(w, error));
     if (!arguments->only)
-        KD_TRY(kd_file_check(arguments->output, error));
+        KD_TRY(kd_file_check(base->output, error));
     if (w->kind && w->kind->waits && !kd_program_known("ffmpeg"))
         KD_TRY(kd_error_set(error, KD_EABSENT,
                             "the program ffmpeg, which encodes films, is not on the PATH: install it, or write "
                             "numbered pictures with -o FILE.zip"));
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
-                                                             .memory_bytes = arguments->memory,
-                                                             .assets = &w->assets },
-                              &w->renderer, error));
+    KD_TRY(kd_scene_command_open(base, error));
+    w->renderer = base->renderer;
     KD_TRY(check(w, error));
     KD_TRY(identify(w, error));
     KD_TRY(open_frames(w, error));
@@ -416,12 +394,25 @@ static enum kd_status run(struct work *w, struct kd_error *error)
                                            .sweep = w->spec.sweep,
                                            .rate = arguments->rate ? arguments->rate : KD_FILM_RATE,
                                            .go_on = go_on,
-                                           .user = w };
+                                           .user = &w->progress };
     if (!arguments->only)
-        KD_TRY(kd_frames_save(&w->frames, &whole, arguments->output, error));
-    if (arguments->stats)
+        KD_TRY(kd_frames_save(&w->frames, &whole, base->output, error));
+    if (base->stats)
         KD_TRY(print_stats(w, rendered - began, kd_progress_clock() - rendered, error));
 done:
+    return status;
+}
+
+static enum kd_status run(struct kd_scene_command *base, struct kd_error *error)
+{
+    struct arguments *arguments = (struct arguments *)base;
+    struct work work = { .arguments = arguments, .kind = arguments->kind, .frames = KD_FRAMES_NONE };
+    const enum kd_status status = make(&work, error);
+    kd_encoder_finish(&work.encoder);
+    kd_playground_destroy(work.bodies);
+    kd_frames_finish(&work.frames);
+    kd_job_spec_finish(&work.spec);
+    kd_buffer_finish(&work.text);
     return status;
 }
 
@@ -443,18 +434,6 @@ const struct argp *kd_cli_film_argp(void)
 
 int kd_cli_film(int argc, char **argv)
 {
-    struct arguments arguments = { 0 };
-    struct work work = { .arguments = &arguments, .frames = KD_FRAMES_NONE };
-    struct kd_error error = { 0 };
-    argp_parse(kd_cli_film_argp(), argc, argv, 0, NULL, &arguments);
-    work.kind = arguments.kind;
-    const enum kd_status status = run(&work, &error);
-    kd_encoder_finish(&work.encoder);
-    kd_playground_destroy(work.bodies);
-    kd_frames_finish(&work.frames);
-    kd_renderer_destroy(work.renderer);
-    kd_job_spec_finish(&work.spec);
-    kd_buffer_finish(&work.text);
-    kd_scene_options_finish(&arguments.scene);
-    return kd_progress_exit(status, &error);
+    struct arguments arguments = { .base.options.document_is_over = true };
+    return kd_scene_command_run(&arguments.base, kd_cli_film_argp(), argc, argv, run);
 }

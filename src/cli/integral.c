@@ -152,12 +152,6 @@ struct work {
     struct kd_progress progress;
 };
 
-static bool progress(void *user, double fraction)
-{
-    struct work *w = user;
-    return kd_progress_update(&w->progress, (w->run.picture + fraction) / w->run.pictures);
-}
-
 static enum kd_status make_picture(struct work *w, const struct kd_integral_request *request, struct kd_error *error)
 {
     const struct kd_format *format = kd_integral_picture_format(request->what);
@@ -169,7 +163,7 @@ static enum kd_status make_picture(struct work *w, const struct kd_integral_requ
     enum kd_status status;
     kd_renderer_capacity(w->renderer, &capacity);
     KD_TRY(kd_integral_plan(request, &scene, &capacity, &plan, error));
-    KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    KD_TRY(kd_render(w->renderer, &scene, &plan, kd_progress_update, &w->progress, &frame, error));
     KD_TRY(kd_encode(format, &(struct kd_picture) { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), 0 },
                      KD_EFFORT_QUICK, NULL, &file, error));
     KD_TRY(kd_integral_run_take(&w->run, &file, &scene, &plan.report, error));
@@ -189,13 +183,10 @@ static enum kd_status make_pictures(struct work *w, struct arguments *arguments,
         &(struct kd_renderer_params) { .device = arguments->device, .assets = &assets }, &w->renderer, error);
     if (status)
         return status;
-    kd_progress_init(&w->progress);
-    kd_progress_catch_signals();
-    while (!status && w->run.picture < w->run.pictures)
+    kd_progress_begin(&w->progress, w->run.pictures);
+    for (; !status && w->run.picture < w->run.pictures; w->progress.done++)
         status = make_picture(w, request, error);
-    kd_progress_finish(&w->progress);
-    if (status == KD_EDEVICE)
-        kd_cli_device_lost(error);
+    kd_progress_end(&w->progress, status, error);
     kd_renderer_destroy(w->renderer);
     return status;
 }

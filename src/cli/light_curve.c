@@ -3,7 +3,7 @@
 #include "cli/ending.h"
 #include "cli/file.h"
 #include "cli/progress.h"
-#include "cli/scene_options.h"
+#include "cli/scene_command.h"
 #include "physics/spacetime/kerr.h"
 #include "render/output/curve.h"
 #include "scene/hole.h"
@@ -14,8 +14,8 @@
 #define FRAMES_MAX 100000
 
 struct arguments {
-    struct kd_scene_options scene;
-    const char *device, *output, *start, *end;
+    struct kd_scene_command base;
+    const char *start, *end;
     const struct kd_table_format *format;
     unsigned frames;
 };
@@ -33,14 +33,9 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &arguments->scene;
-        state->child_inputs[1] = &arguments->device;
-        return 0;
     case 'a': arguments->start = text; return 0;
     case 'b': arguments->end = text; return 0;
     case 'n': arguments->frames = kd_cli_number(state, "frames", text, 2, FRAMES_MAX); return 0;
-    case 'o': arguments->output = text; return 0;
     case 'f':
         arguments->format = kd_series_table(&kd_light_curve, text);
         if (!arguments->format)
@@ -49,12 +44,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case ARGP_KEY_END:
         if (!arguments->format)
             arguments->format = kd_series_table(
-                &kd_light_curve, kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("json", "csv")));
+                &kd_light_curve, kd_cli_ending(state, "--output", arguments->base.output, KD_ENDINGS("json", "csv")));
         if (!arguments->format)
             arguments->format = &kd_light_curve.tables[0];
         return 0;
     }
-    return ARGP_ERR_UNKNOWN;
+    return kd_scene_command_parse(key, text, state);
 }
 
 /* Parses the first and the last time. Their range and messages are those of the scene's own time. */
@@ -81,38 +76,28 @@ struct work {
     struct kd_renderer *renderer;
     struct kd_curve_row *rows;
     struct kd_progress progress;
-    unsigned frames, done;
+    unsigned frames;
 };
-
-static bool progress(void *user, double fraction)
-{
-    struct work *w = user;
-    return kd_progress_update(&w->progress, (w->done + fraction) / w->frames);
-}
 
 static enum kd_status measure(struct work *w, const struct kd_scene *first, double to, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    kd_progress_init(&w->progress);
-    kd_progress_catch_signals();
-    for (; w->done < w->frames && !status; w->done++) {
+    kd_progress_begin(&w->progress, w->frames);
+    for (unsigned i = 0; i < w->frames && !status; i++, w->progress.done++) {
         struct kd_scene scene = *first;
         struct kd_capacity capacity;
         struct kd_plan plan;
         struct kd_frame frame = { 0 };
-        scene.top.time += (to - first->top.time) * w->done / (w->frames - 1);
+        scene.top.time += (to - first->top.time) * i / (w->frames - 1);
         kd_renderer_capacity(w->renderer, &capacity);
         status = kd_format_plan(kd_light_curve.frame, &scene, &capacity, &plan, error);
         if (!status)
-            status = kd_render(w->renderer, &scene, &plan, progress, w, &frame, error);
+            status = kd_render(w->renderer, &scene, &plan, kd_progress_update, &w->progress, &frame, error);
         if (!status)
-            w->rows[w->done] = kd_curve_row_of(w->done, &scene, &frame);
+            w->rows[i] = kd_curve_row_of(i, &scene, &frame);
         kd_frame_finish(&frame);
     }
-    kd_progress_finish(&w->progress);
-    if (status == KD_EDEVICE)
-        kd_cli_device_lost(error);
-    return status;
+    return kd_progress_end(&w->progress, status, error);
 }
 
 static enum kd_status save(const struct work *w, const struct arguments *arguments, struct kd_error *error)
@@ -122,31 +107,29 @@ static enum kd_status save(const struct work *w, const struct arguments *argumen
     if (status)
         kd_error_set(error, status, "out of memory for %u rows", w->frames);
     else
-        status = kd_file_write(arguments->output, &text, error);
+        status = kd_file_write(arguments->base.output, &text, error);
     kd_buffer_finish(&text);
     return status;
 }
 
-static enum kd_status run(struct arguments *arguments, struct kd_error *error)
+static enum kd_status run(struct kd_scene_command *base, struct kd_error *error)
 {
-    struct kd_scene scene;
+    const struct arguments *arguments = (struct arguments *)base;
     struct work work = { .frames = arguments->frames };
     double to = 0;
     enum kd_status status;
-    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
-    KD_TRY(span(arguments, &scene, &to, error));
-    if (strcmp(arguments->output, "-"))
-        KD_TRY(kd_file_check(arguments->output, error));
-    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device, .assets = &assets },
-                              &work.renderer, error));
+    KD_TRY(kd_scene_command_load(base, error));
+    KD_TRY(span(arguments, &base->scene, &to, error));
+    if (strcmp(base->output, "-"))
+        KD_TRY(kd_file_check(base->output, error));
+    KD_TRY(kd_scene_command_open(base, error));
+    work.renderer = base->renderer;
     if (!(work.rows = malloc(work.frames * sizeof *work.rows)))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %u rows", work.frames));
-    KD_TRY(measure(&work, &scene, to, error));
+    KD_TRY(measure(&work, &base->scene, to, error));
     KD_TRY(save(&work, arguments, error));
 done:
     free(work.rows);
-    kd_renderer_destroy(work.renderer);
     return status;
 }
 
@@ -169,11 +152,6 @@ const struct argp *kd_cli_light_curve_argp(void)
 
 int kd_cli_light_curve(int argc, char **argv)
 {
-    struct arguments arguments = { .frames = 121, .output = "-" };
-    struct kd_error error = { 0 };
-
-    argp_parse(kd_cli_light_curve_argp(), argc, argv, 0, NULL, &arguments);
-    enum kd_status status = run(&arguments, &error);
-    kd_scene_options_finish(&arguments.scene);
-    return kd_progress_exit(status, &error);
+    struct arguments arguments = { .base.output = "-", .frames = 121 };
+    return kd_scene_command_run(&arguments.base, kd_cli_light_curve_argp(), argc, argv, run);
 }

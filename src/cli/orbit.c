@@ -140,8 +140,7 @@ static enum kd_status write_answer(const struct arguments *arguments, struct kd_
         if (status)
             return status;
     }
-    kd_progress_init(&source.progress);
-    kd_progress_catch_signals();
+    kd_progress_begin(&source.progress, 1);
     /* The first bytes are computed before the file is opened, so that bad input leaves no file. */
     source.status = kd_orbit_feed_more(feed, &source.ready, error);
     if (!source.status && feed->request->many) {

@@ -2,7 +2,7 @@
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
-#include "cli/scene_options.h"
+#include "cli/scene_command.h"
 #include "image/npy.h"
 #include "render/output/particle_list.h"
 #include "render/render.h"
@@ -15,8 +15,7 @@ static const char *const names[] = { "fields", "first", "stride", "count" };
 enum { KEY_FIELDS = 256, N_OPTIONS = sizeof names / sizeof *names };
 
 struct arguments {
-    struct kd_scene_options scene;
-    const char *device, *output;
+    struct kd_scene_command base;
     const char *given[N_OPTIONS]; /* NULL: not given */
 };
 
@@ -37,19 +36,14 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     }
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &arguments->scene;
-        state->child_inputs[1] = &arguments->device;
-        return 0;
-    case 'o': arguments->output = text; return 0;
     case ARGP_KEY_END:
-        if (!arguments->output)
+        if (!arguments->base.output)
             argp_error(state, "-o FILE.npy is missing");
         else
-            kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("npy"));
+            kd_cli_ending(state, "--output", arguments->base.output, KD_ENDINGS("npy"));
         return 0;
     }
-    return ARGP_ERR_UNKNOWN;
+    return kd_scene_command_parse(key, text, state);
 }
 
 /* Source of the file's bytes. They are made in slices. */
@@ -101,20 +95,34 @@ static size_t produce(void *user, void *to, size_t size)
     return n;
 }
 
-static enum kd_status prepare(struct arguments *arguments, struct source *s)
+static enum kd_status prepare(struct kd_scene_command *base, struct source *s)
 {
-    struct kd_scene scene;
+    const struct arguments *arguments = (struct arguments *)base;
     enum kd_status status;
-    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, &s->error));
-    KD_TRY(kd_particle_list_init(&s->list, &scene, &s->error));
+    KD_TRY(kd_scene_command_load(base, &s->error));
+    KD_TRY(kd_particle_list_init(&s->list, &base->scene, &s->error));
     for (size_t i = 0; i < N_OPTIONS; i++)
         if (arguments->given[i])
             KD_TRY(kd_particle_list_set(&s->list, names[i], arguments->given[i], &s->error));
     KD_TRY(kd_particle_list_settle(&s->list, 0, &s->error));
-    KD_TRY(kd_file_check(arguments->output, &s->error));
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device }, &s->renderer, &s->error));
+    KD_TRY(kd_file_check(base->output, &s->error));
+    KD_TRY(kd_scene_command_open(base, &s->error));
+    s->renderer = base->renderer;
     KD_TRY(header(s));
 done:
+    return status;
+}
+
+static enum kd_status run(struct kd_scene_command *base, struct kd_error *error)
+{
+    struct source source = { 0 };
+    source.status = prepare(base, &source);
+    enum kd_status status = source.status ? KD_OK : kd_file_stream(base->output, produce, &source, error);
+    if (source.status == KD_EDEVICE && source.renderer)
+        kd_cli_device_lost(&source.error);
+    if (source.status)
+        status = source.status, *error = source.error;
+    kd_buffer_finish(&source.ready);
     return status;
 }
 
@@ -135,17 +143,5 @@ const struct argp *kd_cli_particles_argp(void)
 int kd_cli_particles(int argc, char **argv)
 {
     struct arguments arguments = { 0 };
-    struct kd_error error = { 0 };
-    struct source source = { 0 };
-    argp_parse(kd_cli_particles_argp(), argc, argv, 0, NULL, &arguments);
-    source.status = prepare(&arguments, &source);
-    enum kd_status status = source.status ? KD_OK : kd_file_stream(arguments.output, produce, &source, &error);
-    if (source.status == KD_EDEVICE && source.renderer)
-        kd_cli_device_lost(&source.error);
-    if (source.status)
-        status = source.status, error = source.error;
-    kd_renderer_destroy(source.renderer);
-    kd_buffer_finish(&source.ready);
-    kd_scene_options_finish(&arguments.scene);
-    return status ? kd_cli_fail(&error) : KD_EXIT_OK;
+    return kd_scene_command_run(&arguments.base, kd_cli_particles_argp(), argc, argv, run);
 }

@@ -1,8 +1,8 @@
 #include "cli/playground_pictures.h"
 
 #include "cli/cli.h"
+#include "cli/draw.h"
 #include "cli/file.h"
-#include "cli/progress.h"
 #include "playground/show.h"
 
 #include <ctype.h>
@@ -93,20 +93,11 @@ done:
 static enum kd_status render(struct kd_pictures *p, struct kd_scene *scene, struct kd_buffer *file,
                              struct kd_error *error)
 {
-    struct kd_capacity capacity;
     struct kd_plan plan;
     struct kd_frame frame = { 0 };
-    struct kd_progress progress;
-    enum kd_status status;
-    kd_renderer_capacity(p->renderer, &capacity);
-    KD_TRY(kd_format_plan(p->format, scene, &capacity, &plan, error));
-    kd_progress_init(&progress);
-    kd_progress_catch_signals();
-    status = kd_render(p->renderer, scene, &plan, kd_progress_update, &progress, &frame, error);
-    kd_progress_finish(&progress);
-    p->ms += 1e3 * (kd_progress_clock() - progress.started);
-    if (status == KD_EDEVICE)
-        kd_cli_device_lost(error);
+    double ms = 0;
+    enum kd_status status = kd_cli_draw(p->renderer, p->format, scene, &plan, &frame, &ms, error);
+    p->ms += ms;
     KD_TRY(status);
     const struct kd_picture picture = { &frame, scene, &plan, kd_renderer_device_name(p->renderer), p->made };
     KD_TRY(kd_encode(p->format, &picture, KD_EFFORT_KEEP, &p->encoder, file, error));

@@ -16,11 +16,6 @@ static volatile sig_atomic_t caught;
 
 double kd_progress_clock(void) { return 1e-3 * kd_clock_ms(); }
 
-void kd_progress_init(struct kd_progress *progress)
-{
-    *progress = (struct kd_progress) { .started = kd_progress_clock(), .terminal = isatty(STDERR_FILENO) };
-}
-
 static void draw(double fraction, double elapsed)
 {
     char bar[CELLS + 1];
@@ -38,6 +33,7 @@ bool kd_progress_update(void *user, double fraction)
 {
     struct kd_progress *progress = user;
     double now = kd_progress_clock();
+    fraction = (progress->done + fraction) / progress->n;
     if (progress->terminal && now - progress->started > QUIET_S && now - progress->drawn > REDRAW_S) {
         draw(fraction < 0 ? 0 : fraction > 1 ? 1 : fraction, now - progress->started);
         progress->drawn = now;
@@ -53,11 +49,20 @@ void kd_progress_finish(struct kd_progress *progress)
     progress->visible = false;
 }
 
+enum kd_status kd_progress_end(struct kd_progress *progress, enum kd_status status, const struct kd_error *error)
+{
+    kd_progress_finish(progress);
+    if (status == KD_EDEVICE)
+        kd_cli_device_lost(error);
+    return status;
+}
+
 static void on_signal(int number) { caught = number; }
 
-void kd_progress_catch_signals(void)
+void kd_progress_begin(struct kd_progress *progress, unsigned n)
 {
     struct sigaction action = { .sa_handler = on_signal, .sa_flags = (int)SA_RESETHAND };
+    *progress = (struct kd_progress) { .started = kd_progress_clock(), .terminal = isatty(STDERR_FILENO), .n = n };
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
 }

@@ -159,8 +159,7 @@ done:
 static enum kd_status trace(struct kd_renderer *renderer, struct kd_rays_answer *answer, struct kd_error *error)
 {
     struct kd_progress progress;
-    kd_progress_init(&progress);
-    kd_progress_catch_signals();
+    kd_progress_begin(&progress, 1);
     enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings,
                                           answer->ends, kd_progress_update, &progress, error);
     kd_progress_finish(&progress);

@@ -3,21 +3,17 @@
 #include "cli/draw.h"
 #include "cli/file.h"
 #include "cli/progress.h"
-#include "cli/scene_options.h"
+#include "cli/scene_command.h"
 #include "cli/stats.h"
-#include "render/output/format.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct arguments {
-    struct kd_scene_options scene;
-    const char *device, *output;
+    struct kd_scene_command base;
     const struct kd_format *format; /* format of the output */
-    uint64_t memory;
-    unsigned quality; /* 0: the default */
-    bool stats;
+    unsigned quality;               /* 0: the default */
 };
 
 static const struct argp_option table[] = {
@@ -34,60 +30,34 @@ static const struct argp_option table[] = {
 static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
+    const char *output = arguments->base.output;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &arguments->scene;
-        state->child_inputs[1] = &arguments->device;
-        return 0;
-    case 'o': arguments->output = text; return 0;
-    case 't': arguments->stats = true; return 0;
     case 'q': arguments->quality = kd_cli_number(state, "--quality", text, 1, KD_QUALITY_MAX); return 0;
-    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case ARGP_KEY_END:
-        if (!arguments->output)
+        if (!output)
             argp_error(state, "-o FILE is missing; it names the picture");
         else
-            arguments->format = kd_cli_picture_format(state, "--output", arguments->output, false);
-        if (arguments->output && !arguments->format)
+            arguments->format = kd_cli_picture_format(state, "--output", output, false);
+        if (output && !arguments->format)
             arguments->format = kd_formats[0];
         if (arguments->quality && !arguments->format->lossy)
-            argp_error(state, "--quality is for .jpg and .webp; \"%s\" is an exact %s", arguments->output,
+            argp_error(state, "--quality is for .jpg and .webp; \"%s\" is an exact %s", output,
                        arguments->format->name);
         return 0;
     }
-    return ARGP_ERR_UNKNOWN;
+    return kd_scene_command_parse(key, text, state);
 }
 
-struct work {
-    struct kd_renderer *renderer;
-    struct kd_plan plan;
-    struct kd_frame frame;
-    struct kd_buffer file;
-    double render_ms, encode_ms;
-};
-
-static enum kd_status save(struct work *work, const struct kd_scene *scene, const struct arguments *arguments,
-                           struct kd_error *error)
-{
-    double started = kd_progress_clock();
-    const struct kd_picture picture = {
-        &work->frame, scene, &work->plan, kd_renderer_device_name(work->renderer), 0, arguments->quality
-    };
-    enum kd_status status = kd_encode(arguments->format, &picture, KD_EFFORT_KEEP, NULL, &work->file, error);
-    work->encode_ms = 1e3 * (kd_progress_clock() - started);
-    return status ? status : kd_file_write(arguments->output, &work->file, error);
-}
-
-static enum kd_status print_stats(const struct work *work, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status print_stats(const struct kd_scene_command *base, double encode_ms, struct kd_error *error)
 {
     const struct kd_stats stats = {
-        .device = kd_renderer_device_name(work->renderer),
-        .scene = scene,
-        .plan = &work->plan,
-        .frame = &work->frame,
-        .render_ms = work->render_ms,
-        .encode_ms = work->encode_ms,
-        .bytes = work->file.size,
+        .device = kd_renderer_device_name(base->renderer),
+        .scene = &base->scene,
+        .plan = &base->plan,
+        .frame = &base->frame,
+        .render_ms = base->ms,
+        .encode_ms = encode_ms,
+        .bytes = base->file.size,
     };
     struct kd_buffer text = { 0 };
     enum kd_status status = kd_stats_json(&stats, &text);
@@ -99,26 +69,23 @@ static enum kd_status print_stats(const struct work *work, const struct kd_scene
     return status;
 }
 
-static enum kd_status run(struct arguments *arguments, struct kd_error *error)
+static enum kd_status run(struct kd_scene_command *base, struct kd_error *error)
 {
-    struct kd_scene scene;
-    struct work work = { 0 };
+    const struct arguments *arguments = (struct arguments *)base;
     enum kd_status status;
-    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
-    KD_TRY(kd_file_check(arguments->output, error));
-    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
-                                                             .memory_bytes = arguments->memory,
-                                                             .assets = &assets },
-                              &work.renderer, error));
-    KD_TRY(kd_cli_draw(work.renderer, arguments->format, &scene, &work.plan, &work.frame, &work.render_ms, error));
-    KD_TRY(save(&work, &scene, arguments, error));
-    if (arguments->stats)
-        KD_TRY(print_stats(&work, &scene, error));
+    KD_TRY(kd_scene_command_load(base, error));
+    KD_TRY(kd_file_check(base->output, error));
+    KD_TRY(kd_scene_command_open(base, error));
+    KD_TRY(kd_scene_command_draw(base, arguments->format, error));
+    const double drawn = kd_progress_clock();
+    struct kd_picture picture = kd_scene_command_picture(base);
+    picture.lossy = arguments->quality;
+    KD_TRY(kd_encode(arguments->format, &picture, KD_EFFORT_KEEP, NULL, &base->file, error));
+    const double encode_ms = 1e3 * (kd_progress_clock() - drawn);
+    KD_TRY(kd_file_write(base->output, &base->file, error));
+    if (base->stats)
+        KD_TRY(print_stats(base, encode_ms, error));
 done:
-    kd_frame_finish(&work.frame);
-    kd_buffer_finish(&work.file);
-    kd_renderer_destroy(work.renderer);
     return status;
 }
 
@@ -139,10 +106,5 @@ const struct argp *kd_cli_render_argp(void)
 int kd_cli_render(int argc, char **argv)
 {
     struct arguments arguments = { 0 };
-    struct kd_error error = { 0 };
-
-    argp_parse(kd_cli_render_argp(), argc, argv, 0, NULL, &arguments);
-    enum kd_status status = run(&arguments, &error);
-    kd_scene_options_finish(&arguments.scene);
-    return kd_progress_exit(status, &error);
+    return kd_scene_command_run(&arguments.base, kd_cli_render_argp(), argc, argv, run);
 }

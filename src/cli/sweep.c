@@ -4,7 +4,7 @@
 #include "cli/file.h"
 #include "cli/frames.h"
 #include "cli/progress.h"
-#include "cli/scene_options.h"
+#include "cli/scene_command.h"
 #include "cli/stats.h"
 #include "render/output/curve.h"
 #include "render/output/flux.h"
@@ -17,12 +17,10 @@
 #include <string.h>
 
 struct arguments {
-    struct kd_scene_options scene;
-    const char *device, *output, **axes;
+    struct kd_scene_command base;
+    const char **axes;
     const struct kind *kind; /* kind of the output */
     size_t n_axes;
-    uint64_t memory;
-    bool stats;
 };
 
 static const struct argp_option table[] = {
@@ -64,25 +62,18 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &arguments->scene;
-        state->child_inputs[1] = &arguments->device;
-        return 0;
     case 'x': kd_cli_add_axis(&arguments->axes, &arguments->n_axes, text, state); return 0;
-    case 'o': arguments->output = text; return 0;
-    case 't': arguments->stats = true; return 0;
-    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     case ARGP_KEY_END:
         if (!arguments->n_axes)
             argp_error(state,
                        "--axis is missing; it must be a field and its values, as in --axis spacetime.spin=0,0.5,0.9");
-        else if (!arguments->output)
+        else if (!arguments->base.output)
             argp_error(state, "-o FILE is missing; it names the output");
         else
-            arguments->kind = kind_of(arguments->output, state);
+            arguments->kind = kind_of(arguments->base.output, state);
         return 0;
     }
-    return ARGP_ERR_UNKNOWN;
+    return kd_scene_command_parse(key, text, state);
 }
 
 struct work {
@@ -94,7 +85,7 @@ struct work {
     struct kd_progress progress;
     struct kd_frames frames;
     double *fluxes; /* flux of each scene in Jy; NAN: its picture has none */
-    unsigned done, traced;
+    unsigned traced;
 };
 
 /* Plans a scene. An error names the scene's number. */
@@ -134,12 +125,6 @@ static enum kd_status check(struct work *w, struct kd_error *error)
     return status;
 }
 
-static bool progress(void *user, double fraction)
-{
-    struct work *w = user;
-    return kd_progress_update(&w->progress, (w->done + fraction) / w->sweep->scenes);
-}
-
 static enum kd_status render(struct work *w, unsigned number, struct kd_error *error)
 {
     struct kd_scene scene;
@@ -148,7 +133,7 @@ static enum kd_status render(struct work *w, unsigned number, struct kd_error *e
     struct kd_buffer file = { 0 };
     enum kd_status status;
     KD_TRY(plan_of(w, number, &scene, &plan, error));
-    KD_TRY(kd_render(w->renderer, &scene, &plan, progress, w, &frame, error));
+    KD_TRY(kd_render(w->renderer, &scene, &plan, kd_progress_update, &w->progress, &frame, error));
     w->traced += !frame.lens_reused && plan.lens.planes;
     w->fluxes[number] = kd_flux_jy(&scene, &frame);
     const struct kd_picture picture = { &frame, &scene, &plan, kd_renderer_device_name(w->renderer), number };
@@ -163,14 +148,10 @@ done:
 static enum kd_status render_all(struct work *w, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
-    kd_progress_init(&w->progress);
-    kd_progress_catch_signals();
-    for (; w->done < w->sweep->scenes && !status; w->done++)
-        status = render(w, w->order.frames[w->done], error);
-    kd_progress_finish(&w->progress);
-    if (status == KD_EDEVICE)
-        kd_cli_device_lost(error);
-    return status;
+    kd_progress_begin(&w->progress, w->sweep->scenes);
+    for (; w->progress.done < w->sweep->scenes && !status; w->progress.done++)
+        status = render(w, w->order.frames[w->progress.done], error);
+    return kd_progress_end(&w->progress, status, error);
 }
 
 static enum kd_status save_whole(struct work *w, const char *path, struct kd_error *error)
@@ -227,25 +208,23 @@ static enum kd_status print_stats(const struct work *w, double render_s, double 
     return kd_stats_print(&json, &line, error);
 }
 
-static enum kd_status run(struct arguments *arguments, struct kd_error *error)
+static enum kd_status run(struct kd_scene_command *base, struct kd_error *error)
 {
-    struct kd_scene scene;
+    const struct arguments *arguments = (struct arguments *)base;
     struct kd_sweep *sweep = NULL;
     struct work work = { .kind = arguments->kind, .frames = KD_FRAMES_NONE };
     enum kd_status status;
-    arguments->scene.assets.later = true;
-    KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
-    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
-    KD_TRY(kd_sweep_typed(arguments->axes, arguments->n_axes, &scene, &assets, &sweep, error));
-    KD_TRY(kd_asset_options_check(&arguments->scene.assets, error));
+    base->options.assets.later = true;
+    KD_TRY(kd_scene_command_load(base, error));
+    const struct kd_assets assets = kd_asset_options_assets(&base->options.assets);
+    KD_TRY(kd_sweep_typed(arguments->axes, arguments->n_axes, &base->scene, &assets, &sweep, error));
+    KD_TRY(kd_asset_options_check(&base->options.assets, error));
     work.sweep = sweep;
     if (work.kind->frame == &kd_format_cubed)
         KD_TRY(kd_cube_check(sweep, error));
-    KD_TRY(kd_file_check(arguments->output, error));
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
-                                                             .memory_bytes = arguments->memory,
-                                                             .assets = &assets },
-                              &work.renderer, error));
+    KD_TRY(kd_file_check(base->output, error));
+    KD_TRY(kd_scene_command_open(base, error));
+    work.renderer = base->renderer;
     KD_TRY(check(&work, error));
     work.frames.n = sweep->scenes;
     work.frames.noun = "scene";
@@ -257,14 +236,13 @@ static enum kd_status run(struct arguments *arguments, struct kd_error *error)
     const double began = kd_progress_clock();
     KD_TRY(render_all(&work, error));
     const double rendered = kd_progress_clock();
-    KD_TRY((work.kind->whole ? save_whole : save_table)(&work, arguments->output, error));
-    if (arguments->stats)
+    KD_TRY((work.kind->whole ? save_whole : save_table)(&work, base->output, error));
+    if (base->stats)
         KD_TRY(print_stats(&work, rendered - began, kd_progress_clock() - rendered, error));
 done:
     kd_frames_finish(&work.frames);
     kd_encoder_finish(&work.encoder);
     kd_sweep_order_finish(&work.order);
-    kd_renderer_destroy(work.renderer);
     kd_sweep_free(sweep);
     free(work.fluxes);
     return status;
@@ -287,11 +265,7 @@ const struct argp *kd_cli_sweep_argp(void)
 int kd_cli_sweep(int argc, char **argv)
 {
     struct arguments arguments = { 0 };
-    struct kd_error error = { 0 };
-
-    argp_parse(kd_cli_sweep_argp(), argc, argv, 0, NULL, &arguments);
-    enum kd_status status = run(&arguments, &error);
-    kd_scene_options_finish(&arguments.scene);
+    const int code = kd_scene_command_run(&arguments.base, kd_cli_sweep_argp(), argc, argv, run);
     free(arguments.axes);
-    return kd_progress_exit(status, &error);
+    return code;
 }

@@ -288,8 +288,7 @@ static enum kd_status make_rows(const struct kd_table *table, struct part *part,
         return kd_error_set(error, KD_ENOMEM, "out of memory for the rows of a table");
     }
     b->table = table;
-    kd_progress_init(&progress);
-    kd_progress_catch_signals();
+    kd_progress_begin(&progress, 1);
     while (part->rows < table->nodes) {
         if (!kd_progress_update(&progress, (double)part->rows / (double)table->nodes))
             KD_TRY(kd_error_set(error, KD_ECANCELLED, "cancelled; the same command continues the table"));

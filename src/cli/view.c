@@ -1,13 +1,11 @@
 /* kerrd view: shows a scene or an existing picture in the terminal. */
 #include "cli/cli.h"
-#include "cli/draw.h"
 #include "cli/file.h"
-#include "cli/progress.h"
-#include "scene/difference.h"
-#include "cli/scene_options.h"
+#include "cli/scene_command.h"
 #include "cli/show.h"
 #include "cli/terminal.h"
 #include "image/png.h"
+#include "scene/difference.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,9 +17,7 @@ enum { KEY_PROTOCOL = 256, KEY_ENLARGE };
 enum protocol { ASKED, KITTY, SIXEL };
 
 struct arguments {
-    struct kd_scene_options scene;
-    const char *device;
-    uint64_t memory;
+    struct kd_scene_command base;
     enum protocol protocol;
     bool enlarge;
 };
@@ -38,19 +34,14 @@ static error_t parse(int key, char *text, struct argp_state *state)
 {
     struct arguments *arguments = state->input;
     switch (key) {
-    case ARGP_KEY_INIT:
-        state->child_inputs[0] = &arguments->scene;
-        state->child_inputs[1] = &arguments->device;
-        return 0;
     case KEY_PROTOCOL:
         if (strcmp(text, "kitty") && strcmp(text, "sixel"))
             argp_error(state, "--protocol is %s; it must be kitty or sixel", text);
         arguments->protocol = *text == 'k' ? KITTY : SIXEL;
         return 0;
     case KEY_ENLARGE: arguments->enlarge = true; return 0;
-    case 'M': arguments->memory = kd_cli_bytes(state, "--memory", text); return 0;
     }
-    return ARGP_ERR_UNKNOWN;
+    return kd_scene_command_parse(key, text, state);
 }
 
 static enum kd_status choose(const struct arguments *arguments, const struct kd_terminal *terminal, enum protocol *out,
@@ -72,7 +63,7 @@ static enum kd_status choose(const struct arguments *arguments, const struct kd_
 static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene,
                            struct kd_error *error)
 {
-    const struct kd_scene_options *options = &arguments->scene;
+    const struct kd_scene_options *options = &arguments->base.options;
     struct stat about;
     enum kd_status status;
     if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) ||
@@ -120,7 +111,8 @@ static enum kd_status show_picture(const struct arguments *arguments, const stru
     enum kd_status status;
     KD_TRY(choose(arguments, &terminal, &protocol, error));
     KD_TRY(show(png, protocol, &terminal, 2, arguments->enlarge, out, error));
-    if (kd_buffer_printf(out, "%s, %d x %d: ", arguments->scene.document, scene->image.width, scene->image.height) ||
+    if (kd_buffer_printf(out, "%s, %d x %d: ", arguments->base.options.document, scene->image.width,
+                         scene->image.height) ||
         kd_scene_line(scene, out) || kd_buffer_printf(out, "\n"))
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for the scene"));
 done:
@@ -128,18 +120,13 @@ done:
 }
 
 /* Renders the scene at the size that fits in the terminal. */
-static enum kd_status show_scene(struct arguments *arguments, struct kd_scene *scene, struct kd_buffer *out,
-                                 struct kd_error *error)
+static enum kd_status show_scene(struct kd_scene_command *base, struct kd_buffer *png, struct kd_error *error)
 {
-    const struct kd_assets assets = kd_asset_options_assets(&arguments->scene.assets);
+    const struct arguments *arguments = (struct arguments *)base;
     const struct kd_terminal terminal = kd_terminal_ask();
-    struct kd_renderer *renderer = NULL;
-    struct kd_plan plan;
-    struct kd_frame frame = { 0 };
-    struct kd_buffer png = { 0 };
+    struct kd_scene *scene = &base->scene;
     enum protocol protocol;
     enum kd_status status;
-    double ms;
     KD_TRY(choose(arguments, &terminal, &protocol, error));
     uint32_t width = (uint32_t)scene->image.width, height = (uint32_t)scene->image.height;
     kd_terminal_fit(&terminal, 1, arguments->enlarge, &width, &height);
@@ -150,35 +137,27 @@ static enum kd_status show_scene(struct arguments *arguments, struct kd_scene *s
                               "image.tile.width is %d; it must be 0: kerrd view shows whole pictures",
                               scene->tile.width));
     KD_TRY(kd_scene_validate(scene, error));
-    KD_TRY(kd_renderer_create(&(struct kd_renderer_params) { .device = arguments->device,
-                                                             .memory_bytes = arguments->memory,
-                                                             .assets = &assets },
-                              &renderer, error));
-    KD_TRY(kd_cli_draw(renderer, &kd_format_png, scene, &plan, &frame, &ms, error));
-    KD_TRY(kd_encode(&kd_format_png,
-                     &(struct kd_picture) { &frame, scene, &plan, kd_renderer_device_name(renderer), 0 },
-                     KD_EFFORT_KEEP, NULL, &png, error));
-    KD_TRY(show(&png, protocol, &terminal, 1, false, out, error));
+    KD_TRY(kd_scene_command_open(base, error));
+    KD_TRY(kd_scene_command_draw(base, &kd_format_png, error));
+    const struct kd_picture picture = kd_scene_command_picture(base);
+    KD_TRY(kd_encode(&kd_format_png, &picture, KD_EFFORT_KEEP, NULL, png, error));
+    KD_TRY(show(png, protocol, &terminal, 1, false, &base->file, error));
 done:
-    kd_buffer_finish(&png);
-    kd_frame_finish(&frame);
-    kd_renderer_destroy(renderer);
     return status;
 }
 
-static enum kd_status run(struct arguments *arguments, struct kd_buffer *out, struct kd_error *error)
+static enum kd_status run(struct kd_scene_command *base, struct kd_error *error)
 {
-    struct kd_scene scene;
-    struct kd_buffer picture = { 0 };
+    const struct arguments *arguments = (struct arguments *)base;
+    struct kd_buffer png = { 0 };
     enum kd_status status;
-    kd_scene_defaults(&scene);
-    KD_TRY(look(arguments, &picture, &scene, error));
-    if (!picture.size)
-        KD_TRY(kd_scene_options_load(&arguments->scene, &scene, error));
-    KD_TRY(picture.size ? show_picture(arguments, &picture, &scene, out, error)
-                        : show_scene(arguments, &scene, out, error));
+    kd_scene_defaults(&base->scene);
+    KD_TRY(look(arguments, &png, &base->scene, error));
+    if (!png.size)
+        KD_TRY(kd_scene_command_load(base, error));
+    KD_TRY(png.size ? show_picture(arguments, &png, &base->scene, &base->file, error) : show_scene(base, &png, error));
 done:
-    kd_buffer_finish(&picture);
+    kd_buffer_finish(&png);
     return status;
 }
 
@@ -200,14 +179,6 @@ const struct argp *kd_cli_view_argp(void)
 
 int kd_cli_view(int argc, char **argv)
 {
-    struct arguments arguments = { 0 };
-    struct kd_buffer out = { 0 };
-    struct kd_error error = { 0 };
-
-    argp_parse(kd_cli_view_argp(), argc, argv, 0, NULL, &arguments);
-    enum kd_status status = run(&arguments, &out, &error);
-    kd_scene_options_finish(&arguments.scene);
-    int code = status ? kd_progress_exit(status, &error) : kd_cli_print(out.data, out.size);
-    kd_buffer_finish(&out);
-    return code;
+    struct arguments arguments = { .base.printed = true };
+    return kd_scene_command_run(&arguments.base, kd_cli_view_argp(), argc, argv, run);
 }

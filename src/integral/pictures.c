@@ -102,12 +102,12 @@ static enum kd_status encode_flux(const struct kd_picture *picture, enum kd_effo
 const struct kd_format *kd_integral_picture_format(enum kd_integral what)
 {
     static const struct kd_format maps = { .name = "maps",
-                                           .media_type = "application/octet-stream",
+                                           .media_type = KD_BYTES_TYPE,
                                            .magic = "",
                                            .carries = KD_CARRIES_LAYERS,
                                            .encode = encode_maps },
                                   flux = { .name = "flux",
-                                           .media_type = "application/octet-stream",
+                                           .media_type = KD_BYTES_TYPE,
                                            .magic = "",
                                            .carries = KD_CARRIES_LIGHT,
                                            .encode = encode_flux };

@@ -31,7 +31,6 @@ enum {
     KD_MATTER_ANGLES = 1 << 21, /* limit for the numbers of theta, if it has one for each node of a row and column */
     KD_MATTER_PLACES = 1 << 20  /* limit for the cells of `places`, of four floats each */
 };
-#define KD_MATTER_TYPE "application/x-npz"
 
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */

@@ -219,7 +219,7 @@ static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over,
 
 const struct kd_gather_format kd_gather_fits = {
     .name = "fits",
-    .media_type = "application/fits",
+    .media_type = KD_FITS_TYPE,
     .of = &kd_format_cubed,
     .holds = kd_cube_holds,
     .open = open_cube,

@@ -250,7 +250,7 @@ static enum kd_status next_piece(void *state, struct kd_buffer *out, bool *over,
 
 const struct kd_gather_format kd_gather_npz = {
     .name = "npz",
-    .media_type = "application/x-npz",
+    .media_type = KD_NPZ_TYPE,
     .of = &kd_format_cubed,
     .holds = kd_cube_holds,
     .open = open_cube,

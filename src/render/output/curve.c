@@ -149,7 +149,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
 
 static const struct kd_format one_row = {
     .name = "row",
-    .media_type = "application/octet-stream",
+    .media_type = KD_BYTES_TYPE,
     .magic = "",
     .carries = KD_CARRIES_LIGHT,
     .encode = encode,
@@ -157,7 +157,7 @@ static const struct kd_format one_row = {
 
 static const struct kd_table_format tables[] = {
     { "json", KD_JSON_TYPE, NULL, write_json },
-    { "csv", "text/csv", "light-curve.csv", write_csv },
+    { "csv", KD_CSV_TYPE, "light-curve.csv", write_csv },
 };
 
 const struct kd_series kd_light_curve = {

@@ -144,7 +144,7 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
 
 const struct kd_format kd_format_fits = {
     .name = "fits",
-    .media_type = "application/fits",
+    .media_type = KD_FITS_TYPE,
     .magic = "SIMPLE  =",
     .carries = KD_CARRIES_LAYERS,
     .draws = draws,
@@ -154,7 +154,7 @@ const struct kd_format kd_format_fits = {
 
 const struct kd_format kd_format_cubed = {
     .name = "fits",
-    .media_type = "application/fits",
+    .media_type = KD_FITS_TYPE,
     .magic = "SIMPLE  =",
     .carries = KD_CARRIES_LAYERS,
     .encode = encode,

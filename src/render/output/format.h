@@ -6,6 +6,7 @@
 #define KD_RENDER_OUTPUT_FORMAT_H
 
 #include "base/buffer.h"
+#include "base/media.h"
 #include "render/frame/frame.h"
 
 #define KD_QUALITY 90      /* quality of lossy formats if no other is requested */

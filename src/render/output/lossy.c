@@ -99,7 +99,7 @@ static enum kd_status webp_scene(const void *data, size_t size, struct kd_scene 
 
 const struct kd_format kd_format_jpg = {
     .name = "jpg",
-    .media_type = "image/jpeg",
+    .media_type = KD_JPEG_TYPE,
     .magic = "\xff\xd8\xff",
     .end = "\xff\xd9",
     .carries = KD_CARRIES_PICTURE,

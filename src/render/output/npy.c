@@ -54,7 +54,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
 
 const struct kd_format kd_format_npy = {
     .name = "npy",
-    .media_type = "application/x-npy",
+    .media_type = KD_NPY_TYPE,
     .magic = "\x93NUMPY",
     .carries = KD_CARRIES_LAYERS,
     .encode = encode,

@@ -120,7 +120,7 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
 
 const struct kd_format kd_format_npz = {
     .name = "npz",
-    .media_type = "application/x-npz",
+    .media_type = KD_NPZ_TYPE,
     .magic = "PK\x03\x04",
     .carries = KD_CARRIES_LAYERS,
     .encode = encode,

@@ -83,7 +83,7 @@ static enum kd_status scene_in(const void *data, size_t size, struct kd_scene *o
 
 const struct kd_format kd_format_png = {
     .name = "png",
-    .media_type = "image/png",
+    .media_type = KD_PNG_TYPE,
     .magic = "\x89PNG",
     .end = "IEND\xae\x42\x60\x82",
     .carries = KD_CARRIES_PICTURE,

@@ -15,10 +15,10 @@
 
 static const char *type_of(const struct kd_asset_about *about)
 {
-    return about->observation == KD_OBSERVATION_UVFITS ? KD_ASSET_UVFITS_TYPE
-           : about->observation == KD_OBSERVATION_CSV  ? KD_ASSET_CSV_TYPE
-           : about->nodes[0]                           ? KD_ASSET_GRID_TYPE
-                                                       : KD_ASSET_TYPE;
+    return about->observation == KD_OBSERVATION_UVFITS ? KD_UVFITS_TYPE
+           : about->observation == KD_OBSERVATION_CSV  ? KD_CSV_TYPE
+           : about->nodes[0]                           ? KD_NPZ_TYPE
+                                                       : KD_PNG_TYPE;
 }
 
 static const char *end_of(const struct kd_asset_about *about)
@@ -147,10 +147,10 @@ static bool wrong_type(const struct kd_request *request, char text[200])
 {
     static const struct {
         const char *begin, *type, *name;
-    } kinds[] = { { "\x89PNG", KD_ASSET_TYPE, "a PNG" },
-                  { "PK", KD_ASSET_GRID_TYPE, "a ZIP, as an NPZ is" },
-                  { "SIMPLE  =", KD_ASSET_UVFITS_TYPE, "a FITS file" },
-                  { "#SRC:", KD_ASSET_CSV_TYPE, "the EHT's CSV" } };
+    } kinds[] = { { "\x89PNG", KD_PNG_TYPE, "a PNG" },
+                  { "PK", KD_NPZ_TYPE, "a ZIP, as an NPZ is" },
+                  { "SIMPLE  =", KD_UVFITS_TYPE, "a FITS file" },
+                  { "#SRC:", KD_CSV_TYPE, "the EHT's CSV" } };
     const struct kd_buffer *body = &request->body;
     const char *said = NULL, *is = NULL, *begin = NULL;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
@@ -161,7 +161,7 @@ static bool wrong_type(const struct kd_request *request, char text[200])
             !memcmp(body->data, kinds[i].begin, strlen(kinds[i].begin)))
             is = kinds[i].name;
     }
-    const bool observed = said && (!strcmp(said, KD_ASSET_UVFITS_TYPE) || !strcmp(said, KD_ASSET_CSV_TYPE)),
+    const bool observed = said && (!strcmp(said, KD_UVFITS_TYPE) || !strcmp(said, KD_CSV_TYPE)),
                begins = begin && body->size >= strlen(begin) && !memcmp(body->data, begin, strlen(begin));
     if (!is && observed && !begins) {
         snprintf(text, 200, "the asset is %s by its Content-Type; it must begin with \"%s\"", said, begin);
@@ -206,10 +206,10 @@ enum MHD_Result kd_handle_assets(struct kd_request *request)
     kd_json_number(&json, "asset_pixels", (double)KD_ASSET_PIXELS);
     kd_json_end(&json);
     kd_json_array(&json, "types");
-    kd_json_string(&json, NULL, KD_ASSET_TYPE);
-    kd_json_string(&json, NULL, KD_ASSET_GRID_TYPE);
-    kd_json_string(&json, NULL, KD_ASSET_UVFITS_TYPE);
-    kd_json_string(&json, NULL, KD_ASSET_CSV_TYPE);
+    kd_json_string(&json, NULL, KD_PNG_TYPE);
+    kd_json_string(&json, NULL, KD_NPZ_TYPE);
+    kd_json_string(&json, NULL, KD_UVFITS_TYPE);
+    kd_json_string(&json, NULL, KD_CSV_TYPE);
     kd_json_end(&json);
     kd_json_end(&json);
     return kd_reply_json(request, kd_json_finish_line(&json), &text, KD_JSON_TYPE);

@@ -10,17 +10,17 @@
 #include <stdio.h>
 #include <string.h>
 
-#define OFFERED KD_JSON_TYPE ", text/csv, " KD_NPY_TYPE ", application/x-npz"
+#define OFFERED KD_JSON_TYPE ", " KD_CSV_TYPE ", " KD_NPY_TYPE ", " KD_NPZ_TYPE
 /* estimated time of one product on one core; a product combines one pixel, or one image order of a pixel, with a
  * baseline */
 #define NS_A_PRODUCT 1.2
 #define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26)) /* including the number's text */
 
 static const char *const types[] = { [KD_INTEGRAL_JSON] = KD_JSON_TYPE,
-                                     [KD_INTEGRAL_CSV] = "text/csv",
+                                     [KD_INTEGRAL_CSV] = KD_CSV_TYPE,
                                      [KD_INTEGRAL_NPY] = KD_NPY_TYPE,
-                                     [KD_INTEGRAL_NPZ] = "application/x-npz",
-                                     [KD_INTEGRAL_UVFITS] = KD_ASSET_UVFITS_TYPE };
+                                     [KD_INTEGRAL_NPZ] = KD_NPZ_TYPE,
+                                     [KD_INTEGRAL_UVFITS] = KD_UVFITS_TYPE };
 static const char *const endings[] = { "json", "csv", "npy", "npz", "uvfits" };
 
 struct job {
@@ -33,6 +33,12 @@ struct job {
     struct kd_render_job picture; /* it is in the render queue in the stage RENDERS */
     struct kd_buffer text;
     double planned_ms; /* of the pictures up to the present one */
+    /* the first pictures, one of each size, as begin() has planned them */
+    struct {
+        struct kd_scene scene;
+        struct kd_plan plan;
+    } first[2];
+    unsigned planned;
 };
 
 static void finish(struct kd_task *task)
@@ -55,18 +61,19 @@ static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_er
              (job->request.what == KD_INTEGRAL_SETS ? job->request.sets->n * sizeof *job->request.sets->at : 0);
     kd_render_queue_capacity(server->renders, &capacity);
     for (unsigned i = 0; i < sizes && n; i++) {
-        struct kd_scene scene = kd_integral_scene(&job->request, i);
-        struct kd_plan plan;
-        enum kd_status status = kd_integral_plan(&job->request, &scene, &capacity, &plan, error);
+        struct kd_plan *plan = &job->first[i].plan;
+        job->first[i].scene = kd_integral_scene(&job->request, i);
+        enum kd_status status = kd_integral_plan(&job->request, &job->first[i].scene, &capacity, plan, error);
         if (status) {
             kd_integral_name_set(&job->request, i, status, error);
             return status;
         }
-        ms += plan.cost.estimate_ms * n / sizes +
-              (double)plan.picture.n_layers * plan.picture.width * plan.picture.height * (double)job->request.u.n *
+        job->planned = i + 1;
+        ms += plan->cost.estimate_ms * n / sizes +
+              (double)plan->picture.n_layers * plan->picture.width * plan->picture.height * (double)job->request.u.n *
                   NS_A_PRODUCT * 1e-6 * (i ? 1 : kd_integral_evaluations(&job->request)) *
                   (job->request.what == KD_INTEGRAL_SETS ? (double)job->request.sets->n : 1);
-        *bytes += 4 * (1 + plan.picture.n_layers) * (size_t)plan.picture.width * plan.picture.height;
+        *bytes += 4 * (1 + plan->picture.n_layers) * (size_t)plan->picture.width * plan->picture.height;
     }
     if (ms > server->longest_s * 1e3)
         return kd_error_set(error, KD_ETOOBIG,
@@ -110,17 +117,17 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
 {
     struct kd_request *request = job->task.request;
     struct kd_render_queue *renders = request->server->renders;
+    const unsigned at = job->run.picture;
     struct kd_capacity capacity;
     /* Only the first picture needs admission. The later ones take its place, so that a request is not refused
      * halfway. */
-    enum kd_status status =
-        job->run.picture ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
+    enum kd_status status = at ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
         return status;
     kd_render_queue_capacity(renders, &capacity);
     job->picture = (struct kd_render_job) {
         .claim.class = KD_CLASS_PICTURE,
-        .scene = kd_integral_scene(&job->request, job->run.picture),
+        .scene = at < job->planned ? job->first[at].scene : kd_integral_scene(&job->request, at),
         .format = kd_integral_picture_format(job->request.what),
         .effort = KD_EFFORT_QUICK,
         .socket = kd_connection_socket(request->connection),
@@ -128,7 +135,10 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
         .user = job,
     };
     memcpy(job->picture.claim.client, request->client, sizeof job->picture.claim.client);
-    KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
+    if (at < job->planned)
+        job->picture.plan = job->first[at].plan;
+    else
+        KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
     job->planned_ms += job->picture.plan.cost.estimate_ms;
     /* begin() estimated all sets by their first picture, but a set may change what a picture costs. */
     if (job->request.what == KD_INTEGRAL_SETS && job->planned_ms > request->server->longest_s * 1e3)
@@ -139,7 +149,7 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
                          job->planned_ms * 1e-3, request->server->longest_s));
     kd_render_queue_push(renders, &job->picture);
 done:
-    kd_integral_name_set(&job->request, job->run.picture, status, error);
+    kd_integral_name_set(&job->request, at, status, error);
     return status;
 }
 
@@ -192,8 +202,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct job *job)
 /* The EHT's CSV has two lines before its rows. */
 static const char *csv_type(const struct job *job)
 {
-    return job->request.what == KD_INTEGRAL_OBSERVE ? "text/csv; charset=utf-8"
-                                                    : "text/csv; charset=utf-8; header=present";
+    return job->request.what == KD_INTEGRAL_OBSERVE ? KD_CSV_TYPE "; charset=utf-8" : KD_CSV_HEADED_TYPE;
 }
 
 static enum MHD_Result deliver(struct kd_request *request)
@@ -234,9 +243,9 @@ enum MHD_Result kd_handle_integral(struct kd_request *request)
     if (format >= formats)
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                                       .offered = observe ? OFFERED ", " KD_ASSET_UVFITS_TYPE : OFFERED,
+                                                       .offered = observe ? OFFERED ", " KD_UVFITS_TYPE : OFFERED,
                                                        .detail = observe ? "observations are available as " OFFERED
-                                                                           ", " KD_ASSET_UVFITS_TYPE
+                                                                           ", " KD_UVFITS_TYPE
                                                                          : "integrals are available as " OFFERED });
     if (request->target.n_pairs)
         return kd_reply_problem(

@@ -12,15 +12,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OFFERED KD_JSON_TYPE ", application/x-ndjson, text/csv, " KD_NPY_TYPE
+#define OFFERED KD_JSON_TYPE ", " KD_NDJSON_TYPE ", " KD_CSV_TYPE ", " KD_NPY_TYPE
 /* unsent bytes of a stream at which the integration pauses; it continues when a quarter of this is left */
 #define FULL (1u << 20)
 #define BYTES_PER_SAMPLE 220 /* estimated size of a sample as text */
 #define BYTES_PER_ORBIT 2400
 
 static const char *const types[] = { [KD_ORBIT_JSON] = KD_JSON_TYPE,
-                                     [KD_ORBIT_NDJSON] = "application/x-ndjson",
-                                     [KD_ORBIT_CSV] = "text/csv",
+                                     [KD_ORBIT_NDJSON] = KD_NDJSON_TYPE,
+                                     [KD_ORBIT_CSV] = KD_CSV_TYPE,
                                      [KD_ORBIT_NPY] = KD_NPY_TYPE };
 
 /* A job with two owners, the request and the scheduler; the last one to release it frees it. */

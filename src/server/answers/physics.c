@@ -12,8 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CSV_TYPE "text/csv"
-#define WAV_TYPE "audio/wav"
 #define MOMENT_MS 2.        /* time limit on the HTTP thread, which serves all clients */
 #define BYTES_PER_NUMBER 26 /* longest text of a number */
 
@@ -35,12 +33,14 @@ static void finish(struct kd_task *task)
 
 static const char *offered(const struct kd_quantity *quantity)
 {
-    return quantity->sound ? KD_JSON_TYPE ", " CSV_TYPE ", " WAV_TYPE : KD_JSON_TYPE ", " CSV_TYPE;
+    return quantity->sound ? KD_JSON_TYPE ", " KD_CSV_TYPE ", " KD_WAV_TYPE : KD_JSON_TYPE ", " KD_CSV_TYPE;
 }
 
 static enum form accepted(struct kd_request *request, const struct kd_quantity *quantity)
 {
-    static const char *const types[] = { [FORM_JSON] = KD_JSON_TYPE, [FORM_CSV] = CSV_TYPE, [FORM_WAV] = WAV_TYPE };
+    static const char *const types[] = { [FORM_JSON] = KD_JSON_TYPE,
+                                         [FORM_CSV] = KD_CSV_TYPE,
+                                         [FORM_WAV] = KD_WAV_TYPE };
     size_t n = quantity->sound ? 3 : 2, best = kd_reply_accepted(request, n, kd_accept_string, types);
     return best < n ? (enum form)best : FORM_NONE;
 }
@@ -132,9 +132,9 @@ static enum MHD_Result deliver(struct kd_request *request)
     if (task->status)
         return refuse(request, &task->error);
     request->reply_bytes = job->text.size;
-    const char *type = job->form == FORM_CSV ? CSV_TYPE "; charset=utf-8; header=present" : KD_JSON_TYPE;
+    const char *type = job->form == FORM_CSV ? KD_CSV_HEADED_TYPE : KD_JSON_TYPE;
     struct MHD_Response *response =
-        job->form == FORM_WAV ? kd_reply_take(&job->text, WAV_TYPE) : kd_reply_text(request, &job->text, type);
+        job->form == FORM_WAV ? kd_reply_take(&job->text, KD_WAV_TYPE) : kd_reply_text(request, &job->text, type);
     if (!response)
         return kd_reply_no_memory(request);
     if (job->form != FORM_JSON)

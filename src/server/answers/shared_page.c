@@ -11,8 +11,6 @@
 
 #include <string.h>
 
-#define HTML "text/html; charset=utf-8"
-
 /* STYLE, ICON and SEEN (the picture): queries that sign these files. URL: the address as the value of a parameter. */
 enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, STYLE, ICON, SEEN, TEXTS };
 
@@ -109,7 +107,7 @@ static enum MHD_Result reply(struct kd_request *request, const struct kd_shared 
         kd_buffer_finish(&page);
         return kd_reply_no_memory(request);
     }
-    struct MHD_Response *response = kd_reply_text(request, &page, HTML);
+    struct MHD_Response *response = kd_reply_text(request, &page, KD_HTML_TYPE);
     if (response) {
         MHD_add_response_header(response, "Content-Security-Policy",
                                 "default-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'");
@@ -154,7 +152,7 @@ static enum MHD_Result reply_frame(struct kd_request *request, const struct kd_s
                                                         "default-src 'self'; img-src 'self' blob:; base-uri 'none'; "
                                                         "form-action 'none'; frame-ancestors %s",
                                                         embedders ? embedders : "'none'"))
-        response = kd_reply_text(request, &page, HTML);
+        response = kd_reply_text(request, &page, KD_HTML_TYPE);
     if (response) {
         MHD_add_response_header(response, "Content-Security-Policy", (const char *)policy.data);
         MHD_add_response_header(response, "Referrer-Policy", "no-referrer");

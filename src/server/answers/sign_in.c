@@ -6,8 +6,6 @@
 #include <string.h>
 #include <strings.h>
 
-#define HTML "text/html; charset=utf-8"
-
 static const struct {
     const char *tag, *title, *asks, *wrong, *later, *label, *button;
 } words[] = {
@@ -41,7 +39,7 @@ static size_t language(struct kd_request *request)
 
 bool kd_sign_in_wanted(struct kd_request *request, const struct kd_problem *problem)
 {
-    static const char *const types[] = { "application/problem+json", "text/html" };
+    static const char *const types[] = { KD_PROBLEM_TYPE, "text/html" };
     return (problem->type == KD_PROBLEM_UNAUTHORIZED || problem->type == KD_PROBLEM_WRONG_TOKENS) && request->matched &&
            request->matched->page && !request->body_announced &&
            kd_reply_accepted(request, 2, kd_accept_string, types) == 1;
@@ -75,7 +73,7 @@ enum MHD_Result kd_sign_in_page(struct kd_request *request, const struct kd_prob
         kd_buffer_finish(&page);
         return kd_reply_no_memory(request);
     }
-    struct MHD_Response *response = kd_reply_take(&page, HTML);
+    struct MHD_Response *response = kd_reply_take(&page, KD_HTML_TYPE);
     if (!response)
         return kd_reply_no_memory(request);
     MHD_add_response_header(

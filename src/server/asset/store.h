@@ -17,10 +17,6 @@
 struct kd_asset_store;
 struct kd_asset;
 
-#define KD_ASSET_TYPE "image/png"                   /* pictures */
-#define KD_ASSET_GRID_TYPE "application/x-npz"      /* grids of matter (render/emit/matter_grid.h) */
-#define KD_ASSET_UVFITS_TYPE "application/x-uvfits" /* observations (observe/observation.h) */
-#define KD_ASSET_CSV_TYPE "text/csv"
 #define KD_ASSET_BYTES ((size_t)32 << 20)   /* largest size of one asset */
 #define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* most pixels of one picture */
 

@@ -154,7 +154,7 @@ static void allowed_headers(const struct kd_route *route, char *out, size_t size
 {
     const bool body = route->methods & (KD_POST | KD_PATCH | KD_PUT),
                kept = route->status[0] == 304 || route->status[1] == 304;
-    const bool events = route->answer && !strcmp(route->answer, "text/event-stream");
+    const bool events = route->answer && !strcmp(route->answer, KD_EVENTS_TYPE);
     snprintf(out, size, "Authorization, X-Request-Id, traceparent, " KD_ACCESS_HEADER "%s%s%s%s%s%s",
              body ? ", Content-Type" : "", kept ? ", If-None-Match" : "", route->parts ? ", Range, If-Range" : "",
              events ? ", Last-Event-ID" : "", route->methods & KD_PATCH ? ", Prefer" : "",

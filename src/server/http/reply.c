@@ -95,7 +95,7 @@ enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd)
 {
     static const char text[] = "{\"type\":\"urn:kerrd:problem:out-of-memory\",\"title\":\"Memory ran "
                                "out\",\"status\":503,\"detail\":\"out of memory\"}\n";
-    struct MHD_Response *response = kd_reply_static(text, sizeof text - 1, "application/problem+json");
+    struct MHD_Response *response = kd_reply_static(text, sizeof text - 1, KD_PROBLEM_TYPE);
     if (!response)
         return MHD_NO;
     MHD_add_response_header(response, "Retry-After", "5");
@@ -207,7 +207,7 @@ enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_pro
         kd_buffer_finish(&body);
         return kd_reply_no_memory(request);
     }
-    struct MHD_Response *response = kd_reply_take(&body, "application/problem+json");
+    struct MHD_Response *response = kd_reply_take(&body, KD_PROBLEM_TYPE);
     return response ? kd_reply_refuse(request, problem, response) : kd_reply_no_memory(request);
 }
 

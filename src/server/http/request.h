@@ -16,9 +16,6 @@
 
 #include <nettle/sha2.h>
 
-#define KD_NPY_TYPE "application/x-npy"
-#define KD_PATCH_TYPE "application/merge-patch+json"
-
 struct kd_request {
     struct kd_server *server;
     struct MHD_Connection *mhd;

@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-const struct kd_job_format kd_job_as_stream = { "stream", "application/x-kerrd-frames" };
+const struct kd_job_format kd_job_as_stream = { "stream", KD_FRAMES_TYPE };
 
 /* Gets entry i of the formats of one series. The formats of a series of rows are its tables. Those of any other
  * series are its archives, then single frames and the stream. */

@@ -14,7 +14,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#define PREVIEW_TYPE "image/png" /* type of previews, whatever the format of the frames */
 #define PART_BYTES 65536
 
 /* A stream of frames that begins at the frame watcher.next. A header of 16 bytes precedes each frame. */
@@ -182,7 +181,7 @@ enum MHD_Result kd_handle_job_preview(struct kd_request *request)
     kd_job_release(job);
     snprintf(number, sizeof number, "%u", sight.frame);
     snprintf(rows, sizeof rows, "%u/%u", sight.rows, sight.height);
-    struct MHD_Response *response = kd_reply_take(&png, PREVIEW_TYPE);
+    struct MHD_Response *response = kd_reply_take(&png, KD_PNG_TYPE);
     if (response) {
         MHD_add_response_header(response, "Kerrd-Frame", number);
         MHD_add_response_header(response, "Kerrd-Rows", rows);

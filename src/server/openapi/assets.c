@@ -11,7 +11,7 @@
 
 static const char *type(size_t i)
 {
-    static const char *const types[] = { KD_ASSET_TYPE, KD_ASSET_GRID_TYPE, KD_ASSET_UVFITS_TYPE, KD_ASSET_CSV_TYPE };
+    static const char *const types[] = { KD_PNG_TYPE, KD_NPZ_TYPE, KD_UVFITS_TYPE, KD_CSV_TYPE };
     return i < sizeof types / sizeof *types ? types[i] : NULL;
 }
 

@@ -51,7 +51,7 @@ static const struct {
     enum kd_status (*make)(struct kd_buffer *out);
 } makers[] = {
     { "/openapi.json", KD_JSON_TYPE, NULL /* made by kd_openapi_json, which has other parameters */ },
-    { "/docs", "text/html; charset=utf-8", kd_route_table_html },
+    { "/docs", KD_HTML_TYPE, kd_route_table_html },
     { "/v1/schema", "application/schema+json", kd_scene_schema },
     { "/v1/presets", KD_JSON_TYPE, presets_json },
     { "/v1/physics", KD_JSON_TYPE, kd_quantity_list_json },

@@ -82,7 +82,7 @@ static bool is_kept(const struct kd_route *route, unsigned method)
 static bool sends_parts(const struct kd_route *route, unsigned method) { return method == KD_GET && route->parts; }
 static bool tells_events(const struct kd_route *route, unsigned method)
 {
-    return (void)method, route->answer && !strcmp(route->answer, "text/event-stream");
+    return (void)method, route->answer && !strcmp(route->answer, KD_EVENTS_TYPE);
 }
 static bool is_made_once(const struct kd_route *route, unsigned method) { return method == KD_POST && route->once; }
 static bool may_say_little(const struct kd_route *route, unsigned method) { return method == KD_PATCH && route->brief; }

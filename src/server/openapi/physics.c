@@ -126,9 +126,9 @@ static void add_responses(struct kd_json *json, const struct kd_route *route, co
     kd_json_object(json, KD_JSON_TYPE);
     add_answer(json, quantity);
     kd_json_end(json);
-    kd_openapi_media(json, "text/csv", "", 0);
+    kd_openapi_media(json, KD_CSV_TYPE, "", 0);
     if (quantity->sound)
-        kd_openapi_media(json, "audio/wav", "", 0);
+        kd_openapi_media(json, KD_WAV_TYPE, "", 0);
     kd_json_end(json);
     kd_json_end(json);
     kd_openapi_problems(json, route, KD_GET);

@@ -116,7 +116,7 @@ static void add_response(struct kd_json *json, unsigned status)
     describe(json, status);
     kd_openapi_problem_headers(json, status);
     kd_json_object(json, "content");
-    kd_openapi_media(json, "application/problem+json", KD_SCHEMA_REF("Problem"), strlen(KD_SCHEMA_REF("Problem")));
+    kd_openapi_media(json, KD_PROBLEM_TYPE, KD_SCHEMA_REF("Problem"), strlen(KD_SCHEMA_REF("Problem")));
     kd_json_end(json);
     kd_json_end(json);
 }

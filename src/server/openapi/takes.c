@@ -50,7 +50,7 @@ const struct kd_taken kd_taken[KD_TAKES] = {
     [KD_TAKES_ASSET] = { .about = "an asset",
                          .what = "an asset",
                          .most = KD_ASSET_BYTES,
-                         .types = KD_ASSET_TYPE " " KD_ASSET_GRID_TYPE " " KD_ASSET_UVFITS_TYPE " " KD_ASSET_CSV_TYPE },
+                         .types = KD_PNG_TYPE " " KD_NPZ_TYPE " " KD_UVFITS_TYPE " " KD_CSV_TYPE },
     [KD_TAKES_LESSON] = { .about = "a lesson", .schema = REF("NewLesson"), .changes = REF("LessonChange") },
     [KD_TAKES_HAND] = { .about = "an answer of a pupil", .schema = kd_openapi_hand_schema },
     [KD_TAKES_STRIKE] = { .about = "an amplitude, or nothing", .may_lack = true, .body = kd_openapi_strike_body },

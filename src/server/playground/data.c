@@ -11,8 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PACKED_TYPE "application/octet-stream"
-
 /* A request that waits for a tick. The request owns it. */
 struct wait {
     struct kd_playground_session_watcher watcher; /* must be the first member */
@@ -101,7 +99,7 @@ static enum MHD_Result send_tick(struct kd_request *request, const struct wait *
         return kd_reply_no_memory(request);
     }
     request->reply_bytes = out.size;
-    struct MHD_Response *response = kd_reply_take(&out, wait->npy ? KD_NPY_TYPE : PACKED_TYPE);
+    struct MHD_Response *response = kd_reply_take(&out, wait->npy ? KD_NPY_TYPE : KD_BYTES_TYPE);
     if (response) {
         snprintf(number, sizeof number, "%llu", (unsigned long long)tick->generation);
         MHD_add_response_header(response, "Kerrd-Generation", number);
@@ -125,7 +123,7 @@ static enum MHD_Result look(struct kd_request *request)
     switch (what) {
     case KD_PLAY_TICK: return send_tick(request, &wait, tick);
     case KD_PLAY_OVER: return kd_playground_session_ended(request);
-    case KD_PLAY_LATE: return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, PACKED_TYPE));
+    case KD_PLAY_LATE: return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_BYTES_TYPE));
     default: return MHD_NO;
     }
 }
@@ -137,7 +135,7 @@ static enum MHD_Result bad_number(struct kd_request *request, const char *detail
 
 static enum MHD_Result begin(struct kd_request *request, bool debris)
 {
-    static const char *const types[] = { PACKED_TYPE, KD_NPY_TYPE };
+    static const char *const types[] = { KD_BYTES_TYPE, KD_NPY_TYPE };
     uint64_t after, wait_ms, most = 0;
     enum MHD_Result refused;
     if (!kd_target_whole(&request->target, "after", 0, UINT64_MAX, &after))
@@ -151,7 +149,7 @@ static enum MHD_Result begin(struct kd_request *request, bool debris)
     if (type == 2)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                            .offered = PACKED_TYPE ", " KD_NPY_TYPE,
+                                            .offered = KD_BYTES_TYPE ", " KD_NPY_TYPE,
                                             .detail = "positions are available only as the listed media types" });
     struct kd_playground_session *play = kd_playground_session_of(request, &refused);
     if (!play)

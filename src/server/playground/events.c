@@ -10,7 +10,6 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define TYPE "text/event-stream"
 #define HEARTBEAT_MS 15000.
 #define UNSENT_BYTES (64 << 10) /* limit of unsent bytes in the kernel: more would delay ticks */
 
@@ -131,7 +130,7 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
     if (!s) {
         kd_playground_session_release(play);
         return request->head
-                   ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(TYPE))
+                   ? kd_reply_send(request, MHD_HTTP_OK, kd_reply_empty(KD_EVENTS_TYPE))
                    : kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
     }
     const int socket = kd_connection_socket(request->connection), unsent = UNSENT_BYTES;
@@ -148,7 +147,7 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
         return kd_reply_no_memory(request);
     }
     setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
-    MHD_add_response_header(response, "Content-Type", TYPE);
+    MHD_add_response_header(response, "Content-Type", KD_EVENTS_TYPE);
     MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
     const enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
     /* a stream has no deadline */

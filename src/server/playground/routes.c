@@ -16,8 +16,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define CSV_TYPE "text/csv"
-
 enum what { OPEN, AGAIN, STATE, CHANGE, STEP, SNAPSHOT, SERIES, FALLBACK };
 
 struct play_task {
@@ -215,9 +213,9 @@ static enum kd_status write_file(struct play_task *t, struct kd_playground *p, s
     case SNAPSHOT: status = kd_playground_write(p, true, &t->out); break;
     case SERIES:
         kd_playground_series_row(p, now);
-        status = npy                         ? kd_series_npy(&p->series, now, &t->out)
-                 : strcmp(t->type, CSV_TYPE) ? kd_playground_session_series_json(&p->series, now, &t->out)
-                                             : kd_series_csv(&p->series, now, &t->out);
+        status = npy                            ? kd_series_npy(&p->series, now, &t->out)
+                 : strcmp(t->type, KD_CSV_TYPE) ? kd_playground_session_series_json(&p->series, now, &t->out)
+                                                : kd_series_csv(&p->series, now, &t->out);
         break;
     case FALLBACK: status = npy ? kd_debris_npy(&p->debris, &t->out) : kd_debris_csv(&p->debris, &t->out); break;
     default:
@@ -396,21 +394,21 @@ static enum MHD_Result table(struct kd_request *request, enum what what, const c
     if (i == n)
         return kd_reply_problem(
             request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_ACCEPTABLE,
-                                            .offered = n == 3 ? CSV_TYPE ", " KD_NPY_TYPE ", " KD_JSON_TYPE
-                                                              : CSV_TYPE ", " KD_NPY_TYPE,
+                                            .offered = n == 3 ? KD_CSV_TYPE ", " KD_NPY_TYPE ", " KD_JSON_TYPE
+                                                              : KD_CSV_TYPE ", " KD_NPY_TYPE,
                                             .detail = "a table is available only as the listed media types" });
     return begin_reading(request, what, types[i]);
 }
 
 enum MHD_Result kd_handle_play_series(struct kd_request *request)
 {
-    static const char *const types[] = { CSV_TYPE, KD_NPY_TYPE, KD_JSON_TYPE };
+    static const char *const types[] = { KD_CSV_TYPE, KD_NPY_TYPE, KD_JSON_TYPE };
     return table(request, SERIES, types, 3);
 }
 
 enum MHD_Result kd_handle_play_fallback(struct kd_request *request)
 {
-    static const char *const types[] = { CSV_TYPE, KD_NPY_TYPE };
+    static const char *const types[] = { KD_CSV_TYPE, KD_NPY_TYPE };
     return table(request, FALLBACK, types, 2);
 }
 

@@ -197,7 +197,7 @@ static enum MHD_Result give(struct kd_request *request, struct kd_thumbnails *s,
     if (waits)
         return MHD_YES;
     return there ? answer(request, t, MHD_HTTP_OK,
-                          kd_reply_static(t->painting.png.data, t->painting.png.size, "image/png"))
+                          kd_reply_static(t->painting.png.data, t->painting.png.size, KD_PNG_TYPE))
                  : refuse(request, &error);
 }
 
@@ -218,6 +218,6 @@ enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
     kd_reply_file(request, KD_INLINE, "kerrd-%s.png", request->rest);
     if (same || request->head)
         return answer(request, t, same ? MHD_HTTP_NOT_MODIFIED : MHD_HTTP_OK,
-                      kd_reply_empty(same ? NULL : "image/png"));
+                      kd_reply_empty(same ? NULL : KD_PNG_TYPE));
     return give(request, s, t);
 }

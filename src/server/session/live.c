@@ -13,7 +13,6 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define BINARY_TYPE "application/x-kerrd-frames"
 #define HEARTBEAT_MS 15000.0    /* interval of comments in an event stream */
 #define UNSENT_BYTES (64 << 10) /* limit of unsent bytes in the kernel: more would delay frames */
 
@@ -347,9 +346,9 @@ static enum MHD_Result open_stream(struct kd_request *request, kd_session_find_f
 enum MHD_Result kd_live_frames(struct kd_request *request, kd_session_find_fn *find)
 {
     struct kd_buffer accept = kd_reply_header_list(request, "Accept");
-    bool binary = accept.data && strstr((const char *)accept.data, BINARY_TYPE);
+    bool binary = accept.data && strstr((const char *)accept.data, KD_FRAMES_TYPE);
     kd_buffer_finish(&accept);
-    return binary ? open_stream(request, find, BINARY, BINARY_TYPE)
+    return binary ? open_stream(request, find, BINARY, KD_FRAMES_TYPE)
                   : open_stream(request, find, MULTIPART, "multipart/x-mixed-replace; boundary=kerrd");
 }
 
@@ -364,5 +363,5 @@ enum MHD_Result kd_handle_session_picture(struct kd_request *request)
 enum MHD_Result kd_handle_session_frames(struct kd_request *request) { return kd_live_frames(request, kd_session_of); }
 enum MHD_Result kd_handle_session_events(struct kd_request *request)
 {
-    return open_stream(request, kd_session_of, EVENTS, "text/event-stream");
+    return open_stream(request, kd_session_of, EVENTS, KD_EVENTS_TYPE);
 }

@@ -12,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TYPE "application/octet-stream"
 #define BYTES_MAX ((size_t)128 << 20) /* limit of one answer; 10 000 000 positions are 114 MiB */
 
 /* A list of particles that is being made. Its request owns it. */
@@ -101,7 +100,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     }
     request->reply_bytes = job->rows.size;
     /* the bytes stay reserved until the request ends */
-    struct MHD_Response *response = kd_reply_take(&job->rows, TYPE);
+    struct MHD_Response *response = kd_reply_take(&job->rows, KD_BYTES_TYPE);
     if (!response)
         return kd_reply_no_memory(request);
     describe(response, &job->list);
@@ -193,7 +192,7 @@ enum MHD_Result kd_handle_session_particles(struct kd_request *request)
         return refuse(request, &error, false);
     if (!request->head)
         return submit(request);
-    struct MHD_Response *response = kd_reply_empty(TYPE);
+    struct MHD_Response *response = kd_reply_empty(KD_BYTES_TYPE);
     if (response)
         describe(response, &job->list);
     return kd_reply_send(request, MHD_HTTP_OK, response);

@@ -5,6 +5,7 @@
 #include "document/document.h"
 #include "document/number.h"
 #include "document/tree.h"
+#include "scene/sky_scale.h"
 #include "server/asset/store.h"
 #include "server/http/query.h"
 #include "server/http/reply.h"
@@ -272,7 +273,15 @@ static enum MHD_Result answer_little(struct kd_request *request, const struct kd
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-static enum MHD_Result patch(struct kd_request *request, struct kd_session *session, const char *text, size_t length)
+/* Merges a patch (RFC 7396). */
+static enum kd_status merge(struct kd_scene *scene, const void *to, struct kd_error *error)
+{
+    const struct kd_buffer *body = to;
+    return kd_scene_patch(scene, body->data ? (const char *)body->data : "", body->size, error);
+}
+
+static enum MHD_Result change_scene(struct kd_request *request, struct kd_session *session, kd_scene_edit *edit,
+                                    const void *to)
 {
     struct kd_session_state state;
     struct kd_error error = { 0 };
@@ -280,7 +289,7 @@ static enum MHD_Result patch(struct kd_request *request, struct kd_session *sess
     uint64_t order;
     bool said;
     if (read_pace(request, &pace, &said, &error) || read_order(request, &order, &error) ||
-        kd_session_patch(session, text, length, order, &state, &error))
+        kd_session_edit(session, edit, to, order, &state, &error))
         return refuse_patch(request, &error);
     if (said)
         kd_session_keep(session, &pace);
@@ -300,9 +309,7 @@ bool kd_session_change(struct kd_request *request, struct kd_session *session, s
         *refused = kd_reply_unmatched(request);
         return false;
     }
-    const char *text = request->body.data ? (const char *)request->body.data : "";
-    if (!read_order(request, &order, &error) &&
-        !kd_session_patch(session, text, request->body.size, order, state, &error))
+    if (!read_order(request, &order, &error) && !kd_session_edit(session, merge, &request->body, order, state, &error))
         return true;
     *refused = refuse_patch(request, &error);
     return false;
@@ -322,7 +329,7 @@ static enum MHD_Result change(struct kd_request *request, struct kd_session *ses
     if (!kd_reply_matches(request, NULL))
         return kd_reply_unmatched(request);
     if (!strcmp(request->method, "PATCH"))
-        return patch(request, session, request->body.data ? (const char *)request->body.data : "", request->body.size);
+        return change_scene(request, session, merge, &request->body);
     kd_session_end(session);
     return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_JSON_TYPE));
 }
@@ -342,6 +349,18 @@ enum MHD_Result kd_handle_session(struct kd_request *request)
     }
     kd_session_release(session);
     return result;
+}
+
+struct ringdown { double amplitude, time; };
+
+static enum kd_status ring(struct kd_scene *scene, const void *to, struct kd_error *error)
+{
+    const struct ringdown *ringdown = to;
+    (void)error;
+    scene->style.ringdown = ringdown->amplitude;
+    scene->style.ringdown_time = ringdown->time;
+    kd_scene_settle(scene, NULL);
+    return KD_OK;
 }
 
 /* Parses {"amplitude": x}, {} or an empty body. If the member is absent *amplitude is unchanged. Returns KD_EINVAL
@@ -367,25 +386,24 @@ static enum MHD_Result strike(struct kd_request *request, struct kd_session *ses
 {
     struct kd_session_state state;
     struct kd_error error = { 0 };
-    char text[120], amplitude[KD_NUMBER_SIZE], time[KD_NUMBER_SIZE], detail[160];
+    char number[KD_NUMBER_SIZE], detail[160];
     kd_session_state(session, &state);
-    double rate = state.scene.motion.time_rate, x = state.scene.style.ringdown > 0 ? state.scene.style.ringdown : 1;
-    if (read_strike(&request->body, &x, &error)) {
+    const double rate = state.scene.motion.time_rate;
+    struct ringdown ringdown = { state.scene.style.ringdown > 0 ? state.scene.style.ringdown : 1,
+                                 state.scene.top.time };
+    if (read_strike(&request->body, &ringdown.amplitude, &error)) {
         struct kd_problem problem = kd_problem_from(&error);
         if (error.status == KD_EINVAL)
             problem.type = *error.pointer ? KD_PROBLEM_INVALID_PARAMETERS : KD_PROBLEM_MALFORMED_JSON;
         return kd_reply_problem(request, &problem);
     }
-    kd_number_format(amplitude, x);
-    kd_number_format(time, state.scene.top.time);
-    snprintf(text, sizeof text, "{\"style\":{\"ringdown\":%s,\"ringdown_time\":%s}}", amplitude, time);
     if (rate > 0)
-        return patch(request, session, text, strlen(text));
-    kd_number_format(time, rate);
+        return change_scene(request, session, ring, &ringdown);
+    kd_number_format(number, rate);
     snprintf(detail, sizeof detail,
              "motion.time_rate is %s; for a strike it must be more than 0 M per second, because the ringing evolves in "
              "coordinate time",
-             time);
+             number);
     return kd_reply_problem(
         request,
         &(struct kd_problem) { .type = KD_PROBLEM_CONFLICT, .pointer = "/motion/time_rate", .detail = detail });

@@ -255,8 +255,8 @@ static void change(struct kd_session *s, double now, const struct kd_scene *scen
     kd_session_pump(s);
 }
 
-enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t length, uint64_t order,
-                                struct kd_session_state *out, struct kd_error *error)
+enum kd_status kd_session_edit(struct kd_session *s, kd_scene_edit *edit, const void *to, uint64_t order,
+                               struct kd_session_state *out, struct kd_error *error)
 {
     struct kd_plan plan;
     double now = kd_clock_ms();
@@ -269,7 +269,7 @@ enum kd_status kd_session_patch(struct kd_session *s, const char *text, size_t l
     /* the scene cannot change meanwhile, because only the HTTP thread patches it */
     pthread_mutex_unlock(&s->all->lock);
     enum kd_status status;
-    KD_TRY(kd_scene_patch(&scene, text, length, error));
+    KD_TRY(edit(&scene, to, error));
     KD_TRY(kd_scene_resolve(&scene, s->all->params.assets, error));
     KD_TRY(kd_scene_validate(&scene, error));
     KD_TRY(make_plan(s->all, &scene, &plan, error));

@@ -93,11 +93,12 @@ struct kd_session_state {
     } progress;
 };
 void kd_session_state(struct kd_session *session, struct kd_session_state *out);
-/* Merges a patch (RFC 7396) into the scene. On failure nothing changes. order: among patches that are sent at the same
- * time the one with the highest order wins. A patch with a lower order than an earlier one is ignored, which is not a
- * failure. 0: the patch has no order and is applied. */
-enum kd_status kd_session_patch(struct kd_session *session, const char *text, size_t length, uint64_t order,
-                                struct kd_session_state *out, struct kd_error *error);
+/* Changes the scene by `edit`, which receives what the caller gives as `to`. On failure nothing changes. order: among
+ * changes that are sent at the same time the one with the highest order wins. A change with a lower order than an
+ * earlier one is ignored, which is not a failure. 0: the change has no order and is made. */
+typedef enum kd_status kd_scene_edit(struct kd_scene *scene, const void *to, struct kd_error *error);
+enum kd_status kd_session_edit(struct kd_session *session, kd_scene_edit *edit, const void *to, uint64_t order,
+                               struct kd_session_state *out, struct kd_error *error);
 #define KD_SESSION_PATH_S 3600 /* limit of the length of a path, in s */
 /* Makes the session follow a path that path.c has checked, and takes over the path. A patch or kd_session_stop ends the
  * path; the scene stays as it is at that moment. */

@@ -1,0 +1,60 @@
+/* What the commands that render a scene share: their arguments, and the steps from these to an exit code. Main thread
+ * only.
+ *
+ *     struct arguments { struct kd_scene_command base; ... };    base comes first, and is initialised to 0
+ *
+ *     static enum kd_status run(struct kd_scene_command *base, struct kd_error *error)
+ *     {
+ *         enum kd_status status;
+ *         KD_TRY(kd_scene_command_load(base, error));
+ *         KD_TRY(kd_file_check(base->output, error));
+ *         KD_TRY(kd_scene_command_open(base, error));
+ *         KD_TRY(kd_scene_command_draw(base, &kd_format_png, error));
+ *         ...
+ *     done:
+ *         return status;
+ *     }
+ *
+ *     return kd_scene_command_run(&arguments.base, kd_cli_NAME_argp(), argc, argv, run); */
+#ifndef KD_CLI_SCENE_COMMAND_H
+#define KD_CLI_SCENE_COMMAND_H
+
+#include "base/buffer.h"
+#include "cli/scene_options.h"
+#include "render/output/format.h"
+#include "render/render.h"
+
+struct kd_scene_command {
+    struct kd_scene_options options;
+    const char *device, *output; /* output: NULL if -o is not given */
+    uint64_t memory;             /* 0: no --memory */
+    bool stats;
+    /* From here on, what the steps make; kd_scene_command_run frees it. */
+    struct kd_scene scene;
+    struct kd_assets assets;
+    struct kd_renderer *renderer;
+    struct kd_plan plan;
+    struct kd_frame frame;
+    struct kd_buffer file;
+    bool printed; /* a successful run ends with `file` on standard output */
+    double ms;    /* render time */
+};
+
+/* Parser of the arguments above, for a command with kd_scene_device_children. It takes -o, -t and --memory if the
+ * command's table has them; other keys are left to the command, which calls this parser for what it does not know. */
+error_t kd_scene_command_parse(int key, char *text, struct argp_state *state);
+
+enum kd_status kd_scene_command_load(struct kd_scene_command *command, struct kd_error *error);
+/* Opens the device. The command's assets must be read. */
+enum kd_status kd_scene_command_open(struct kd_scene_command *command, struct kd_error *error);
+/* Plans and renders the command's scene, like kd_cli_draw. */
+enum kd_status kd_scene_command_draw(struct kd_scene_command *command, const struct kd_format *format,
+                                     struct kd_error *error);
+/* The rendered picture of the command's scene. */
+struct kd_picture kd_scene_command_picture(const struct kd_scene_command *command);
+
+/* Parses the arguments, runs the command and reports its error. Returns the exit code. */
+int kd_scene_command_run(struct kd_scene_command *command, const struct argp *argp, int argc, char **argv,
+                         enum kd_status (*run)(struct kd_scene_command *command, struct kd_error *error));
+
+#endif
