@@ -262,7 +262,7 @@ class Refusals(daemon.Case):
         good = [{"spacetime.spin": i / 400} for i in range(300)]
         kinds = (
             ("a bad set behind good ones", ask("/v1/compare", "uvfits", sets=[*good, {"spacetime.spin": 2}])),
-            ("a set with a bad rule", ask("/v1/compare", "uvfits", sets=[*good, {"disk.outer": 2}])),
+            ("a set with a bad rule", ask("/v1/compare", "uvfits", sets=[*good, {"volume.outer": 2}])),
             ("a set that is a number", ask("/v1/compare", "csv", sets=[*good, 1])),
             ("sets and check", ask("/v1/compare", "csv", sets=good, check="finer")),
             ("sets and size", ask("/v1/compare", "csv", sets=[*good, {"size": 1}], solve=["size"])),
@@ -272,7 +272,7 @@ class Refusals(daemon.Case):
                 "a search that takes too long",
                 ask("/v1/compare", "uvfits", solve=["size", "position_angle"], pixels=2048),
             ),
-            ("light without a flux", ask("/v1/observe", "uvfits")),
+            ("light without a flux", ask("/v1/observe", "uvfits", preset="gas")),
             ("uvfits from a CSV", ask("/v1/observe", "csv", "application/x-uvfits", flux_jy=1)),
             ("a bad seed", ask("/v1/observe", "uvfits", seed=-1)),
         )

@@ -555,6 +555,8 @@ class Lensing(Browser):
             self.assertGreater(len(ticks), 200)
             self.assertAlmostEqual(nearest, isco + 1, delta=0.75)  # a tick and the dark edge of the gas
         self.shot(page, "charged-ticks")
+        self.open_groups(page)
+        self.there(page, "the charge allows less spin", "#film-spin-takes", text=True)
 
     def test_overlays_are_the_numbers_of_the_server(self):
         page = self.open(

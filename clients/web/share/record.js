@@ -256,7 +256,9 @@ export function recordScene(box, scene, size) {
     {
       name: 'spin',
       text: t('record.spin-0-0-998', 'Spin 0 → 0.998'),
-      lacks: () => null,
+      lacks: () =>
+        scene.get('spacetime.charge') ** 2 + 0.998 ** 2 >= 1 &&
+        t('record.the-charge-allows-less-spin', 'the charge allows less spin'),
       ...glide(scene, 'spacetime.spin', () => [0, 0.998]),
     },
   ];
