@@ -369,16 +369,6 @@ void kd_grids_stop(struct kd_grids *all)
     pthread_mutex_unlock(&all->lock);
 }
 
-uint64_t kd_grids_bytes(struct kd_grids *all)
-{
-    uint64_t sum = 0;
-    pthread_mutex_lock(&all->lock);
-    for (const struct kd_cached_grid *g = all->entries; g < all->entries + KD_GRIDS; g++)
-        sum += g->grid.nodes ? kd_matter_grid_bytes(&g->grid) : 0;
-    pthread_mutex_unlock(&all->lock);
-    return sum;
-}
-
 void kd_grids_rest(struct kd_grids *all)
 {
     pthread_mutex_lock(&all->lock);

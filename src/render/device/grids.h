@@ -45,7 +45,6 @@ void kd_grids_init(struct kd_grids *grids, const struct kd_assets *assets, void 
 bool kd_grid_begin(struct kd_grids *grids, const struct kd_scene *scene);
 /* Waits for the grid in progress and drops other requests: `made` is not called any more until a new request. */
 void kd_grids_stop(struct kd_grids *grids);
-uint64_t kd_grids_bytes(struct kd_grids *grids); /* bytes of the nodes that wait to be uploaded */
 /* Frees the nodes that wait to be uploaded, unless a grid is being read. */
 void kd_grids_rest(struct kd_grids *grids);
 void kd_grids_finish(struct kd_grids *grids);

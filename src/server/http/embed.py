@@ -20,7 +20,6 @@ TYPES = {
     ".mjs": "text/javascript; charset=utf-8",
     ".css": "text/css; charset=utf-8",
     ".json": "application/json; charset=utf-8",
-    ".csv": "text/csv; charset=utf-8",
     ".svg": "image/svg+xml",
     ".jpg": "image/jpeg",
     ".webm": "video/webm",
