@@ -116,8 +116,7 @@ SCENE = (
     "images of stars cannot be computed at this camera position, because a ray close to the critical curve does not escape",
     'accuracy.tolerance is %.3g; in the ring projection it must be "profile", because this device lacks the f64 that a tolerance needs',
     "volume.normalise_to_jy is %.9g Jy, but %s %.4g Jy; it must be 0, or a flux that this matter has at some density",
-    'volume.grid is "%s", whose file is missing; it must be %s',
-    'sky.image is "%s", whose file is missing; it must be %s',
+    '%s is "%s", whose file is missing; it must be %s',
 )
 # These refusals depend on the engine and its precision, and on the device or the table of its driver.
 ENGINE = (

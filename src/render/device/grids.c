@@ -21,17 +21,21 @@ static bool is_grid(const struct kd_scene *scene) { return scene->volume.model =
 
 static bool has_one(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid; }
 
-static enum kd_status read_asset(const struct kd_assets *assets, const char *hash, struct kd_matter_grid *out,
-                                 bool *invalid, struct kd_error *error)
+static enum kd_status make(void *owner, const struct kd_asset_request *request, bool *invalid, struct kd_error *error)
 {
+    static const struct kd_hole any = { 0 };
+    struct kd_grids *all = owner;
     struct kd_asset_bytes bytes;
     struct kd_error why = { 0 };
-    *invalid = false;
-    if (!assets || !assets->take(assets->user, hash, &bytes))
-        return kd_error_field(error, "/volume/grid", "volume.grid is \"%s\", whose file is missing; it must be %s",
-                              hash, assets ? assets->allowed : "null, because there are no assets");
-    enum kd_status status = kd_matter_grid_read(bytes.data, bytes.size, out, &why);
-    assets->give_back(assets->user, &bytes);
+    all->made = (struct kd_matter_grid) { 0 };
+    if (all->blank)
+        return kd_matter_grid_none(&any, &all->made, error);
+    enum kd_status status =
+        kd_asset_reader_take(all->assets, request->of, "/volume/grid", "volume.grid", &bytes, error);
+    if (status)
+        return status;
+    status = kd_matter_grid_read(bytes.data, bytes.size, &all->made, &why);
+    all->assets->give_back(all->assets->user, &bytes);
     *invalid = status == KD_EINVAL;
     if (*invalid)
         return kd_error_field(error, "/volume/grid", "volume.grid: %.400s", why.message);
@@ -44,20 +48,6 @@ static struct kd_cached_grid *cached(struct kd_grids *all, const char *hash)
         if (!strcmp(all->entries[i].of, hash))
             return &all->entries[i];
     return NULL;
-}
-
-static bool is_asked(const struct kd_grids *all, const char *hash)
-{
-    for (unsigned i = 0; i < all->n_asked; i++)
-        if (!strcmp(all->asked[i], hash))
-            return true;
-    return false;
-}
-
-/* The bytes of a hash never change, so an invalid file stays invalid. */
-static bool is_invalid(const struct kd_grids *all, const char *hash)
-{
-    return all->invalid && !strcmp(all->broken, hash);
 }
 
 /* Frees the nodes of the least recently used grids, so that at most n grids have nodes. */
@@ -87,106 +77,43 @@ static struct kd_cached_grid *slot_of(struct kd_grids *all, const char *hash)
     return oldest;
 }
 
-/* Reads the first requested grid. Called with the lock, which is released meanwhile. */
-static void read_first(struct kd_grids *all)
+static void make_room(void *owner) { free_nodes(owner, KD_GRIDS_READ - 1); }
+
+static void keep(void *owner, const struct kd_asset_request *request)
 {
-    static const struct kd_hole any = { 0 };
-    char hash[KD_ASSET_NAME];
-    struct kd_matter_grid grid = { 0 };
-    struct kd_error why = { 0 };
-    bool invalid = false;
-    memcpy(hash, all->asked[0], sizeof hash);
-    free_nodes(all, KD_GRIDS_READ - 1);
-    pthread_mutex_unlock(&all->lock);
-    const enum kd_status status =
-        all->blank ? kd_matter_grid_none(&any, &grid, &why) : read_asset(all->assets, hash, &grid, &invalid, &why);
-    pthread_mutex_lock(&all->lock);
-    if (status) {
-        memcpy(all->broken, hash, sizeof all->broken);
-        all->invalid = invalid;
-        all->why = why;
-    } else {
-        struct kd_cached_grid *slot = slot_of(all, hash);
-        kd_matter_grid_finish(&slot->grid);
-        memcpy(slot->of, hash, sizeof slot->of);
-        slot->grid = grid;
-        slot->used = ++all->used;
-    }
-    memmove(all->asked, all->asked + 1, --all->n_asked * sizeof *all->asked);
-    pthread_cond_broadcast(&all->changed);
+    struct kd_grids *all = owner;
+    struct kd_cached_grid *slot = slot_of(all, request->of);
+    kd_matter_grid_finish(&slot->grid);
+    memcpy(slot->of, request->of, sizeof slot->of);
+    slot->grid = all->made;
+    slot->used = ++all->used;
 }
 
-static void *run(void *user)
+static bool is_cached(void *owner, const struct kd_asset_request *request)
 {
-    struct kd_grids *all = user;
-    pthread_mutex_lock(&all->lock);
-    while (all->n_asked) {
-        read_first(all);
-        pthread_mutex_unlock(&all->lock);
-        if (all->made)
-            all->made(all->user);
-        pthread_mutex_lock(&all->lock);
-    }
-    all->runs = false;
-    pthread_cond_broadcast(&all->changed);
-    pthread_mutex_unlock(&all->lock);
-    return NULL;
+    const struct kd_cached_grid *at = cached(owner, request->of);
+    return at && (!request->whole || at->grid.nodes);
 }
 
-/* With the lock: requests a grid. Does nothing if no thread can be created. */
-static void ask(struct kd_grids *all, const char *hash)
-{
-    pthread_t thread;
-    if (is_asked(all, hash) || is_invalid(all, hash) || all->n_asked == KD_GRIDS_ASKED)
-        return;
-    snprintf(all->asked[all->n_asked++], KD_ASSET_NAME, "%s", hash);
-    if (all->runs)
-        return;
-    if (pthread_create(&thread, NULL, run, all)) {
-        all->n_asked--;
-        return;
-    }
-    pthread_detach(thread);
-    all->runs = true;
-}
+static const struct kd_asset_maker maker = { is_cached, make_room, make, keep, NULL };
 
-static bool is_ready(struct kd_grids *all, const char *hash, bool nodes)
+static struct kd_asset_request request_of(const char *hash, bool nodes)
 {
-    const struct kd_cached_grid *at = cached(all, hash);
-    return at && (!nodes || at->grid.nodes);
+    struct kd_asset_request request = { .whole = nodes };
+    snprintf(request.of, sizeof request.of, "%s", hash);
+    return request;
 }
 
 bool kd_grid_begin(struct kd_grids *all, const struct kd_scene *scene)
 {
-    const char *hash = scene->volume.grid;
     if (!has_one(scene))
         return false;
-    pthread_mutex_lock(&all->lock);
-    if (!is_ready(all, hash, strcmp(all->uploaded, hash) != 0))
-        ask(all, hash);
-    const bool in_progress = is_asked(all, hash);
-    pthread_mutex_unlock(&all->lock);
+    pthread_mutex_lock(&all->reader.lock);
+    const struct kd_asset_request request =
+        request_of(scene->volume.grid, strcmp(all->uploaded, scene->volume.grid) != 0);
+    const bool in_progress = kd_asset_reader_begin(&all->reader, &request);
+    pthread_mutex_unlock(&all->reader.lock);
     return in_progress;
-}
-
-/* With the lock: waits for a grid, or reads it here if there is no thread. Returns false if reading has failed. */
-static bool wait_for(struct kd_grids *all, const char *hash, bool nodes)
-{
-    if (!is_invalid(all, hash) && !strcmp(all->broken, hash)) /* other failures are tried again */
-        *all->broken = 0;
-    while (!is_ready(all, hash, nodes) && strcmp(all->broken, hash)) {
-        ask(all, hash);
-        if (is_asked(all, hash) || all->runs) {
-            pthread_cond_wait(&all->changed, &all->lock);
-            continue;
-        }
-        snprintf(all->asked[all->n_asked++], KD_ASSET_NAME, "%s", hash); /* no thread, so the list is empty */
-        all->runs = true;                                                /* this call runs in place of the thread */
-        while (all->n_asked)
-            read_first(all);
-        all->runs = false;
-    }
-    return is_ready(all, hash, nodes);
 }
 
 /* Copies the description of the scene's grid, and moves its nodes and places to *out if they are requested; the caller
@@ -194,48 +121,43 @@ static bool wait_for(struct kd_grids *all, const char *hash, bool nodes)
 static enum kd_status take_grid(struct kd_grids *all, const struct kd_scene *scene, bool nodes,
                                 struct kd_matter_grid *out, struct kd_error *error)
 {
-    const char *hash = scene->volume.grid;
-    struct kd_error why = { 0 };
-    if (!*hash)
+    const struct kd_asset_request request = request_of(scene->volume.grid, nodes);
+    if (!*request.of)
         return kd_matter_grid_none(kd_scene_hole(scene), out, error);
-    pthread_mutex_lock(&all->lock);
-    if (wait_for(all, hash, nodes)) {
-        struct kd_cached_grid *at = cached(all, hash);
+    pthread_mutex_lock(&all->reader.lock);
+    enum kd_status status = kd_asset_reader_wait(&all->reader, &request, error);
+    if (!status) {
+        struct kd_cached_grid *at = cached(all, request.of);
         at->used = ++all->used;
         *out = at->grid;
         if (nodes)
             at->grid.nodes = at->grid.places = NULL;
         else
             out->nodes = out->places = NULL;
-    } else {
-        why = all->why;
     }
-    const bool blank = all->blank;
-    pthread_mutex_unlock(&all->lock);
-    if (!why.status && !blank && kd_asset_check_grid(out->spin, scene, &why))
+    pthread_mutex_unlock(&all->reader.lock);
+    if (!status && !all->blank && (status = kd_asset_check_grid(out->spin, scene, error)))
         kd_matter_grid_finish(out);
-    if (why.status && error)
-        *error = why;
-    return why.status;
+    return status;
 }
 
 /* Notes that a grid is on the device, so that its nodes need not stay on the host. */
 static void note_uploaded(struct kd_grids *all, const char *hash)
 {
-    pthread_mutex_lock(&all->lock);
+    pthread_mutex_lock(&all->reader.lock);
     struct kd_cached_grid *at = *hash ? cached(all, hash) : NULL;
     if (at)
         kd_matter_grid_finish(&at->grid);
     snprintf(all->uploaded, sizeof all->uploaded, "%s", hash);
-    pthread_mutex_unlock(&all->lock);
+    pthread_mutex_unlock(&all->reader.lock);
 }
 
 static void note_gone(struct kd_grids *all, const char *hash)
 {
-    pthread_mutex_lock(&all->lock);
+    pthread_mutex_lock(&all->reader.lock);
     if (!strcmp(all->uploaded, hash))
         *all->uploaded = 0;
-    pthread_mutex_unlock(&all->lock);
+    pthread_mutex_unlock(&all->reader.lock);
 }
 
 static enum kd_status fits(const struct kd_vk *vk, bool texels, uint64_t bytes, struct kd_error *error)
@@ -355,35 +277,25 @@ static void begin(struct kd_renderer *r, const struct kd_scene *scene) { kd_grid
 
 void kd_grids_init(struct kd_grids *all, const struct kd_assets *assets, void (*made)(void *user), void *user)
 {
-    *all = (struct kd_grids) { .assets = assets, .made = made, .user = user };
-    pthread_mutex_init(&all->lock, NULL);
-    pthread_cond_init(&all->changed, NULL);
+    *all = (struct kd_grids) { .assets = assets };
+    kd_asset_reader_init(&all->reader, &maker, all, made, user);
 }
 
-void kd_grids_stop(struct kd_grids *all)
-{
-    pthread_mutex_lock(&all->lock);
-    all->n_asked = all->n_asked ? 1 : 0;
-    while (all->runs)
-        pthread_cond_wait(&all->changed, &all->lock);
-    pthread_mutex_unlock(&all->lock);
-}
+void kd_grids_stop(struct kd_grids *all) { kd_asset_reader_stop(&all->reader); }
 
 void kd_grids_rest(struct kd_grids *all)
 {
-    pthread_mutex_lock(&all->lock);
-    if (!all->runs && !all->n_asked)
+    pthread_mutex_lock(&all->reader.lock);
+    if (kd_asset_reader_is_idle(&all->reader))
         free_nodes(all, 0);
-    pthread_mutex_unlock(&all->lock);
+    pthread_mutex_unlock(&all->reader.lock);
 }
 
 void kd_grids_finish(struct kd_grids *all)
 {
-    kd_grids_stop(all);
+    kd_asset_reader_finish(&all->reader);
     for (int i = 0; i < KD_GRIDS; i++)
         kd_matter_grid_finish(&all->entries[i].grid);
-    pthread_cond_destroy(&all->changed);
-    pthread_mutex_destroy(&all->lock);
 }
 
 const struct kd_emitter_buffers kd_emitter_buffers_plasma = {

@@ -1,15 +1,13 @@
 /* Matter on a grid, on the host and on the device: reads volume.grid and uploads it when the asset has changed
- * (kd_emitter_buffers_plasma of render/emit/own.h). A thread reads the requested grids one after the other and ends
- * when there is no request, so that the thread with the device need not wait. The descriptions of recent grids stay,
- * without their nodes. Any thread, unless stated otherwise. */
+ * (kd_emitter_buffers_plasma of render/emit/own.h). A thread reads the grids (asset_reader.h). The descriptions of
+ * recent grids stay, without their nodes. Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_GRIDS_H
 #define KD_RENDER_DEVICE_GRIDS_H
 
 #include "base/error.h"
+#include "render/device/asset_reader.h"
 #include "render/emit/matter_grid.h"
 #include "scene/asset.h"
-
-#include <pthread.h>
 
 struct kd_cached_grid {
     char of[KD_ASSET_NAME];     /* the asset's hash; "": the slot is free */
@@ -17,25 +15,16 @@ struct kd_cached_grid {
     uint64_t used;              /* time of the last use, counted */
 };
 /* KD_GRIDS_READ: limit for grids whose nodes wait to be uploaded */
-enum { KD_GRIDS = 8, KD_GRIDS_READ = 2, KD_GRIDS_ASKED = 16 };
+enum { KD_GRIDS = 8, KD_GRIDS_READ = 2 };
 
 struct kd_grids {
-    pthread_mutex_t lock; /* guards everything below */
-    pthread_cond_t changed;
+    struct kd_asset_reader reader; /* its lock guards everything below */
     struct kd_cached_grid entries[KD_GRIDS];
+    struct kd_matter_grid made; /* by the reader's thread, which caches it */
     uint64_t used;
-    char asked[KD_GRIDS_ASKED][KD_ASSET_NAME]; /* the first one is being read */
-    unsigned n_asked;
-    bool runs;                    /* the thread is running */
-    char uploaded[KD_ASSET_NAME]; /* the grid that was last found on the device; "": none */
-    char broken[KD_ASSET_NAME];   /* the last grid that failed; "": none failed */
-    bool invalid;                 /* its file is no valid grid, so it is not read again */
-    struct kd_error why;
+    char uploaded[KD_ASSET_NAME];   /* the grid that was last found on the device; "": none */
     const struct kd_assets *assets; /* NULL: there are none */
-    bool blank;               /* reads no file and gives every grid few, empty nodes, for a device that only compiles */
-    void (*made)(void *user); /* called by the thread, without the lock, after each grid that was read or failed; may
-                                 be NULL */
-    void *user;
+    bool blank; /* reads no file and gives every grid few, empty nodes, for a device that only compiles */
 };
 void kd_grids_init(struct kd_grids *grids, const struct kd_assets *assets, void (*made)(void *user), void *user);
 

@@ -1,15 +1,13 @@
 /* Panoramas of the sky on the host: the procedural Milky Way, by its seed, or sky.image. The renderer caches the
- * last KD_PANORAMAS, up to 45 MB each. A thread makes them one after the other and ends when there is no request, so
- * that the thread with the device need not wait. The first Milky Way of a process is cached in a file for later ones
- * (render/sky/milky_way_file.h). Any thread, unless stated otherwise. */
+ * last KD_PANORAMAS, up to 45 MB each. A thread makes them (asset_reader.h). The first Milky Way of a process is cached
+ * in a file for later ones (render/sky/milky_way_file.h). Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_PANORAMAS_H
 #define KD_RENDER_DEVICE_PANORAMAS_H
 
 #include "base/error.h"
+#include "render/device/asset_reader.h"
 #include "render/sky/image.h"
 #include "scene/asset.h"
-
-#include <pthread.h>
 
 struct kd_panorama {
     char of[KD_ASSET_NAME];     /* the asset's hash, or "seed N"; "": the slot is free */
@@ -19,31 +17,18 @@ struct kd_panorama {
     uint64_t used;              /* time of the last use, counted */
     bool shown;                 /* the panorama was delivered to a request */
 };
-enum { KD_PANORAMAS = 3, KD_PANORAMAS_ASKED = 16 };
+enum { KD_PANORAMAS = 3 };
 
-/* A requested panorama: `of` as above, and its source. */
-struct kd_panorama_key {
-    char of[KD_ASSET_NAME];
-    struct kd_sky sky;
-    bool ahead; /* preloaded: nobody waits for it */
-};
 struct kd_panoramas {
-    pthread_mutex_t lock; /* guards everything below */
-    pthread_cond_t changed;
+    struct kd_asset_reader reader;               /* its lock guards everything below */
     struct kd_panorama at[KD_PANORAMAS], *given; /* given: the last result of kd_panorama_of, which is not evicted */
+    struct kd_panorama made;                     /* by the reader's thread, which caches it */
+    bool recalled;                               /* `made` was read from the file */
+    const struct kd_panorama *fresh;             /* a new Milky Way for the file, or NULL */
     uint64_t used;
-    struct kd_panorama_key asked[KD_PANORAMAS_ASKED]; /* the first one is in progress */
-    unsigned n_asked;
-    bool runs;                  /* the thread is running */
-    char broken[KD_ASSET_NAME]; /* the last panorama that failed; "": none failed */
-    bool invalid;               /* its picture is invalid, so it is not read again */
-    struct kd_error why;
     const struct kd_assets *assets; /* NULL: there are none */
     char *file; /* file for the first Milky Way, for later processes; NULL: none, or already written */
     bool blank; /* makes black panoramas of a Milky Way's size at no cost, for a device that only compiles */
-    void (*made)(void *user); /* called by the thread, without the lock, after each panorama that was made or failed;
-                                 may be NULL */
-    void *user;
 };
 void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *assets, void (*made)(void *user),
                        void *user);
