@@ -12,6 +12,9 @@ import unittest
 import daemon
 
 CLIENT = all(importlib.util.find_spec(name) for name in ("httpx", "numpy", "PIL"))
+with_client = unittest.skipUnless(
+    CLIENT, "the client's packages are not installed; scripts/setup --browser installs them"
+)
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURL = """#!/bin/bash
 exec {curl} --fail-with-body --silent --show-error "${{@//:8080/:{port}}}"
@@ -177,6 +180,7 @@ class Documents(unittest.TestCase):
     def test_xspec(self):
         self.run_all("docs/xspec.md", 1)
 
+    @with_client
     def test_importing(self):
         self.made("docs/importing.md", 1, "scene.json", "disk.png")
 
@@ -232,6 +236,7 @@ class Documents(unittest.TestCase):
     def test_polarization(self):
         self.run_all("docs/physics/polarization.md", 3)
 
+    @with_client
     def test_volume(self):
         self.run_all("docs/physics/volume.md", 3)
 
@@ -249,7 +254,7 @@ class Documents(unittest.TestCase):
         folder = pathlib.Path(self.folder.name)
         self.assertEqual(folder.joinpath("cube.npz").read_bytes(), folder.joinpath("same.npz").read_bytes())
 
-    @unittest.skipUnless(CLIENT, "the client's packages are not installed; scripts/setup --browser installs them")
+    @with_client
     def test_tutorial_picture(self):
         pictures = "hole.png", "above.png", "slow.png", *(f"spin-{spin}.png" for spin in ("0", "0.5", "0.9", "0.998"))
         self.made("docs/tutorials/picture.md", 5, *pictures)
