@@ -2683,6 +2683,8 @@ export interface Assets {
   /** at least 0. */
   bytes: number;
   limits: AssetLimits;
+  /** SHA-256 of the operator's photograph of the sky, for sky.image; null: there is none. */
+  sky: string | null;
   types: string[];
 }
 

@@ -156,6 +156,7 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
         .state = kd_settings_text(settings, KD_SERVE_STATE),
         .token_file = kd_settings_text(settings, KD_SERVE_TOKEN_FILE),
         .share_key = kd_settings_text(settings, KD_SERVE_SHARE_KEY),
+        .sky = kd_settings_text(settings, KD_SERVE_SKY),
         .reopenings = reopenings ? reopenings : UINT_MAX,
         .renderer = { .device = kd_settings_text(settings, KD_SERVE_DEVICE),
                       .prove = kd_first_start,

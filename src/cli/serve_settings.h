@@ -38,6 +38,9 @@
     S(EMBED_ORIGIN, "embed-origin", 'F', "ORIGIN", LIST, 0, 0, NULL, ANYWHERE, \
       "as --cors-origin, and let pages of this origin show the hole, by /embed in a frame or by the element " \
       "kerr-hole") \
+    GROUP("The page:") \
+    S(SKY, "sky", 'y', "FILE", TEXT, 0, 0, NULL, ANYWHERE, \
+      "photograph of the whole sky that the page offers by one click, a PNG file such as scripts/sky makes") \
     GROUP("Limits:") \
     S(QUEUE, "queue", 'q', "N", NUMBER, 1, 100000, "16", ANYWHERE, \
       "renders that may wait for the device (default 16)") \

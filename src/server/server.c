@@ -2,6 +2,7 @@
 
 #include "base/hash.h"
 #include "base/log.h"
+#include "server/asset/sky.h"
 #include "server/asset/store.h"
 #include "server/http/access.h"
 #include "server/http/link_budgets.h"
@@ -279,6 +280,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     /* opened after the jobs, because they lock the folder; before kd_jobs_begin, because jobs may use assets */
     if (params->state)
         KD_TRY(kd_asset_store_open(server->assets, params->state, error));
+    if (params->sky)
+        KD_TRY(kd_asset_sky_open(server->assets, params->sky, &server->sky, error));
     if (params->state && server->links)
         KD_TRY(kd_link_budgets_open(server->links, params->state, error));
     kd_jobs_begin(server->jobs);
@@ -362,6 +365,8 @@ void kd_server_destroy(struct kd_server *server)
     kd_sessions_destroy(server->sessions); /* destroyed after the queue, whose last frames refer to sessions */
     kd_lessons_destroy(server->lessons);
     kd_jobs_destroy(server->jobs);
+    if (server->sky)
+        kd_asset_release(server->assets, server->sky);
     kd_asset_store_close(server->assets);
     kd_connections_destroy(server->connections);
     kd_bytes_destroy(server->bodies);

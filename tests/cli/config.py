@@ -20,6 +20,7 @@ GOOD = {
     "host": ("a,b", ["a", "b"]),
     "token-file": ("/t", "/t"),
     "share-key": ("website", "website"),
+    "sky": ("/s.png", "/s.png"),
     "insecure": ("yes", True),
     "allow-cross-site": ("yes", True),
     "queue": ("3", 3),

@@ -9,6 +9,7 @@ import math
 import os
 import shutil
 import struct
+import subprocess
 import tempfile
 import threading
 import time
@@ -182,6 +183,7 @@ class Assets(Case):
     def test_what_there_is(self):
         told = lambda: self.daemon.get(ASSETS).json()
         before = told()
+        self.assertIsNone(before["sky"])
         self.assertEqual(before["types"], ["image/png", "application/x-npz", "application/x-uvfits", "text/csv"])
         self.assertEqual(
             before["limits"], {"assets": 64, "bytes": 256 << 20, "asset_bytes": 32 << 20, "asset_pixels": 1 << 28}
@@ -408,6 +410,55 @@ class Shares(Case):
             while more := s.recv(65536):
                 got += more
             return got
+
+
+class Sky(Case):
+    """The operator's photograph of the sky (--sky)."""
+
+    def serve(self, data, *options):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        path = os.path.join(folder.name, "sky.png")
+        if data is not None:
+            with open(path, "wb") as file:
+                file.write(data)
+        return path, ["--drain-ms", 10, "--sky", path, *options]
+
+    def test_it_is_announced_and_stays(self):
+        sky = png(64, 32)
+        _, options = self.serve(sky, "--assets", 2, "--asset-keep-s", 1)
+        server = daemon.Daemon(*options)
+        self.addCleanup(server.process.kill)
+        told = server.get(ASSETS).json()
+        self.assertEqual((told["sky"], told["assets"]), (hashlib.sha256(sky).hexdigest(), 1))
+        self.assertEqual(server.get(f"{ASSETS}/{told['sky']}").body, sky)
+        scene = {"image": {"width": 32, "height": 18}, "sky": {"model": "image", "image": told["sky"]}}
+        self.assertEqual(server.post("/v1/render", scene).status, 200)
+        again = self.put(sky, server=server)
+        self.assertEqual((again.status, "token" in again.json()), (200, False), "nobody can delete it")
+        # Others are evicted for new ones a second after their last use, and the photograph is not.
+        for seed in range(3):
+            self.assertTrue(daemon.eventually(lambda seed=seed: self.put(png(seed=seed), server=server).status == 201))
+        self.assertEqual(server.get(ASSETS).json()["sky"], told["sky"])
+        self.assertEqual(server.get(f"{ASSETS}/{told['sky']}").status, 200)
+        self.assertEqual(server.stop(), 0)
+
+    def test_what_is_no_photograph_of_the_sky(self):
+        for data, words in (
+            (None, "which cannot be read: No such file or directory"),
+            (png(64, 33), "it must be a PNG picture of the whole sky, twice as wide as high, with 16 to 4096 rows"),
+            (grid(0.5), "it must be a PNG picture of the whole sky"),
+            (b"a text", "PNG"),
+            (b"", "PNG"),
+        ):
+            path, options = self.serve(data)
+            done = subprocess.run(
+                [*daemon.COMMAND, "--port", "0", *map(str, options)], capture_output=True, text=True, timeout=60
+            )
+            self.assertEqual(done.stderr.count("\n"), 1, done)
+            self.assertIn(f"--sky is {path}", done.stderr)
+            self.assertIn(words, done.stderr)
+            self.assertTrue(done.returncode)
 
 
 class State(Case):

@@ -1,6 +1,6 @@
 /* The HTTP service in front of the linked renderer: fake_server [--NAME VALUE]... with the numbers of struct
  * kd_server_params by name, --listen, --public-url, --host and --cors-origin (once each), --token-file,
- * --share-key and --device. */
+ * --share-key, --sky and --device. */
 #include "base/log.h"
 #include "server/server.h"
 
@@ -61,6 +61,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
         return params->token_file = value, 1;
     if (!strcmp(name, "--share-key"))
         return params->share_key = value, 1;
+    if (!strcmp(name, "--sky"))
+        return params->sky = value, 1;
     if (!strcmp(name, "--state"))
         return params->state = value, 1;
     if (!strcmp(name, "--log-format"))

@@ -43,7 +43,9 @@ def main():
     for name in ("largest-contentful-paint", "cumulative-layout-shift"):
         print(f"{name} {report['audits'][name]['displayValue']}")
     for name, audit in report["audits"].items():
-        if audit["score"] == 0 and any(ref["id"] == name for c in LEAST for ref in report["categories"][c]["auditRefs"]):
+        if audit["score"] == 0 and any(
+            ref["id"] == name for c in LEAST for ref in report["categories"][c]["auditRefs"]
+        ):
             print(f"failed: {audit['title']}")
     return server.stop() or any(scores[name] < least for name, least in LEAST.items())
 

@@ -1,9 +1,12 @@
 """Tests of a panorama of the sky that the page prepares: panorama.py KERRD FOLDER (browser.py)."""
 
 import base64
+import hashlib
+import tempfile
 
 from browser import AT_REST, Browser, main
 
+import assets
 import daemon
 
 # A grey sky with a red spot at right ascension and declination, or at galactic longitude and latitude; as a data URL.
@@ -61,7 +64,6 @@ class Panorama(Browser):
         jpeg = base64.b64decode(page.evaluate(PAINT, [266.4, -28.9, "image/jpeg", 512, 256]).split(",")[1])
         self.open_groups(page)
         row = page.locator('[data-path="sky.image"]')
-        self.assertIn("scripts/sky fetches a photograph of the whole sky.", row.inner_text())
         row.get_by_label("in equatorial coordinates (RA, Dec)").check()
         row.locator("input[type=file]").set_input_files(
             files=[{"name": "sky.jpg", "mimeType": "image/jpeg", "buffer": jpeg}]
@@ -78,6 +80,16 @@ class Panorama(Browser):
         row.scroll_into_view_if_needed()
         self.shot(page, "panorama")
 
+    def test_where_the_operator_has_no_photograph(self):
+        page = self.open("lang=en&preset=milky-way&pause=1")
+        self.open_groups(page)
+        row = page.locator('[data-path="sky.image"]')
+        row.get_by_role("button", name="A photograph of the sky").click()
+        self.assertTrue(
+            daemon.eventually(lambda: "scripts/sky gaia && scripts/serve --sky sky-gaia.png" in row.inner_text())
+        )
+        self.assertEqual(row.locator("output").inner_text(), "")
+
     def test_a_wrong_shape_is_refused(self):
         page = self.open("lang=it&preset=milky-way&pause=1")
         jpeg = base64.b64decode(page.evaluate(PAINT, [0, 0, "image/jpeg", 300, 300]).split(",")[1])
@@ -91,6 +103,29 @@ class Panorama(Browser):
                 files=[{"name": name, "mimeType": "image/jpeg", "buffer": buffer}]
             )
             self.assertTrue(daemon.eventually(lambda: words in row.inner_text()), row.inner_text())
+
+
+class Photograph(Browser):
+    """The server has a photograph of the sky."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.sky = assets.png(512, 256)
+        with tempfile.NamedTemporaryFile(suffix=".png") as file:
+            file.write(cls.sky)
+            file.flush()
+            super().setUpClass("--sky", file.name)
+
+    def test_one_click_takes_it(self):
+        page = self.open("lang=en&preset=milky-way&pause=1")
+        self.open_groups(page)
+        row = page.locator('[data-path="sky.image"]')
+        row.get_by_role("button", name="A photograph of the sky").click()
+        digest = hashlib.sha256(self.sky).hexdigest()
+        self.assertTrue(daemon.eventually(lambda: f"SHA-256 {digest[:8]}" in row.inner_text()))
+        self.linked(page, f"sky.image={digest}")
+        page.wait_for_selector(AT_REST)
+        self.shot(page, "photograph")
 
 
 if __name__ == "__main__":

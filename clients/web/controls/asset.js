@@ -23,25 +23,29 @@ export function assetRow(field, scene, id, hint) {
     onchange: choose,
   });
 
-  // For a picture of the sky: its coordinates, and where to get one.
+  // For a picture of the sky: the operator's photograph, or how to get one, and the coordinates of a file.
   const turned = el('input', { type: 'checkbox', id: id + '-equatorial', onchange: again }),
     about = el(
       'p',
-      { class: 'help' },
-      t('asset.png-or-jpeg', 'PNG or JPEG. '),
-      el('code', {}, 'scripts/sky'),
-      t('asset.fetches-a-photograph-of', ' fetches a photograph of the whole sky.'),
+      { class: 'help', hidden: true },
+      t('asset.no-photograph', 'This server has no photograph. A new start with one: '),
+      el('code', {}, 'scripts/sky gaia && scripts/serve --sky sky-gaia.png'),
     ),
     more = grid
       ? []
       : [
+          el(
+            'button',
+            { type: 'button', class: 'photograph', onclick: photograph },
+            t('asset.photograph', 'A photograph of the sky'),
+          ),
+          about,
           el(
             'label',
             { class: 'special' },
             turned,
             t('asset.in-equatorial-coordinates-ra', 'in equatorial coordinates (RA, Dec)'),
           ),
-          about,
         ];
 
   function choose() {
@@ -52,6 +56,18 @@ export function assetRow(field, scene, id, hint) {
   // The box may be changed after the file was chosen.
   function again() {
     if (taken && taken.hash === scene.get(field.path)) take(taken.chosen);
+  }
+
+  async function photograph() {
+    fault.hidden = true;
+    try {
+      const { sky } = await (await ask('v1/assets')).json();
+      about.hidden = !!sky;
+      if (sky) scene.change({ [field.path]: sky });
+    } catch (error) {
+      tell(fault, error.message);
+      fault.hidden = false;
+    }
   }
 
   const take = latest(async chosen => {

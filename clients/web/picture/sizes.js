@@ -3,7 +3,7 @@ import { atFirstTouch, byId } from '../base/dom.js';
 import * as link from '../base/link.js';
 
 const most = { width: 3840, height: 2160 }; // pixels at rest; in a larger window the picture is scaled up
-const drag_px = 1600; // a wider window keeps in motion a share of this width
+const drag_px = 1600; // after the first touch, a wider window keeps in motion a share of this width
 const least_part = 0.25; // the server's limit
 // limit of a frame's time: if half the width takes longer, Auto keeps less after the first touch
 const max_frame_ms = 100;
@@ -50,9 +50,8 @@ export function kept() {
   const part = parts[pace()],
     here = sizeOf(byId('stage'));
   if (part == null) return 'min_scale=1';
-  const least = Number(
-    Math.min(Math.max((part * Math.min(1, drag_px / here.width)) / ratio(here), least_part), 1).toFixed(3),
-  );
+  const share = landing ? part : part * Math.min(1, drag_px / here.width),
+    least = Number(Math.min(Math.max(share / ratio(here), least_part), 1).toFixed(3));
   return (
     `min_scale=${least}` + (pace() === 'auto' && !landing && least > least_part ? `&max_frame_ms=${max_frame_ms}` : '')
   );

@@ -184,8 +184,22 @@ static enum MHD_Result put(struct kd_request *request)
     return p ? kd_task_submit(&p->task) : refused;
 }
 
-/* Answers with the number and size of assets and the limits. It does not list hashes, because everybody who knows a
- * hash may download the asset. */
+/* Writes the hash of the operator's photograph of the sky, or null if there is none. It has been removed if a client
+ * has uploaded the same file before, and has deleted it. */
+static void write_sky(struct kd_json *json, const struct kd_server *server)
+{
+    const char *hash = server->sky ? kd_asset_about(server->sky)->hash : NULL;
+    struct kd_asset *sky = hash ? kd_asset_store_find(server->assets, hash) : NULL;
+    if (sky)
+        kd_json_string(json, "sky", hash);
+    else
+        kd_json_null(json, "sky");
+    if (sky)
+        kd_asset_release(server->assets, sky);
+}
+
+/* Answers with the number and size of assets and the limits. It lists no hash of a client's asset, because everybody
+ * who knows a hash may download the asset. */
 enum MHD_Result kd_handle_assets(struct kd_request *request)
 {
     if (!strcmp(request->method, "PUT"))
@@ -205,6 +219,7 @@ enum MHD_Result kd_handle_assets(struct kd_request *request)
     kd_json_number(&json, "asset_bytes", (double)KD_ASSET_BYTES);
     kd_json_number(&json, "asset_pixels", (double)KD_ASSET_PIXELS);
     kd_json_end(&json);
+    write_sky(&json, request->server);
     kd_json_array(&json, "types");
     kd_json_string(&json, NULL, KD_PNG_TYPE);
     kd_json_string(&json, NULL, KD_NPZ_TYPE);

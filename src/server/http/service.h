@@ -89,6 +89,7 @@ struct kd_server {
     struct kd_job_whole *cubes; /* cubes being downloaded (job/archive.c); HTTP thread only */
     struct kd_request *once;    /* requests under way that have an Idempotency-Key; HTTP thread only */
     struct kd_asset_store *assets;
+    struct kd_asset *sky; /* the operator's photograph of the sky; NULL: none */
     struct kd_cached_documents *documents;
     struct kd_thumbnails *thumbnails;
     char etag_tail[20]; /* part of a picture's ETag besides the scene: version and device */

@@ -47,6 +47,9 @@ void kd_openapi_asset_schema(struct kd_json *json)
         { "assets", KD_SCHEMA_COUNT },
         { "bytes", KD_SCHEMA_COUNT },
         { "limits", KD_SCHEMA_REF("AssetLimits") },
+        { "sky",
+          "{\"type\":[\"string\",\"null\"],\"pattern\":\"^[0-9a-f]{64}$\","
+          "\"description\":\"SHA-256 of the operator's photograph of the sky, for sky.image; null: there is none\"}" },
         { "types", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) },
     };
     KD_OPENAPI_STRICT(json, "Asset", asset);
