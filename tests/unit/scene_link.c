@@ -225,6 +225,9 @@ static void a_preview_is_as_high(void **state)
     assert_int_equal(scene.image.width, 1200);
     assert_int_equal(scene.image.samples, 2);
     assert_int_equal(scene.camera.stereo, KD_STEREO_NONE);
+    scene.jets.brightness = 1;
+    kd_scene_link_preview(&scene, 1200, 630);
+    assert_int_equal(scene.image.samples, 1);
 }
 
 int main(void)
