@@ -16,7 +16,17 @@ import fairness
 import measure
 
 SOURCE = "127.0.0.2"
-PRESETS = ["living-disk", "gas-stars", "gargantua", "gargantua-gas", "milky-way", "jet", "m87", "polarised-ring", "infall"]
+PRESETS = [
+    "living-disk",
+    "gas-stars",
+    "gargantua",
+    "gargantua-gas",
+    "milky-way",
+    "jet",
+    "m87",
+    "polarised-ring",
+    "infall",
+]
 
 
 def preview(server, query):

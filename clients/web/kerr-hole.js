@@ -1,6 +1,6 @@
 // <kerr-hole preset spin inclination interactive>: a black hole in any page, rendered by a kerrd server whose
-// --embed-origin names that page's origin. It begins as a picture. With `interactive`, a button makes it live; then it
-// can be dragged, or moved by arrow keys. This file imports no other one.
+// --embed-origin names that page's origin. It begins as a picture. With `interactive`, a button makes it live; then a
+// drag or keys move it. This file imports no other one.
 //
 //   preset, spin, inclination   what is shown; scene: more fields, in the form of a link after its #
 //   interactive                 whether it can be moved
@@ -15,6 +15,7 @@ const idle_ms = 60000; // a live hole becomes a picture again after this time wi
 const retry_ms = 3000;
 const degrees_per_width = 180; // by which a drag across the element turns the camera
 const key_deg = 5;
+const key_zoom = 1.1;
 // fraction of the width: before the first touch, smaller live pictures do not replace the still one
 const least_part = 0.5;
 const widest = 960; // largest width of a live picture, pixels
@@ -23,19 +24,19 @@ const words = {
   en: {
     move: 'Move it',
     hole: 'A black hole',
-    how: 'A black hole: arrow keys go round it, Escape ends',
+    how: 'A black hole: arrow keys go round it, + and − zoom, Escape ends',
     wrong: 'The server does not answer',
   },
   it: {
     move: 'Muovilo',
     hole: 'Un buco nero',
-    how: 'Un buco nero: le frecce girano attorno, Esc termina',
+    how: 'Un buco nero: le frecce girano attorno, + e − zoom, Esc termina',
     wrong: 'Il server non risponde',
   },
   de: {
     move: 'Bewege es',
     hole: 'Ein Schwarzes Loch',
-    how: 'Ein Schwarzes Loch: Pfeiltasten kreisen darum, Escape beendet',
+    how: 'Ein Schwarzes Loch: Pfeiltasten kreisen darum, + und − zoomen, Escape beendet',
     wrong: 'Der Server antwortet nicht',
   },
 };
@@ -337,6 +338,22 @@ class KerrHole extends HTMLElement {
     const { camera } = this.#session;
     camera.azimuth_deg = ((((camera.azimuth_deg + azimuth + 180) % 360) + 360) % 360) - 180;
     camera.inclination_deg = clamp(1, camera.inclination_deg + inclination, 179);
+    this.#moved();
+  }
+
+  #zoom(by) {
+    const { camera, scene } = this.#session,
+      { r, field_uas } = scene.camera,
+      name = r !== 'infinity' ? 'fov_deg' : field_uas > 0 ? 'field_uas' : 'field_m';
+    camera[name] = clamp(1, (camera[name] ?? scene.camera[name]) * by, name === 'fov_deg' ? 150 : 1e4);
+    this.#moved();
+  }
+
+  #moved() {
+    this.#parts.stage.setAttribute(
+      'aria-label',
+      `${this.#words.how}. ${Math.round(this.#session.camera.inclination_deg)}°`,
+    );
     this.#send(this.#session);
   }
 
@@ -371,9 +388,11 @@ class KerrHole extends HTMLElement {
   }
 
   #key(event) {
-    const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
+    const turns = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key],
+      zoom = { '+': 1 / key_zoom, '=': 1 / key_zoom, '-': key_zoom }[event.key];
     if (event.key === 'Escape') this.#end(), this.#parts.button.focus();
     else if (turns) this.#move(...turns.map(n => n * key_deg));
+    else if (zoom && !event.ctrlKey && !event.metaKey) this.#zoom(zoom);
     else return;
     event.preventDefault();
   }

@@ -119,6 +119,14 @@ class Listed(Embed):
         self.assertEqual(self.sessions(), 1)
         page.keyboard.press("ArrowUp")
         self.assertTrue(daemon.eventually(lambda: self.canvas(page) != before))
+        patches = []
+        page.on("request", lambda r: patches.append(r.post_data_json) if r.method == "PATCH" else None)
+        page.keyboard.press("+")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or patches))
+        camera = patches[-1]["camera"]
+        self.assertAlmostEqual(camera["field_m"], 46 / 1.1, 6)
+        self.assertEqual(camera["inclination_deg"], 65)
+        self.assertRegex(page.get_by_role("application").get_attribute("aria-label"), r"\+ and − zoom.* 65°$")
         box = page.locator("kerr-hole").bounding_box()
         before = self.canvas(page)
         page.mouse.move(box["x"] + 100, box["y"] + 50)

@@ -13,8 +13,8 @@ static enum kd_status put(struct kd_asset_store *store, const struct kd_buffer *
 {
     struct kd_asset_put put;
     enum kd_asset_progress how = KD_ASSET_MORE;
-    enum kd_status status = kd_asset_put_begin(&put, store, file->data ? file->data : (const uint8_t *)"", file->size,
-                                               "--sky", error);
+    enum kd_status status =
+        kd_asset_put_begin(&put, store, file->data ? file->data : (const uint8_t *)"", file->size, "--sky", error);
     while (!status && how != KD_ASSET_OVER)
         status = kd_asset_put_go_on(&put, INFINITY, &how, error);
     kd_asset_put_finish(&put);
