@@ -968,7 +968,7 @@ class Integrals(daemon.Case):
     def test_refused(self):
         for document, pointer, words in (
             ({"spin": 1}, "/spin", "spin is 1; it must be a number above -1 and below 1"),
-            ({"inclination_deg": 90}, "/inclination_deg", "edge on"),
+            ({"inclination_deg": 90}, "/inclination_deg", "edge on, where the lower face of a thin disk adds"),
             ({"inner": 3}, "/inner", "within the ISCO"),
             ({"inner": "horizon"}, "/inner", '"isco"'),
             ({"outer": 2}, "/outer", "larger than inner"),
