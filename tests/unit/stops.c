@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-enum { STOPS = 8, WHOLE = 3, AFTER = 40 }; /* AFTER: largest number of pauses that follow an interruption */
+enum { STOPS = 6, WHOLE = 3, AFTER = 40 }; /* AFTER: largest number of pauses that follow an interruption */
 #define APART 1e-9                         /* difference between two spins */
 
 static unsigned long calls, stops_at; /* stops_at: 0: never */
