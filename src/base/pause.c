@@ -1,3 +1,3 @@
 #include "base/pause.h"
 
-_Thread_local void (*kd_pause_hook)(void);
+_Thread_local bool (*kd_pause_hook)(void);

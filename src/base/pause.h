@@ -1,25 +1,22 @@
 /* Preemption points in long computations. A function that may compute for longer than some milliseconds calls kd_pause
  * every few thousand operations. On a thread that serves several requests (server/http/task_scheduler.h) kd_pause lets
  * others run first; everywhere else it does nothing. The caller must not hold a lock that others may need in the
- * meantime. Any thread. */
+ * meantime. Any thread.
+ *
+ * kd_pause returns true if nobody waits for the result any more. It then returns true to the end of the request. A loop
+ * that gets true ends. What it has computed is incomplete: it must not be kept for other requests, and the function
+ * that returns a status returns KD_ECANCELLED. */
 #ifndef KD_BASE_PAUSE_H
 #define KD_BASE_PAUSE_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
-extern _Thread_local void (*kd_pause_hook)(void); /* NULL: this thread does not serve several requests */
+extern _Thread_local bool (*kd_pause_hook)(void); /* NULL: this thread does not serve several requests */
 
-static inline void kd_pause(void)
-{
-    if (kd_pause_hook)
-        kd_pause_hook();
-}
+static inline bool kd_pause(void) { return kd_pause_hook && kd_pause_hook(); }
 
 /* Pauses in a loop, whenever i is a multiple of n. */
-static inline void kd_pause_every(uint64_t i, uint64_t n)
-{
-    if (i % n == 0)
-        kd_pause();
-}
+static inline bool kd_pause_every(uint64_t i, uint64_t n) { return i % n == 0 && kd_pause(); }
 
 #endif

@@ -26,9 +26,11 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
     if (status)
         return status;
     if (fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
-        return kd_error_field(error, "/inclination_deg",
-                              "inclination_deg is %.9g, too close to edge on; it must be 0 to 87 or 93 to 180",
-                              r->inclination_deg);
+        return kd_error_field(
+            error, "/inclination_deg",
+            "inclination_deg is %.9g, too close to edge on, where the lower face of a thin disk adds to its "
+            "light (3 %% at 89 degrees) and its image has no table; it must be 0 to 87 or 93 to 180",
+            r->inclination_deg);
     if (isnan(r->inner))
         r->inner = isco;
     if (r->inner < isco * (1 - 1e-9))

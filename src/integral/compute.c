@@ -445,7 +445,8 @@ static enum kd_status one_ring(const struct kd_integral_request *r, const struct
                               "inclination must be further from face on and edge on",
                               r->radii.at[at]);
     for (size_t k = 0; k < r->g_stars; k++) {
-        kd_pause_every(k, 16);
+        if (kd_pause_every(k, 16))
+            return KD_ECANCELLED;
         double g_star = r->g_star.at[k];
         struct kd_transfer side[2];
         if (!kd_transfer_at(image, &ring, g_star, side))
@@ -573,6 +574,9 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
     KD_TRY(compute[request->what](request, image, answer, error));
 done:
     free(image);
+    if (kd_pause()) /* what was computed is incomplete, whatever its status */
+        status =
+            kd_error_set(error, KD_ECANCELLED, "nobody waits for the %s any more", kd_integral_name(request->what));
     if (status)
         kd_integral_answer_finish(answer);
     return status;

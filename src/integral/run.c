@@ -70,7 +70,8 @@ static enum kd_status begin_model(struct kd_integral_run *run, struct kd_error *
     if (r->scattering)
         kd_scattering_sgra(&scattering, r->observation->frequency_hz);
     for (size_t i = 0; r->scattering && i < r->u.n; i++) {
-        kd_pause_every(i, 32);
+        if (kd_pause_every(i, 32))
+            return kd_error_set(error, KD_ECANCELLED, "nobody waits for the visibilities any more");
         run->scattering[i] = kd_scattering_at(&scattering, r->u.at[i] * 1e9, r->v.at[i] * 1e9);
     }
     return KD_OK;
@@ -264,8 +265,7 @@ static void model_at(struct kd_integral_run *run, size_t i, double size, double 
 static void model(void *user, double size, double angle_deg, double (*out)[2])
 {
     struct kd_integral_run *run = user;
-    for (size_t i = 0; i < run->answer.request->u.n; i++) {
-        kd_pause();
+    for (size_t i = 0; i < run->answer.request->u.n && !kd_pause(); i++) {
         model_at(run, i, size, angle_deg, out[i]);
     }
 }

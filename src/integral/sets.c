@@ -159,7 +159,8 @@ enum kd_status kd_integral_make_sets(struct kd_integral_request *r, struct kd_er
         memset(set, 0, sizeof *set);
         memcpy(&set->scene, r->scene, sizeof set->scene);
         set->flux_jy = NAN, set->size = 1, set->row = (uint32_t)s->n;
-        kd_pause_every(s->n, 16);
+        if (kd_pause_every(s->n, 16))
+            return kd_error_set(error, KD_ECANCELLED, "nobody waits for the sets any more");
         status = make_set(r, item, set, error);
         if (status == KD_EINVAL) {
             struct kd_error inner = error ? *error : (struct kd_error) { 0 };

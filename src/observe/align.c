@@ -71,7 +71,8 @@ static void fill_cells(const struct search *s, double cell, int cells)
         const double *m = s->model[row->at[0]], weight = 1 / (row->error * row->error), im = row[1].data,
                      real = (row->data * m[0] + im * m[1]) * weight, cross = (row->data * m[1] - im * m[0]) * weight,
                      turn = 2 * M_PI * at->u * cell, c = cos(turn), d = sin(turn);
-        kd_pause();
+        if (kd_pause())
+            return;
         for (int j = -cells; j <= cells; j++) {
             const double start = 2 * M_PI * cell * (at->v * j - at->u * cells);
             double x = real * cos(start) - cross * sin(start), y = real * sin(start) + cross * cos(start);
@@ -171,7 +172,8 @@ static bool refine(struct search *s, const struct kd_align_vertex *from, const i
         if (v[n].value - v[0].value <= SPREAD * (1 + fabs(v[0].value)) && fabs(v[n].at[0] - v[0].at[0]) < 1e-5 &&
             fabs(v[n].at[1] - v[0].at[1]) < 1e-3)
             return true;
-        kd_pause();
+        if (kd_pause())
+            return false;
         const struct kd_align_vertex mirrored = on_line(s, v, n, -1);
         if (mirrored.value < v[0].value) {
             const struct kd_align_vertex further = on_line(s, v, n, -2);
@@ -202,7 +204,8 @@ static void search_grid(struct search *s, struct kd_align_vertex *grid, int size
             v->at[0] = sizes > 1 ? log(KD_ALIGN_LEAST_SIZE) + i * step[0] : 0;
             v->at[1] = j * step[1];
             v->value = try_at(s, v->at);
-            kd_pause();
+            if (kd_pause())
+                return;
         }
 }
 

@@ -72,7 +72,8 @@ static void fill_file(const struct kd_simulation *s, const struct groups *g, con
         struct kd_measured read = { 0 };
         uint8_t *data = first + m->source * size;
         const double here[2] = { model[i][0], m->turned ? -model[i][1] : model[i][1] };
-        kd_pause_every(i, 256);
+        if (kd_pause_every(i, 256))
+            return;
         fill_group(s, g, m->source, data, here);
         kd_uvfits_light(g, data, &read);
         out[i][0] = read.re, out[i][1] = m->turned ? -read.im : read.im;
@@ -88,7 +89,8 @@ static void empty_others(const struct kd_simulation *s, const struct groups *g)
     for (size_t i = 0; i < o->n; i++)
         s->marks[o->at[i].source / 8] |= (uint8_t)(1u << o->at[i].source % 8);
     for (size_t i = 0; i < g->n; i++) {
-        kd_pause_every(i, 256);
+        if (kd_pause_every(i, 256))
+            return;
         if (!(s->marks[i / 8] & 1u << i % 8))
             fill_group(s, g, i, s->file + g->hdu.begin + g->parameters * g->bytes + i * size, NULL);
     }
@@ -127,7 +129,7 @@ enum kd_status kd_observation_write_csv(const struct kd_observation *o, const do
     for (size_t i = 0; i < o->n; i++) {
         const struct kd_measured *m = &o->at[i];
         const double *v = visibility[i];
-        kd_pause_every(i, 256);
+        KD_TRY(kd_pause_every(i, 256) ? KD_ECANCELLED : KD_OK);
         KD_TRY(kd_buffer_printf(out, "%.10f,%s,%s,%.4f,%.4f,%.12g,%.10f,%.12g\n", m->hour, o->station[m->station[0]],
                                 o->station[m->station[1]], m->u, m->v, hypot(v[0], v[1]),
                                 atan2(v[1], v[0]) * (180 / M_PI), m->sigma));

@@ -471,12 +471,43 @@ class Long(daemon.Case):
         self.assertEqual((found[0].status, len(found[0].json()["values"]["g"])), (200, 500))
 
 
+# integrals that take seconds of a core
+ENDLESS = {
+    "line": {"emissivity": "slab", "corona_radius": 10, "height": 1, "corona_top": 8, "spin": 0.91},
+    "impulse": {"emissivity": "ring", "corona_radius": 20, "height": 1.1, "spin": 0.92, "bins": 200, "times": 100},
+    "lags": {"emissivity": "ring", "corona_radius": 20, "height": 1.1, "bins": 20, "frequencies": 200},
+}
+
+
 class Limits(daemon.Case):
     options = ("--longest-s", 1)
 
     def test_a_quantity_may_take_so_long(self):
         problem = self.assertProblem(self.daemon.get("/v1/physics/" + LONG[0]), 422, "too-large")
         self.assertIn("1 s", problem["detail"])
+
+    def test_an_integral_may_take_so_long(self):
+        for name, document in ENDLESS.items():
+            problem = self.assertProblem(self.daemon.post("/v1/" + name, document), 422, "too-large")
+            self.assertIn("the time limit of this server, 1 s", problem["detail"])
+            self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_turns_unfinished"] == 0, 20))
+
+    def test_an_integral_ends_with_its_client(self):
+        other = daemon.Daemon()  # with a long time limit
+        for name, document in ENDLESS.items():
+            with self.subTest(name):
+                body = json.dumps(document).encode()
+                s = other.connect()
+                s.sendall(
+                    b"POST /v1/%s HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\n"
+                    b"Content-Length: %d\r\n\r\n" % (name.encode(), len(body)) + body
+                )
+                other.reaches("turns_unfinished", 1)
+                daemon.vanish(s)
+                self.assertTrue(daemon.eventually(lambda: other.metrics()["kerrd_turns_unfinished"] == 0))
+        # Each whole would take several seconds of a core (test_an_integral_may_take_so_long).
+        self.assertLess(other.processor_s(), 1.5 * len(ENDLESS))
+        self.assertEqual(other.stop(), 0)
 
 
 class Integrals(daemon.Case):
@@ -937,7 +968,7 @@ class Integrals(daemon.Case):
     def test_refused(self):
         for document, pointer, words in (
             ({"spin": 1}, "/spin", "spin is 1; it must be a number above -1 and below 1"),
-            ({"inclination_deg": 90}, "/inclination_deg", "edge on"),
+            ({"inclination_deg": 90}, "/inclination_deg", "edge on, where the lower face of a thin disk adds"),
             ({"inner": 3}, "/inner", "within the ISCO"),
             ({"inner": "horizon"}, "/inner", '"isco"'),
             ({"outer": 2}, "/outer", "larger than inner"),

@@ -16,9 +16,9 @@
 #include <cmocka.h>
 
 #define PATIENCE_MS 60e3
-enum { LONG = 40, PIECES = 20 };
+enum { LONG = 40, PIECES = 20, WORKERS = 4 };
 
-static _Atomic bool over, destroyed;
+static _Atomic bool over, destroyed, stopped_without_reason;
 static _Atomic unsigned dones, begun, at_once, most_at_once, computing;
 
 static void count_done(struct kd_scheduler_job *job)
@@ -33,7 +33,8 @@ static enum kd_slice_result compute(struct kd_scheduler_job *job)
     (void)job;
     atomic_fetch_add(&computing, 1);
     for (const double since = kd_clock_ms(); !atomic_load(&over) && kd_clock_ms() - since < PATIENCE_MS;)
-        kd_pause();
+        if (kd_pause())
+            atomic_store(&stopped_without_reason, true);
     return KD_SLICE_LAST;
 }
 
@@ -155,10 +156,64 @@ static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
     pthread_join(thread, NULL);
 }
 
+static _Atomic bool client_left, was_told, was_told_again;
+
+static bool has_left(struct kd_scheduler_job *job)
+{
+    (void)job;
+    return atomic_load(&client_left);
+}
+
+/* Computes until nobody waits for it any more. */
+static enum kd_slice_result compute_for_a_client(struct kd_scheduler_job *job)
+{
+    (void)job;
+    atomic_fetch_add(&computing, 1);
+    bool told = false;
+    for (const double since = kd_clock_ms(); !told && kd_clock_ms() - since < PATIENCE_MS;)
+        told = kd_pause();
+    atomic_store(&was_told, told);
+    atomic_store(&was_told_again, kd_pause() && kd_pause_every(0, 7) && !kd_pause_every(1, 7));
+    return KD_SLICE_LAST;
+}
+
+/* A job whose client has left is told so at its next pause and at all later ones; jobs after it on the same threads,
+ * and those without a client, are not. */
+static void test_a_turn_that_nobody_waits_for_ends(void **state)
+{
+    (void)state;
+    struct kd_scheduler *scheduler = begin();
+    static struct kd_scheduler_job jobs[WORKERS], last[WORKERS];
+    atomic_store(&client_left, false);
+    atomic_store(&computing, 0);
+    for (int i = 0; i < WORKERS; i++) {
+        jobs[i] = (struct kd_scheduler_job) { .turn = compute_for_a_client, .done = count_done, .unwanted = has_left };
+        kd_scheduler_push(scheduler, &jobs[i]);
+    }
+    while (atomic_load(&computing) < WORKERS)
+        nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
+    atomic_store(&client_left, true);
+    wait_for(WORKERS);
+    assert_true(atomic_load(&was_told));
+    assert_true(atomic_load(&was_told_again));
+    for (int i = 0; i < WORKERS; i++) {
+        last[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
+        kd_scheduler_push(scheduler, &last[i]);
+    }
+    while (atomic_load(&computing) < 2 * WORKERS)
+        nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
+    assert_int_equal(atomic_load(&dones), WORKERS);
+    atomic_store(&over, true);
+    wait_for(2 * WORKERS);
+    assert_false(atomic_load(&stopped_without_reason));
+    kd_scheduler_destroy(scheduler);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test(test_a_short_turn_comes_between_long_ones),
                                         cmocka_unit_test(test_a_shared_job_does_not_begin_all_its_turns),
-                                        cmocka_unit_test(test_a_queue_is_destroyed_while_turns_are_paused) };
+                                        cmocka_unit_test(test_a_queue_is_destroyed_while_turns_are_paused),
+                                        cmocka_unit_test(test_a_turn_that_nobody_waits_for_ends) };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

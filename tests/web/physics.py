@@ -4,7 +4,7 @@ import math
 import pathlib
 import re
 
-from browser import AT_REST, READY, SMOOTH, Browser, main
+from browser import AT_REST, READY, SMOOTH, Browser, main, value
 
 import daemon
 
@@ -16,6 +16,7 @@ class Physics(Browser):
         self.assertGreaterEqual(cards.count(), 9)
         for i in range(cards.count()):
             name = cards.nth(i).get_attribute("id")
+            cards.nth(i).scroll_into_view_if_needed()  # some are drawn only then
             self.assertTrue(daemon.eventually(lambda: self.drawn(page, f"#{name} canvas")["coloured"] > 300), name)
             page.click(f"#{name} summary >> nth=0")
             page.wait_for_selector(f"#{name} tbody tr >> nth=5")
@@ -151,6 +152,93 @@ class Physics(Browser):
             ],
             [],
         )
+
+    def cells(self, page, name):
+        """The texts of a curve's table, by rows."""
+        page.click(f"#curve-{name} figure summary")
+        page.wait_for_selector(f"#curve-{name} tbody tr")
+        return self.rows(page, f"#curve-{name}")
+
+    def card(self, page, name):
+        """The chart of a curve, which is requested when it comes into sight."""
+        node = page.locator(f"#curve-{name}")
+        self.assertEqual(node.locator("canvas").count(), 0, "nothing is asked for before")
+        node.scroll_into_view_if_needed()
+        node.locator("canvas").wait_for()
+
+    def test_light_that_returns_by_spin(self):
+        page = self.open("lang=en&view=physics", "#curves .card:last-child canvas")
+        self.card(page, "returning-by-spin")
+        answer = self.daemon.get("/v1/physics/returning?spin=0.998&r=isco").json()["values"]
+        self.there(page, f"at spin 0.998 it is {100 * answer['disk_returns']:.1f} %", "#curve-returning-by-spin figure")
+        rows = [[value(cell) for cell in row] for row in self.cells(page, "returning-by-spin")]
+        self.assertEqual((rows[0][0], rows[-1][0], len(rows)), (0, 0.998, 11))
+        for told, name in zip(
+            rows[-1][1:], ("disk_returns", "disk_falls_in", "energy_returns", "energy_falls_in"), strict=True
+        ):
+            self.assertAlmostEqual(told, answer[name], delta=6e-4 * answer[name], msg=name)  # four digits are shown
+        self.shot(page, "returning-by-spin")
+
+    def test_the_iron_line_of_its_rings(self):
+        """The rings add up to the line of the whole disk, and the chart names the ring under the pointer."""
+        page = self.open("lang=en&view=physics&line-of-rings.spin=0.5", "#curves .card:last-child canvas")
+        self.card(page, "line-of-rings")
+        page.wait_for_selector("#curve-line-of-rings >> text=/The innermost ring, 4.23–6.35 M, sends/")
+        ask = {"spin": 0.5, "inclination_deg": 40, "index": 3, "rest_energy": 6.4, "energy_min": 1, "energy_max": 10}
+        whole = self.daemon.post("/v1/line", {**ask, "bins": 180}).json()["columns"]["share"]
+        first = self.daemon.post("/v1/line", {**ask, "bins": 180, "outer": 1.5 * 4.233}).json()
+        outermost = self.daemon.post("/v1/line", {**ask, "bins": 180, "inner": 6 * 4.233}).json()
+        total = self.daemon.post("/v1/line", ask).json()["values"]["total"]
+        rows = [[value(cell) for cell in row] for row in self.cells(page, "line-of-rings")]
+        for at, line, inner, *_, outer in rows:
+            i = round((at - 1) / 0.05 - 0.5)
+            self.assertAlmostEqual(line, whole[i] / 0.05, delta=0.01)
+            for told, answer in ((inner, first), (outer, outermost)):
+                share = answer["columns"]["share"][i] * answer["values"]["total"] / total / 0.05
+                self.assertAlmostEqual(told, share, delta=0.01)
+        self.assertGreater(max(row[1] for row in rows), 0.3)
+        self.assertTrue(all(abs(row[1] - sum(row[2:])) < 2e-3 for row in rows))
+        page.hover("#curve-line-of-rings .u-over", position={"x": 2, "y": 50})
+        self.there(page, "there is none of the line", "#curve-line-of-rings figure")
+        page.focus("#curve-line-of-rings .chart")
+        for key in ("Home", *["PageUp"] * 5):
+            page.keyboard.press(key)
+        # light so red is from the innermost ring alone
+        self.there(page, "At 3.53 keV: 100 % of the photons are from 4.23–6.35 M.", "#curve-line-of-rings figure")
+        for _ in range(6):
+            page.keyboard.press("PageUp")
+        self.there(page, "At 6.53 keV: ", "#curve-line-of-rings figure")
+        self.there(page, "% of the photons are from 25.4–400 M.", "#curve-line-of-rings figure")
+        self.shot(page, "line-of-rings")
+
+    def test_the_echo_of_a_flash_by_energy_and_time(self):
+        page = self.open("lang=en&view=physics&echo.height=10", "#curves .card:last-child canvas")
+        self.card(page, "echo")
+        ask = {"spin": 0.9, "inclination_deg": 40, "height": 10, "rest_energy": 6.4, "energy_min": 1, "energy_max": 9}
+        ask |= {"bins": 64, "time_min": 0, "time_max": 100, "times": 80}
+        answer = self.daemon.post("/v1/impulse", ask).json()
+        self.there(page, f"The echo comes {answer['values']['mean_time']:.1f} M after the flash", "#curve-echo figure")
+        share = answer["columns"]["share"]
+        before = self.drawn(page, "#curve-echo canvas")
+        self.assertGreater(before["coloured"], 3000, "the map beneath the curves")
+        seen = 0
+        for time, mean, *_ in self.cells(page, "echo"):
+            j = round(value(time) / 1.25 - 0.5)
+            column = [share[i * 80 + j] for i in range(64)]
+            if sum(column):
+                expected = sum(s * (1 + 8 / 64 * (i + 0.5)) for i, s in enumerate(column)) / sum(column)
+                self.assertAlmostEqual(value(mean), expected, delta=2e-3)
+                seen += 1
+        self.assertGreater(seen, 12)
+        page.focus("#curve-echo .chart")
+        for key in ("Home", *["PageUp"] * 3):
+            page.keyboard.press(key)
+        part = 100 * sum(share[i * 80 + 30] for i in range(64)) / 1.25
+        self.there(page, f"38.1 M after the flash: {float(f'{part:.3g}'):g} % of the photons", "#curve-echo figure")
+        self.shot(page, "echo")
+        page.fill("#in-echo-height", "3")
+        page.keyboard.press("Tab")
+        self.assertTrue(daemon.eventually(lambda: self.drawn(page, "#curve-echo canvas")["hash"] != before["hash"]))
 
     def test_a_ringdown_is_heard(self):
         page = self.open("lang=en&view=physics&qnm.mass_msun=4e6", "#curve-qnm a[href*=wav]")

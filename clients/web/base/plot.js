@@ -24,6 +24,7 @@ const strokes = [
   ['--blue', [9, 3]],
   ['--green', [2, 3]],
   ['--rose', [9, 3, 2, 3]],
+  ['--violet', []],
 ];
 let count = 0;
 
@@ -87,6 +88,26 @@ function drawMarks(u, marks) {
   ctx.restore();
 }
 
+// Brightness by x and y beneath the curves: rows from below upwards, each from left to right. By the square root,
+// because the brightest cell may exceed all others many times.
+function drawMap(u, { rows, x, y }) {
+  const wide = rows[0].length,
+    tall = rows.length,
+    picture = el('canvas', { width: wide, height: tall }),
+    ground = picture.getContext('2d'),
+    most = Math.max(...rows.flat());
+  ground.fillStyle = colour('--glow');
+  rows.forEach((row, i) =>
+    row.forEach((value, j) => {
+      ground.globalAlpha = Math.sqrt(Math.max(value, 0) / most);
+      ground.fillRect(j, tall - 1 - i, 1, 1);
+    }),
+  );
+  const [left, right] = x.map(at => u.valToPos(at, 'x', true)),
+    [below, above] = y.map(at => u.valToPos(at, 'y', true));
+  u.ctx.drawImage(picture, left, above, right - left, below - above);
+}
+
 // Errors of dots, as upright lines.
 function drawErrors(u, { series, y: { log } }) {
   const { ctx, bbox } = u;
@@ -139,8 +160,9 @@ function key(style) {
 }
 
 // spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style, error }],
-// marks: [{ x or y, label, low, left }] }. style: "dim", or "dots" without a line between them, with errors. Returns
-// the figure, with a method draw(spec) that shows other numbers.
+// marks: [{ x or y, label, low, left }], map: { rows, x: [from, to], y: [from, to] }, at(index) }. style: "dim", or
+// "dots" without a line between them, with errors. at: the note while the cursor is there. Returns the figure, with a
+// method draw(spec) that shows other numbers.
 export function plot(first) {
   const id = 'plot-' + ++count,
     caption = el('figcaption', { id });
@@ -173,6 +195,7 @@ export function plot(first) {
     [...legend.children].forEach((item, i) => {
       item.querySelector('b').textContent = on ? number(values[i]) : '';
     });
+    note.textContent = (on && spec.at?.(at)) || (spec.note ?? '');
     chart.setAttribute('aria-valuenow', u.data[0][at] ?? 0);
     chart.setAttribute(
       'aria-valuetext',
@@ -216,6 +239,7 @@ export function plot(first) {
           }),
         ],
         hooks: {
+          drawAxes: [() => spec.map && drawMap(u, spec.map)],
           draw: [() => drawErrors(u, spec), () => drawMarks(u, spec.marks ?? [])],
           setCursor: [() => u && read()],
         },

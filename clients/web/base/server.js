@@ -79,8 +79,8 @@ export const holeOf = scene => ({
   ...(scene.get('spacetime.charge') ? { charge: scene.get('spacetime.charge') } : {}),
 });
 
-// Charts show at most this number of digits; all digits would take three times the bytes.
-export const drawn = { digits: 6 };
+// Charts and their tables show at most this number of digits; all digits would take three times the bytes.
+export const drawn = { digits: 5 };
 
 export function physics(name, parameters) {
   const url = physicsUrl(name, parameters);

@@ -160,6 +160,66 @@ export const explained = {
       ),
     ],
   },
+  'returning-by-spin': {
+    text: t(
+      'explained.returning-by-spin',
+      'The faster the hole turns with the disk, the deeper the disk reaches, and the more of its light the hole bends back to it. Of a whole disk little returns, because most of its light comes from farther out. Of the innermost ring’s light more than half may return, counted by energy. What falls into the hole from that ring also grows at first; next to the largest spin it falls again, because nearly all light then meets the disk first. A disk round a fast hole lights itself: models of its spectrum and polarisation must count this light.',
+    ),
+    steps: [
+      t(
+        'explained.returning-by-spin.0',
+        'From a ring at r rays are followed in all directions of the gas’s sky. Each ends at infinity, on the disk or in the hole.',
+      ),
+      t(
+        'explained.returning-by-spin.1',
+        'Each direction counts by the light it carries: cos of its angle to the normal, times the energy at infinity, E = 1/(u^t (1 − ΩL/E)).',
+      ),
+      t(
+        'explained.returning-by-spin.2',
+        'The whole disk is the sum over its rings, each with its flux (Page & Thorne 1974) and its area.',
+      ),
+    ],
+  },
+  'line-of-rings': {
+    text: t(
+      'explained.line-of-rings',
+      'Iron that is lit by X-rays shines in a narrow line at 6.4 keV. From a ring of the disk this line arrives with two horns: the bluer one from gas that approaches, the redder one from gas that recedes. The smaller the ring, the wider its horns stand apart, and the more all of it is shifted to the red by gravity. The whole line is the sum of the rings. Its long red tail is the light of the innermost ones, and that is how a line tells the spin: with a faster hole the disk reaches deeper and the tail gets longer.',
+    ),
+    steps: [
+      t(
+        'explained.line-of-rings.0',
+        'A piece of the picture sends dN = g³ ε(r) dα dβ photons, at g times the energy that they have at rest (Cunningham 1975).',
+      ),
+      t(
+        'explained.line-of-rings.1',
+        'On a ring g depends on the azimuth alone. Next to its least and its largest value it changes slowly, so that many photons have nearly this energy: the horns.',
+      ),
+      t(
+        'explained.line-of-rings.2',
+        'A line of each ring is asked for, with the number of its photons; the shares are added.',
+      ),
+    ],
+  },
+  echo: {
+    text: t(
+      'explained.echo',
+      'A lamp above the hole flashes once. Its light reaches the disk’s middle first and then runs outwards, and each place answers with the iron line. The first answer that we see is from gas on the near side, from where the way to us is shortest. Then the innermost rings answer, on all sides: for a short while the line reaches far into the red. What follows is gas farther and farther out, whose line is narrow and nearly at rest. Telescopes measure the delay between the lamp’s own light and its echo, and learn from it how high the lamp stands.',
+    ),
+    steps: [
+      t(
+        'explained.echo.0',
+        'Each ray from the lamp has a time t₁ to the disk, and each ray from the disk a time t₂ to us. The light that comes directly takes t₀; time is counted from there.',
+      ),
+      t(
+        'explained.echo.1',
+        'A piece of the picture sends dN = g³ ε(r, t₁) dt₁ dα dβ photons at g × 6.4 keV and at t₁ + t₂ − t₀.',
+      ),
+      t(
+        'explained.echo.2',
+        'The bright cells are these photons by energy and time. Their mean time is the lag of the echo, before the lamp’s own light in the same band dilutes it.',
+      ),
+    ],
+  },
   'frame-dragging': {
     text: t(
       'explained.frame-dragging',

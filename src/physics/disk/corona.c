@@ -185,7 +185,6 @@ static bool make_angle(struct kd_corona *c, const struct kd_corona_source *sourc
         c->log_part[at] = log(solid / (4 * M_PI * n * r * source->ut)) + (photon_index - 1) * log(g);
         c->time[at] = photon[k].delay;
     }
-    kd_pause();
     return true;
 }
 
@@ -220,8 +219,8 @@ static enum kd_status take_angles(struct kd_corona *c, const struct kd_corona_so
     c->log_part = malloc(sizeof(double) * KD_CORONA_RINGS * (size_t)n);
     c->time = malloc(sizeof(double) * KD_CORONA_RINGS * (size_t)n);
     const bool room = c->log_part && c->time;
-    bool made = room;
-    for (int j = 0; j < n && made; j++) {
+    bool made = room, stops = false;
+    for (int j = 0; j < n && made && !(stops = kd_pause()); j++) {
         if (!before.log_part || j % 2) {
             made = make_angle(c, source, photon_index, radii, j);
             continue;
@@ -232,8 +231,9 @@ static enum kd_status take_angles(struct kd_corona *c, const struct kd_corona_so
         }
     }
     kd_corona_finish(&before);
+    made &= !stops;
     c->light.error = made ? pow(add_up(c), 1.5) : INFINITY;
-    return made ? KD_OK : room ? KD_EINVAL : KD_ENOMEM;
+    return made ? KD_OK : stops ? KD_ECANCELLED : room ? KD_EINVAL : KD_ENOMEM;
 }
 
 enum kd_status kd_corona_init(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
@@ -453,8 +453,7 @@ bool kd_corona_direct_of(const struct kd_corona_source *source, double photon_in
     for (int k = 0; k < out->n; k++) {
         const double azimuth = 2 * M_PI * k / out->n, want[2] = { far * cos(azimuth), far * sin(azimuth) };
         double solid;
-        kd_pause();
-        if (!aim_anew(source, cos_i, azimuth, want, m, &solid))
+        if (kd_pause() || !aim_anew(source, cos_i, azimuth, want, m, &solid))
             return false;
         struct kd_null_ray ray;
         const struct kd_corona_photon p = send(source, m, &ray);

@@ -193,7 +193,8 @@ static bool make_ring(struct kd_disk_image *image, int k)
         m.guessed[j] = guess(image, k, j);
     struct miss off = { 0 };
     for (int j = 0; j < image->angles; j++) {
-        kd_pause_every((uint64_t)j, 16);
+        if (kd_pause_every((uint64_t)j, 16))
+            return false;
         off.next = fmin(fmax(3 * (off.last[0] - off.last[1]) + off.last[2], -MOVED), MOVED);
         double stretch = fmax(m.guessed[j] + off.next, 0.1), log_stretch = log(stretch);
         int at = j * (KD_DISK_IMAGE_ANGLES / image->angles);

@@ -87,7 +87,8 @@ static void integrate(const struct kd_disk_image *image, const struct kd_disk_sp
     double span = log(p->outer / p->inner);
     for (int i = 0; i < panels; i++)
         for (int k = 0; k < GAUSS; k++) {
-            kd_pause();
+            if (kd_pause())
+                return;
             /* ln r = ln inner + span s^2, since T varies as the square root of r - r_isco. */
             double s = (i + 0.5 + 0.5 * at_gauss[k]) / panels;
             add_ring(image, p, p->inner * exp(span * s * s), span * 2 * s * share_gauss[k] / panels, looks.skip, n,
@@ -107,7 +108,8 @@ void kd_disk_places(const struct kd_disk_image *image, double inner, double oute
         for (int j = 0; j < n; j++)
             each(user, &(struct kd_disk_place) { r, ring.alpha[j], ring.beta[j],
                                                  weight * stretch_of(&ring, apart, j, n) * (2 * M_PI / n) });
-        kd_pause();
+        if (kd_pause())
+            return;
     }
 }
 

@@ -208,6 +208,8 @@ static void make_mirror(struct work *w)
         w->mirror.parts = w->rings[i];
         w->mirror.r = isco / (w->nodes[i] * w->nodes[i]);
         kd_returning_rays(&w->image->hole, w->mirror.r, reflect, &(struct filling) { &w->mirror, &w->atmosphere });
+        if (kd_pause())
+            return;
         for (int j = 0; j < COSINES; j++)
             for (int n = 0; n < PARTS; n++)
                 for (int k = 0; k < KD_STOKES_NODES; k++) {

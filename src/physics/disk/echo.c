@@ -50,7 +50,8 @@ static bool fill_ring(const struct kd_disk_image *image, const struct kd_echo_pa
         const struct kd_null_path path = kd_null_trace_fast(&ray);
         if (!path.crossings)
             return false;
-        kd_pause_every((uint64_t)j, 64);
+        if (kd_pause_every((uint64_t)j, 64))
+            return false;
         ring[j] = (struct point) { alpha[j], beta[j], light.g, path.crossing[0].delay,
                                    light.g * light.g * light.g * kd_limb_at(p->limb, light.mu) };
     }
@@ -232,7 +233,8 @@ static void add_all(const struct view *view, double zero, int skip, struct sum *
     for (int i = 0; i < RINGS; i += skip)
         for (int j = 0; j < AROUND; j += skip) {
             const struct cell cell = cell_of(view, i, j, skip);
-            kd_pause_every((uint64_t)(j / skip), 1);
+            if (kd_pause())
+                return;
             for (int x = 0; x < FINER; x++)
                 for (int y = 0; y < FINER; y++)
                     add_part(view, &cell, (size_t)i, (size_t)skip, zero, (x + 0.5) / FINER, (y + 0.5) / FINER, s);
@@ -350,7 +352,8 @@ static void transform_all(const struct view *view, const struct beat *beats, dou
     for (int i = 0; i < RINGS; i += skip)
         for (int j = 0; j < AROUND; j += skip) {
             const struct cell cell = cell_of(view, i, j, skip);
-            kd_pause();
+            if (kd_pause())
+                return;
             for (int x = 0; x < FINER; x++)
                 for (int y = 0; y < FINER; y++)
                     transform_part(&cell, &beats[i], &beats[i + skip], zero, (x + 0.5) / FINER, (y + 0.5) / FINER, t);
@@ -383,7 +386,8 @@ enum kd_status kd_echo_transform(const struct kd_disk_image *image, const struct
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory for %zu frequencies", n));
     for (size_t i = 0; i <= RINGS; i++) {
         beats[i].of = room + i * 2 * n;
-        kd_pause();
+        if (kd_pause())
+            KD_TRY(kd_error_set(error, KD_ECANCELLED, "nobody waits for the echo any more"));
         fill_beat(&view, i, frequencies, n, &beats[i]);
     }
     for (int skip = 1; skip <= 2; skip++) {

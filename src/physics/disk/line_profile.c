@@ -197,7 +197,8 @@ static void add_rings(const struct kd_disk_image *image, const struct kd_line_pa
         emissivity(p, received, p->inner) * p->inner * p->inner; /* light of a ring of equal width in ln r */
     double before = 0, first = outwards ? 2 - BRIGHT : BRIGHT;
     for (int i = 0; i <= m; i++) {
-        kd_pause_every((uint64_t)i, 4);
+        if (kd_pause_every((uint64_t)i, 4))
+            return;
         double part = (double)i / m,
                r = i == m ? p->outer : p->inner * pow(p->outer / p->inner, part * (first + (1 - first) * part));
         fill_ring(image, p, received, r, looks.skip, n, &rings[i & 1]);

@@ -271,7 +271,8 @@ struct kd_returning_ring kd_returning_ring(const struct kd_hole *hole, enum kd_l
     for (int j = 0; j < sides(&sky); j++) {
         const struct side side = side_of(hole, &ring, isco, &rule, &sky, j);
         add_side(&ring, limb, &rule, &sky.parts, side, &sum);
-        kd_pause();
+        if (kd_pause())
+            break;
     }
     sum.error = fmax(fabs(total(&sum.photons) - 1), fabs(total(&sum.energy) - 1));
     return sum;
@@ -306,7 +307,8 @@ void kd_returning_rays(const struct kd_hole *hole, double r,
                                                             .solid = solid });
             }
         }
-        kd_pause();
+        if (kd_pause())
+            return;
     }
 }
 
@@ -498,19 +500,23 @@ static void make_ring(void *user, size_t i)
         add_side(&ring, table->limb, &m->rule, parts, side, &shares);
         for (int n = 0; n < parts->orders; n++)
             receive_along(table, &m->kernel, (int)i, &ring, &m->rule, strip_of(side, parts->in[n], parts->out[n]), n);
-        kd_pause();
+        if (kd_pause())
+            return;
     }
     table->photons.returns[i] = shares.photons.returns, table->photons.falls_in[i] = shares.photons.falls_in;
     table->energy.returns[i] = shares.energy.returns, table->energy.falls_in[i] = shares.energy.falls_in;
 }
 
-static void make(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
+/* False: nobody waits for the table any more. */
+static bool make(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
 {
     struct making m = { .table = table, .rule = rule_of() };
     *table = (struct kd_returning) { .hole = *hole, .limb = limb, .isco = kd_kerr_isco(hole) };
     for (int i = 0; i < N; i++)
         table->s[i] = 0.5 * (1 + cos(M_PI * (i + 0.5) / N));
     kd_parallel_idle(N, make_ring, &m);
+    if (kd_pause())
+        return false;
     memcpy(table->once, m.kernel.flux, sizeof table->once);
     for (int i = 0; i < N; i++)
         table->lacks[i] = m.kernel.deficit[i] * table->s[i];
@@ -518,6 +524,7 @@ static void make(struct kd_returning *table, const struct kd_hole *hole, enum kd
     converge(table, &m.kernel);
     share_out(table, &m.kernel);
     find_hottest(table);
+    return true;
 }
 
 /* The tables that were used last, and the largest fluxes of more of them. used: 0 for an entry without a table. */
@@ -567,8 +574,10 @@ void kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, e
 {
     if (recall(table, hole, limb))
         return;
-    make(table, hole, limb);
-    keep(table);
+    if (make(table, hole, limb))
+        keep(table);
+    else
+        table->error = INFINITY;
 }
 
 double kd_returning_largest(const struct kd_hole *hole, enum kd_limb limb)

@@ -39,6 +39,7 @@ struct kd_scheduler {
 static _Thread_local struct kd_scheduler *mine;
 static _Thread_local struct kd_scheduler_job *under_way;
 static _Thread_local double piece_ms; /* when the current slice began or was last resumed */
+static _Thread_local bool stops;      /* the job of the current slice is unwanted */
 
 static void append(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
@@ -156,6 +157,7 @@ static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *j
     enum kd_slice_result turn = job->turn(job);
     kd_watch_turn_ends();
     under_way = NULL; /* done may free the job, and never suspends */
+    stops = false;
     pthread_mutex_lock(&scheduler->lock);
     job->workers--;
     if (turn == KD_SLICE_LAST)
@@ -192,7 +194,7 @@ static void go_on(struct kd_scheduler *scheduler)
     scheduler->busy--;
 }
 
-static void let_others_go_first(void);
+static bool let_others_go_first(void);
 
 static void *work(void *user)
 {
@@ -242,12 +244,12 @@ static void pause_turn(struct kd_scheduler *scheduler)
 
 /* Hook of base/pause.h: suspends this thread's slice until the other listed jobs have had theirs. If no other thread
  * can run these, the slice continues. */
-static void let_others_go_first(void)
+static bool let_others_go_first(void)
 {
     struct kd_scheduler *scheduler = mine;
     struct kd_scheduler_job *job = under_way;
-    if (!job || kd_clock_ms() - piece_ms < PIECE_MS)
-        return;
+    if (stops || !job || kd_clock_ms() - piece_ms < PIECE_MS)
+        return stops;
     kd_watch_turn_ends();
     pthread_mutex_lock(&scheduler->lock);
     unpark_due(scheduler);
@@ -262,6 +264,7 @@ static void let_others_go_first(void)
     under_way = job;
     piece_ms = kd_clock_ms();
     kd_watch_turn_begins();
+    return stops = job->unwanted && job->unwanted(job);
 }
 
 static unsigned cores(void)

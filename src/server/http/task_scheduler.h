@@ -22,6 +22,9 @@ struct kd_scheduler_job {
     enum kd_slice_result (*turn)(struct kd_scheduler_job *job); /* runs one slice; on a worker */
     void (*done)(
         struct kd_scheduler_job *job); /* called once on a worker when every slice has returned; may free the job */
+    /* whether nobody waits for the job's result any more, so that kd_pause is true to the end of its slice; called by a
+     * slice's thread without a lock; NULL: never */
+    bool (*unwanted)(struct kd_scheduler_job *job);
     /* time on kd_clock_ms at which the job is resumed if it is parked; 0: there is none */
     double due_ms;
     /* several workers may run slices of the job at once, from the next slice on; a slice may set it */

@@ -28,17 +28,24 @@ void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_e
     task->error.status = status;
 }
 
-static enum kd_slice_result take_turn(struct kd_scheduler_job *scheduled)
+/* Whether the task has failed or must end, for which the reason is recorded. */
+static bool unwanted(struct kd_scheduler_job *scheduled)
 {
     struct kd_task *task = (struct kd_task *)scheduled;
     struct kd_request *request = task->request;
     struct kd_error error = { 0 };
-    double now = kd_clock_ms();
+    const bool gone = kd_socket_abandoned(kd_connection_socket(request->connection));
+    kd_task_fail(task, kd_task_over(request->server, task->queue, gone, task->deadline_ms, &error), &error);
+    return task->status;
+}
+
+static enum kd_slice_result take_turn(struct kd_scheduler_job *scheduled)
+{
+    struct kd_task *task = (struct kd_task *)scheduled;
+    const double now = kd_clock_ms();
     if (!(task->begun_ms > 0))
         task->begun_ms = now;
-    bool gone = kd_socket_abandoned(kd_connection_socket(request->connection));
-    kd_task_fail(task, kd_task_over(request->server, task->queue, gone, task->deadline_ms, &error), &error);
-    return task->status ? KD_SLICE_LAST : task->kind->work(task, now + TURN_MS);
+    return unwanted(scheduled) ? KD_SLICE_LAST : task->kind->work(task, now + TURN_MS);
 }
 
 static void done(struct kd_scheduler_job *scheduled)
@@ -58,7 +65,7 @@ void *kd_task_create(struct kd_request *request, struct kd_scheduler *queue, con
         *refused = kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NO_MEMORY, .retry_after = 5 });
         return NULL;
     }
-    *task = (struct kd_task) { .scheduled = { .turn = take_turn, .done = done },
+    *task = (struct kd_task) { .scheduled = { .turn = take_turn, .done = done, .unwanted = unwanted },
                                .kind = kind,
                                .queue = queue,
                                .request = request,

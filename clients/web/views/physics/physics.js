@@ -1,6 +1,7 @@
 // The view of curves. Each has parameters, an equation, values of /v1/physics, a short text, and its sources.
 import { persistent } from '../../base/again.js';
 import { light } from './curves-light.js';
+import { lines } from './curves-lines.js';
 import { matter } from './curves-matter.js';
 import { entitle } from '../../words/describe.js';
 import { byId, el, still } from '../../base/dom.js';
@@ -21,13 +22,18 @@ const order = [
   'kerr',
   'disk-flux',
   'returning',
+  'returning-by-spin',
+  'line-of-rings',
+  'echo',
   'frame-dragging',
   'flamm',
   'qnm',
   'inspiral',
   'tidal',
 ];
-const charts = [...light, ...matter].sort((a, b) => order.indexOf(a.id ?? a.name) - order.indexOf(b.id ?? b.name));
+const charts = [...light, ...lines, ...matter].sort(
+  (a, b) => order.indexOf(a.id ?? a.name) - order.indexOf(b.id ?? b.name),
+);
 
 // The text under a curve, and its derivation, folded.
 function reading(id) {
@@ -68,7 +74,10 @@ function card(chart, known) {
   const draw = persistent(fault, 'physics', async () => {
     const { octaves, ...asked } = { ...chart.query, ...form.values() }; // octaves is a parameter of the sound only
     Object.assign(asked, await chart.adjust?.(asked));
-    const [answer, also] = await Promise.all([physics(chart.name, { ...asked, ...drawn }), chart.also?.(asked)]);
+    const [answer, also] = await Promise.all([
+      chart.ask ? chart.ask(asked) : physics(chart.name, { ...asked, ...drawn }),
+      chart.also?.(asked),
+    ]);
     const shown = chart.show(answer.values, answer.parameters, also);
     const series = shown.series.filter(Boolean).map(s => ({ x: shown.along, ...s }));
     figure.draw({ title: chart.title, csv: physicsUrl(chart.name, asked), ...shown, series });
@@ -88,7 +97,7 @@ function card(chart, known) {
     reading(id),
     el('details', {}, el('summary', {}, t('common.where-this-comes-from', 'Where this comes from')), sources),
   );
-  return { node, draw, title: chart.title, words: plain(`${id} ${chart.name} ${node.textContent}`) };
+  return { node, draw, late: chart.late, title: chart.title, words: plain(`${id} ${chart.name} ${node.textContent}`) };
 }
 
 // The index of all curves, with links to their cards, and a search through the texts of the cards.
@@ -137,18 +146,25 @@ function index(cards) {
   ];
 }
 
+// Calls back once, when a node comes into sight.
+function whenSeen(node, then) {
+  const watch = new IntersectionObserver(entries => {
+    if (!entries.some(entry => entry.isIntersecting)) return;
+    watch.disconnect();
+    then();
+  });
+  watch.observe(node);
+}
+
 export async function openPhysics() {
   const { quantities } = await getJson('v1/physics');
   const cards = charts
-    .filter(c => quantities.some(q => q.name === c.name))
-    .map(c =>
-      card(
-        c,
-        quantities.find(q => q.name === c.name),
-      ),
-    );
+    .map(c => [c, quantities.find(q => q.name === (c.name ?? c.words))])
+    .filter(([, known]) => known)
+    .map(([c, known]) => card(c, known));
   byId('curve-index').replaceChildren(...index(cards));
   byId('curves').replaceChildren(...cards.map(c => c.node));
   entitle('physics', t('physics.curves-3', '{0} curves', cards.length));
-  for (const c of cards) await c.draw(); // one after the other, so that pictures come first
+  // One after the other, so that pictures come first. What takes the server long waits until somebody scrolls there.
+  for (const c of cards) c.late ? whenSeen(c.node, c.draw) : await c.draw();
 }
