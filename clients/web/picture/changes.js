@@ -14,6 +14,7 @@ export function document(scene, { width, height }, part) {
     'image.width': Math.round(width * part),
     'image.height': Math.round(height * part),
     'image.samples': samples(scene),
+    ...(scene.get('style.colour_bar') ? { 'style.colour_bar': false } : {}), // over/key.js draws it
     ...(scene.drift ? { 'motion.azimuth_rate_deg': scene.drift } : {}),
     ...(scene.held || scene.recorded
       ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 }

@@ -9,7 +9,7 @@ import { explained } from '../../words/explained.js';
 import { buildForm } from '../../base/form.js';
 import { t } from '../../words/i18n.js';
 import { plot } from '../../base/plot.js';
-import { drawn, getJson, physics, physicsUrl } from '../../base/server.js';
+import { charted, getJson, physics, physicsUrl } from '../../base/server.js';
 
 // The order in which the curves are shown.
 const order = [
@@ -68,7 +68,7 @@ function card(chart, known) {
   const draw = persistent(fault, 'physics', async () => {
     const { octaves, ...asked } = { ...chart.query, ...form.values() }; // octaves is a parameter of the sound only
     Object.assign(asked, await chart.adjust?.(asked));
-    const [answer, also] = await Promise.all([physics(chart.name, { ...asked, ...drawn }), chart.also?.(asked)]);
+    const [answer, also] = await Promise.all([physics(chart.name, { ...asked, ...charted }), chart.also?.(asked)]);
     const shown = chart.show(answer.values, answer.parameters, also);
     const series = shown.series.filter(Boolean).map(s => ({ x: shown.along, ...s }));
     figure.draw({ title: chart.title, csv: physicsUrl(chart.name, asked), ...shown, series });
