@@ -1,5 +1,5 @@
-"""Dumps of a torus, or of any flow, as iharm3d and Athena++ write them. Shares no code with kerrd.grmhd: metrics are
-matrices in the code's own coordinates, whose derivatives are differences.
+"""Dumps of a torus, or of any flow, as iharm3d, KHARMA and Athena++ write them. Shares no code with kerrd.grmhd:
+metrics are matrices in the code's own coordinates, whose derivatives are differences.
 
 iharm3d: names, types, order and shapes as core/io.c of iharm3d (AFD-Illinois/iharm3d) writes them, and
 model/iharm/model.c of ipole reads them. Athena++: as src/outputs/athena_hdf5.cpp (PrincetonUniversity/athena), and as
@@ -180,6 +180,93 @@ def write_iharm(path, kind, shape, flow, a=SPIN, outer=60.0, inner=1.2, entropy=
         file["prims"] = np.stack(fields, -1).astype(np.float32 if single else np.float64)
         file["prims"].attrs["units"] = np.bytes_("code")
     return np.exp(x1), of.theta(x1, x2), x3
+
+
+def write_phdf(path, kind, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2, 2, 2), ghosts=0, old=False, **more):
+    """As Parthenon's outputs/parthenon_hdf5.cpp and KHARMA (AFD-Illinois/kharma) write it, and as pyharm's io/phdf.py
+    reads it. kind: eks, mks or fmks. ghosts: zones round each block, in which the fields are 1e30. old: the components
+    of a vector are the last axis, and scalars have one."""
+    import h5py
+
+    count = [b if n > 1 else 1 for b, n in zip(blocks, shape)]
+    size = [n // b for n, b in zip(shape, count)]
+    start = np.log(inner)
+    of = Mks("mks" if kind == "eks" else kind, start, **({"slope": 1.0} if kind == "eks" else more))
+    turn = np.pi if kind == "eks" else 1.0
+    most = [np.log(outer), turn, 2 * np.pi]
+    least, steps = [start, 0.0, 0.0], [(m - low) / n for m, low, n in zip(most, [start, 0.0, 0.0], shape)]
+    around = [ghosts if n > 1 else 0 for n in size]
+    places = [(i, j, k) for k in range(count[2]) for j in range(count[1]) for i in range(count[0])]
+    stored = [n + 2 * g for n, g in zip(size, around)]
+    data = {
+        name: np.full((len(places), components, *stored[::-1]), 1e30)
+        for name, components in (("rho", 1), ("u", 1), ("uvec", 3), ("B", 3))
+    }
+    edges = [
+        np.array(
+            [
+                low + step * (place[axis] * size[axis] + np.arange(-around[axis], size[axis] + around[axis] + 1))
+                for place in places
+            ]
+        )
+        for axis, (low, step) in enumerate(zip(least, steps))
+    ]
+    inside = tuple(slice(g, g + n) for g, n in zip(around, size))[::-1]
+    for at in range(len(places)):
+        centres = [(0.5 * (e[at, 1:] + e[at, :-1]))[g : g + n] for e, g, n in zip(edges, around, size)]
+        x1, x2, x3 = np.meshgrid(*centres, indexing="ij")
+        r, theta = np.exp(x1), of.theta(x1, x2 / turn)
+        rho, energy, u, b = flow(r, theta, x3)
+        jacobian = of.jacobian(x1, x2 / turn)
+        jacobian[2, 2] /= turn
+        g = np.einsum("ma...,mn...,nb...->ab...", jacobian, metric(a, r, theta), jacobian)
+        U, B = primitives(g, *(np.einsum("am...,m...->a...", inverse(jacobian), v) for v in (u, b)))
+        for name, values in (("rho", [rho]), ("u", [energy]), ("uvec", U), ("B", B)):
+            for k, one in enumerate(values):
+                data[name][(at, k, *inside)] = one.transpose()
+    lines = [
+        "# a torus",
+        "<parthenon/mesh>",
+        *(f"nx{axis + 1} = {n}   # zones" for axis, n in enumerate(shape)),
+        *(f"x{axis + 1}min = {low!r}" for axis, low in enumerate(map(float, least))),
+        *(f"x{axis + 1}max = {high!r}" for axis, high in enumerate(map(float, most))),
+        "<coordinates>",
+        "base = spherical_ks",
+        f"transform = {kind}",
+        f"a = {a!r}",
+        f"hslope = {of.slope}",
+        f"poly_xt = {of.xt}",
+        f"poly_alpha = {of.alpha}",
+        f"mks_smooth = {of.smooth}",
+        "<GRMHD>",
+        f"gamma = {GAMMA!r}",
+    ]
+    with h5py.File(path, "w") as file:
+        info = file.create_group("Info").attrs
+        for name, value in {
+            "Time": 5000.0,
+            "NCycle": np.int32(100),
+            "NumDims": np.int32(sum(n > 1 for n in shape)),
+            "NumMeshBlocks": np.int32(len(places)),
+            "MeshBlockSize": np.array(stored, np.int32),
+            "MaxLevel": np.int32(0),
+            "NGhost": np.int32(4),
+            "IncludesGhost": np.int32(ghosts > 0),
+            "Coordinates": np.bytes_("UniformCartesian"),
+            "OutputDatasetNames": np.array(["prims." + name for name in data], "S16"),
+        }.items():
+            info[name] = value
+        if ghosts:
+            info["NGhost"] = np.int32(ghosts)
+        file.create_group("Input").attrs["File"] = np.bytes_("\n".join(lines) + "\n")
+        for axis, name in enumerate("xyz"):
+            file[f"Locations/{name}"] = edges[axis]
+        for name, values in data.items():
+            if old:
+                values = np.moveaxis(values, 1, -1)
+            elif len(values[0]) == 1:
+                values = values[:, 0]
+            file["prims." + name] = values
 
 
 def write_athdf(path, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2, 2, 2), fine=(), single=True):
