@@ -1,4 +1,4 @@
-"""Dumps of a torus, or of any flow, as iharm3d, KHARMA and Athena++ write them. Shares no code with kerrd.grmhd:
+"""Dumps of a torus, or of any flow, as iharm3d, KHARMA, KORAL and Athena++ write them. Shares no code with kerrd.grmhd:
 metrics are matrices in the code's own coordinates, whose derivatives are differences.
 
 iharm3d: names, types, order and shapes as core/io.c of iharm3d (AFD-Illinois/iharm3d) writes them, and
@@ -267,6 +267,68 @@ def write_phdf(path, kind, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2
             elif len(values[0]) == 1:
                 values = values[:, 0]
             file["prims." + name] = values
+
+
+def lindquist(a, r, theta):
+    """d(t, r, theta, phi) of Boyer and Lindquist by those of Kerr and Schild, (4, 4, ...), and their metric."""
+    delta, s2, sigma = r**2 - 2 * r + a**2, np.sin(theta) ** 2, r**2 + a**2 * np.cos(theta) ** 2
+    back, g = np.zeros((4, 4, *r.shape)), np.zeros((4, 4, *r.shape))
+    for k in range(4):
+        back[k, k] = 1
+    back[0, 1], back[3, 1] = -2 * r / delta, -a / delta
+    g[0, 0], g[1, 1], g[2, 2] = 2 * r / sigma - 1, sigma / delta, sigma
+    g[0, 3] = g[3, 0] = -2 * a * r * s2 / sigma
+    g[3, 3] = s2 * (r**2 + a**2 + 2 * a**2 * r * s2 / sigma)
+    return back, g
+
+
+def write_koral(path, metric, shape, flow, a=SPIN, outer=60.0, inner=1.2, kelvin=None):
+    """As fprint_anaout_hdf5 of fileop.c (achael/koral_lite) writes it. metric: KS or BL, of u^mu and b^mu. theta
+    depends on r, as in JETCOORDS."""
+    import h5py
+
+    n1, n2, n3 = shape
+    start, step = np.log(inner), np.log(outer / inner) / n1
+    x1, x2, phi = np.meshgrid(
+        start + (np.arange(n1) + 0.5) * step,
+        (np.arange(n2) + 0.5) / n2,
+        -np.pi + (np.arange(n3) + 0.5) * 2 * np.pi / n3,
+        indexing="ij",
+    )
+    r, theta = np.exp(x1), Mks("fmks", start).theta(x1, x2)
+    rho, energy, u, b = flow(r, theta, phi)
+    if metric == "BL":
+        back, g = lindquist(a, r, theta)
+        u, b = (np.einsum("am...,m...->a...", back, v) for v in (u, b))
+        unit = np.einsum("a...,ab...,b...->...", u, g, u)
+        assert np.abs(unit + 1).max() < 1e-6 * np.abs(u).max() ** 2
+    with h5py.File(path, "w") as file:
+        header = {
+            "metric_run": np.bytes_("JETCOORDS"),
+            "metric_out": np.bytes_(metric),
+            "ndim": np.array(3, ">i4"),
+            "n1": np.array(n1, ">i4"),
+            "n2": np.array(n2, ">i4"),
+            "n3": np.array(n3, ">i4"),
+            "n_prim": np.array(9, ">i4"),
+            "gam": np.array(GAMMA, ">f8"),
+            "bhspin": np.array(a, ">f8"),
+            "has_electrons": np.array(kelvin is not None, ">i4"),
+            "units/M_bh": np.array(6.5e9, ">f8"),
+            "units/L_unit": np.array(9.6e14, ">f8"),
+            "units/M_unit": np.array(1e-18, ">f8"),
+        }
+        for name, value in header.items():
+            file["header/" + name] = value
+        file["t"] = np.array(5000.0, ">f8")
+        fields = {"grid_out/r": r, "grid_out/th": theta, "grid_out/ph": phi}
+        fields |= {"quants/rho": rho, "quants/pgas": (GAMMA - 1) * energy}
+        fields |= {f"quants/{kind}{k}": v[k] for kind, v in (("u", u), ("b", b)) for k in range(4)}
+        if kelvin is not None:
+            fields["quants/te"] = kelvin(rho, energy)
+        for name, values in fields.items():
+            file[name] = np.broadcast_to(values, shape).astype(">f8")
+    return r, theta, phi
 
 
 def write_athdf(path, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2, 2, 2), fine=(), single=True):
