@@ -1788,6 +1788,8 @@ export interface VisibilityRequest {
   pixels?: number;
   /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
+  /** significant digits of the columns as text; 1 to 17. */
+  digits?: number;
 }
 
 export interface Visibilities {
@@ -1798,6 +1800,7 @@ export interface Visibilities {
     orders: number;
     pixels: number;
     check: string;
+    digits: number;
   };
   values: {
     /** flux of the whole map; null if its light has no frequency. */
@@ -1911,6 +1914,8 @@ export interface CompareRequest {
   pixels?: number;
   /** estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none. */
   check?: 'finer' | 'none';
+  /** significant digits of the columns as text; 1 to 17. */
+  digits?: number;
 }
 
 export interface Comparison {
@@ -1933,6 +1938,7 @@ export interface Comparison {
     solve: string[];
     pixels: number;
     check: string;
+    digits: number;
   };
   values: {
     /** flux of the whole compared map; null if nothing determines it. */
@@ -2062,6 +2068,7 @@ export interface ComparisonOfSets {
     solve: string[];
     pixels: number;
     check: string;
+    digits: number;
   };
   values: {
     /** number of different scenes, each rendered once. */

@@ -111,6 +111,7 @@ async function watch(scene) {
   let told_ms = -Infinity,
     any = false, // a picture has been shown
     drift = () => {}, // called with each picture
+    key = null, // the scales over a picture in false colour
     built,
     seen;
   const parts = new Promise(resolve => (built = resolve)),
@@ -132,6 +133,11 @@ async function watch(scene) {
     drift(frame);
     fall?.then(({ shown }) => shown(frame));
     stars?.then(named => named?.shown(frame));
+    if (scene.get('style.colour_bar')) key ??= import('./over/key.js').then(({ buildKey }) => buildKey(stage, scene));
+    key?.then(
+      shown => shown(frame),
+      () => (key = null),
+    );
     stage.dataset.samples = frame.samples;
     followFiner(!frame.final && !scene.goesOn());
     complain('', '');

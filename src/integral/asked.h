@@ -68,6 +68,7 @@ struct kd_integral_request {
         angles_deg;
     double length_max; /* NaN: half of what the pixels resolve */
     uint32_t baselines, orders;
+    uint32_t digits;                    /* significant digits of the columns' numbers in text */
     struct kd_observation *observation; /* for a comparison or a simulation: malloc'd; NULL: none given */
     /* For a simulation from a uvfits file: its bytes, malloc'd, which the run fills with simulated visibilities. */
     uint8_t *file;

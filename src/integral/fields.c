@@ -1,4 +1,5 @@
 /* The table of request fields, and their JSON Schema. */
+#include "base/decimal.h"
 #include "base/schema.h"
 #include "integral/apart.h"
 #include "integral/request.h"
@@ -244,6 +245,7 @@ const struct kd_row kd_integral_fields[] = {
         "pixels along the longer side of a picture; default 128 for a spectrum, 256 otherwise"),
     WORD(check, unchecked, "finer|none", VOLUME | VISIBILITY | COMPARE | OBSERVE,
          "estimate of the error: from the same picture with 1.5 times as many pixels along each side, or none"),
+    INT(digits, 1, KD_DECIMAL_DIGITS, VISIBILITY | COMPARE, "significant digits of the columns as text"),
 };
 _Static_assert(sizeof kd_integral_fields / sizeof *kd_integral_fields <= 128, "a request has a bit for each field");
 const size_t kd_n_integral_fields = sizeof kd_integral_fields / sizeof *kd_integral_fields;
@@ -307,6 +309,7 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
                                                   : 200,
         .length_max = NAN,
         .baselines = 200,
+        .digits = KD_DECIMAL_DIGITS,
         .products = (1u << KD_PRODUCT_VISIBILITY) - 1,
         .uv_min_gl = 0.1,
         .flux_jy = NAN,

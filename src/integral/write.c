@@ -80,6 +80,7 @@ static size_t more_sources(const struct kd_integral_request *r, const char *out[
 static enum kd_status write_json(const struct kd_integral_answer *answer, bool columns, struct kd_buffer *out)
 {
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);
+    const int digits = (int)answer->request->digits;
     struct kd_json json = kd_json_begin(out);
     kd_json_object(&json, NULL);
     kd_json_string(&json, "integral", kd_integral_name(answer->request->what));
@@ -99,7 +100,7 @@ static enum kd_status write_json(const struct kd_integral_answer *answer, bool c
             if (word)
                 kd_json_string(&json, NULL, word);
             else
-                kd_json_number(&json, NULL, answer->columns[i][row]);
+                kd_json_number(&json, NULL, kd_decimal_round(answer->columns[i][row], digits));
         }
         kd_json_end(&json);
     }
@@ -131,7 +132,7 @@ static enum kd_status write_csv(const struct kd_integral_answer *answer, struct 
         for (size_t i = 0; i < n; i++) {
             kd_pause_every(row, 1024);
             char number[1 + KD_DECIMAL_SIZE] = { i ? ',' : '\n' };
-            double value = answer->columns[i][row];
+            double value = kd_decimal_round(answer->columns[i][row], (int)answer->request->digits);
             const char *word = kind->columns[i].words ? kd_integral_word(answer, i, value) : NULL;
             if (word) {
                 KD_TRY(kd_buffer_printf(out, "%c%s", *number, word));

@@ -2,6 +2,7 @@
 #include "scene/presets.h"
 
 #include "base/spelling.h"
+#include "physics/spacetime/scale.h"
 #include "scene/scene.h"
 #include "document/text.h"
 
@@ -30,6 +31,12 @@
 #define M87_2017 M87_(",\"mjd\":57854")
 #define SGRA SGRA_("")
 #define SGRA_2017 SGRA_(",\"mjd\":57850")
+
+#define TEXT_(tokens) #tokens
+#define TEXT(macro) TEXT_(macro)
+#define HOLE(mass, distance) "\"mass_msun\":" TEXT(mass) ",\"distance_pc\":" TEXT(distance)
+#define M87_HOLE HOLE(KD_SCALE_M87_MSUN, KD_SCALE_M87_PC)
+#define SGRA_HOLE HOLE(KD_SCALE_SGRA_MSUN, KD_SCALE_SGRA_PC)
 
 /* A thick, hot flow at 230 GHz (docs/physics/volume.md). */
 #define HOT_FLOW(inner, density) \
@@ -68,7 +75,7 @@ const struct kd_preset kd_presets[] = {
       "microarcseconds, north up, brightness in false colour; the flow's inner edge is chosen so that the ring is as "
       "wide as measured",
       true,
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87_2017
+      "{\"spacetime\":{\"spin\":0.9," M87_HOLE "}," M87_2017
       "\"camera\":{\"inclination_deg\":163,\"field_m\":56,\"roll_deg\":108},"
       /* puts the approaching jet at a position angle of 288 degrees */
       HOT_FLOW("4.5", "9.5e5") "\"style\":{\"name\":\"eht\"},\"image\":{\"critical_factor\":1}}" },
@@ -77,7 +84,7 @@ const struct kd_preset kd_presets[] = {
       "beam of 20 microarcseconds, brightness in false colour; the flow's inner edge is chosen so that the ring is as "
       "wide as measured",
       true,
-      "{\"spacetime\":{\"spin\":0.9,\"mass_msun\":4.297e6,\"distance_pc\":8277}," SGRA_2017
+      "{\"spacetime\":{\"spin\":0.9," SGRA_HOLE "}," SGRA_2017
       "\"camera\":{\"inclination_deg\":30,\"field_m\":41.7}," HOT_FLOW(
           "3.2", "2.1e7") "\"style\":{\"name\":\"eht\"},\"image\":{\"critical_factor\":1}}" },
     { "luminet1979", "The first picture, 1979",
@@ -195,7 +202,7 @@ const struct kd_preset kd_presets[] = {
       "A ring at 6 M, seen at 17 degrees like M87*; a field along the axis polarises its synchrotron light in a "
       "spiral, which ticks show over the picture",
       false,
-      "{\"spacetime\":{\"spin\":0.5,\"mass_msun\":6.5e9,\"distance_pc\":16.8e6}," M87
+      "{\"spacetime\":{\"spin\":0.5," M87_HOLE "}," M87
       "\"camera\":{\"inclination_deg\":163,\"field_m\":36,\"roll_deg\":108},"
       "\"disk\":{\"inner\":5,\"outer\":8,\"taper\":0.3,\"opacity\":0.3,\"emission_opacity\":0,\"gas\":{\"amplitude\":0}"
       "},"

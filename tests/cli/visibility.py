@@ -72,6 +72,19 @@ class Visibility(Case):
         rows = list(csv.DictReader(io.StringIO(self.good("visibility", *options, "-f", "csv").decode())))
         self.assertEqual([float(row["amplitude"]) for row in rows], told["columns"]["amplitude"])
 
+    def test_digits(self):
+        """Columns are rounded, in JSON and CSV; values and the observation's words are not."""
+        common = ["visibility", "-p", "m87", "--pixels", "32", "--check", "none", "--lengths", "1.23456789,4"]
+        exact, rounded = (json.loads(self.good(*common, *more)) for more in ([], ["--digits", "3"]))
+        self.assertEqual(exact["values"], rounded["values"])
+        for name, column in exact["columns"].items():
+            for one, other in zip(column, rounded["columns"][name]):
+                self.assertEqual(other, None if one is None else float(f"{one:.2e}"), name)
+        self.assertNotEqual(exact["columns"]["re"], rounded["columns"]["re"])
+        table = self.good(*common, "--digits", "3", "-f", "csv").decode().splitlines()
+        self.assertEqual(table[1].split(",")[2], "1.23")
+        self.bad(2, "digits", *common, "--digits", "0")
+
     def test_rings_ring(self):
         """The visibility of a ring of diameter d is J0(pi d u), with zeros 1/d apart (Johnson et al. 2020). For light
         of order 2 about a hole without spin d = 2 sqrt(27) M, within half a percent."""

@@ -141,7 +141,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(first.header("Kerrd-Azimuth"), "0")
         self.assertRegex(
             first.header("Kerrd-Quality"),
-            r"^width=64 height=36 samples=1 critical=4 orders=3 engine=closed precision=f32 steps=0 sketch=0 bright=0 final=1$",
+            r"^width=64 height=36 samples=1 critical=4 orders=3 engine=closed precision=f32 steps=0 sketch=0 bright=0 exposure=[-.e\d]+ final=1$",
         )
         self.assertRegex(first.header("Kerrd-Accuracy"), "^rays=2304 ")
         self.assertIn("encode;dur=", first.header("Server-Timing"))

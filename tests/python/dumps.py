@@ -1,5 +1,5 @@
-"""Dumps of a torus, or of any flow, as iharm3d and Athena++ write them. Shares no code with kerrd.grmhd: metrics are
-matrices in the code's own coordinates, whose derivatives are differences.
+"""Dumps of a torus, or of any flow, as iharm3d, KHARMA, KORAL and Athena++ write them. Shares no code with kerrd.grmhd:
+metrics are matrices in the code's own coordinates, whose derivatives are differences.
 
 iharm3d: names, types, order and shapes as core/io.c of iharm3d (AFD-Illinois/iharm3d) writes them, and
 model/iharm/model.c of ipole reads them. Athena++: as src/outputs/athena_hdf5.cpp (PrincetonUniversity/athena), and as
@@ -180,6 +180,155 @@ def write_iharm(path, kind, shape, flow, a=SPIN, outer=60.0, inner=1.2, entropy=
         file["prims"] = np.stack(fields, -1).astype(np.float32 if single else np.float64)
         file["prims"].attrs["units"] = np.bytes_("code")
     return np.exp(x1), of.theta(x1, x2), x3
+
+
+def write_phdf(path, kind, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2, 2, 2), ghosts=0, old=False, **more):
+    """As Parthenon's outputs/parthenon_hdf5.cpp and KHARMA (AFD-Illinois/kharma) write it, and as pyharm's io/phdf.py
+    reads it. kind: eks, mks or fmks. ghosts: zones round each block, in which the fields are 1e30. old: the components
+    of a vector are the last axis, and scalars have one."""
+    import h5py
+
+    count = [b if n > 1 else 1 for b, n in zip(blocks, shape)]
+    size = [n // b for n, b in zip(shape, count)]
+    start = np.log(inner)
+    of = Mks("mks" if kind == "eks" else kind, start, **({"slope": 1.0} if kind == "eks" else more))
+    turn = np.pi if kind == "eks" else 1.0
+    most = [np.log(outer), turn, 2 * np.pi]
+    least, steps = [start, 0.0, 0.0], [(m - low) / n for m, low, n in zip(most, [start, 0.0, 0.0], shape)]
+    around = [ghosts if n > 1 else 0 for n in size]
+    places = [(i, j, k) for k in range(count[2]) for j in range(count[1]) for i in range(count[0])]
+    stored = [n + 2 * g for n, g in zip(size, around)]
+    data = {
+        name: np.full((len(places), components, *stored[::-1]), 1e30)
+        for name, components in (("rho", 1), ("u", 1), ("uvec", 3), ("B", 3))
+    }
+    edges = [
+        np.array(
+            [
+                low + step * (place[axis] * size[axis] + np.arange(-around[axis], size[axis] + around[axis] + 1))
+                for place in places
+            ]
+        )
+        for axis, (low, step) in enumerate(zip(least, steps))
+    ]
+    inside = tuple(slice(g, g + n) for g, n in zip(around, size))[::-1]
+    for at in range(len(places)):
+        centres = [(0.5 * (e[at, 1:] + e[at, :-1]))[g : g + n] for e, g, n in zip(edges, around, size)]
+        x1, x2, x3 = np.meshgrid(*centres, indexing="ij")
+        r, theta = np.exp(x1), of.theta(x1, x2 / turn)
+        rho, energy, u, b = flow(r, theta, x3)
+        jacobian = of.jacobian(x1, x2 / turn)
+        jacobian[2, 2] /= turn
+        g = np.einsum("ma...,mn...,nb...->ab...", jacobian, metric(a, r, theta), jacobian)
+        U, B = primitives(g, *(np.einsum("am...,m...->a...", inverse(jacobian), v) for v in (u, b)))
+        for name, values in (("rho", [rho]), ("u", [energy]), ("uvec", U), ("B", B)):
+            for k, one in enumerate(values):
+                data[name][(at, k, *inside)] = one.transpose()
+    lines = [
+        "# a torus",
+        "<parthenon/mesh>",
+        *(f"nx{axis + 1} = {n}   # zones" for axis, n in enumerate(shape)),
+        *(f"x{axis + 1}min = {low!r}" for axis, low in enumerate(map(float, least))),
+        *(f"x{axis + 1}max = {high!r}" for axis, high in enumerate(map(float, most))),
+        "<coordinates>",
+        "base = spherical_ks",
+        f"transform = {kind}",
+        f"a = {a!r}",
+        f"hslope = {of.slope}",
+        f"poly_xt = {of.xt}",
+        f"poly_alpha = {of.alpha}",
+        f"mks_smooth = {of.smooth}",
+        "<GRMHD>",
+        f"gamma = {GAMMA!r}",
+    ]
+    with h5py.File(path, "w") as file:
+        info = file.create_group("Info").attrs
+        for name, value in {
+            "Time": 5000.0,
+            "NCycle": np.int32(100),
+            "NumDims": np.int32(sum(n > 1 for n in shape)),
+            "NumMeshBlocks": np.int32(len(places)),
+            "MeshBlockSize": np.array(stored, np.int32),
+            "MaxLevel": np.int32(0),
+            "NGhost": np.int32(4),
+            "IncludesGhost": np.int32(ghosts > 0),
+            "Coordinates": np.bytes_("UniformCartesian"),
+            "OutputDatasetNames": np.array(["prims." + name for name in data], "S16"),
+        }.items():
+            info[name] = value
+        if ghosts:
+            info["NGhost"] = np.int32(ghosts)
+        file.create_group("Input").attrs["File"] = np.bytes_("\n".join(lines) + "\n")
+        for axis, name in enumerate("xyz"):
+            file[f"Locations/{name}"] = edges[axis]
+        for name, values in data.items():
+            if old:
+                values = np.moveaxis(values, 1, -1)
+            elif len(values[0]) == 1:
+                values = values[:, 0]
+            file["prims." + name] = values
+
+
+def lindquist(a, r, theta):
+    """d(t, r, theta, phi) of Boyer and Lindquist by those of Kerr and Schild, (4, 4, ...), and their metric."""
+    delta, s2, sigma = r**2 - 2 * r + a**2, np.sin(theta) ** 2, r**2 + a**2 * np.cos(theta) ** 2
+    back, g = np.zeros((4, 4, *r.shape)), np.zeros((4, 4, *r.shape))
+    for k in range(4):
+        back[k, k] = 1
+    back[0, 1], back[3, 1] = -2 * r / delta, -a / delta
+    g[0, 0], g[1, 1], g[2, 2] = 2 * r / sigma - 1, sigma / delta, sigma
+    g[0, 3] = g[3, 0] = -2 * a * r * s2 / sigma
+    g[3, 3] = s2 * (r**2 + a**2 + 2 * a**2 * r * s2 / sigma)
+    return back, g
+
+
+def write_koral(path, metric, shape, flow, a=SPIN, outer=60.0, inner=1.2, kelvin=None):
+    """As fprint_anaout_hdf5 of fileop.c (achael/koral_lite) writes it. metric: KS or BL, of u^mu and b^mu. theta
+    depends on r, as in JETCOORDS."""
+    import h5py
+
+    n1, n2, n3 = shape
+    start, step = np.log(inner), np.log(outer / inner) / n1
+    x1, x2, phi = np.meshgrid(
+        start + (np.arange(n1) + 0.5) * step,
+        (np.arange(n2) + 0.5) / n2,
+        -np.pi + (np.arange(n3) + 0.5) * 2 * np.pi / n3,
+        indexing="ij",
+    )
+    r, theta = np.exp(x1), Mks("fmks", start).theta(x1, x2)
+    rho, energy, u, b = flow(r, theta, phi)
+    if metric == "BL":
+        back, g = lindquist(a, r, theta)
+        u, b = (np.einsum("am...,m...->a...", back, v) for v in (u, b))
+        unit = np.einsum("a...,ab...,b...->...", u, g, u)
+        assert np.abs(unit + 1).max() < 1e-6 * np.abs(u).max() ** 2
+    with h5py.File(path, "w") as file:
+        header = {
+            "metric_run": np.bytes_("JETCOORDS"),
+            "metric_out": np.bytes_(metric),
+            "ndim": np.array(3, ">i4"),
+            "n1": np.array(n1, ">i4"),
+            "n2": np.array(n2, ">i4"),
+            "n3": np.array(n3, ">i4"),
+            "n_prim": np.array(9, ">i4"),
+            "gam": np.array(GAMMA, ">f8"),
+            "bhspin": np.array(a, ">f8"),
+            "has_electrons": np.array(kelvin is not None, ">i4"),
+            "units/M_bh": np.array(6.5e9, ">f8"),
+            "units/L_unit": np.array(9.6e14, ">f8"),
+            "units/M_unit": np.array(1e-18, ">f8"),
+        }
+        for name, value in header.items():
+            file["header/" + name] = value
+        file["t"] = np.array(5000.0, ">f8")
+        fields = {"grid_out/r": r, "grid_out/th": theta, "grid_out/ph": phi}
+        fields |= {"quants/rho": rho, "quants/pgas": (GAMMA - 1) * energy}
+        fields |= {f"quants/{kind}{k}": v[k] for kind, v in (("u", u), ("b", b)) for k in range(4)}
+        if kelvin is not None:
+            fields["quants/te"] = kelvin(rho, energy)
+        for name, values in fields.items():
+            file[name] = np.broadcast_to(values, shape).astype(">f8")
+    return r, theta, phi
 
 
 def write_athdf(path, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2, 2, 2), fine=(), single=True):

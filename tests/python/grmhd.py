@@ -129,6 +129,81 @@ class Dumps(unittest.TestCase):
         self.assertIsNone(flat.phi)
         self.assertEqual(flat.arrays["density"].shape, (24, 16))
 
+    def test_kharma(self):
+        """Any flow, in blocks with and without ghost zones, in the present and an older order of the components, is
+        read as it was written; and as a file of iharm3d has it."""
+        for kind, a, more in (
+            ("eks", 0.9, {}),
+            ("mks", 0.7, {"ghosts": 2}),
+            ("fmks", -0.5, {"old": True}),
+            ("fmks", 0.95, {"ghosts": 4, "blocks": (1, 1, 1)}),
+        ):
+            path = self.path("dump.phdf")
+            dumps.write_phdf(path, kind, SMALL, any_flow(a), a=a, **more)
+            found = kerrd.matter(path, sigma_cut=None)
+            with self.subTest(kind, a=a, more=more):
+                self.assertEqual((found.spin, found.arrays["density"].shape), (a, SMALL))
+                self.check_vectors(found, a, any_flow(a), 2e-6)
+                if kind == "eks":
+                    continue
+                dumps.write_iharm(self.path("same.h5"), kind, SMALL, any_flow(a), a=a, single=False)
+                same = kerrd.matter(self.path("same.h5"), sigma_cut=None)
+                for got, want in ((found.r, same.r), (found.theta, same.theta), (found.phi, same.phi)):
+                    np.testing.assert_allclose(got, want, rtol=1e-12)
+                for name, values in same.arrays.items():
+                    np.testing.assert_allclose(
+                        found.arrays[name], values, rtol=1e-5, atol=1e-5 * np.abs(values).max(), err_msg=name
+                    )
+        flat = kerrd.matter(self.written_kharma((24, 16, 1)))
+        self.assertIsNone(flat.phi)
+        self.assertEqual(flat.arrays["density"].shape, (24, 16))
+        near = kerrd.matter(self.written_kharma(), outer=20)
+        self.assertLess(near.r[-1], 20)
+        self.assertIn("rows beyond r = 20 are left out", near.notes[0])
+
+    def test_electrons_of_kharma(self):
+        """The entropy of electrons, K = (gamma_e - 1) u_e / rho^gamma_e, is theirs by its own name."""
+        path = self.written_kharma()
+        with h5py.File(path, "r+") as file:
+            rho, energy = (file["prims." + name][()] for name in ("rho", "u"))
+            file["prims.Kel_Howes"] = (4 / 3 - 1) * 0.25 * energy / rho ** (4 / 3)
+        found = kerrd.matter(path, electrons="Kel_Howes", sigma_cut=None)
+        kelvin = (4 / 3 - 1) * 0.25 * (energy / rho).max() * dumps.PROTON / dumps.ELECTRON * 5.9298986e9
+        self.assertAlmostEqual(found.arrays["temperature"].max() / kelvin, 1, delta=2e-3)
+
+    def test_koral(self):
+        """Any flow, in the coordinates of Kerr and Schild or of Boyer and Lindquist, also within the horizon, is read
+        as it was written."""
+        for metric, a in (("KS", 0.9), ("KS", -0.5), ("BL", 0.6)):
+            path = self.path("ana.h5")
+            r, theta, phi = dumps.write_koral(path, metric, SMALL, any_flow(a), a=a)
+            found = kerrd.matter(path, sigma_cut=None)
+            with self.subTest(metric, a=a):
+                self.assertEqual(found.spin, a)
+                for got, want in ((found.r, r[:, 0, 0]), (found.theta, theta[..., 0]), (found.phi, phi[0, 0])):
+                    self.assertLess(np.abs(got - want).max(), 1e-12)
+                self.check_vectors(found, a, any_flow(a), 2e-6)
+                self.assertIn("the file's own units are mass_msun=6.5e+09 and m_unit=8.84736e+26", found.notes)
+        flat = kerrd.matter(self.written_koral((24, 16, 1)))
+        self.assertIsNone(flat.phi)
+        self.assertLess(kerrd.matter(self.written_koral(), outer=20).r[-1], 20)
+
+    def test_electrons_of_koral(self):
+        dumps.write_koral(self.path("ana.h5"), "KS", SMALL, any_flow(0.5), a=0.5, kelvin=lambda rho, _: 1e10 * rho)
+        found = kerrd.matter(self.path("ana.h5"), electrons="te", sigma_cut=None)
+        rho = found.arrays["density"] / found.arrays["density"].max()
+        np.testing.assert_allclose(found.arrays["temperature"] / found.arrays["temperature"].max(), rho, rtol=1e-5)
+        self.assertIn("electrons: the file's temperature te", found.notes)
+        self.refused('electrons is "te"; it must be "ratio" for', self.written_koral(), electrons="te")
+
+    def written_koral(self, shape=SMALL, name="torus.koral"):
+        dumps.write_koral(self.path(name), "KS", shape, dumps.torus_flow)
+        return self.path(name)
+
+    def written_kharma(self, shape=SMALL, name="torus.phdf"):
+        dumps.write_phdf(self.path(name), "fmks", shape, dumps.torus_flow)
+        return self.path(name)
+
     def written_athena(self, shape=SMALL, name="torus.athdf"):
         dumps.write_athdf(self.path(name), shape, dumps.torus_flow)
         return self.path(name)
@@ -224,7 +299,12 @@ class Dumps(unittest.TestCase):
 
     def changed(self, name, of):
         """A copy of a dump, in which `of` changes the open file."""
-        source = self.written_athena() if name.endswith("athdf") else self.written(kind="fmks")
+        if name.endswith("phdf"):
+            source = self.written_kharma()
+        elif name.endswith("koral"):
+            source = self.written_koral()
+        else:
+            source = self.written_athena() if name.endswith("athdf") else self.written(kind="fmks")
         path = self.path("changed." + name)
         pathlib.Path(path).write_bytes(pathlib.Path(source).read_bytes())
         with h5py.File(path, "r+") as file:
@@ -326,7 +406,7 @@ class Dumps(unittest.TestCase):
         self.refused("r_high is -1; it must be a number from 0 to 1e+09", path, r_high=-1)
         self.refused("mass_msun is None; it must be given with m_unit", path, m_unit=1e25)
         self.refused("outer is 0.5; it must be at least r of the second row", path, outer=0.5)
-        self.refused("code is 'harm'; it must be iharm3d, athena++ or None", path, code="harm")
+        self.refused("code is 'harm'; it must be iharm3d, kharma, koral, athena++ or None", path, code="harm")
 
     def test_hostile_athena(self):
         def attribute(name, value):
@@ -421,9 +501,155 @@ class Dumps(unittest.TestCase):
         self.refused("spin is None; it must be given for a file of Athena++", path)
         self.refused("gamma is 9; it must be a number from 1.0001 to 3", path, spin=0.5, gamma=9)
 
+    def test_hostile_kharma(self):
+        def info(name, value):
+            def change(file):
+                del file["Info"].attrs[name]
+                if value is not None:
+                    file["Info"].attrs[name] = value
+
+            return change
+
+        def deck(old, new):
+            def change(file):
+                text = file["Input"].attrs["File"].decode()
+                self.assertIn(old, text)
+                file["Input"].attrs["File"] = np.bytes_(text.replace(old, new))
+
+            return change
+
+        def text_of(value):
+            def change(file):
+                file["Input"].attrs["File"] = value
+
+            return change
+
+        def put(name, at, value):
+            def change(file):
+                file[name][at] = value
+
+            return change
+
+        def shaped(name, shape):
+            def change(file):
+                del file[name]
+                file.create_dataset(name, shape, "f4", chunks=(1,) * len(shape))
+
+            return change
+
+        def without(name):
+            def change(file):
+                del file[name]
+
+            return change
+
+        def twice(file):
+            for name in ("Locations/x", "Locations/y", "Locations/z"):
+                file[name][1] = file[name][0]
+
+        text = "Input/File <"
+        for change, words in (
+            (without("Input"), "Input/File is missing"),
+            (text_of(5), "Input/File is 5; it must be a text"),
+            (text_of("x" * 2_000_000), "Input/File has 2000000 letters; it must have at most 1048576"),
+            (deck("base = spherical_ks", "base = spherical_bl"), text + 'coordinates> base is "spherical_bl"; it must'),
+            (deck("transform = fmks", "transform = superexp"), 'transform is "superexp"; it must be eks, mks or fmks'),
+            (deck("transform = fmks", "#"), text + "coordinates> transform is missing"),
+            (deck("a = 0.9375", "a = 1.5"), text + "coordinates> a is 1.5; it must be a number from -1 to 1"),
+            (deck("a = 0.9375", "a = nan"), text + "coordinates> a is nan; it must be a number from -1 to 1"),
+            (deck("a = 0.9375", "a = \x1b[31m"), "a is \\x1b[31m; it must be a number"),
+            (deck("nx1 = 24", "nx1 = 1e12"), "<parthenon/mesh> nx1 is 1e12; it must be a number from 2 to 65536"),
+            (deck("nx1 = 24", "nx1 = 2.5"), "<parthenon/mesh> nx1 is 2.5; it must be a whole number"),
+            (deck("nx1 = 24", "nx1 = 48"), "Locations/x[0] is 0.182322 to 2.13833; it must be 12 zones of the mesh of"),
+            (deck("nx2 = 16", "nx2 = 65536\nx2min = 0"), "Locations/y[0] is 0 to 0.5"),
+            (deck("x2max = 1.0", "x2max = 0.5"), "x2max is 0.5; it must be 1: the whole sphere"),
+            (deck("x1max = 4.0943445622221", "x1max = 0.1 #"), "x1max is 0.1; it must be a number from 0.182322"),
+            (deck("gamma = ", "gamma = -"), text + "GRMHD> gamma is -"),
+            (
+                info("NumMeshBlocks", np.int64(1 << 40)),
+                "Info/NumMeshBlocks is 1099511627776; it must be 1 whole number",
+            ),
+            (info("NumMeshBlocks", np.int32(9)), "Locations/x has the shape (8, 13); it must be (9, 13)"),
+            (info("MeshBlockSize", np.array([12, 8, -2], "i4")), "Info/MeshBlockSize is 12, 8, -2; it must be 3 whole"),
+            (
+                info("IncludesGhost", np.int32(1)),
+                "Info/MeshBlockSize is 12, 8, 2; it must be more than 8 along each axis",
+            ),
+            (info("Time", np.nan), "Info/Time is nan; it must be a finite number"),
+            (info("Time", None), "Info/Time is missing"),
+            (put("Locations/x", (3, 0), np.nan), "Locations/x[3] is nan to"),
+            (put("Locations/x", (3, 0), 1e300), "Locations/x[3] is 1e+300 to"),
+            (twice, "Locations makes 8 blocks of 12 x 8 x 2 zones that overlap or leave a gap"),
+            (without("prims.uvec"), "prims.uvec is missing"),
+            (shaped("prims.rho", (8, 2, 8, 1 << 40)), "prims.rho has the shape (8, 2, 8, 1099511627776); it must be"),
+            (
+                shaped("prims.B", (8, 2, 2, 8, 12)),
+                "prims.B has the shape (8, 2, 2, 8, 12); it must be (8, 3, 2, 8, 12)",
+            ),
+            (put("prims.rho", (0, 1, 2, 3), np.nan), "rho[3, 2, 1] is nan; it must be a finite number above 0"),
+            (put("prims.B", (7, 2, 0, 0, 0), np.inf), "B3[12, 8, 2] is inf; it must be a finite number"),
+        ):
+            with self.subTest(words):
+                self.refused(words, self.changed("phdf", change))
+        self.refused("spin and gamma must be None for a file of kharma", self.written_kharma(), spin=0.5)
+
+    def test_hostile_koral(self):
+        def put(name, value):
+            def change(file):
+                del file[name]
+                if value is not None:
+                    file[name] = value
+
+            return change
+
+        def at(name, where, value):
+            def change(file):
+                file[name][where] = value
+
+            return change
+
+        def shaped(name, shape):
+            def change(file):
+                del file[name]
+                file.create_dataset(name, shape, "f4", chunks=(1,) * len(shape))
+
+            return change
+
+        for change, words in (
+            (put("header/metric_out", np.bytes_("MKS3")), 'header/metric_out is "MKS3"; it must be KS or BL'),
+            (put("header/n1", np.int64(1 << 40)), "header/n1 is 1099511627776; it must be a whole number from 2 to"),
+            (put("header/bhspin", 1.5), "header/bhspin is 1.5; it must be a number from -1 to 1"),
+            (put("header/gam", np.nan), "header/gam is nan; it must be a number from 1.0001 to 3"),
+            (put("header/units/M_bh", -1.0), "header/units/M_bh is -1; it must be a number from 1e-300"),
+            (put("t", None), "t is missing"),
+            (put("grid_out/th", None), "grid_out/th is missing"),
+            (put("quants/b2", None), "quants/b2 is missing"),
+            (shaped("quants/rho", (24, 16, 1 << 40)), "quants/rho has the shape (24, 16, 1099511627776); it must be"),
+            (at("grid_out/r", (3, 0, 0), np.nan), "grid_out/r is not in ascending order"),
+            (at("grid_out/r", (3, 0, 0), 1.9), "grid_out/r differs between columns"),
+            (at("grid_out/r", 3, 1.9), "grid_out/r is 0.6418539 at zone 3; it must be 0.7528249: radii must grow by"),
+            (at("grid_out/th", (0, 0, 0), 4.0), "grid_out/th is not in ascending order"),
+            (at("grid_out/th", (0, 0, 3), 0.01), "grid_out/th differs between layers"),
+            (at("grid_out/ph", (0, 0, 1), 0.1), "grid_out/ph is 0.1 at zone 1; it must be -0.7853982: azimuths"),
+            (
+                put("grid_out/ph", np.broadcast_to(np.arange(4.0) / 4, SMALL)),
+                "grid_out/ph spans 1; it must span 2 pi, the whole turn",
+            ),
+            (at("quants/rho", (3, 2, 1), np.nan), "rho[3, 2, 1] is nan; it must be a finite number above 0"),
+            (at("quants/u0", (3, 2, 1), np.inf), "U1[3, 2, 1] is inf; it must be a finite number"),
+        ):
+            with self.subTest(words):
+                self.refused(words, self.changed("koral", change))
+        self.refused("spin and gamma must be None for a file of koral", self.written_koral(), gamma=1.4)
+
     def test_files_that_are_cut(self):
         """Nothing of a file that ends early is used."""
-        for source, options in ((self.written(), {}), (self.written_athena(), ATHENA)):
+        for source, options in (
+            (self.written(), {}),
+            (self.written_kharma(), {}),
+            (self.written_koral(), {}),
+            (self.written_athena(), ATHENA),
+        ):
             data = pathlib.Path(source).read_bytes()
             path = self.path("cut.h5")
             for length in (0, 4, 100, len(data) // 3, len(data) // 2, len(data) - 1000):
@@ -453,6 +679,10 @@ class Dumps(unittest.TestCase):
         for name, dataset, options in (
             ("h5", "header/prim_names", {}),
             ("h5", "prims", {}),
+            ("phdf", "Locations/y", {}),
+            ("phdf", "prims.uvec", {}),
+            ("koral", "grid_out/r", {}),
+            ("koral", "quants/u1", {}),
             ("athdf", "Levels", ATHENA),
             ("athdf", "LogicalLocations", ATHENA),
             ("athdf", "x2f", ATHENA),
@@ -471,11 +701,18 @@ class Dumps(unittest.TestCase):
         """A file with a few wrong bytes anywhere is read, or refused with its name."""
         dumps.write_iharm(self.path("a.h5"), "fmks", (6, 4, 3), dumps.torus_flow)
         dumps.write_athdf(self.path("a.athdf"), (8, 8, 4), dumps.torus_flow)
+        dumps.write_phdf(self.path("a.phdf"), "fmks", (8, 8, 4), dumps.torus_flow)
+        dumps.write_koral(self.path("a.koral"), "KS", (8, 8, 4), dumps.torus_flow)
         chance = np.random.default_rng(3)
         path, refused = self.path("wrong"), 0
-        for source, options in ((self.path("a.h5"), {}), (self.path("a.athdf"), ATHENA)):
+        for source, options in (
+            (self.path("a.h5"), {}),
+            (self.path("a.phdf"), {}),
+            (self.path("a.koral"), {}),
+            (self.path("a.athdf"), ATHENA),
+        ):
             whole = pathlib.Path(source).read_bytes()
-            for _ in range(600):
+            for _ in range(300):
                 data = np.frombuffer(whole, np.uint8).copy()
                 data[chance.integers(len(data), size=3)] = chance.integers(256, size=3)
                 pathlib.Path(path).write_bytes(data.tobytes())
@@ -493,7 +730,12 @@ class Dumps(unittest.TestCase):
             with open("/proc/self/statm") as file:
                 return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
 
-        for name, dataset, options in (("athdf", "B", ATHENA), ("h5", "prims", {})):
+        for name, dataset, options in (
+            ("athdf", "B", ATHENA),
+            ("phdf", "prims.B", {}),
+            ("koral", "quants/b1", {}),
+            ("h5", "prims", {}),
+        ):
             path = self.damaged(name, dataset)
             files = os.listdir("/proc/self/fd")
             for k in range(300):

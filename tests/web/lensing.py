@@ -326,6 +326,43 @@ class Lensing(Browser):
         page.wait_for_selector("#measured-row", state="hidden")
         page.wait_for_selector("#overlay .over-ring", state="detached")
 
+    def test_scales_are_drawn_by_the_page(self):
+        """The pictures of M87* arrive without scales, and the page draws them: the length and the beam in proportion to
+        the picture's width on the sky, and white at the brightness temperature that the exposure gives it."""
+        page = self.open("lang=en&preset=m87&style.exposure=-1&camera.field_m=40")
+        page.wait_for_selector("#stage .key-ticks span >> nth=2")
+        asked = [r.post_data_json for r in self.requests if "/v1/sessions?" in r.url and r.method == "POST"]
+        self.assertEqual([one["style"]["colour_bar"] for one in asked], [False])
+        across = 40 * self.physics("scale", hole="m87")["m_uas"]
+        wide = page.locator("#stage").bounding_box()["width"]
+        self.assertEqual(page.inner_text(".key-sky span"), "20 µas")
+        for part, uas in ((".key-sky i", 20), (".key-sky b", 20)):
+            self.assertAlmostEqual(page.locator(part).bounding_box()["width"] / wide, uas / across, delta=2e-3)
+        self.assertEqual(page.inner_text(".key-light span >> nth=0"), "brightness, 10⁹ K")
+        bar, ticks = page.locator(".key-light i").bounding_box(), page.locator(".key-ticks span")
+        self.assertEqual(ticks.all_inner_texts(), ["0", "5", "10", "15", "20"])
+        places = [box["x"] + box["width"] / 2 for box in (tick.bounding_box() for tick in ticks.all())]
+        for x, kelvin in zip(places, (0, 5, 10, 15, 20)):  # light 1 is 1e10 K, and white 2 of it
+            self.assertAlmostEqual((x - bar["x"]) / bar["width"], kelvin / 20, delta=5e-3)
+        self.shot(page, "scales")
+        # The colours of the bar are those of the server's own, whose bar has 112 pixels.
+        ours, theirs = page.evaluate(
+            """async drawn => {
+                const colours = async (blob, left, top, wide) => {
+                    const image = await createImageBitmap(blob), context = new OffscreenCanvas(image.width, image.height).getContext('2d', { willReadFrequently: true });
+                    context.drawImage(image, 0, 0);
+                    wide ||= image.width;
+                    return Array.from({ length: 112 }, (_, k) => [...context.getImageData(left + Math.floor((k + 0.5) / 112 * wide), top, 1, 1).data].slice(0, 3));
+                };
+                const server = await fetch('v1/render?preset=m87&image.width=640&image.height=360&image.samples=1&style.dither=false');
+                return [await colours(new Blob([new Uint8Array(drawn)]), 0, 5), await colours(await server.blob(), 20, 336, 112)];
+            }""",
+            list(page.locator(".key-light i").screenshot()),
+        )
+        self.assertEqual((theirs[0], theirs[-1]), ([0, 0, 0], [255, 255, 255]))
+        off = [max(abs(x - y) for x, y in zip(*pair)) for pair in zip(ours, theirs)]
+        self.assertLess(max(off), 16, off)
+
     def test_photon_rings_have_axes(self):
         """Each order is drawn where its light is. For light of a small disk at 20 M each is closer to the curve than
         the one before by e^-gamma. The wheel reduces the number of decades."""

@@ -83,6 +83,30 @@ class Pair(Browser):
         self.both(page)
         self.shot(page, "pair-charge")
 
+    def test_the_model_beside_the_data(self):
+        """Whatever the scene was, M87* stands beside its data, which no second session shows. Another pair ends that."""
+        page = self.begin()
+        page.select_option("#pair-what", label="M87*: our model | what was measured")
+        page.wait_for_selector("#pair-data .data:not([hidden]) canvas >> nth=1")
+        self.assertEqual(self.sides(page), ["our model", "measured"])
+        self.assertEqual(page.input_value("#preset"), "m87")
+        self.linked(page, "pair.data=1")
+        page.wait_for_selector(AT_REST)
+        self.shot(page, "pair-data")
+        other = self.page(self.context())
+        other.goto(page.url.replace("#", "#pace=fast&"))
+        other.wait_for_selector("#pair-data .data:not([hidden]) canvas >> nth=1")
+        self.assertEqual(self.sides(other), ["our model", "measured"])
+        self.assertEqual(other.inner_text("#link-fault"), "")
+        with page.expect_response(lambda r: r.url.endswith("/v1/compare")) as answer:
+            page.focus("#stage")
+            page.keyboard.press("ArrowUp")
+        self.assertNotEqual(answer.value.json()["scene"]["camera"]["inclination_deg"], 163)
+        page.select_option("#pair-what", "spacetime.spin")
+        self.both(page)
+        self.assertTrue(page.is_hidden("#pair-data"))
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or "pair.data" not in page.url))
+
     def test_any_field_in_italian(self):
         page = self.begin("lang=it&preset=smooth&pause=1")
         page.select_option("#pair-what", "disk.outer")

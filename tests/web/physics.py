@@ -1,8 +1,10 @@
 """Tests of the curves, the sound of a ringdown, and the view of real scale: physics.py KERRD FOLDER (browser.py)."""
 
+import json
 import math
 import pathlib
 import re
+import urllib.request
 
 from browser import AT_REST, READY, SMOOTH, Browser, main, value
 
@@ -374,8 +376,8 @@ class Physics(Browser):
             ring = float(page.get_attribute(f"#sky-{hole} .sky-stack", "data-ring"))
             self.assertAlmostEqual(ring, wide, delta=off)
             self.assertIn("by the same fit", page.get_attribute(f"#sky-{hole} .sky-stack", "aria-label"))
-        page.wait_for_selector("#scale-data:not([hidden]) canvas")
-        self.shot(page, "scale")
+        page.wait_for_selector("#scale .data:not([hidden]) canvas")
+        self.shot(page, "scale", full_page=True)
         self.assertIn("a ring 42 ± 3 µas across", page.get_attribute("#sky-m87 .sky-stack", "aria-label"))
         self.assertIn("a ring 51.8 ± 2.3 µas across", page.get_attribute("#sky-sgra .sky-stack", "aria-label"))
         # In both views the ring's diameter and its error are drawn to scale, relative to the panel's width, with the
@@ -416,8 +418,8 @@ class Physics(Browser):
         page.wait_for_function('() => location.hash.includes("scale.beside=2")')
         asked = [r.url for r in self.requests if "/v1/render?" in r.url]
         self.assertEqual(
-            [sum(part in url for url in asked) for part in ("beam_uas=20", "layers=intensity", "bloom")],
-            [2, 2, 6],
+            [sum(part in url for url in asked) for part in ("beam_uas=0", "layers=intensity", "preset=sgra")],
+            [4, 2, 3],
             "the slider asks for nothing",
         )
 
@@ -459,14 +461,15 @@ class Physics(Browser):
 
     def test_measurements_beside_the_model(self):
         """Amplitudes and closure phases of M87* with those of the model, which follow the sliders."""
-        page = self.open("lang=en&view=scale", "#scale-data:not([hidden]) canvas")
-        amplitudes, phases = page.locator("#scale-data figure").all()
+        page = self.open("lang=en&view=scale", "#scale .data:not([hidden]) canvas")
+        amplitudes, phases = page.locator("#scale .data figure").all()
         self.assertIn("M87*: amplitudes", amplitudes.inner_text())
         self.assertIn("M87*: closure phases", phases.inner_text())
 
         def table(figure):
             if not figure.locator("tbody tr").count():
                 figure.locator("summary").click()
+                figure.locator("tbody tr").first.wait_for()
             rows = figure.locator("tbody tr").all()
             return [
                 [float(cell.replace("\u2212", "-").replace("×10", "e")) for cell in row.inner_text().split()[:3]]
@@ -486,7 +489,84 @@ class Physics(Browser):
         self.assertEqual([row[:2] for row in after], [row[:2] for row in before], "the data stay")
         self.assertEqual([r.url for r in self.requests if "/v1/assets" in r.url], [], "the server has the data")
         page.select_option("#in-scale-hole", "none")
-        page.wait_for_selector("#scale-data", state="hidden")
+        page.wait_for_selector("#scale .data", state="hidden")
+
+    def test_curves_of_the_model_over_the_data(self):
+        """The drawn amplitudes are those of /v1/visibility, at any baseline. A curve of closure phases passes through
+        the model of /v1/compare, whose phases have the other sign, where the triangle has the size of the telescopes'.
+        """
+        page = self.open("lang=en&view=scale&scale.spin=0.5", "#scale .data:not([hidden]) canvas")
+        amplitudes, phases = page.locator("#scale .data figure").all()
+        self.assertEqual(
+            amplitudes.locator(".legend span").all_inner_texts(),
+            ["measured", "our model", "our model, to the north", "to the east"],
+        )
+
+        def table(figure, k):
+            if not figure.locator("table").count():
+                figure.locator("summary").click()
+                figure.locator("tbody tr").first.wait_for()
+            powers = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻\u2212", "0123456789--")
+            number = lambda text: float(text.translate(powers).replace(" × 10", "e") if text.strip() else "nan")
+            rows = figure.locator("table").nth(k).locator("tbody tr").all()
+            return [[number(cell) for cell in row.inner_text().split("\t")] for row in rows]
+
+        def ask(path, body):
+            scene = {
+                "spacetime": {"spin": 0.5},
+                "camera": {"inclination_deg": 163, "field_uas": 200, "centre_alpha": 0, "centre_beta": 0},
+                "image": {"width": 64, "height": 64},
+            }
+            body = {"preset": "m87", "scene": scene, "pixels": 64, "check": "none", **body}
+            request = urllib.request.Request(
+                f"{self.base}v1/{path}", json.dumps(body).encode(), {"Content-Type": "application/json"}
+            )
+            return json.load(urllib.request.urlopen(request))
+
+        drawn = table(amplitudes, 1)
+        self.assertGreater(len(drawn), 10)
+        length = [row[0] for row in drawn]
+        told = ask("visibility", {"lengths": length, "angles_deg": [0, 90]})["columns"]["amplitude"]
+        for k, (_, north, east) in enumerate(drawn):
+            self.assertAlmostEqual(north / told[k], 1, delta=1e-3)
+            self.assertAlmostEqual(east / told[len(drawn) + k], 1, delta=1e-3)
+        self.assertGreater(max(abs(north / east - 1) for _, north, east in drawn), 0.3, "they differ")
+        compared = ask(
+            "compare",
+            {"observation": "m87-2017-04-05-lo", "average_s": 600, "pulse": "point", "products": ["closure_phase"]},
+        )["columns"]
+        models = [
+            [
+                model
+                for model, *stations in zip(compared["model"], *(compared[f"station_{i}"] for i in (1, 2, 3)))
+                if "–".join(stations) == name
+            ]
+            for name in phases.locator(".legend span").all_inner_texts()[2:]
+        ]
+        dots, curve = table(phases, 0), table(phases, 1)
+        self.assertEqual([len(one) > 2 for one in models], [True, True])
+        for k, known in enumerate(models):
+            near = []  # the curve at the lengths of the triangle's data
+            for at, _, model in dots:
+                if min(abs(model - one) for one in known) > 0.06:
+                    continue
+                (x0, *y0), (x1, *y1) = next(pair for pair in zip(curve, curve[1:]) if pair[1][0] >= at)
+                near.append(abs(y0[k] + (at - x0) / (x1 - x0) * (y1[k] - y0[k]) - model))
+            self.assertLess(min(near), 3, "between two of its numbers")
+
+    def test_the_data_beside_a_scene(self):
+        """In the view See the same charts follow the scene, here that of M87* with another spin."""
+        page = self.open("lang=en&preset=m87")
+        page.click("#integrals > summary")
+        page.select_option("#integral", "data")
+        page.wait_for_selector("#integral-plot[data-state=data] .data:not([hidden]) canvas")
+        with page.expect_response(lambda r: r.url.endswith("/v1/compare")) as answer:
+            page.locator("#leading input[type=range]").first.fill("0.3")
+        self.assertNotEqual(answer.value.json()["scene"]["spacetime"]["spin"], 0.9)
+        page.locator("#integral-plot .data").scroll_into_view_if_needed()
+        self.shot(page, "data-see")
+        page.select_option("#integral", "")
+        page.wait_for_selector("#integral-plot .data", state="hidden")
 
 
 if __name__ == "__main__":

@@ -6,12 +6,17 @@ const live_ms = 1000; // least time between two updates of a table
 
 export const shared = spec => spec.series.every(s => s.x === spec.series[0].x);
 
+// The curves, those with the same x together.
+function groups({ series }) {
+  const by = new Map(series.map(s => [s.x, []]));
+  for (const s of series) by.get(s.x).push(s);
+  return [...by.values()];
+}
+
 function table(spec) {
-  const n = spec.series[0]?.x.length ?? 0,
-    every = Math.max(1, Math.ceil(n / 24));
-  const list = shared(spec) ? [spec.series] : spec.series.map(s => [s]);
-  return list.map(group =>
-    el(
+  return groups(spec).map(group => {
+    const every = Math.max(1, Math.ceil(group[0].x.length / 24));
+    return el(
       'table',
       {},
       el(
@@ -37,18 +42,21 @@ function table(spec) {
               ),
         ),
       ),
-    ),
-  );
+    );
+  });
 }
 
 const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
 
-// The page makes the CSV, because no route of the server returns these numbers.
+// The page makes the CSV, because no route of the server returns these numbers. Curves with another x have a column of
+// their own for it.
 function sheet(spec) {
-  const [{ x }] = spec.series,
+  const all = groups(spec),
     rows = [
-      [spec.x.label, ...spec.series.map(s => s.name)].map(cell),
-      ...x.map((at, i) => [at, ...spec.series.map(s => s.y[i])]),
+      all.flatMap(group => [spec.x.label, ...group.map(s => s.name)]).map(cell),
+      ...Array.from({ length: Math.max(...all.map(([{ x }]) => x.length)) }, (_, i) =>
+        all.flatMap(group => [group[0].x[i], ...group.map(s => s.y[i])]),
+      ),
     ];
   return URL.createObjectURL(new Blob([rows.map(row => row.join(',') + '\n').join('')], { type: 'text/csv' }));
 }
@@ -59,8 +67,10 @@ export function numbers(id) {
     links = el('p', {});
   const details = el('details', {}, el('summary', {}, t('common.the-numbers', 'The numbers')), box, links);
   let spec = null,
-    filled = 0;
+    filled = 0,
+    timer = 0;
   function fill() {
+    clearTimeout(timer);
     if (!details.open || !spec) return;
     filled = performance.now();
     box.replaceChildren(...table(spec));
@@ -68,7 +78,9 @@ export function numbers(id) {
   details.addEventListener('toggle', fill);
   details.show = next => {
     spec = next;
-    if (!spec.live || performance.now() > filled + live_ms) fill();
+    clearTimeout(timer);
+    const early_ms = spec.live ? filled + live_ms - performance.now() : 0;
+    early_ms > 0 ? (timer = setTimeout(fill, early_ms)) : fill();
     if (links.firstChild && spec.live) return;
     const link =
       (spec.csv || spec.live) &&

@@ -116,6 +116,7 @@ function drawErrors(u, { series, y: { log } }) {
   ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
   ctx.clip();
   ctx.lineWidth = devicePixelRatio;
+  ctx.setLineDash([]);
   series.forEach((s, i) => {
     if (!s.error || !u.series[i + 1].show) return;
     ctx.strokeStyle = colour(strokes[i % strokes.length][0]);

@@ -68,6 +68,15 @@ export async function* lines(url, body, signal) {
 
 // Answers of /v1/physics are cached: most drawings request the same values again.
 const kept = new Map();
+export function keptJson(url) {
+  if (!kept.has(url)) {
+    if (kept.size > 200) kept.delete(kept.keys().next().value);
+    const answer = getJson(url);
+    answer.catch(() => kept.delete(url));
+    kept.set(url, answer);
+  }
+  return kept.get(url);
+}
 
 export function physicsUrl(name, parameters) {
   return `v1/physics/${name}?` + new URLSearchParams(parameters).toString().replaceAll('%3A', ':');
@@ -79,16 +88,9 @@ export const holeOf = scene => ({
   ...(scene.get('spacetime.charge') ? { charge: scene.get('spacetime.charge') } : {}),
 });
 
-// Charts and their tables show at most this number of digits; all digits would take three times the bytes.
-export const drawn = { digits: 5 };
+// Digits of numbers for lines over a picture, which can be enlarged, and for charts and their tables. All digits would
+// take three times the bytes.
+export const drawn = { digits: 6 },
+  charted = { digits: 5 };
 
-export function physics(name, parameters) {
-  const url = physicsUrl(name, parameters);
-  if (!kept.has(url)) {
-    if (kept.size > 200) kept.delete(kept.keys().next().value);
-    const answer = getJson(url);
-    answer.catch(() => kept.delete(url));
-    kept.set(url, answer);
-  }
-  return kept.get(url);
-}
+export const physics = (name, parameters) => keptJson(physicsUrl(name, parameters));

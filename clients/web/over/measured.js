@@ -5,28 +5,26 @@ import { stops } from '../views/scale/eht.js';
 import { number, t } from '../words/i18n.js';
 import { ask, drawn, holeOf as blackHole, physics } from '../base/server.js';
 
-// Mass and distance of each hole, in solar masses and parsecs: the values of the quantity `scale`.
-const holes = { m87: [6.5e9, 16.8e6], sgra: [4.297e6, 8277] };
-
-export function holeOf(scene) {
-  const [mass, distance] = ['mass_msun', 'distance_pc'].map(name => scene.get('spacetime.' + name));
-  return Object.keys(holes).find(name => holes[name][0] === mass && holes[name][1] === distance);
-}
-
-export const isMeasured = scene =>
-  Boolean(holeOf(scene)) && scene.get('camera.r') === 'infinity' && scene.get('style.beam_uas') > 0;
+const isMeasured = scene =>
+  scene.get('source.name') !== 'none' && scene.get('camera.r') === 'infinity' && scene.get('style.beam_uas') > 0;
 
 // The measured ring and the limits of its error, as lines over the picture. Its place on the sky was not measured: it
 // is drawn round the centre of the shadow.
 export async function ring(scene, look, path) {
-  const hole = holeOf(scene);
-  if (!hole) throw new Error(t('measured.of-m87-and-sgr', 'of M87* and Sgr A* alone, by their masses and distances'));
+  const hole = scene.get('source.name');
+  if (hole === 'none')
+    throw new Error(t('measured.of-m87-and-sgr', 'of M87* and Sgr A* alone, the sources of a scene'));
   if (scene.get('camera.r') !== 'infinity')
     throw new Error(t('measured.as-seen-from-the', 'as seen from the Earth alone: from infinity'));
   const black = blackHole(scene),
     inclination_deg = scene.get('camera.inclination_deg');
   const [{ values: v }, { values: edge }] = await Promise.all([
-    physics('scale', { hole, ...black, inclination_deg }),
+    physics('scale', {
+      hole,
+      ...black,
+      inclination_deg,
+      ...Object.fromEntries(['mass_msun', 'distance_pc'].map(name => [name, scene.get('spacetime.' + name)])),
+    }),
     physics('shadow', { ...black, inclination_deg, angle_deg: '0:358:180', ...drawn }),
   ]);
   const middle = ['alpha', 'beta'].map(name => (Math.min(...edge[name]) + Math.max(...edge[name])) / 2),
@@ -83,7 +81,7 @@ export function buildMeasured(stage, scene, size, choose) {
     const there = isMeasured(scene),
       at = slider.valueAsNumber;
     root.hidden = !there;
-    words.textContent = stops[Math.round(at)][1];
+    words.textContent = stops(scene.get('style.beam_uas'))[Math.round(at)];
     slider.setAttribute('aria-valuetext', words.textContent);
     stage.style.setProperty('--ring', 0.3 + 0.7 * Math.max(at - 1, 0));
     sharp.style.opacity = 1 - Math.min(at, 1);

@@ -7,6 +7,10 @@ const least_samples = 2;
 export const samples = scene =>
   scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
+// Whether the page draws the scales of a scene (over/key.js). Where the server refuses them, it is asked for them.
+const keyed = scene =>
+  scene.get('style.colour_bar') && scene.get('style.palette') === 'heat' && scene.get('style.tone_map') === 'srgb';
+
 // The document of a scene for a window of this size. part: the share of its width for which the server accepts a
 // picture.
 export function document(scene, { width, height }, part) {
@@ -14,6 +18,7 @@ export function document(scene, { width, height }, part) {
     'image.width': Math.round(width * part),
     'image.height': Math.round(height * part),
     'image.samples': samples(scene),
+    ...(keyed(scene) ? { 'style.colour_bar': false } : {}),
     ...(scene.drift ? { 'motion.azimuth_rate_deg': scene.drift } : {}),
     ...(scene.held || scene.recorded
       ? { 'motion.time_rate': 0, 'motion.azimuth_rate_deg': 0, 'motion.proper_time_rate': 0 }

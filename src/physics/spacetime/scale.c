@@ -3,8 +3,8 @@
 #include "physics/math/constants.h"
 
 const struct kd_scale_hole kd_scale_holes[] = {
-    [KD_SCALE_M87] = { "M87*", 6.5e9, 16.8e6, 42, 3 },
-    [KD_SCALE_SGRA] = { "Sgr A*", 4.297e6, 8277, 51.8, 2.3 },
+    [KD_SCALE_M87] = { "M87*", KD_SCALE_M87_MSUN, KD_SCALE_M87_PC, 42, 3 },
+    [KD_SCALE_SGRA] = { "Sgr A*", KD_SCALE_SGRA_MSUN, KD_SCALE_SGRA_PC, 51.8, 2.3 },
 };
 
 double kd_scale_metres(double mass_msun) { return mass_msun * KD_M_SUN_M; }

@@ -23,10 +23,11 @@ static void describe_quality(struct kd_live_frame *frame, const struct kd_render
 {
     const struct kd_plan *p = &job->plan;
     snprintf(frame->quality, sizeof frame->quality,
-             "width=%u height=%u samples=%u critical=%u orders=%u engine=%s precision=%s steps=%u sketch=%d bright=%d",
+             "width=%u height=%u samples=%u critical=%u orders=%u engine=%s precision=%s steps=%u sketch=%d bright=%d "
+             "exposure=%.6g",
              p->picture.width, p->picture.height, p->lens.side, critical_side(&p->lens), p->lens.orders,
              kd_engine_name(p->lens.setting.engine), kd_precision_name(p->lens.setting.precision),
-             p->lens.setting.steps, p->light.march.sketched, p->light.bright);
+             p->lens.setting.steps, p->light.march.sketched, p->light.bright, job->frame.exposure);
 }
 
 static void describe_timing(struct kd_live_frame *frame, const struct kd_render_job *job)

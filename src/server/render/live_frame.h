@@ -34,7 +34,7 @@ struct kd_live_frame {
     /* hash of the approximations: clients that have that text are not sent it again */
     uint32_t sentences;
     struct kd_buffer event; /* data of the frame's event: JSON on one line */
-    char accuracy[KD_ACCURACY_TEXT], timing[400], quality[160], clock[KD_CLOCK_TEXT], flux[KD_FLUX_TEXT];
+    char accuracy[KD_ACCURACY_TEXT], timing[400], quality[200], clock[KD_CLOCK_TEXT], flux[KD_FLUX_TEXT];
 };
 
 /* Values that describe the frame. */

@@ -75,10 +75,11 @@ def main(arguments: list[str] | None = None) -> int:
     commands = parser.add_subparsers(dest="command", required=True)
     one = commands.add_parser(
         "import",
-        help="a scene from an input file of GYOTO, ipole or Blacklight, or matter from a dump of iharm3d or Athena++",
+        help="a scene from an input file of GYOTO, ipole or Blacklight, or matter from a dump of iharm3d, KHARMA, "
+        "KORAL or Athena++",
         description="Print the scene of an input file of GYOTO (XML), ipole (.par) or Blacklight (.input) as JSON, and on "
-        "standard error what it does not say. Of a simulation's dump (iharm3d, Athena++), write the grid that the scene's "
-        "volume.grid names.",
+        "standard error what it does not say. Of a simulation's dump (iharm3d, KHARMA, KORAL, Athena++), write the "
+        "grid that the scene's volume.grid names.",
     )
     one.add_argument("file", metavar="FILE")
     one.add_argument(

@@ -597,6 +597,7 @@ class VisibilitiesParameters(TypedDict):
     orders: float
     pixels: float
     check: str
+    digits: float
 
 
 class VisibilitiesValues(TypedDict):
@@ -641,6 +642,7 @@ class ComparisonParameters(TypedDict):
     solve: list[str]
     pixels: float
     check: str
+    digits: float
 
 
 class ComparisonValues(TypedDict):
@@ -733,6 +735,7 @@ class ComparisonOfSetsParameters(TypedDict):
     solve: list[str]
     pixels: float
     check: str
+    digits: float
 
 
 class ComparisonOfSetsValues(TypedDict):

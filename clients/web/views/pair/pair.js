@@ -1,13 +1,17 @@
 // Two holes side by side under one camera: the scene, and the scene with other values of some fields. A drag on either
-// of them moves both. The link has the other values as pair.FIELD.
+// of them moves both. The link has the other values as pair.FIELD. Or the scene beside what was measured of M87*.
 import { describe } from '../../words/describe.js';
 import { byId, el, paced, typing } from '../../base/dom.js';
 import { named, number, t, tell, unit, word } from '../../words/i18n.js';
 import * as link from '../../base/link.js';
+import { buildKey } from '../../over/key.js';
 import { openSource } from '../../picture/source.js';
+import { module } from '../../base/server.js';
 import { windowSize } from '../../picture/sizes.js';
 
 const prefix = 'pair.';
+const data = prefix + 'data'; // in the link: the other side has the data of M87*
+const rest_ms = 400; // time since the last change, after which the data are compared again
 const smooth = { 'disk.gas.amplitude': 0, 'disk.emission_opacity': 0, 'style.bloom': 0 };
 // Ready pairs: values on both sides, and their labels.
 const ready = [
@@ -94,6 +98,7 @@ function linked(scene) {
   const over = {},
     unknown = [];
   for (const [key, text] of link.entries(prefix)) {
+    if (key === data) continue;
     const path = key.slice(prefix.length),
       field = scene.fields.get(path);
     if (!field || !comparable(field)) {
@@ -117,9 +122,11 @@ function build(stage, scene) {
     context = canvas.getContext('2d'),
     told = el('p', { class: 'fault', role: 'status' }),
     captions = [el('p', { class: 'side' }), el('p', { class: 'side' })],
-    box = el('div', { id: 'pair-stage' }, canvas, captions[1], told),
+    charts = el('div', { id: 'pair-data' }),
+    box = el('div', { id: 'pair-stage' }, canvas, charts, captions[1], told),
     other = new Other(scene, linked(scene)),
     size = () => windowSize(box);
+  const key = buildKey(box, other);
   stage.append(captions[0]);
   stage.parentNode.dataset.pair = '';
   stage.after(box);
@@ -132,23 +139,43 @@ function build(stage, scene) {
     Object.assign(canvas, { width: bitmap.width, height: bitmap.height });
     context.drawImage(bitmap, 0, 0);
     bitmap.close();
+    key(frame);
     told.textContent = '';
     speak();
   }
   const speak = paced(() => canvas.setAttribute('aria-label', describe(other)));
-  const source = openSource(
-    other,
-    size,
-    show,
-    error => tell(told, error.message),
-    whether => (box.dataset.final = whether),
-  );
+  let source = null; // none while the other side has the data
+  const open = () =>
+    (source ??= openSource(
+      other,
+      size,
+      show,
+      error => tell(told, error.message),
+      whether => (box.dataset.final = whether),
+    ));
+  function close() {
+    source?.close();
+    source = null;
+  }
+
+  let measured = Boolean(link.get(data)), // whether the other side has the data
+    compare = null, // shows them
+    timer = 0;
+  async function measure() {
+    try {
+      compare ??= (await module(import('../scale/data.js'))).measurements(charts, 'lensing');
+      await compare(measured ? { scene: scene.document() } : null);
+    } catch (error) {
+      tell(told, error.message);
+    }
+  }
 
   // Pointers, wheel and double clicks go to the first picture, which handles them for both.
   for (const name of ['pointerdown', 'wheel', 'dblclick'])
     box.addEventListener(
       name,
       event => {
+        if (measured) return;
         event.preventDefault();
         stage.dispatchEvent(new event.constructor(event.type, event));
       },
@@ -156,12 +183,15 @@ function build(stage, scene) {
     );
 
   function follow() {
-    for (const path of scene.jumped) if (!(path in other.over)) other.jumped.add(path);
-    source.refresh();
+    box.toggleAttribute('data-measured', measured);
     caption();
+    clearTimeout(timer);
+    if (measured) return void (timer = setTimeout(measure, rest_ms));
+    for (const path of scene.jumped) if (!(path in other.over)) other.jumped.add(path);
+    open().refresh();
   }
   for (const event of ['change', 'move', 'drift']) scene.addEventListener(event, follow);
-  const sized = new ResizeObserver(() => source.refresh());
+  const sized = new ResizeObserver(() => source?.refresh());
   sized.observe(box);
 
   // The label of each side.
@@ -183,9 +213,12 @@ function build(stage, scene) {
           same(right, other.get),
       ),
       paths = Object.keys(other.over);
-    const texts =
-      found?.words ??
-      [scene, other].map(side => paths.map(path => `${named(path).label} ${value(path, side.get(path))}`).join(', '));
+    const texts = measured
+      ? [t('common.our-model', 'our model'), t('common.measured', 'measured')]
+      : (found?.words ??
+        [scene, other].map(side =>
+          paths.map(path => `${named(path).label} ${value(path, side.get(path))}`).join(', '),
+        ));
     captions.forEach((node, i) => {
       if (node.textContent !== texts[i]) node.textContent = texts[i];
     });
@@ -194,10 +227,12 @@ function build(stage, scene) {
   function keep() {
     for (const [key] of link.entries(prefix)) link.set(key, null);
     for (const [path, own] of Object.entries(other.over)) link.set(prefix + path, own);
+    if (measured) link.set(data, 1);
   }
 
   // Sets what differs. left: values of the scene itself.
   function differ(right, left = {}) {
+    measured = false;
     other.over = Object.fromEntries(
       Object.entries(right).map(([path, own]) => [path, own ?? scene.fields.get(path).default]),
     );
@@ -205,6 +240,20 @@ function build(stage, scene) {
     scene.change(left);
     if (!Object.keys(left).length) follow();
     inputs();
+  }
+
+  // Shows the data of M87* beside the scene, which becomes that of M87* if it is of another hole.
+  function measuredBeside() {
+    measured = true;
+    other.over = {};
+    close();
+    keep();
+    inputs();
+    if (scene.get('source.name') !== 'm87') {
+      byId('preset').value = 'm87';
+      byId('preset').dispatchEvent(new Event('change'));
+    }
+    follow();
   }
 
   // The controls: the field that differs, and its values.
@@ -219,6 +268,7 @@ function build(stage, scene) {
         'optgroup',
         { label: t('pair.pairs', 'Pairs') },
         ...ready.map(({ name }, i) => el('option', { value: i }, name)),
+        el('option', { value: data }, t('pair.m87-model-data', 'M87*: our model | what was measured')),
       ),
       el(
         'optgroup',
@@ -270,12 +320,14 @@ function build(stage, scene) {
       sides.replaceChildren(...values.map(({ node }) => node));
     }
     for (const { show } of values) show();
+    swapping.hidden = measured;
     const at = ready.findIndex(
       ({ right }) => Object.keys(right).join() === Object.keys(other.over).join() && same(right, other.get),
     );
-    select.value = at >= 0 ? at : path && !more ? path : '';
+    select.value = measured ? data : at >= 0 ? at : path && !more ? path : '';
   }
   select.addEventListener('change', () => {
+    if (select.value === data) return measuredBeside();
     const chosen = ready[select.value];
     if (chosen) return differ(chosen.right, chosen.left);
     const field = scene.fields.get(select.value),
@@ -297,7 +349,10 @@ function build(stage, scene) {
     for (const event of ['change', 'move', 'drift']) scene.removeEventListener(event, follow);
     scene.removeEventListener('change', inputs);
     sized.disconnect();
-    source.close();
+    close();
+    clearTimeout(timer);
+    measured = false;
+    compare?.(null);
     other.over = {};
     keep();
     delete stage.parentNode.dataset.pair;
@@ -305,7 +360,8 @@ function build(stage, scene) {
     pair = null;
     byId('pair-begin').focus();
   }
-  const title = el('h2', { tabindex: -1 }, t('pair.side-by-side', 'Side by side')),
+  const swapping = el('button', { type: 'button', onclick: swap }, t('pair.swap-the-sides', 'Swap the sides')),
+    title = el('h2', { tabindex: -1 }, t('pair.side-by-side', 'Side by side')),
     panel = el(
       'section',
       { id: 'pair', 'aria-label': title.textContent },
@@ -314,15 +370,12 @@ function build(stage, scene) {
       el('label', { for: select.id }, t('pair.what-differs', 'What differs')),
       select,
       sides,
-      el(
-        'p',
-        { class: 'row' },
-        el('button', { type: 'button', onclick: swap }, t('pair.swap-the-sides', 'Swap the sides')),
-      ),
+      el('p', { class: 'row' }, swapping),
     );
   byId('panel').prepend(panel);
   scene.addEventListener('change', inputs);
-  if (Object.keys(other.over).length) follow(), inputs();
+  if (measured) measuredBeside();
+  else if (Object.keys(other.over).length) follow(), inputs();
   else differ(ready[0].right, ready[0].left), title.focus({ preventScroll: true });
   return { end };
 }

@@ -2,7 +2,7 @@
 // from the values of /v1/physics.
 import { axis, degrees, ofDisk, outside, radius, spin } from './axes.js';
 import { number, t } from '../../words/i18n.js';
-import { drawn, physics, physicsUrl } from '../../base/server.js';
+import { charted, physics, physicsUrl } from '../../base/server.js';
 
 export const light = [
   {
@@ -16,7 +16,7 @@ export const light = [
       const { r } = await outside(16, 81)(p),
         hill = l => ({ spin: p.spin, l, r }),
         [along, against] = await Promise.all(
-          (Number(p.spin) === 0 ? [1] : [1, -1]).map(l => physics('potential', { ...hill(l), ...drawn })),
+          (Number(p.spin) === 0 ? [1] : [1, -1]).map(l => physics('potential', { ...hill(l), ...charted })),
         ); // without spin the two are the same
       return {
         r: along.parameters.r,
@@ -119,7 +119,7 @@ export const light = [
       },
     ],
     query: { order: '1:6:6' },
-    also: async p => (await physics('photon-rings', { ...p, spin: 0, ...drawn })).values,
+    also: async p => (await physics('photon-rings', { ...p, spin: 0, ...charted })).values,
     equation:
       '<msub><mi>w</mi><mrow><mi>n</mi><mo>+</mo><mn>1</mn></mrow></msub><mo>→</mo><msup><mi>e</mi><mrow><mo>−</mo><mi>γ</mi></mrow></msup><msub><mi>w</mi><mi>n</mi></msub>',
     show: (v, p, plain) => ({

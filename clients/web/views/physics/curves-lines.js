@@ -3,7 +3,7 @@
 // route than /v1/physics; words names the quantity whose parameters describe theirs.
 import { axis, spin } from './axes.js';
 import { number, t } from '../../words/i18n.js';
-import { drawn, physics, postJson } from '../../base/server.js';
+import { charted, physics, postJson } from '../../base/server.js';
 
 const keV = { rest_energy: 6.4, energy_min: 1, energy_max: 10 };
 const numbersOf = asked => Object.fromEntries(Object.entries(asked).map(([name, value]) => [name, Number(value)]));
@@ -71,7 +71,7 @@ export const lines = [
     title: t('curves-lines.how-much-returns', 'How much light returns, by spin'),
     inputs: [],
     query: { spin: '0:0.9:7', r: 'isco' },
-    also: async p => physics('returning', { ...p, spin: '0.93:0.998:4', ...drawn }),
+    also: async p => physics('returning', { ...p, spin: '0.93:0.998:4', ...charted }),
     equation:
       '<mn>1</mn><mo>=</mo><msub><mi>f</mi><mi>esc</mi></msub><mo>+</mo><msub><mi>f</mi><mi>ret</mi></msub><mo>+</mo><msub><mi>f</mi><mi>hole</mi></msub>',
     show: (slow, p, fast) => {

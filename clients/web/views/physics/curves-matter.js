@@ -2,7 +2,7 @@
 // values of /v1/physics.
 import { axis, outside, radius, spin } from './axes.js';
 import { number, t } from '../../words/i18n.js';
-import { drawn, physics } from '../../base/server.js';
+import { charted, physics } from '../../base/server.js';
 import { ringing, soundRow } from '../../base/sound.js';
 
 // Buttons to play the ringdown; the field of octaves shows the shift that is used.
@@ -24,7 +24,7 @@ export const matter = [
       const { values } = await physics('kerr', { spin: p.spin });
       return {
         isco: values.isco,
-        ...(await physics('potential', { spin: p.spin, l: values.isco_momentum, r: p.r, ...drawn })).values,
+        ...(await physics('potential', { spin: p.spin, l: values.isco_momentum, r: p.r, ...charted })).values,
       };
     },
     show: (v, p, at_isco) => ({

@@ -10,7 +10,7 @@ import { explained } from '../../words/explained.js';
 import { buildForm } from '../../base/form.js';
 import { t } from '../../words/i18n.js';
 import { plot } from '../../base/plot.js';
-import { drawn, getJson, physics, physicsUrl } from '../../base/server.js';
+import { charted, getJson, physics, physicsUrl } from '../../base/server.js';
 
 // The order in which the curves are shown.
 const order = [
@@ -75,7 +75,7 @@ function card(chart, known) {
     const { octaves, ...asked } = { ...chart.query, ...form.values() }; // octaves is a parameter of the sound only
     Object.assign(asked, await chart.adjust?.(asked));
     const [answer, also] = await Promise.all([
-      chart.ask ? chart.ask(asked) : physics(chart.name, { ...asked, ...drawn }),
+      chart.ask ? chart.ask(asked) : physics(chart.name, { ...asked, ...charted }),
       chart.also?.(asked),
     ]);
     const shown = chart.show(answer.values, answer.parameters, also);

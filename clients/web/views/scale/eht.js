@@ -4,71 +4,48 @@ import { byId, el, svg } from '../../base/dom.js';
 import { persistent } from '../../base/again.js';
 import { number, t } from '../../words/i18n.js';
 import * as link from '../../base/link.js';
-import { ask, drawn, physics } from '../../base/server.js';
+import { ask, keptJson, physics } from '../../base/server.js';
 import { measurements } from './data.js';
 import { ringOf } from './ring.js';
 
 const across_uas = 150; // width of each panel on the sky, so that both have the same scale
 const alone_m = 36; // width in M of a hole without a measured ring
-const beam_uas = 20; // full width at half maximum of the EHT's beam at 1.3 mm: EHT Collaboration 2019, ApJL 875, L1
 const most_px = 720;
 const key = 'scale.beside';
 
-// How each is seen: M87* with its jet at a position angle of 288 degrees and the spin pointing away from us (ApJL 875,
-// L5), north up. The inclination of Sgr A* is low (ApJL 930, L16); its orientation on the sky is unknown.
-// inner, density: of the hot flow, whose inner edge (M) is chosen so that the ring through the beam is as wide as
-// measured, and its density (1/cm^3) so that its flux at 230 GHz is about that measured, 0.6 and 2.4 Jy.
-export const seen = {
-  m87: { name: 'M87*', inclination: 163, roll: 108, inner: 4.5, density: 9.5e5 },
-  sgra: { name: 'Sgr A*', inclination: 30, roll: 0, inner: 3.2, density: 2.1e7 },
-  none: { name: '', inclination: 60, roll: 0 },
-};
+const names = { m87: 'M87*', sgra: 'Sgr A*', none: '' };
 
-// Fields of the flow round a hole; without a measured ring, of a thin disk.
-const matter = hole =>
-  hole === 'none'
-    ? { 'disk.outer': 15 }
-    : {
-        'disk.model': 'none',
-        'volume.model': 'riaf',
-        'volume.inner': seen[hole].inner,
-        'volume.outer': 25,
-        'volume.density_cm3': seen[hole].density,
-        'volume.height': 0.3,
-        'volume.electron_temperature_k': 3e11,
-        'volume.frequency_ghz': 230,
-      };
-
-// A document from fields by their paths.
-function nested(fields) {
-  const out = {};
-  for (const [path, value] of Object.entries(fields)) {
-    const [section, name] = path.split('.');
-    (out[section] ??= {})[name] = value;
-  }
-  return out;
+// How each is seen, from the server's preset of the same name: inclination, orientation on the sky, and the beam (full
+// width at half maximum). Without a measured ring it is a thin disk.
+export async function seen(hole) {
+  if (hole === 'none') return { inclination: 60, roll: 0 };
+  const { camera, style } = await keptJson('v1/presets/' + hole);
+  return { inclination: camera.inclination_deg, roll: camera.roll_deg, beam_uas: style.beam_uas };
 }
 
-export const stops = [
-  [0, t('eht.our-picture', 'our picture')],
-  [1, t('eht.through-a-beam-of', 'through a beam of {0} µas', beam_uas)],
-  [2, t('eht.the-ring-as-measured', 'the ring as measured')],
+// What the slider shows at 0, 1 and 2.
+export const stops = beam_uas => [
+  t('eht.our-picture', 'our picture'),
+  t('eht.through-a-beam-of', 'through a beam of {0} µas', number(beam_uas)),
+  t('eht.the-ring-as-measured', 'the ring as measured'),
 ];
 
 // The panel of one hole: two pictures on top of each other, and lines over both.
 function panel(hole) {
-  const stack = el('div', { class: 'sky-stack', role: 'img', 'aria-label': seen[hole].name }),
+  const stack = el('div', { class: 'sky-stack', role: 'img', 'aria-label': names[hole] }),
     pictures = ['sharp', 'beam'].map(kind => el('img', { class: kind, alt: '', draggable: false, hidden: true })),
     lines = svg('svg', { class: 'sky-lines', 'aria-hidden': 'true' }),
     words = el('p', { class: 'help' }),
-    side = 75; // pixels of the picture in which the ring is measured
+    side = 75, // pixels of the picture in which the ring is measured
+    // as many rays at the critical curve as where no beam hides it
+    sharp = { 'style.beam_uas': 0, 'image.critical_factor': 4 };
   let facts = '',
     fitted = '';
   stack.append(...pictures, lines);
   const node = el(
     'figure',
     { class: 'plot sky', id: 'sky-' + hole },
-    seen[hole].name && el('figcaption', {}, seen[hole].name),
+    names[hole] && el('figcaption', {}, names[hole]),
     stack,
     words,
   );
@@ -76,21 +53,24 @@ function panel(hole) {
 
   const scene = look => ({
     'spacetime.spin': look.spin,
-    'spacetime.mass_msun': look.mass,
-    'spacetime.distance_pc': look.distance,
     'camera.inclination_deg': look.inclination,
-    'camera.roll_deg': look.roll,
-    'camera.field_m': look.field,
-    ...matter(hole),
+    ...(hole === 'none'
+      ? {
+          'spacetime.mass_msun': look.mass,
+          'spacetime.distance_pc': look.distance,
+          'camera.field_m': alone_m,
+          'disk.outer': 15,
+          'style.bloom': 0,
+          'style.tone_map': 'srgb',
+          'style.palette': 'heat',
+        }
+      : { preset: hole, 'camera.field_uas': across_uas, 'style.colour_bar': false }),
   });
 
   function query(look, more) {
     const size = Math.min(2 * Math.round((stack.clientWidth * Math.min(devicePixelRatio || 1, 2)) / 2), most_px) || 360;
     return new URLSearchParams({
       ...scene(look),
-      'style.bloom': 0,
-      'style.tone_map': 'srgb',
-      'style.palette': 'heat',
       'image.width': size,
       'image.height': size,
       'image.samples': 2,
@@ -115,10 +95,16 @@ function panel(hole) {
   async function measure(look) {
     const address =
         'v1/render?' +
-        query(look, { 'image.width': side, 'image.height': side, 'image.samples': 1, 'image.layers': 'intensity' }),
+        query(look, {
+          ...sharp,
+          'image.width': side,
+          'image.height': side,
+          'image.samples': 1,
+          'image.layers': 'intensity',
+        }),
       answer = await (await ask(address, { headers: { Accept: 'application/x-npy' } })).arrayBuffer(),
       light = new Float32Array(answer.slice(answer.byteLength - 4 * side * side)), // after the header of NPY
-      { diameter, spread } = ringOf(light, side, across_uas / side, beam_uas);
+      { diameter, spread } = ringOf(light, side, across_uas / side, look.beam_uas);
     fitted = t(
       'eht.the-ring-of-our',
       ' The ring of our picture, through the beam: {0} ± {1} µas across, by the same fit at 48 angles.',
@@ -167,9 +153,9 @@ function panel(hole) {
         ? [
             svg('circle', {
               class: 'sky-beam',
-              cx: half * 0.93 - beam_uas / 2,
-              cy: half * 0.93 - beam_uas / 2,
-              r: beam_uas / 2,
+              cx: half * 0.93 - look.beam_uas / 2,
+              cy: half * 0.93 - look.beam_uas / 2,
+              r: look.beam_uas / 2,
             }),
           ]
         : []),
@@ -194,45 +180,45 @@ function panel(hole) {
   }
   function tell() {
     words.textContent = facts + fitted;
-    stack.setAttribute('aria-label', `${seen[hole].name} ${words.textContent}`.trim());
+    stack.setAttribute('aria-label', `${names[hole]} ${words.textContent}`.trim());
   }
 
   return {
     node,
     // v: values of the quantity `scale`. Draws the lines, and returns functions that load the pictures and measure the
-    // ring, and the scene as a document.
+    // ring, and what differs from the preset, as a document.
     async show(spin, inclination, v) {
-      const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:358:180', ...drawn }))
+      const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:357:120', digits: 4 }))
           .values,
         measured = hole !== 'none',
         look = {
           spin: Number(spin),
+          ...(await seen(hole)),
           inclination: Number(inclination),
-          roll: seen[hole].roll,
           mass: v.mass,
           distance: v.distance,
-          field: measured ? across_uas / v.m_uas : alone_m,
           unit: measured ? v.m_uas : 1,
           width: measured ? across_uas : alone_m,
         };
       draw(look, edge, v);
       say(v, edge);
       const tasks = [
-        () => picture(0, look, {}),
-        measured && (() => picture(1, look, { 'style.beam_uas': beam_uas })),
+        () => picture(0, look, measured ? sharp : {}),
+        measured && (() => picture(1, look, {})),
         measured && (() => measure(look)),
       ];
       return {
         tasks: tasks.filter(Boolean),
-        scene: nested({ ...scene(look), 'image.width': 64, 'image.height': 64 }),
+        scene: { spacetime: { spin: look.spin }, camera: { inclination_deg: look.inclination } },
       };
     },
   };
 }
 
 // The slider: 0 is the rendered picture, 1 the picture through the beam, 2 the ring.
-function slide(root) {
-  const slider = el('input', {
+async function slide(root) {
+  const texts = stops((await seen('m87')).beam_uas),
+    slider = el('input', {
       type: 'range',
       id: 'beside',
       min: 0,
@@ -241,7 +227,7 @@ function slide(root) {
       value: link.get(key) ?? 1,
       'aria-label': t('common.from-our-picture-through', 'From our picture through the beam to the measured ring'),
     }),
-    marks = stops.map(([at, text]) =>
+    marks = texts.map((text, at) =>
       el('button', { type: 'button', onclick: () => ((slider.value = at), follow()) }, text),
     );
   function follow() {
@@ -252,7 +238,7 @@ function slide(root) {
     root.style.setProperty('--beam', beam);
     root.style.setProperty('--ring', ring);
     const nearest = Math.round(at);
-    slider.setAttribute('aria-valuetext', stops[nearest][1]);
+    slider.setAttribute('aria-valuetext', texts[nearest]);
     marks.forEach((mark, i) => mark.setAttribute('aria-pressed', Math.abs(at - i) < 0.05));
     link.set(key, at === 1 ? null : slider.value);
   }
@@ -262,9 +248,9 @@ function slide(root) {
 }
 
 // Returns show(hole, spin, inclination, values), which shows the chosen hole and, beside it, the other measured one.
-export function beside(root) {
-  const panels = Object.fromEntries(Object.keys(seen).map(hole => [hole, panel(hole)])),
-    control = slide(root),
+export async function beside(root) {
+  const control = await slide(root),
+    panels = Object.fromEntries(Object.keys(names).map(hole => [hole, panel(hole)])),
     fault = el('p', { class: 'fault', role: 'status' }),
     paint = persistent(fault, 'scale', async pictures => {
       for (const make of pictures) await make();
@@ -278,7 +264,7 @@ export function beside(root) {
     ),
     control,
   );
-  const compare = measurements(root);
+  const compare = measurements(root, 'scale');
   return async (hole, spin, inclination, values) => {
     for (const [name, { node }] of Object.entries(panels)) {
       node.hidden = hole === 'none' ? name !== 'none' : name === 'none';
@@ -290,7 +276,7 @@ export function beside(root) {
       pictures = shown.tasks,
       other = { m87: 'sgra', sgra: 'm87' }[hole];
     if (other) {
-      const tilt = seen[other].inclination,
+      const tilt = (await seen(other)).inclination,
         second = await panels[other].show(
           spin,
           tilt,
@@ -301,6 +287,6 @@ export function beside(root) {
     }
     scenes[hole] = shown.scene;
     paint(pictures); // the numbers need not wait for the pictures
-    compare(scenes.m87 ?? null);
+    compare(scenes.m87 && { preset: 'm87', scene: scenes.m87 });
   };
 }

@@ -82,9 +82,9 @@ const name = (hole, v) =>
   entitle('scale', hole === 'none' ? `${number(v.mass)} M☉, ${number(v.distance)} pc` : specs[0].words[hole]);
 
 export async function openScale() {
-  const show = beside(byId('scale-pictures'));
+  const show = await beside(byId('scale-pictures'));
   const load = persistent(byId('scale-fault'), 'scale', async () => {
-    const { hole, mass_msun, distance_pc, spin, inclination_deg = seen[hole].inclination } = form.values(),
+    const { hole, mass_msun, distance_pc, spin, inclination_deg = (await seen(hole)).inclination } = form.values(),
       any = hole === 'none';
     form.suggest('inclination_deg', inclination_deg);
     for (const name of ['mass_msun', 'distance_pc']) form.input(name).disabled = !any;

@@ -299,6 +299,7 @@ export function buildIntegrals(root, scene) {
   const folded = root.closest('details');
   let kind = '',
     form = null,
+    data = null, // charts of the data of M87*
     late = false, // the scene has changed while the view was hidden
     timer = 0;
   inputs.addEventListener('submit', event => event.preventDefault());
@@ -311,8 +312,13 @@ export function buildIntegrals(root, scene) {
     async () => {
       const asked = kind;
       if (!asked) return;
-      const given = Object.fromEntries(Object.entries(form.values()).map(([name, value]) => [name, Number(value)]));
       root.dataset.state = 'asks';
+      if (asked === 'data') {
+        data ??= (await import('../scale/data.js')).measurements(root, 'lensing');
+        await data({ scene: scene.document() });
+        return void (root.dataset.state = asked);
+      }
+      const given = Object.fromEntries(Object.entries(form.values()).map(([name, value]) => [name, Number(value)]));
       const answer = await postJson('v1/' + kinds[asked].path, kinds[asked].ask(scene, given));
       if (asked !== kind) return;
       figure.hidden = false;
@@ -336,7 +342,8 @@ export function buildIntegrals(root, scene) {
     inputs.replaceChildren();
     fault.replaceChildren();
     figure.hidden = true;
-    form = kind && buildForm(inputs, kind, kinds[kind].inputs(), draw);
+    data?.(null);
+    form = kinds[kind] && buildForm(inputs, kind, kinds[kind].inputs(), draw);
     if (kind) draw();
   };
 }

@@ -1,27 +1,34 @@
-"""Matter of simulations (GRMHD) for volume.model "grid", from the files of iharm3d and Athena++ (docs/importing.md)."""
+"""Matter of simulations (GRMHD) for volume.model "grid", from the files of iharm3d, KHARMA, KORAL and Athena++
+(docs/importing.md)."""
 
 from __future__ import annotations
 
 import os
 
-from . import athena, iharm
+from . import athena, iharm, kharma, koral
 from .dump import Dump
 from .file import DumpFile, DumpProblem, is_hdf5
 from .grid import Matter
 from .plasma import Plasma
 
 __all__ = ["CODES", "DumpProblem", "Matter", "is_hdf5", "matter"]
-CODES = ("iharm3d", "athena++")
+CODES = ("iharm3d", "kharma", "koral", "athena++")
 
 
 def _dump(file: DumpFile, code: str | None, spin: float | None, gamma: float | None, outer: float | None) -> Dump:
+    if code is None:
+        code = "kharma" if file.has_attribute(kharma.DECK) or file.has_attribute("Info/MeshBlockSize") else None
+    if code is None and koral.METRIC in file:
+        code = "koral"
     if code is None:
         code = "athena++" if any(map(file.has_attribute, ("Coordinates", "MeshBlockSize"))) else "iharm3d"
     if code == "athena++":
         return athena.read(file, spin, gamma, outer)
     if spin is not None or gamma is not None:
-        raise ValueError("spin and gamma must be None for a file of iharm3d, which has both")
-    return iharm.read(file, outer)
+        raise ValueError(f"spin and gamma must be None for a file of {code}, which has both")
+    if code == "kharma":
+        return kharma.read(file, outer)
+    return koral.read(file, outer) if code == "koral" else iharm.read(file, outer)
 
 
 def matter(
@@ -46,13 +53,13 @@ def matter(
     mass_msun, m_unit: mass of the hole, and the code's unit of mass, g; together they give the density in cm^-3 and the
     field in gauss. Without m_unit the largest density is 1e6 cm^-3, and the scene's volume.grid_scale or
     volume.normalise_to_jy sets it. electrons: "ratio" of temperatures by r_low and r_high (Moscibrodzka et al. 2016),
-    or the name of the stored entropy, such as "KEL". gamma_e, gamma_p: adiabatic indices of electrons and ions; None:
-    the file's, else 4/3 and 5/3. sigma_cut: zones with a larger b^2/rho have no matter; None: no such cut. rho_floor:
-    zones whose density in the code's units is at most this have no matter, because the code has set that density; None:
-    no such cut. outer: rows beyond this r are left out. code: "iharm3d" or "athena++"; None: found by the contents.
-    spin, gamma: of the hole, and the gas's adiabatic index: needed for Athena++, whose files have neither. DumpProblem,
-    with file and name, for a file that cannot be read; ValueError for another argument; ImportError without the package
-    h5py.
+    or the name of the stored entropy, such as "KEL", or, of KORAL, "te", their temperature. gamma_e, gamma_p: adiabatic
+    indices of electrons and ions; None: the file's, else 4/3 and 5/3. sigma_cut: zones with a larger b^2/rho have no
+    matter; None: no such cut. rho_floor: zones whose density in the code's units is at most this have no matter,
+    because the code has set that density; None: no such cut. outer: rows beyond this r are left out. code: "iharm3d",
+    "kharma", "koral" or "athena++"; None: found by the contents. spin, gamma: of the hole, and the gas's adiabatic
+    index: needed for Athena++, whose files have neither. DumpProblem, with file and name, for a file that cannot be
+    read; ValueError for another argument; ImportError without the package h5py.
     """
     if code is not None and code not in CODES:
         raise ValueError(f"code is {code!r}; it must be {', '.join(CODES)} or None")

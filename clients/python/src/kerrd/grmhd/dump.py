@@ -22,8 +22,8 @@ class Dump:
     the dump is axisymmetric. gamma: the gas's adiabatic index. gamma_e, gamma_p: those of electrons and ions, if the
     file has them. row(i): fields of a row, of the shape (columns, layers): "rho"; "u", internal energy; "U1" to "U3",
     the velocity relative to the normal observer, u^i + alpha gamma g^ti, and "B1" to "B3", B^i = *F^it, along r, theta
-    and phi; entropies of electrons by their names. The field's unit has the factor sqrt(4 pi). notes: sentences about
-    what was left out or changed.
+    and phi; entropies of electrons, and their temperatures in K, by the names in electrons and kelvin. The field's unit
+    has the factor sqrt(4 pi). notes: sentences about what was left out or changed.
     """
 
     file: str
@@ -36,6 +36,7 @@ class Dump:
     phi: NDArray[np.float64] | None
     row: Callable[[int], Row] = field(repr=False)
     electrons: tuple[str, ...] = ()
+    kelvin: tuple[str, ...] = ()
     gamma_e: float | None = None
     gamma_p: float | None = None
     notes: tuple[str, ...] = ()

@@ -87,10 +87,18 @@ class DumpFile:
         except (KeyError, OSError, RuntimeError) as error:
             raise self.problem(name, f"cannot be read: {_reason(error)}") from error
 
+    def _attributes(self, name: str) -> tuple[Any, str]:
+        """The attributes among which one is, of the file or of a group, and its name there."""
+        group, _, last = name.rpartition("/")
+        return (self.root[group] if group else self.root).attrs, last
+
     def has_attribute(self, name: str) -> bool:
-        """Whether the file has an attribute."""
+        """Whether there is an attribute: of the file, or of a group as in "Info/Time"."""
+        if "/" in name and name.rpartition("/")[0] not in self:
+            return False
         try:
-            return name in self.root.attrs
+            attributes, last = self._attributes(name)
+            return last in attributes
         except (KeyError, OSError, RuntimeError) as error:
             raise self.problem(name, f"cannot be read: {_reason(error)}") from error
 
@@ -105,7 +113,7 @@ class DumpFile:
         self._check_elements(name, found)
         return found
 
-    def _check_elements(self, name: str, found: Any) -> None:
+    def _check_elements(self, name: str, found: Any, most: int = TEXT_MOST) -> None:
         """Refuses a dataset or an attribute without elements, or with elements of an unknown or a large type."""
         try:
             shape, kind = found.shape, found.dtype
@@ -113,8 +121,8 @@ class DumpFile:
             raise self.problem(name, "has a type that cannot be read; it must be one of numbers or texts") from None
         if shape is None:
             raise self.problem(name, "has no elements; it must have at least one")
-        if kind.itemsize > TEXT_MOST:
-            raise self.problem(name, f"has elements of {kind.itemsize} bytes; they must have at most {TEXT_MOST}")
+        if kind.itemsize > most:
+            raise self.problem(name, f"has elements of {kind.itemsize} bytes; they must have at most {most}")
 
     def read(self, name: str, found: Any, at: Any = ()) -> NDArray[Any]:
         """Elements of a dataset, which `dataset` returned."""
@@ -179,24 +187,41 @@ class DumpFile:
         """Elements of a dataset that `array` returned."""
         return np.asarray(self.read(name, found, at), dtype=np.float64)
 
-    def attribute(self, name: str) -> NDArray[Any]:
-        """An attribute of the file as a list."""
+    def attribute(self, name: str, most: int = TEXT_MOST) -> NDArray[Any]:
+        """An attribute of the file, or of a group, as a list. most: bytes of an element."""
         try:
-            found = self.root.attrs.get_id(name)
+            attributes, last = self._attributes(name)
+            found = attributes.get_id(last)
         except KeyError:
             raise self.problem(name, "is missing") from None
         except (OSError, RuntimeError) as error:
             raise self.problem(name, f"cannot be read: {_reason(error)}") from error
-        self._check_elements(name, found)
+        self._check_elements(name, found, most)
         if math.prod(found.shape) > LIST_MOST:
             raise self.problem(name, f"has the shape {tuple(found.shape)}; it must have at most {LIST_MOST} elements")
-        return self.read(name, self.root.attrs, name).reshape(-1)
+        return self.read(name, attributes, last).reshape(-1)
 
     def attribute_wholes(self, name: str, count: int, low: int, high: int) -> list[int]:
         found = self.attribute(name)
         if found.dtype.kind not in "iu" or len(found) != count or not all(low <= int(x) <= high for x in found):
             raise self.must(name, _shown(found), f"{count} whole number{'s' * (count > 1)} from {low} to {high}")
         return [int(x) for x in found]
+
+    def attribute_number(self, name: str) -> float:
+        found = self.attribute(name)
+        if found.dtype.kind not in "fiu" or len(found) != 1 or not math.isfinite(found[0]):
+            raise self.must(name, _shown(found), "a finite number")
+        return float(found[0])
+
+    def attribute_text(self, name: str, most: int) -> str:
+        """A text of at most this number of bytes."""
+        found = self.attribute(name, most)
+        if len(found) != 1 or found.dtype.kind not in "SUO":
+            raise self.must(name, _shown(found), "a text")
+        text = self._text(name, found[0])
+        if len(text) > most:
+            raise self.problem(name, f"has {len(text)} letters; it must have at most {most}")
+        return text
 
     def attribute_texts(self, name: str, most: int) -> list[str]:
         found = self.attribute(name)

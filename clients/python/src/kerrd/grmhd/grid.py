@@ -50,8 +50,9 @@ class Matter:
     @staticmethod
     def of(dump: Dump, plasma: Plasma) -> Matter:
         """The matter of a dump."""
-        if plasma.electrons != "ratio" and plasma.electrons not in dump.electrons:
-            names = " or ".join(f'"{name}"' for name in ("ratio", *dump.electrons))
+        stored = (*dump.electrons, *dump.kelvin)
+        if plasma.electrons != "ratio" and plasma.electrons not in stored:
+            names = " or ".join(f'"{name}"' for name in ("ratio", *stored))
             raise ValueError(printable(f'electrons is "{plasma.electrons}"; it must be {names} for {dump.file}'))
         _check_size(dump)
         arrays = {name: np.empty(dump.shape, np.float32) for name in ARRAYS}

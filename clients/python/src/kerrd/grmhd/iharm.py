@@ -29,7 +29,7 @@ GEOMETRY = "header/geom/"
 
 @dataclass(frozen=True)
 class Coordinates:
-    """theta of X1 and X2, and its derivatives by both; r is exp(X1)."""
+    """theta of X1 and X2, and its derivatives by both; r is exp(X1). turn: X2 is multiplied by it."""
 
     slope: float
     start: float = 0.0
@@ -37,12 +37,14 @@ class Coordinates:
     xt: float = 1.0
     alpha: float = 0.0
     derefined: bool = False
+    turn: float = 1.0
 
     def theta(self, x1: float, x2: Numbers) -> tuple[Numbers, Numbers, Numbers]:
+        x2 = self.turn * x2
         usual = np.pi * x2 + 0.5 * (1 - self.slope) * np.sin(2 * np.pi * x2)
         by2 = np.pi + (1 - self.slope) * np.pi * np.cos(2 * np.pi * x2)
         if not self.derefined:
-            return usual, np.zeros_like(x2), by2
+            return usual, np.zeros_like(x2), self.turn * by2
         y = 2 * x2 - 1
         norm = 0.5 * np.pi / (1 + 1 / ((self.alpha + 1) * self.xt**self.alpha))
         power = np.abs(y / self.xt) ** self.alpha
@@ -51,8 +53,18 @@ class Coordinates:
         return (
             usual + share * (other - usual),
             -self.smooth * share * (other - usual),
-            by2 + share * (2 * norm * (1 + power) - by2),
+            self.turn * (by2 + share * (2 * norm * (1 + power) - by2)),
         )
+
+
+def embed(row: Row, coordinates: Coordinates, x1: float, x2: Numbers) -> Row:
+    """The row with its vectors along r, theta and phi: dx^i/dX^j times the components along X1, X2 and X3."""
+    _, by1, by2 = coordinates.theta(x1, x2)
+    for kind in ("U", "B"):
+        first, second = row[kind + "1"], row[kind + "2"]
+        row[kind + "2"] = by1[:, None] * first + by2[:, None] * second
+        row[kind + "1"] = math.exp(x1) * first
+    return row
 
 
 def _coordinates(file: DumpFile, metric: str) -> tuple[Coordinates, float]:
@@ -93,13 +105,7 @@ def _reader(
             block.clear()
             block[first] = file.part("prims", prims, slice(first, first + rows))
         values = block[first][i - first]
-        found = {name: values[..., at] for name, at in columns.items()}
-        _, by1, by2 = coordinates.theta(x1[i], x2)
-        radius = math.exp(x1[i])
-        for kind in ("U", "B"):  # dx^i/dX^j times the components along X1, X2 and X3
-            first, second = found[kind + "1"], found[kind + "2"]
-            found[kind + "2"] = by1[:, None] * first + by2[:, None] * second
-            found[kind + "1"] = radius * first
+        found = embed({name: values[..., at] for name, at in columns.items()}, coordinates, x1[i], x2)
         return {"rho": found.pop("RHO"), "u": found.pop("UU"), **found}
 
     return row

@@ -64,8 +64,11 @@ class Plasma:
         By a ratio R of ion and electron temperature, R = (R_low + R_high beta^2)/(1 + beta^2), beta = 2 (gamma - 1)
         u/b^2 (M. Moscibrodzka, H. Falcke & H. Shiokawa 2016, A&A 586, A38), with an adiabatic index for ions and one
         for electrons: Theta = m_p/m_e (gamma_e - 1)(gamma_p - 1)/((gamma_p - 1) + (gamma_e - 1) R) u/rho, as in ipole's
-        model/iharm. By the entropy K: Theta = m_p/m_e K rho^(gamma_e - 1) (S. M. Ressler et al. 2015, MNRAS 454, 1848).
+        model/iharm. By the file's own temperature. By the entropy K: Theta = m_p/m_e K rho^(gamma_e - 1) (S. M. Ressler
+        et al. 2015, MNRAS 454, 1848).
         """
+        if self.electrons in dump.kelvin:
+            return np.maximum(row[self.electrons], THETA_LEAST * (ELECTRON * C**2 / K))
         electrons = (self.gamma_e or dump.gamma_e or 4 / 3) - 1
         ions = (self.gamma_p or dump.gamma_p or 5 / 3) - 1
         if self.electrons == "ratio":
@@ -91,6 +94,8 @@ class Plasma:
             else f"the largest density is set to {PEAK:g} cm^-3: volume.grid_scale or volume.normalise_to_jy scales it",
             f"electrons: temperature by R_low = {self.r_low:g} and R_high = {self.r_high:g}"
             if self.electrons == "ratio"
+            else f"electrons: the file's temperature {self.electrons}"
+            if self.electrons in dump.kelvin
             else f"electrons: temperature by the entropy {self.electrons}",
         ]
         if self.sigma_cut is not None:
