@@ -208,7 +208,7 @@ static void test_close_rays(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The draft of a changing view is marked as a draft, measures its error, and is as accurate as it states. It leaves out
+/* The sketch of a changing view is marked as a sketch, measures its error, and is as accurate as it states. It leaves out
  * fine octaves and does not change the lens map. */
 static void test_sketch(void **state)
 {
