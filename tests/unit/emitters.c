@@ -346,7 +346,7 @@ static void a_frequency_is_a_variant(void **state)
 static void reflection_is_a_variant(void **state)
 {
     (void)state;
-    static const char *const told[] = { "disk: light that the hole bends back", "disk: the light that returns",
+    static const char *const told[] = { "disk: light that the hole bends back", "disk: returning light",
                                         "disk: the reflected share" };
     for (int returning = KD_RETURNS_NONE; returning <= KD_RETURNS_REFLECTED; returning++)
         for (int albedo = 0; albedo < 2; albedo++) {
