@@ -368,7 +368,7 @@ export class Scene extends EventTarget {
     ]);
   }
 
-  // The scene as JSON, only with what differs from the defaults. other: values that override the page's. begun: moved
+  // The scene as JSON, without values that equal the defaults. other: values that override the page's. begun: moved
   // values are given as at the start of the motion. Elements at their defaults are {} if others follow.
   document(other = {}, begun = false) {
     const out = {};

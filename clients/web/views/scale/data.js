@@ -1,5 +1,5 @@
-// What the Event Horizon Telescope measured of M87* on 5 April 2017 beside the model: amplitudes and closure phases by
-// the length of the baseline. The server compares the two (POST /v1/compare).
+// The measurements of M87* by the Event Horizon Telescope on 5 April 2017 beside the model: amplitudes and closure
+// phases by the length of the baseline. The server compares the two (POST /v1/compare).
 import { persistent } from '../../base/again.js';
 import { el } from '../../base/dom.js';
 import { number, t } from '../../words/i18n.js';
