@@ -208,8 +208,8 @@ static void test_close_rays(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The sketch of a changing view is marked as a sketch, measures its error, and is as accurate as it states. It leaves out
- * fine octaves and does not change the lens map. */
+/* The sketch of a changing view is marked as a sketch, measures its error, and is as accurate as it states. It leaves
+ * out fine octaves and does not change the lens map. */
 static void test_sketch(void **state)
 {
     (void)state;
