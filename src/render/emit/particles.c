@@ -19,8 +19,8 @@ static double inner(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Range of guiding orbits. It exceeds the edges of the disk by the particles' swing, so that as many particles cross
- * the edges inwards as outwards. */
+/* Range of guiding orbits. It exceeds the edges of the disk by the particles' swing, so that equal numbers of particles
+ * cross the edges inwards and outwards. */
 struct span { double low, high, s; };
 static struct span span_of(const struct kd_scene *scene)
 {
