@@ -199,8 +199,9 @@ def playgrounds(load):
 
 
 def queue(load):
-    """All that one client may queue: 20 requests for long pictures, of which 12 may wait, each with its own lens map; 8
-    for lists of rays; 12 dragged sessions."""
+    """The largest load that one client can queue: 20 requests for long pictures, 12 of which may wait, each with its
+    own lens map; 8 for lists of rays; 12 dragged sessions.
+    """
 
     def long(connection):
         return load.server.ask(

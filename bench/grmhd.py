@@ -50,7 +50,7 @@ def convert(kind, folder, nodes, mass):
 
 
 def repeated(folder, nodes, mass):
-    """Writes a grid of many nodes without a dump of as many: repeats one layer of the torus in FMKS coordinates."""
+    """Writes a grid of many nodes without a dump of that size, by repeating one layer of the torus in FMKS coordinates."""
     rows, columns, layers = nodes
     grid, _ = convert("fmks", folder, (rows, columns, 1), mass)
     with np.load(grid) as file:

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""A class of thirty: how many frames a second has each pupil, and how soon does a pupil see what the teacher does?
+"""A class of thirty: frames a second for each pupil, and the delay until a pupil sees a change by the teacher.
 
     bench/lesson.py                  a minute, on an idle machine
     bench/lesson.py --pupils 60
 
 The script starts its own server, and opens a session of 480 x 270 and a lesson. Each pupil is a thread that does what
-clients/web/lesson/pupil.js does, without a browser: it keeps one request for a newer frame waiting (JPEG of quality 80), and
-asks for the state of the lesson once a second. The teacher fetches frames too, and changes the inclination twenty times a
-second with one patch at a time. A change is seen when the first frame with its revision has arrived. Then the teacher
-asks a question, and each pupil answers. The pupils share the server's processors. Writes
+clients/web/lesson/pupil.js does, without a browser: it keeps one request for a newer frame waiting (JPEG of quality
+80), and asks for the state of the lesson once a second. The teacher fetches frames too, and changes the inclination
+twenty times a second with one patch at a time. A change is seen when the first frame with its revision has arrived.
+Then the teacher asks a question, and each pupil answers. The pupils share the server's processors. Writes
 bench/results/DATE-DEVICE-lesson.{json,md}.
 """
 

@@ -137,13 +137,13 @@ export interface Scene {
      */
     eye_distance?: number;
     /**
-     * log10 of the distance to the critical curve, in units of its radius, at the upper and the lower edge (ring);
-     * in decades; -12 to 0; default 0.
+     * log10 of the distance between the critical curve and the picture's upper and lower edges, in units of the
+     * curve's radius (ring); in decades; -12 to 0; default 0.
      */
     ring_decades_max?: number;
     /**
-     * log10 of that distance at the middle line; rays above the line pass outside the curve, rays below it inside
-     * (ring); in decades; -13 to -1; default -10.
+     * log10 of the distance to the critical curve at the picture's middle line; rays above the line pass outside
+     * the curve, rays below it inside (ring); in decades; -13 to -1; default -10.
      */
     ring_decades_min?: number;
   };
@@ -199,9 +199,10 @@ export interface Scene {
      */
     atmosphere?: 'isotropic' | 'laor' | 'scattering';
     /**
-     * light of the disk that the hole bends back to it: none; thermalised, absorbed with its angular momentum and
-     * radiated again as by a black body; reflected, the share disk.albedo of it with the spectrum with which it
-     * came, the rest thermalised; any number of returns; default "none".
+     * light that the hole bends back to the disk. none: it is ignored; thermalised: the disk absorbs it with its
+     * angular momentum, and radiates it again as a black body; reflected: the disk reflects the share disk.albedo
+     * with the spectrum of the arriving light, and thermalises the rest. Light may return any number of times;
+     * default "none".
      */
     returning?: 'none' | 'thermalised' | 'reflected';
     /** share of the returning light that is reflected; 0 to 1; default 0.5. */
@@ -219,10 +220,7 @@ export interface Scene {
     redshift?: boolean;
     /** number of particles (model: particles); 1000 to 10000000; default 300000. */
     particles?: number;
-    /**
-     * seed of the random numbers: another seed gives other particles (model: particles); 0 to 2147483647; default
-     * 1.
-     */
+    /** seed of the random numbers that place the particles (model: particles); 0 to 2147483647; default 1. */
     seed?: number;
     /**
      * p: the number of particles per area is proportional to r^-p; for p = 2 every octave of r has the same number
@@ -240,8 +238,9 @@ export interface Scene {
      */
     plunging_temperature?: number;
     /**
-     * largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the ISCO,
-     * also that of the relative oscillations in r (model: particles); 0 to 0.2; default 0.02.
+     * largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes at
+     * the ISCO, it is also the largest relative amplitude of oscillations in r (model: particles); 0 to 0.2;
+     * default 0.02.
      */
     epicycles?: number;
     /**
@@ -261,11 +260,11 @@ export interface Scene {
       /** size of the largest eddies over r, before shear stretches them; 0.02 to 2; default 0.4. */
       scale?: number;
       /**
-       * azimuth by which streaks trail, in radians for each unit of ln r; streaks are 1 + shear^2 times as long as
-       * wide; below 0 they lead; -20 to 20; default 5.
+       * azimuth by which streaks trail, in radians for each unit of ln r; below 0 they lead. Streaks are 1 + shear^2
+       * times as long as they are wide; -20 to 20; default 5.
        */
       shear?: number;
-      /** seed of the random numbers: another seed gives other gas; 0 to 2147483647; default 1. */
+      /** seed of the random numbers of the turbulence; 0 to 2147483647; default 1. */
       seed?: number;
     };
   };
@@ -313,12 +312,12 @@ export interface Scene {
      */
     phase_deg?: number;
     /**
-     * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
-     * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
-     * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
-     * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
-     * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
-     * "keplerian".
+     * state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with
+     * time, the last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero
+     * angular momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude;
+     * retrograde: on a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free
+     * fall, by default from rest at infinity; velocity: with any velocity relative to the observer of zero angular
+     * momentum; default "keplerian".
      */
     motion?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
     /**
@@ -442,8 +441,8 @@ export interface Scene {
      */
     field?: 'toroidal' | 'vertical' | 'radial';
     /**
-     * motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at
-     * rest for observers of zero angular momentum (model: riaf); default "orbits".
+     * motion of the matter: with the angular velocity of the circular orbit at each r, and in free fall inside the
+     * ISCO; or at rest relative to observers of zero angular momentum (model: riaf); default "orbits".
      */
     flow?: 'orbits' | 'rest';
     /**
@@ -475,9 +474,9 @@ export interface Scene {
      */
     gamma_max?: number;
     /**
-     * flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that
-     * it determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid);
-     * in Jy; 0 to 1e+12; default 0.
+     * flux to which the picture is normalised: kerrd multiplies the density (gold: the emissivity; grid: the
+     * factor) by a number that small pictures determine, and reports this number; 0: no change (models: gold, riaf,
+     * torus, grid); in Jy; 0 to 1e+12; default 0.
      */
     normalise_to_jy?: number;
     /** frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed". */
@@ -486,8 +485,9 @@ export interface Scene {
   /** stylised jets along the spin axis. */
   jets?: {
     /**
-     * light emitted along 1 M in the jet's frame, in units of the disk's brightest: the power law's value at the
-     * inner edge, from which the light rises smoothly; 0: no jets; in 1/M; 0 to 1000000000; default 0.
+     * light that the jet emits along 1 M in its own frame, in units of the disk's brightest surface brightness. It
+     * is the value of the power law at the inner edge; the actual light is 0 there and rises smoothly to the power
+     * law. 0: no jets; in 1/M; 0 to 1000000000; default 0.
      */
     brightness?: number;
     /** half of the cone's opening angle; in degrees; 1 to 60; default 8. */
@@ -500,9 +500,9 @@ export interface Scene {
     inner?: number;
     /** radius at which the light ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
     outer?: number;
-    /** p: light along the jet is proportional to r^-p; -10 to 10; default 1.5. */
+    /** p: the jet's light is proportional to r^-p; -10 to 10; default 1.5. */
     falloff?: number;
-    /** brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
+    /** distribution of brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
     sheath?: number;
     /** index: brightness is proportional to g^(2 + index); -10 to 10; default 0.7. */
     spectral_index?: number;
@@ -529,7 +529,7 @@ export interface Scene {
      * 7/3) (model: synchrotron); 1 to 10; default 3.
      */
     electron_index?: number;
-    /** factor on that polarisation for a field that is disordered within a pixel; 0 to 1; default 1. */
+    /** factor on the polarisation, below 1 for a field that is disordered within a pixel; 0 to 1; default 1. */
     order?: number;
     /**
      * include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model:
@@ -550,9 +550,9 @@ export interface Scene {
      */
     model?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
     /**
-     * brightness in units of the disk's brightest surface brightness at g = 1: of the grid, or, for stars and the
-     * Milky Way in their real ratio, of 21 magnitudes per square arcsecond; auto: 0.2, or 0.01 for stars and the
-     * Milky Way behind something that shines; 0 to 100; default "auto".
+     * brightness, in units of the disk's brightest surface brightness at g = 1, of the grid, or of a sky of 21
+     * magnitudes per square arcsecond; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for stars
+     * and the Milky Way behind other light; 0 to 100; default "auto".
      */
     brightness?: 'auto' | number;
     /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
@@ -567,7 +567,7 @@ export interface Scene {
     image?: null | string;
     /** magnitude of the faintest stars; in magnitudes; -2 to 14; default 14. */
     limit_mag?: number;
-    /** seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1. */
+    /** seed of the random numbers of the generated sky; 0 to 2147483647; default 1. */
     seed?: number;
     /**
      * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
@@ -603,8 +603,8 @@ export interface Scene {
      */
     pixel_error?: number;
     /**
-     * factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner than a
-     * pixel; at most 16 rays a side in all; 1 to 16; default 4.
+     * factor on the number of rays along each side of pixels at the critical curve, where the photon ring is
+     * thinner than a pixel; the product is at most 16; 1 to 16; default 4.
      */
     critical_factor?: number;
     /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
@@ -641,16 +641,18 @@ export interface Scene {
   };
   /** from brightness to the colours of the file. */
   style?: {
-    /** style that sets all fields of the look, except those in the document; none: no style; default "film". */
+    /**
+     * style, which sets all fields of the look except those that the document sets; none: no style; default "film".
+     */
     name?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
     /**
-     * exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the
-     * light in the picture, limited for stars alone so that empty space is black; in stops; -40 to 40; default
-     * "auto".
+     * exponent of 2 of the exposure, relative to the disk's brightest surface brightness at g = 1; auto: by the
+     * light in the picture, with a limit for pictures of stars alone so that empty space is black; in stops; -40 to
+     * 40; default "auto".
      */
     exposure?: 'auto' | number;
     /**
-     * aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is
+     * aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours, and compresses light
      * near white; default "aces".
      */
     tone_map?: 'aces' | 'srgb' | 'neutral';
@@ -665,7 +667,7 @@ export interface Scene {
      */
     beam_uas?: number;
     /**
-     * colour: that of the light; heat: brightness in false colour (black, red, orange, white), with lightness
+     * colour: the colour of the light; heat: brightness in false colour (black, red, orange, white), with lightness
      * proportional to it; default "colour".
      */
     palette?: 'colour' | 'heat';
@@ -1171,8 +1173,9 @@ export interface LineRequest {
   /** outer edge of the disk [M]; 1 to 1000000. */
   outer?: number;
   /**
-   * emissivity of the line as a function of radius; that of the light that the disk receives: from a point on the
-   * axis, a ring, a flat layer or a slab above the disk.
+   * dependence of the line's emissivity on radius. power, broken: powers of r; lamppost, ring, disk, slab: in
+   * proportion to the light that the disk receives from a point on the axis, or from a ring, a flat layer or a
+   * slab above it.
    */
   emissivity?: 'power' | 'broken' | 'lamppost' | 'ring' | 'disk' | 'slab';
   /** power and broken: the light per area falls as r^-index; -10 to 20. */
@@ -1182,8 +1185,8 @@ export interface LineRequest {
   /** broken: radius at which the index changes [M]; 1 to 1000000. */
   break_r?: number;
   /**
-   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side
-   * [M]; 0.1 to 10000.
+   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); for a slab, height of its
+   * lower side [M]; 0.1 to 10000.
    */
   height?: number;
   /** ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source [M]; 0.001 to 10000. */
@@ -1193,8 +1196,8 @@ export interface LineRequest {
   /** slab: height of its upper side [M]; 0.1 to 10000. */
   corona_top?: number;
   /**
-   * ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
-   * the same distance from the axis, within the ISCO that of the ISCO.
+   * ring, disk, slab: motion of the source: at rest, with zero angular momentum, or with the angular velocity of
+   * the disk's gas at the same distance from the axis (within the ISCO, that of the ISCO).
    */
   motion?: 'static' | 'zamo' | 'corotating';
   /** lamppost, ring, disk, slab: photon index of the source's power law; 0 to 10. */
@@ -1253,8 +1256,8 @@ export interface LineProfile {
     /** innermost stable circular orbit. */
     isco: number | null;
     /**
-     * all photons, or with counts energy all energy: the integral of g^3 epsilon f, or of g^4 epsilon f, over the
-     * image plane.
+     * number of the line's photons, or with counts energy their energy: the integral of g^3 epsilon f, or of g^4
+     * epsilon f, over the image plane.
      */
     total: number | null;
     /** share of the line between the first and the last edge. */
@@ -1262,13 +1265,13 @@ export interface LineProfile {
     /** estimated largest error of the cumulative share at any edge. */
     error: number | null;
     /**
-     * equivalent width of the line over that in the gas's frame: photons of the line for each photon of the
-     * continuum per energy, where the gas emits one for each that it receives; null without a source.
+     * equivalent width of the line at the observer over that in the gas's frame; the gas emits one photon of the
+     * line for each photon of the continuum per unit of energy that it receives; null without a source.
      */
     strength: number | null;
     /**
-     * continuum of the source at the observer over that of the same source at rest far from the hole; null without
-     * a source.
+     * ratio of the source's continuum at the observer to that of the same source at rest far from the hole; null
+     * without a source.
      */
     direct_flux: number | null;
     /** mean redshift factor of that continuum; null without a source. */
@@ -1482,15 +1485,15 @@ export interface ImpulseRequest {
   /** source of the light that the disk receives: a point on the axis, or a ring about it. */
   emissivity?: 'lamppost' | 'ring';
   /**
-   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side
-   * [M]; 0.1 to 10000.
+   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); for a slab, height of its
+   * lower side [M]; 0.1 to 10000.
    */
   height?: number;
   /** ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source [M]; 0.001 to 10000. */
   corona_radius?: number;
   /**
-   * ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
-   * the same distance from the axis, within the ISCO that of the ISCO.
+   * ring, disk, slab: motion of the source: at rest, with zero angular momentum, or with the angular velocity of
+   * the disk's gas at the same distance from the axis (within the ISCO, that of the ISCO).
    */
   motion?: 'static' | 'zamo' | 'corotating';
   /** lamppost, ring, disk, slab: photon index of the source's power law; 0 to 10. */
@@ -1547,11 +1550,11 @@ export interface ImpulseResponse {
     /** innermost stable circular orbit. */
     isco: number | null;
     /**
-     * equivalent width of the line over that in the gas's frame: photons of the line for each photon of the
-     * continuum per energy, where the gas emits one for each that it receives.
+     * equivalent width of the line at the observer over that in the gas's frame; the gas emits one photon of the
+     * line for each photon of the continuum per unit of energy that it receives.
      */
     strength: number | null;
-    /** continuum of the source at the observer over that of the same source at rest far from the hole. */
+    /** ratio of the source's continuum at the observer to that of the same source at rest far from the hole. */
     direct_flux: number | null;
     /** mean redshift factor of the continuum. */
     direct_g: number | null;
@@ -1597,15 +1600,15 @@ export interface LagsRequest {
   /** source of the light that the disk receives: a point on the axis, or a ring about it. */
   emissivity?: 'lamppost' | 'ring';
   /**
-   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side
-   * [M]; 0.1 to 10000.
+   * lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); for a slab, height of its
+   * lower side [M]; 0.1 to 10000.
    */
   height?: number;
   /** ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source [M]; 0.001 to 10000. */
   corona_radius?: number;
   /**
-   * ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at
-   * the same distance from the axis, within the ISCO that of the ISCO.
+   * ring, disk, slab: motion of the source: at rest, with zero angular momentum, or with the angular velocity of
+   * the disk's gas at the same distance from the axis (within the ISCO, that of the ISCO).
    */
   motion?: 'static' | 'zamo' | 'corotating';
   /** lamppost, ring, disk, slab: photon index of the source's power law; 0 to 10. */
@@ -1634,8 +1637,8 @@ export interface LagsRequest {
   /** Fourier frequencies, instead of frequency_min, frequency_max and frequencies [c^3/GM]; up to 200. */
   frequencies_m?: number[];
   /**
-   * photons of the line at all energies over those of the continuum between the first and the last edge, both at
-   * the observer; 0 to 1000000.
+   * ratio of the line's photons at all energies to the continuum's photons between the first and the last edge,
+   * both at the observer; 0 to 1000000.
    */
   reflection?: number;
   /**
@@ -1679,11 +1682,11 @@ export interface Lags {
     /** innermost stable circular orbit. */
     isco: number | null;
     /**
-     * equivalent width of the line over that in the gas's frame: photons of the line for each photon of the
-     * continuum per energy, where the gas emits one for each that it receives.
+     * equivalent width of the line at the observer over that in the gas's frame; the gas emits one photon of the
+     * line for each photon of the continuum per unit of energy that it receives.
      */
     strength: number | null;
-    /** continuum of the source at the observer over that of the same source at rest far from the hole. */
+    /** ratio of the source's continuum at the observer to that of the same source at rest far from the hole. */
     direct_flux: number | null;
     /** mean redshift factor of the continuum. */
     direct_g: number | null;
@@ -2312,13 +2315,13 @@ export interface Playground {
   tides?: boolean;
   /** bodies lose energy to gravitational waves. */
   waves?: boolean;
-  /** factor on that loss; 1: the physical value; 0 to 1000000000. */
+  /** factor on the loss to gravitational waves; 1: the physical value; 0 to 1000000000. */
   amplification?: number;
   /** debris that has returned is counted as accreted and removed; otherwise it moves on. */
   feeds?: boolean;
   /** largest number of pieces of debris; beyond it, a new piece replaces the oldest; 0 to 1000000. */
   debris_capacity?: number;
-  /** pieces that a body falls into when it is torn apart; 16 to 1000000. */
+  /** number of pieces of debris of a body that is torn apart; 16 to 1000000. */
   debris_per_body?: number;
   /** temperature in K of the debris, a black body in pictures; 300 to 1000000000. */
   debris_temperature_k?: number;
@@ -2370,13 +2373,13 @@ export interface PlaygroundChange {
   tides?: boolean;
   /** bodies lose energy to gravitational waves. */
   waves?: boolean;
-  /** factor on that loss; 1: the physical value; 0 to 1000000000. */
+  /** factor on the loss to gravitational waves; 1: the physical value; 0 to 1000000000. */
   amplification?: number;
   /** debris that has returned is counted as accreted and removed; otherwise it moves on. */
   feeds?: boolean;
   /** largest number of pieces of debris; beyond it, a new piece replaces the oldest; 0 to 1000000. */
   debris_capacity?: number;
-  /** pieces that a body falls into when it is torn apart; 16 to 1000000. */
+  /** number of pieces of debris of a body that is torn apart; 16 to 1000000. */
   debris_per_body?: number;
   /** temperature in K of the debris, a black body in pictures; 300 to 1000000000. */
   debris_temperature_k?: number;
@@ -3552,13 +3555,13 @@ export interface SceneQuery {
    */
   'camera.eye_distance'?: number;
   /**
-   * log10 of the distance to the critical curve, in units of its radius, at the upper and the lower edge (ring);
-   * in decades; -12 to 0; default 0.
+   * log10 of the distance between the critical curve and the picture's upper and lower edges, in units of the
+   * curve's radius (ring); in decades; -12 to 0; default 0.
    */
   'camera.ring_decades_max'?: number;
   /**
-   * log10 of that distance at the middle line; rays above the line pass outside the curve, rays below it inside
-   * (ring); in decades; -13 to -1; default -10.
+   * log10 of the distance to the critical curve at the picture's middle line; rays above the line pass outside
+   * the curve, rays below it inside (ring); in decades; -13 to -1; default -10.
    */
   'camera.ring_decades_min'?: number;
   /**
@@ -3611,9 +3614,10 @@ export interface SceneQuery {
    */
   'disk.atmosphere'?: 'isotropic' | 'laor' | 'scattering';
   /**
-   * light of the disk that the hole bends back to it: none; thermalised, absorbed with its angular momentum and
-   * radiated again as by a black body; reflected, the share disk.albedo of it with the spectrum with which it
-   * came, the rest thermalised; any number of returns; default "none".
+   * light that the hole bends back to the disk. none: it is ignored; thermalised: the disk absorbs it with its
+   * angular momentum, and radiates it again as a black body; reflected: the disk reflects the share disk.albedo
+   * with the spectrum of the arriving light, and thermalises the rest. Light may return any number of times;
+   * default "none".
    */
   'disk.returning'?: 'none' | 'thermalised' | 'reflected';
   /** share of the returning light that is reflected; 0 to 1; default 0.5. */
@@ -3631,10 +3635,7 @@ export interface SceneQuery {
   'disk.redshift'?: boolean;
   /** number of particles (model: particles); 1000 to 10000000; default 300000. */
   'disk.particles'?: number;
-  /**
-   * seed of the random numbers: another seed gives other particles (model: particles); 0 to 2147483647; default
-   * 1.
-   */
+  /** seed of the random numbers that place the particles (model: particles); 0 to 2147483647; default 1. */
   'disk.seed'?: number;
   /**
    * p: the number of particles per area is proportional to r^-p; for p = 2 every octave of r has the same number
@@ -3652,8 +3653,9 @@ export interface SceneQuery {
    */
   'disk.plunging_temperature'?: number;
   /**
-   * largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the ISCO,
-   * also that of the relative oscillations in r (model: particles); 0 to 0.2; default 0.02.
+   * largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes at
+   * the ISCO, it is also the largest relative amplitude of oscillations in r (model: particles); 0 to 0.2;
+   * default 0.02.
    */
   'disk.epicycles'?: number;
   /**
@@ -3671,11 +3673,11 @@ export interface SceneQuery {
   /** size of the largest eddies over r, before shear stretches them; 0.02 to 2; default 0.4. */
   'disk.gas.scale'?: number;
   /**
-   * azimuth by which streaks trail, in radians for each unit of ln r; streaks are 1 + shear^2 times as long as
-   * wide; below 0 they lead; -20 to 20; default 5.
+   * azimuth by which streaks trail, in radians for each unit of ln r; below 0 they lead. Streaks are 1 + shear^2
+   * times as long as they are wide; -20 to 20; default 5.
    */
   'disk.gas.shear'?: number;
-  /** seed of the random numbers: another seed gives other gas; 0 to 2147483647; default 1. */
+  /** seed of the random numbers of the turbulence; 0 to 2147483647; default 1. */
   'disk.gas.seed'?: number;
   /**
    * surface brightness at the spot's centre in the gas's frame, in units of the disk's brightest; 0: no spot; 0
@@ -4031,12 +4033,12 @@ export interface SceneQuery {
    */
   'bodies.0.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
-   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
-   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
-   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
-   * "keplerian".
+   * state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with
+   * time, the last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero
+   * angular momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude;
+   * retrograde: on a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free
+   * fall, by default from rest at infinity; velocity: with any velocity relative to the observer of zero angular
+   * momentum; default "keplerian".
    */
   'bodies.0.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -4086,12 +4088,12 @@ export interface SceneQuery {
    */
   'bodies.1.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
-   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
-   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
-   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
-   * "keplerian".
+   * state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with
+   * time, the last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero
+   * angular momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude;
+   * retrograde: on a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free
+   * fall, by default from rest at infinity; velocity: with any velocity relative to the observer of zero angular
+   * momentum; default "keplerian".
    */
   'bodies.1.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -4141,12 +4143,12 @@ export interface SceneQuery {
    */
   'bodies.2.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
-   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
-   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
-   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
-   * "keplerian".
+   * state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with
+   * time, the last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero
+   * angular momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude;
+   * retrograde: on a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free
+   * fall, by default from rest at infinity; velocity: with any velocity relative to the observer of zero angular
+   * momentum; default "keplerian".
    */
   'bodies.2.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -4196,12 +4198,12 @@ export interface SceneQuery {
    */
   'bodies.3.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
-   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
-   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
-   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
-   * "keplerian".
+   * state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with
+   * time, the last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero
+   * angular momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude;
+   * retrograde: on a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free
+   * fall, by default from rest at infinity; velocity: with any velocity relative to the observer of zero angular
+   * momentum; default "keplerian".
    */
   'bodies.3.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -4251,12 +4253,12 @@ export interface SceneQuery {
    */
   'bodies.4.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
-   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
-   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
-   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
-   * "keplerian".
+   * state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with
+   * time, the last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero
+   * angular momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude;
+   * retrograde: on a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free
+   * fall, by default from rest at infinity; velocity: with any velocity relative to the observer of zero angular
+   * momentum; default "keplerian".
    */
   'bodies.4.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -4306,12 +4308,12 @@ export interface SceneQuery {
    */
   'bodies.5.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
-   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
-   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
-   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
-   * "keplerian".
+   * state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with
+   * time, the last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero
+   * angular momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude;
+   * retrograde: on a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free
+   * fall, by default from rest at infinity; velocity: with any velocity relative to the observer of zero angular
+   * momentum; default "keplerian".
    */
   'bodies.5.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -4361,12 +4363,12 @@ export interface SceneQuery {
    */
   'bodies.6.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
-   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
-   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
-   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
-   * "keplerian".
+   * state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with
+   * time, the last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero
+   * angular momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude;
+   * retrograde: on a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free
+   * fall, by default from rest at infinity; velocity: with any velocity relative to the observer of zero angular
+   * momentum; default "keplerian".
    */
   'bodies.6.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -4416,12 +4418,12 @@ export interface SceneQuery {
    */
   'bodies.7.phase_deg'?: number;
   /**
-   * state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the
-   * last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular
-   * momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude; retrograde: on
-   * a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free fall, by default
-   * from rest at infinity; velocity: with any velocity relative to the observer of zero angular momentum; default
-   * "keplerian".
+   * state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with
+   * time, the last two only in the disk's plane; static: at rest with respect to infinity; zamo: with zero
+   * angular momentum; keplerian: on a circular orbit towards +phi like the disk, at its highest latitude;
+   * retrograde: on a circular orbit towards -phi, against the disk, at its highest latitude; infall: in free
+   * fall, by default from rest at infinity; velocity: with any velocity relative to the observer of zero angular
+   * momentum; default "keplerian".
    */
   'bodies.7.motion'?: 'static' | 'zamo' | 'keplerian' | 'retrograde' | 'infall' | 'velocity';
   /**
@@ -4542,8 +4544,8 @@ export interface SceneQuery {
    */
   'volume.field'?: 'toroidal' | 'vertical' | 'radial';
   /**
-   * motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at
-   * rest for observers of zero angular momentum (model: riaf); default "orbits".
+   * motion of the matter: with the angular velocity of the circular orbit at each r, and in free fall inside the
+   * ISCO; or at rest relative to observers of zero angular momentum (model: riaf); default "orbits".
    */
   'volume.flow'?: 'orbits' | 'rest';
   /**
@@ -4575,16 +4577,17 @@ export interface SceneQuery {
    */
   'volume.gamma_max'?: number;
   /**
-   * flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that
-   * it determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid);
-   * in Jy; 0 to 1e+12; default 0.
+   * flux to which the picture is normalised: kerrd multiplies the density (gold: the emissivity; grid: the
+   * factor) by a number that small pictures determine, and reports this number; 0: no change (models: gold, riaf,
+   * torus, grid); in Jy; 0 to 1e+12; default 0.
    */
   'volume.normalise_to_jy'?: number;
   /** frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed". */
   'volume.normalise_ghz'?: 'observed' | number;
   /**
-   * light emitted along 1 M in the jet's frame, in units of the disk's brightest: the power law's value at the
-   * inner edge, from which the light rises smoothly; 0: no jets; in 1/M; 0 to 1000000000; default 0.
+   * light that the jet emits along 1 M in its own frame, in units of the disk's brightest surface brightness. It
+   * is the value of the power law at the inner edge; the actual light is 0 there and rises smoothly to the power
+   * law. 0: no jets; in 1/M; 0 to 1000000000; default 0.
    */
   'jets.brightness'?: number;
   /** half of the cone's opening angle; in degrees; 1 to 60; default 8. */
@@ -4597,9 +4600,9 @@ export interface SceneQuery {
   'jets.inner'?: number;
   /** radius at which the light ends; larger than the inner edge; in M; 1 to 1000000; default 60. */
   'jets.outer'?: number;
-  /** p: light along the jet is proportional to r^-p; -10 to 10; default 1.5. */
+  /** p: the jet's light is proportional to r^-p; -10 to 10; default 1.5. */
   'jets.falloff'?: number;
-  /** brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
+  /** distribution of brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5. */
   'jets.sheath'?: number;
   /** index: brightness is proportional to g^(2 + index); -10 to 10; default 0.7. */
   'jets.spectral_index'?: number;
@@ -4623,7 +4626,7 @@ export interface SceneQuery {
    * 7/3) (model: synchrotron); 1 to 10; default 3.
    */
   'polarization.electron_index'?: number;
-  /** factor on that polarisation for a field that is disordered within a pixel; 0 to 1; default 1. */
+  /** factor on the polarisation, below 1 for a field that is disordered within a pixel; 0 to 1; default 1. */
   'polarization.order'?: number;
   /**
    * include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model:
@@ -4641,9 +4644,9 @@ export interface SceneQuery {
    */
   'sky.model'?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
   /**
-   * brightness in units of the disk's brightest surface brightness at g = 1: of the grid, or, for stars and the
-   * Milky Way in their real ratio, of 21 magnitudes per square arcsecond; auto: 0.2, or 0.01 for stars and the
-   * Milky Way behind something that shines; 0 to 100; default "auto".
+   * brightness, in units of the disk's brightest surface brightness at g = 1, of the grid, or of a sky of 21
+   * magnitudes per square arcsecond; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for stars
+   * and the Milky Way behind other light; 0 to 100; default "auto".
    */
   'sky.brightness'?: 'auto' | number;
   /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
@@ -4658,7 +4661,7 @@ export interface SceneQuery {
   'sky.image'?: null | string;
   /** magnitude of the faintest stars; in magnitudes; -2 to 14; default 14. */
   'sky.limit_mag'?: number;
-  /** seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1. */
+  /** seed of the random numbers of the generated sky; 0 to 2147483647; default 1. */
   'sky.seed'?: number;
   /**
    * galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra,
@@ -4691,8 +4694,8 @@ export interface SceneQuery {
    */
   'image.pixel_error'?: number;
   /**
-   * factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner than a
-   * pixel; at most 16 rays a side in all; 1 to 16; default 4.
+   * factor on the number of rays along each side of pixels at the critical curve, where the photon ring is
+   * thinner than a pixel; the product is at most 16; 1 to 16; default 4.
    */
   'image.critical_factor'?: number;
   /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
@@ -4723,16 +4726,18 @@ export interface SceneQuery {
   'image.tile.width'?: number;
   /** height of the tile; 0: no tile, the whole picture is rendered; in pixels; 0 to 32768; default 0. */
   'image.tile.height'?: number;
-  /** style that sets all fields of the look, except those in the document; none: no style; default "film". */
+  /**
+   * style, which sets all fields of the look except those that the document sets; none: no style; default "film".
+   */
   'style.name'?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
   /**
-   * exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the
-   * light in the picture, limited for stars alone so that empty space is black; in stops; -40 to 40; default
-   * "auto".
+   * exponent of 2 of the exposure, relative to the disk's brightest surface brightness at g = 1; auto: by the
+   * light in the picture, with a limit for pictures of stars alone so that empty space is black; in stops; -40 to
+   * 40; default "auto".
    */
   'style.exposure'?: 'auto' | number;
   /**
-   * aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is
+   * aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours, and compresses light
    * near white; default "aces".
    */
   'style.tone_map'?: 'aces' | 'srgb' | 'neutral';
@@ -4747,7 +4752,7 @@ export interface SceneQuery {
    */
   'style.beam_uas'?: number;
   /**
-   * colour: that of the light; heat: brightness in false colour (black, red, orange, white), with lightness
+   * colour: the colour of the light; heat: brightness in false colour (black, red, orange, white), with lightness
    * proportional to it; default "colour".
    */
   'style.palette'?: 'colour' | 'heat';
@@ -5057,11 +5062,11 @@ export interface Operations {
           photon_retrograde: number | null | (number | null)[];
           /** circular orbit with E = 1, towards +phi. */
           marginally_bound: number | null | (number | null)[];
-          /** the same towards -phi. */
+          /** circular orbit with E = 1, towards -phi. */
           marginally_bound_retrograde: number | null | (number | null)[];
           /** innermost stable circular orbit, towards +phi. */
           isco: number | null | (number | null)[];
-          /** the same towards -phi. */
+          /** innermost stable circular orbit, towards -phi. */
           isco_retrograde: number | null | (number | null)[];
           /** specific energy E at the ISCO. */
           isco_energy: number | null | (number | null)[];
@@ -5073,11 +5078,11 @@ export interface Operations {
           efficiency: number | null | (number | null)[];
           /** specific energy E at r; null at and inside the photon orbit. */
           energy: number | null | (number | null)[];
-          /** specific angular momentum L at r; likewise. */
+          /** specific angular momentum L at r; null at and inside the photon orbit. */
           momentum: number | null | (number | null)[];
-          /** orbital frequency Omega_phi at r, angular, of coordinate time; likewise. */
+          /** orbital angular frequency Omega_phi at r, in coordinate time; null at and inside the photon orbit. */
           omega_phi: number | null | (number | null)[];
-          /** radial epicyclic frequency at r; null inside the ISCO too. */
+          /** radial epicyclic frequency at r; null inside the ISCO. */
           kappa: number | null | (number | null)[];
           /** vertical epicyclic frequency at r; null at and inside the photon orbit. */
           omega_theta: number | null | (number | null)[];
@@ -5136,9 +5141,15 @@ export interface Operations {
          * default 0.
          */
         velocity_r?: number | string;
-        /** velocity away from the north pole, likewise [c]; -1 to 1; default 0. */
+        /**
+         * velocity away from the north pole, relative to the observer of zero angular momentum (observer velocity) [c];
+         * -1 to 1; default 0.
+         */
         velocity_theta?: number | string;
-        /** velocity towards +phi, likewise [c]; -1 to 1; default 0. */
+        /**
+         * velocity towards +phi, relative to the observer of zero angular momentum (observer velocity) [c]; -1 to 1;
+         * default 0.
+         */
         velocity_phi?: number | string;
         /**
          * radius at which the observer's fall begins, at rest except for its angular momentum (observer infall) [M]; 1
@@ -5184,25 +5195,30 @@ export interface Operations {
            * coordinate of the curve on the image plane, to the right; at any distance it labels the constants of motion.
            */
           alpha: number | null | (number | null)[];
-          /** coordinate of the curve on the image plane, along the projected spin; likewise. */
+          /**
+           * coordinate of the curve on the image plane, along the projected spin; at any distance it labels the constants
+           * of motion.
+           */
           beta: number | null | (number | null)[];
           /** distance from the centre, in M for an observer at infinity, otherwise an angle on the sky. */
           rho: number | null | (number | null)[];
           /** unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity. */
           right: number | null | (number | null)[];
-          /** component up, towards -theta. */
+          /** unit vector of the viewing direction at a finite radius: component up, towards -theta; null at infinity. */
           up: number | null | (number | null)[];
-          /** component inwards, towards -r. */
+          /**
+           * unit vector of the viewing direction at a finite radius: component inwards, towards -r; null at infinity.
+           */
           inwards: number | null | (number | null)[];
-          /** radius of the photon orbit that is seen there. */
+          /** radius of the photon orbit seen at this point of the curve. */
           orbit_r: number | null | (number | null)[];
-          /** gamma of that orbit: images of order n lie closer by e^-gamma each half turn. */
+          /** Lyapunov exponent gamma of this orbit: with each half turn, images lie closer to the curve by e^-gamma. */
           lyapunov: number | null | (number | null)[];
           /** area of the shadow in M^2, or its solid angle. */
           area: number | null | (number | null)[];
           /** mean of rho about the midpoint of the left and right ends. */
           mean_radius: number | null | (number | null)[];
-          /** displacement of that midpoint from the hole's centre, to the right. */
+          /** displacement of the midpoint of the left and right ends from the hole's centre, to the right. */
           displacement: number | null | (number | null)[];
           /** twice the root mean square of the difference of rho and its mean. */
           asymmetry: number | null | (number | null)[];
@@ -5273,36 +5289,38 @@ export interface Operations {
         values: {
           /** total bending towards +phi, whole turns included; null if captured, b < b_critical. */
           angle: number | null | (number | null)[];
-          /** the same for light that turns towards -phi. */
+          /** total bending of light that turns towards -phi, whole turns included; null if captured. */
           angle_retrograde: number | null | (number | null)[];
           /** weak field, 4/b. */
           weak: number | null | (number | null)[];
-          /** with the next order, 4/b + (15 pi/4 - 4a - 3 pi Q^2/4)/b^2. */
+          /** weak-field bending towards +phi to second order, 4/b + (15 pi/4 - 4a - 3 pi Q^2/4)/b^2. */
           weak_second: number | null | (number | null)[];
-          /** the same towards -phi. */
+          /** weak-field bending towards -phi to second order. */
           weak_second_retrograde: number | null | (number | null)[];
-          /** limit close to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured. */
+          /**
+           * limit of the bending towards +phi close to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured.
+           */
           strong: number | null | (number | null)[];
-          /** the same towards -phi. */
+          /** limit of the bending towards -phi close to its critical b; null if captured. */
           strong_retrograde: number | null | (number | null)[];
           /** closest approach r of the light towards +phi; null if captured. */
           closest: number | null | (number | null)[];
-          /** the same towards -phi. */
+          /** closest approach r of the light towards -phi; null if captured. */
           closest_retrograde: number | null | (number | null)[];
           /**
-           * largest radius of light towards +phi that is emitted inside the photon orbit and falls back; null if it
-           * escapes, or if no light there has so small an energy for its L.
+           * largest radius that light towards +phi reaches if it is emitted inside the photon orbit and falls back; null
+           * if it escapes, or if no light inside has this b.
            */
           farthest: number | null | (number | null)[];
-          /** the same towards -phi. */
+          /** largest radius that light towards -phi reaches if it is emitted inside the photon orbit and falls back. */
           farthest_retrograde: number | null | (number | null)[];
           /** impact parameter of the circular photon orbit towards +phi. */
           b_critical: number | null | (number | null)[];
-          /** the same towards -phi. */
+          /** impact parameter of the circular photon orbit towards -phi. */
           b_critical_retrograde: number | null | (number | null)[];
           /** rate of the strong limit, 1 at spin 0. */
           strong_rate: number | null | (number | null)[];
-          /** its offset. */
+          /** offset of the strong limit. */
           strong_offset: number | null | (number | null)[];
         };
         units: {
@@ -5442,13 +5460,13 @@ export interface Operations {
         values: {
           /** redshift factor nu_observed/nu_emitted of the direct image. */
           g: number | null | (number | null)[];
-          /** g^4: its bolometric intensity over the emitted one. */
+          /** g^4: bolometric intensity of the direct image over the emitted intensity. */
           g4: number | null | (number | null)[];
-          /** position in the image: to the right. */
+          /** position of the direct image, to the right. */
           alpha: number | null | (number | null)[];
-          /** position in the image: along the projected spin. */
+          /** position of the direct image, along the projected spin. */
           beta: number | null | (number | null)[];
-          /** time of flight minus r_o + 2 ln r_o, with r_o the observer's radius. */
+          /** time of flight of the direct image's light, minus r_o + 2 ln r_o, with r_o the observer's radius. */
           delay: number | null | (number | null)[];
           /**
            * number of direct images: 1, or 3 or more beyond a caustic, close to edge on; the answer has the first from
@@ -5457,19 +5475,19 @@ export interface Operations {
           images: number | null | (number | null)[];
           /** g of the image of order 1, whose light passes the other side of the hole. */
           g_1: number | null | (number | null)[];
-          /** its g^4. */
+          /** g^4 of the image of order 1. */
           g4_1: number | null | (number | null)[];
-          /** position of that image. */
+          /** position of the image of order 1, to the right. */
           alpha_1: number | null | (number | null)[];
-          /** position of that image. */
+          /** position of the image of order 1, along the projected spin. */
           beta_1: number | null | (number | null)[];
-          /** time of flight, likewise. */
+          /** time of flight of the light of the image of order 1, minus r_o + 2 ln r_o. */
           delay_1: number | null | (number | null)[];
-          /** number of images of order 1, likewise. */
+          /** number of images of order 1. */
           images_1: number | null | (number | null)[];
           /** sqrt(1 - 3/r)/(1 - v.n), v = sqrt(1/(r - 2)), without lensing or spin; null for r <= 3. */
           g_flat: number | null | (number | null)[];
-          /** its fourth power. */
+          /** fourth power of g_flat. */
           g4_flat: number | null | (number | null)[];
         };
         units: {
@@ -5522,9 +5540,15 @@ export interface Operations {
          * default 0.
          */
         velocity_r?: number | string;
-        /** velocity away from the north pole, likewise [c]; -1 to 1; default 0. */
+        /**
+         * velocity away from the north pole, relative to the observer of zero angular momentum (observer velocity) [c];
+         * -1 to 1; default 0.
+         */
         velocity_theta?: number | string;
-        /** velocity towards +phi, likewise [c]; -1 to 1; default 0. */
+        /**
+         * velocity towards +phi, relative to the observer of zero angular momentum (observer velocity) [c]; -1 to 1;
+         * default 0.
+         */
         velocity_phi?: number | string;
         /**
          * radius at which the observer's fall begins, at rest except for its angular momentum (observer infall) [M]; 1
@@ -5581,13 +5605,15 @@ export interface Operations {
            * light has no energy at infinity.
            */
           alpha: number | null | (number | null)[];
-          /** coordinate on the image plane, along the projected spin; likewise. */
+          /** coordinate on the image plane, along the projected spin; null where light has no energy at infinity. */
           beta: number | null | (number | null)[];
           /** unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity. */
           right: number | null | (number | null)[];
-          /** component up, towards -theta. */
+          /** unit vector of the viewing direction at a finite radius: component up, towards -theta; null at infinity. */
           up: number | null | (number | null)[];
-          /** component inwards, towards -r. */
+          /**
+           * unit vector of the viewing direction at a finite radius: component inwards, towards -r; null at infinity.
+           */
           inwards: number | null | (number | null)[];
           /**
            * azimuth of the visible point of the ring relative to the observer's, with whole turns; null for an observer
@@ -5638,7 +5664,8 @@ export interface Operations {
          */
         inclination_deg?: number | string;
         /**
-         * where on the critical curve: about its centre, from the right over the top [degrees]; -360 to 720; default 0.
+         * position on the critical curve: angle about its centre, from the right over the top [degrees]; -360 to 720;
+         * default 0.
          */
         angle_deg?: number | string;
         /** inner radius of the light's source in the equatorial plane [M]; 1 to 1000000000; default "horizon". */
@@ -5673,17 +5700,17 @@ export interface Operations {
            * inside the curve; null if there is no image.
            */
           inner_edge: number | null | (number | null)[];
-          /** the same for outer. */
+          /** distance of the image of outer from the critical curve, in the same units; null if there is no image. */
           outer_edge: number | null | (number | null)[];
-          /** width of the ring there, from edge to edge. */
+          /** width of the ring at this angle, from edge to edge. */
           width: number | null | (number | null)[];
-          /** width of order 1 times e^(-gamma (order - 1)), to which the widths are proportional at high orders. */
+          /** width by the limit of high orders: that of order 1 times e^(-gamma (order - 1)). */
           ladder: number | null | (number | null)[];
-          /** Lyapunov exponent of the photon orbit that is seen there, for each half turn; pi for a = 0. */
+          /** Lyapunov exponent, for each half turn, of the photon orbit seen at this angle; pi for a = 0. */
           gamma: number | null | (number | null)[];
-          /** radius of that orbit. */
+          /** radius of the photon orbit seen at this angle. */
           orbit_r: number | null | (number | null)[];
-          /** radius of the critical curve about its centre there. */
+          /** distance of the critical curve from its centre at this angle. */
           rho: number | null | (number | null)[];
         };
         units: {
@@ -5746,7 +5773,7 @@ export interface Operations {
         values: {
           /** F/Mdot of one face; zero at and inside the ISCO. */
           page_thorne: number | null | (number | null)[];
-          /** the same in Newton's gravity, cut at the ISCO. */
+          /** F/Mdot of one face in Newton's gravity, cut at the ISCO. */
           shakura_sunyaev: number | null | (number | null)[];
           /** F. */
           page_thorne_w_m2: number | null | (number | null)[];
@@ -5760,11 +5787,11 @@ export interface Operations {
           inner: number | null | (number | null)[];
           /** radius of the largest Page-Thorne flux. */
           r_peak: number | null | (number | null)[];
-          /** effective temperature there. */
+          /** effective temperature at r_peak. */
           t_peak_k: number | null | (number | null)[];
           /** luminosity over Mdot c^2, 1 - E at the ISCO. */
           efficiency: number | null | (number | null)[];
-          /** the same for the Newtonian disk, 1/(2 r_isco). */
+          /** luminosity over Mdot c^2 of the Newtonian disk, 1/(2 r_isco). */
           efficiency_newton: number | null | (number | null)[];
           /** accretion rate. */
           mdot_kg_s: number | null | (number | null)[];
@@ -5852,8 +5879,7 @@ export interface Operations {
           /** F/Mdot of the light that returns; flux - page_thorne - received is the work of stresses. */
           received: number | null | (number | null)[];
           /**
-           * effective temperature with returning light over the one without; null at the ISCO, where the one without is
-           * 0.
+           * effective temperature with returning light over that without it; null at the ISCO, where the latter is 0.
            */
           temperature_ratio: number | null | (number | null)[];
           /** inner edge of the disk. */
@@ -5998,10 +6024,14 @@ export interface Operations {
         /** time of the sample `wave` [M]; 0 to 1000000; default 0. */
         t?: number | string;
         /**
-         * octaves by which the sound is higher than the ringing; it is faster by the same factor; -40 to 40; default 0.
+         * octaves by which the sound is higher than the ringing; it also decays faster by the same factor; -40 to 40;
+         * default 0.
          */
         shift_octaves?: number | string;
-        /** factor by which the shifted sound then decays more slowly, at the same pitch; 1 to 1000000; default 1. */
+        /**
+         * factor by which the decay of the shifted sound is then slowed down, at the same pitch; 1 to 1000000; default
+         * 1.
+         */
         stretch?: number | string;
         /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
         digits?: number;
@@ -6031,21 +6061,21 @@ export interface Operations {
           omega_im: number | null | (number | null)[];
           /** separation constant A_lm(a omega), l(l+1) - 2 at spin 0. */
           separation_re: number | null | (number | null)[];
-          /** its imaginary part. */
+          /** imaginary part of the separation constant. */
           separation_im: number | null | (number | null)[];
           /** Q = omega_re/(-2 omega_im). */
           quality: number | null | (number | null)[];
-          /** 2.1 + 11.3 a^3, a formula for l = m = 2, n = 0 in circulation; null for other modes. */
+          /** quality factor by 2.1 + 11.3 a^3, a common formula for l = m = 2, n = 0; null for other modes. */
           quality_cubic: number | null | (number | null)[];
-          /** its relative error. */
+          /** relative error of quality_cubic. */
           quality_cubic_error: number | null | (number | null)[];
-          /** fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null for other modes. */
+          /** omega_re by the fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null for other modes. */
           fit_omega_re: number | null | (number | null)[];
           /** their Q. */
           fit_quality: number | null | (number | null)[];
-          /** its relative error. */
+          /** relative error of fit_omega_re. */
           fit_omega_re_error: number | null | (number | null)[];
-          /** its relative error. */
+          /** relative error of fit_quality. */
           fit_quality_error: number | null | (number | null)[];
           /** omega_re/(2 pi) for mass_msun. */
           frequency_hz: number | null | (number | null)[];
@@ -6055,9 +6085,9 @@ export interface Operations {
           t_s: number | null | (number | null)[];
           /** e^(omega_im t) cos(omega_re t). */
           wave: number | null | (number | null)[];
-          /** frequency_hz shifted by shift_octaves: that of the WAV file. */
+          /** frequency of the WAV file: frequency_hz shifted by shift_octaves. */
           sound_hz: number | null | (number | null)[];
-          /** damping_s likewise, times stretch. */
+          /** damping time of the WAV file: damping_s shifted by shift_octaves, times stretch. */
           sound_damping_s: number | null | (number | null)[];
         };
         units: {
@@ -6124,19 +6154,19 @@ export interface Operations {
         ranges?: string[];
         shape?: number[];
         values: {
-          /** of the embedded surface: radius cos(phi). */
+          /** x of the embedded surface: its radius times cos(phi). */
           x: number | null | (number | null)[];
-          /** of the embedded surface: radius sin(phi). */
+          /** y of the embedded surface: its radius times sin(phi). */
           y: number | null | (number | null)[];
-          /** height over the horizon's circle. */
+          /** z of the embedded surface: height over the horizon's circle. */
           z: number | null | (number | null)[];
           /** circumference over 2 pi, sqrt(r^2 + a^2 + a^2 (2r - Q^2)/r^2). */
           radius: number | null | (number | null)[];
-          /** from the horizon along r. */
+          /** proper distance from the horizon along r. */
           proper_distance: number | null | (number | null)[];
-          /** sqrt(8 (r - 2)), z for a = Q = 0; null for r < 2. */
+          /** Flamm's paraboloid, sqrt(8 (r - 2)), which is z for a = Q = 0; null for r < 2. */
           flamm: number | null | (number | null)[];
-          /** where the surface begins. */
+          /** radius at which the surface begins. */
           horizon: number | null | (number | null)[];
         };
         units: {
@@ -6194,7 +6224,7 @@ export interface Operations {
           far_field: number | null | (number | null)[];
           /** smallest angular velocity of any observer at r; positive inside the ergosphere. */
           omega_least: number | null | (number | null)[];
-          /** largest angular velocity of any observer at r; null on the axis, as is the smallest. */
+          /** largest angular velocity of any observer at r; this and the smallest are null on the axis. */
           omega_most: number | null | (number | null)[];
           /** angular velocity of the horizon, a/(2 r+ - Q^2). */
           horizon_omega: number | null | (number | null)[];
@@ -6273,21 +6303,27 @@ export interface Operations {
            * proper time from r to the end of the model: the inner horizon, or without spin and charge the singularity.
            */
           proper_time_to_end: number | null | (number | null)[];
-          /** the same in seconds. */
+          /** proper time from r to the outer horizon, in seconds; null inside it. */
           proper_time_to_horizon_s: number | null | (number | null)[];
-          /** the same in seconds. */
+          /** proper time from r to the end of the model, in seconds. */
           proper_time_to_end_s: number | null | (number | null)[];
           /**
            * velocity towards the hole relative to the observer of zero angular momentum, in units of c; null inside the
            * horizon.
            */
           velocity: number | null | (number | null)[];
-          /** frequency of starlight from straight behind, measured by the falling observer over that at infinity. */
+          /**
+           * frequency of starlight from straight behind as the falling observer measures it, over its frequency at
+           * infinity.
+           */
           g_behind: number | null | (number | null)[];
-          /** change of azimuth until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg. */
+          /**
+           * change of the ingoing Kerr-Schild azimuth until the end of the model; camera.azimuth_deg is such an azimuth.
+           */
           azimuth_to_end_deg: number | null | (number | null)[];
           /**
-           * coordinate time until the end, in ingoing Kerr-Schild coordinates, which are regular at the outer horizon.
+           * coordinate time until the end of the model, in ingoing Kerr-Schild coordinates, which are regular at the
+           * outer horizon.
            */
           time_to_end: number | null | (number | null)[];
           /** per mass. */
@@ -6344,9 +6380,15 @@ export interface Operations {
          * default 0.
          */
         velocity_r?: number | string;
-        /** velocity away from the north pole, likewise [c]; -1 to 1; default 0. */
+        /**
+         * velocity away from the north pole, relative to the observer of zero angular momentum (observer velocity) [c];
+         * -1 to 1; default 0.
+         */
         velocity_theta?: number | string;
-        /** velocity towards +phi, likewise [c]; -1 to 1; default 0. */
+        /**
+         * velocity towards +phi, relative to the observer of zero angular momentum (observer velocity) [c]; -1 to 1;
+         * default 0.
+         */
         velocity_phi?: number | string;
         /**
          * radius at which the observer's fall begins, at rest except for its angular momentum (observer infall) [M]; 1
@@ -6398,11 +6440,11 @@ export interface Operations {
            * measured frequency of starlight from that direction over its frequency at infinity; null in the dark disk.
            */
           g: number | null | (number | null)[];
-          /** the same from straight ahead, towards the hole. */
+          /** g from straight ahead, towards the hole; null in the dark disk. */
           g_ahead: number | null | (number | null)[];
-          /** the same from straight behind, away from the hole. */
+          /** g from straight behind, away from the hole; null in the dark disk. */
           g_behind: number | null | (number | null)[];
-          /** the same from overhead, towards -theta. */
+          /** g from overhead, towards -theta; null in the dark disk. */
           g_above: number | null | (number | null)[];
           /** towards +theta. */
           g_below: number | null | (number | null)[];
@@ -6503,7 +6545,7 @@ export interface Operations {
           shadow_uas: number | null | (number | null)[];
           /** measured diameter of the ring; null if hole is none. */
           ring_uas: number | null | (number | null)[];
-          /** its error, one sigma. */
+          /** error of the measured diameter, one sigma. */
           ring_error_uas: number | null | (number | null)[];
           /** ratio of measured to computed diameter. */
           ring_over_shadow: number | null | (number | null)[];
@@ -6515,7 +6557,7 @@ export interface Operations {
           light_crossing_s: number | null | (number | null)[];
           /** period of the ISCO for an observer far away. */
           isco_period_s: number | null | (number | null)[];
-          /** the same for the circular photon orbit, towards +phi. */
+          /** period of the circular photon orbit towards +phi, for an observer far away. */
           photon_period_s: number | null | (number | null)[];
           /** proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M. */
           fall_s: number | null | (number | null)[];
@@ -6600,9 +6642,9 @@ export interface Operations {
           eta: number | null | (number | null)[];
           /** semi-major axis a, by Kepler's law. */
           axis_km: number | null | (number | null)[];
-          /** the same, in units of the total mass M. */
+          /** semi-major axis a, in units of the total mass M. */
           axis: number | null | (number | null)[];
-          /** power over that of a circular orbit with the same a. */
+          /** radiated power over the power of a circular orbit with the same a. */
           enhancement: number | null | (number | null)[];
           /** radiated power. */
           power_w: number | null | (number | null)[];
@@ -6620,15 +6662,18 @@ export interface Operations {
           isco_hz: number | null | (number | null)[];
           /** time before coalescence at a = 6 M. */
           isco_before_s: number | null | (number | null)[];
-          /** a at the time when the eccentricity is eccentricity_later; null if that is larger than the present one. */
+          /**
+           * a at the time when the eccentricity is eccentricity_later; null if eccentricity_later is larger than the
+           * present eccentricity.
+           */
           axis_later_km: number | null | (number | null)[];
-          /** time until then; likewise. */
+          /** time until the eccentricity is eccentricity_later; null if that is larger than the present eccentricity. */
           time_later_yr: number | null | (number | null)[];
           /** wave frequency of a circular orbit before_s before coalescence; null inside a = 6 M. */
           chirp_hz: number | null | (number | null)[];
-          /** its a; likewise. */
+          /** semi-major axis of a circular orbit before_s before coalescence; null inside a = 6 M. */
           chirp_axis: number | null | (number | null)[];
-          /** amplitude of h+ and hx of that orbit, seen along the axis; likewise. */
+          /** amplitude of h+ and hx of this circular orbit, seen along the axis; null inside a = 6 M. */
           chirp_strain: number | null | (number | null)[];
         };
         units: {
@@ -6723,9 +6768,9 @@ export interface Operations {
           fallback_days: number | null | (number | null)[];
           /** largest rate of fallback, m/(3 t_fb). */
           peak_msun_yr: number | null | (number | null)[];
-          /** the same in units of the Eddington rate, with the efficiency of this spin. */
+          /** largest rate of fallback in units of the Eddington rate, with the efficiency of this spin. */
           peak_eddington: number | null | (number | null)[];
-          /** time until the rate falls to the Eddington rate; null if it is never above. */
+          /** time until the rate falls to the Eddington rate; null if it never exceeds that. */
           above_eddington_days: number | null | (number | null)[];
           /** r_t over penetration. */
           pericentre: number | null | (number | null)[];
@@ -6800,7 +6845,7 @@ export interface Operations {
           p: number | null | (number | null)[];
           /** radius at which a body on the separatrix whirls: its periapsis p/(1 + e). */
           r_min: number | null | (number | null)[];
-          /** its apoapsis p/(1 - e). */
+          /** apoapsis of this orbit, p/(1 - e). */
           r_max: number | null | (number | null)[];
           /**
            * radius of the photon orbit of this inclination; circular orbits exist above it, and are unstable below the

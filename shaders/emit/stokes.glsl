@@ -53,7 +53,7 @@ vec2 kd_stokes_right = vec2(0.0);
 vec3 kd_stokes_seen = vec3(0.0);
 kd_jones kd_stokes_front = kd_jones(vec2(1.0, 0.0), vec3(0.0), vec3(0.0));
 
-/* K0/K2 and K1/K2 of 1/Theta, and 1/K2 if 1/Theta is below 2, else 0. */
+/* Ratios of modified Bessel functions of the argument 1/Theta: K0/K2, K1/K2, and 1/K2 (0 if 1/Theta is above 2). */
 vec3 kd_stokes_bessel(float log2_heat)
 {
     float x = exp2(clamp(-log2_heat, -40.0, 40.0)), y = min(0.25 * x * x, 1.0), t = y * 0.28444444,

@@ -117,8 +117,8 @@ kd_beam follow(uvec2 place, uint at, uint pixel)
     return beam;
 }
 #else
-/* w of the ray's first crossing with light from number n on, which n becomes; 0 if there is none. A probe tells of
- * every crossing. */
+/* w of the ray's first crossing with light from number n on, which n becomes; 0 if there is none. A probe reports every
+ * crossing. */
 float next_crossing(uint at, inout uint n)
 {
     float w = 0.0;

@@ -128,8 +128,8 @@ static uint64_t left_in(const char *root, const char *folder, const struct versi
     return used < most ? most - used : 0;
 }
 
-/* Finds the least memory left in the process's control group and in its ancestors up to the mount, each of which may
- * have a limit. */
+/* Finds the smallest amount of memory that is left in the process's control group or one of its ancestors up to the
+ * mount. Each of them may have a limit. */
 static void least_of_groups(const char *root, const struct version *version, struct kd_memory_limit *least)
 {
     char folder[2560];

@@ -24,7 +24,7 @@ static _Thread_local struct {
     bool slow;
 } held[HELD];
 static _Thread_local unsigned n_held;
-/* Hash table of locks by address. Its flags tell what happened while a lock was held. If two locks have the same slot,
+/* Hash table of locks by address. Its flags record the events while a lock was held. If two locks have the same slot,
  * the later one replaces the other, so that a violation may be missed. */
 enum { ANSWERED = 1, SYNCED = 2 };
 static _Atomic uintptr_t known[KNOWN]; /* the address of the lock, with the two flags in its lowest bits */

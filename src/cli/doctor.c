@@ -1,5 +1,5 @@
-/* kerrd doctor: shows what this machine supports and what is missing, and renders a tiny picture as proof; or runs the
- * self-test. */
+/* kerrd doctor: shows what this machine supports and what it lacks, and renders a tiny picture as proof. With an option
+ * it runs the self-test instead. */
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/selftest.h"

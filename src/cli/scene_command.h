@@ -29,7 +29,7 @@ struct kd_scene_command {
     const char *device, *output; /* output: NULL if -o is not given */
     uint64_t memory;             /* 0: no --memory */
     bool stats;
-    /* From here on, what the steps make; kd_scene_command_run frees it. */
+    /* The members from here on are results of the steps; kd_scene_command_run frees them. */
     struct kd_scene scene;
     struct kd_assets assets;
     struct kd_renderer *renderer;
@@ -41,7 +41,8 @@ struct kd_scene_command {
 };
 
 /* Parser of the arguments above, for a command with kd_scene_device_children. It takes -o, -t and --memory if the
- * command's table has them; other keys are left to the command, which calls this parser for what it does not know. */
+ * command's table has them; other keys are left to the command, which calls this parser for keys that it does not know.
+ */
 error_t kd_scene_command_parse(int key, char *text, struct argp_state *state);
 
 enum kd_status kd_scene_command_load(struct kd_scene_command *command, struct kd_error *error);

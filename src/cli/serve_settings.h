@@ -31,7 +31,7 @@
       "allow --listen on an address that other machines reach without a token file: everybody there may use the " \
       "server") \
     S(CROSS_SITE, "allow-cross-site", 'X', "yes|no", SWITCH, 0, 0, "no", ANYWHERE, \
-      "accept requests from pages of other sites, for example for an <img>") \
+      "accept requests from pages of other sites, for example from an <img>") \
     S(CORS_ORIGIN, "cors-origin", 'O', "ORIGIN", LIST, 0, 0, NULL, ANYWHERE, \
       "let pages of this origin, like https://example.org, use the server and read its answers; may be repeated, or " \
       "be several separated by commas") \

@@ -371,8 +371,8 @@ static const char doc[] =
     "spectra.\vFILE is a request of POST /v1/line. A table has axes for spin and inclination, unless --set "
     "gives the field one value or --axis other values; other fields have axes if --axis names them. The energies are "
     "keV, by "
-    "default about 6.4 keV. An interrupted table is continued by the same command. docs/xspec.md tells how a table is "
-    "used. No device is needed.";
+    "default about 6.4 keV. An interrupted table is continued by the same command. docs/xspec.md explains the use of a "
+    "table. No device is needed.";
 
 const struct argp *kd_cli_table_argp(void)
 {

@@ -64,7 +64,7 @@ enum kd_status kd_unknown(const struct kd_document *document, const struct kd_ob
                           bool typed, const char *pointer, struct kd_error *error)
 {
     const bool bare = typed && !document->paths, top = !bare && !*object->name;
-    if (!error) /* the caller needs no suggestion, which takes long to find */
+    if (!error) /* the caller needs no suggestion, whose search takes long */
         return KD_EINVAL;
     struct search s = { document, object, name, bare, KD_SPELLING_FAR, "" };
     char list[400] = "", other[KD_WORD_ROOM], in[48], shown[60];

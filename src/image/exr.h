@@ -24,7 +24,7 @@ struct kd_exr {
     size_t n_texts;
 };
 
-/* Appends a file. KD_ENOMEM; KD_EINVAL for what the format cannot hold. */
+/* Appends a file. KD_ENOMEM; KD_EINVAL for content that the format cannot hold. */
 enum kd_status kd_exr_encode(const struct kd_exr *image, struct kd_buffer *out, struct kd_error *error);
 
 /* Appends the value of a file's string attribute to *out. KD_EINVAL if the attribute is missing, or the file is not a

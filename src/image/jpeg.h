@@ -26,7 +26,7 @@ enum { KD_JPEG_FULL_COLOUR = 88, KD_JPEG_THRIFTY = 70 };
 enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
                               struct kd_buffer *out, struct kd_error *error);
 
-/* Longest XMP packet: a segment has 65535 bytes, of which the length and the name of the namespace take some (XMP
+/* Length of the longest XMP packet: a segment has 65535 bytes, including its length and the name of the namespace (XMP
  * Specification Part 3, 1.1.3). */
 #define KD_JPEG_XMP_MAX 65502
 

@@ -119,8 +119,8 @@ static enum kd_status check_ring(const struct kd_integral_request *r, double rad
                  least = KD_CORONA_LEAST * kd_kerr_ergosphere(kd_integral_hole(r), height / at);
     if (at < least)
         return kd_error_field(error, "/height",
-                              "height is %.9g, where the source is %.9g M from the hole; it must be at least %.9g M "
-                              "away, %g times the ergosphere",
+                              "height is %.9g, which places the source %.9g M from the hole; the source must be at "
+                              "least %.9g M away, %g times the radius of the ergosphere",
                               r->height, at, least, KD_CORONA_LEAST);
     if (!kd_corona_source_of(kd_integral_hole(r), radius, height, r->motion, &source))
         return kd_error_field(error, "/motion",

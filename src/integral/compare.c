@@ -207,7 +207,7 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
     answer->values[NORTH] = answer->solved.north * KD_UAS_PER_RADIAN;
 }
 
-/* Lists what was solved for. The flux counts as such if nothing else gives it. */
+/* Lists the solved quantities. The flux is one of them if no other value determines it. */
 static void write_solved(struct kd_json *json, const struct kd_integral_answer *answer)
 {
     static const struct {

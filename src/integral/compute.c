@@ -55,7 +55,8 @@ static const char *const echo_sources[] = {
 static const char *const echo_approximations[] = {
     "a thin opaque disk in the equatorial plane, gas on circular orbits, nothing within its inner edge",
     "only direct light: light that crosses the plane within the inner edge, or goes round the hole, is ignored",
-    "the gas emits at once; the source shines isotropically in its own frame, and a whole ring at once",
+    "the gas emits without delay; the source shines isotropically in its own frame, and all of a ring flashes at the "
+    "same time",
     NULL,
 };
 static const char scattered_once[] =
@@ -123,11 +124,12 @@ static const char *const volume_approximations[] = {
 #define ECHO_VALUES \
     { "isco", "M", "innermost stable circular orbit", false }, \
         { "strength", "1", \
-          "equivalent width of the line over that in the gas's frame: photons of the line for each photon of the " \
-          "continuum per energy, where the gas emits one for each that it receives", \
+          "equivalent width of the line at the observer over that in the gas's frame; the gas emits one photon of " \
+          "the line for each photon of the continuum per unit of energy that it receives", \
           false }, \
         { "direct_flux", "1", \
-          "continuum of the source at the observer over that of the same source at rest far from the hole", false }, \
+          "ratio of the source's continuum at the observer to that of the same source at rest far from the hole", \
+          false }, \
         { "direct_g", "1", "mean redshift factor of the continuum", false }, \
         { "direct_time", "M", \
           "mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r", false }, \
@@ -150,19 +152,20 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_LINE] = { "relativistic line profile of a thin disk",
                            { { "isco", "M", "innermost stable circular orbit" },
                              { "total", "M^2",
-                               "all photons, or with counts energy all energy: the integral of g^3 epsilon f, or of "
+                               "number of the line's photons, or with counts energy their energy: the integral of g^3 "
+                               "epsilon f, or of "
                                "g^4 "
                                "epsilon f, over the image plane" },
                              { "inside", "1", "share of the line between the first and the last edge" },
                              { "error", "1", "estimated largest error of the cumulative share at any edge" },
                              { "strength", "1",
-                               "equivalent width of the line over that in the gas's frame: photons of the line for "
-                               "each "
-                               "photon of the continuum per energy, where the gas emits one for each that it receives; "
+                               "equivalent width of the line at the observer over that in the gas's frame; the gas "
+                               "emits one photon of the line for each photon of the continuum per unit of energy that "
+                               "it receives; "
                                "null without a source" },
                              { "direct_flux", "1",
-                               "continuum of the source at the observer over that of the same source at rest far from "
-                               "the hole; null without a source" },
+                               "ratio of the source's continuum at the observer to that of the same source at rest far "
+                               "from the hole; null without a source" },
                              { "direct_g", "1", "mean redshift factor of that continuum; null without a source" } },
                            { { "energy_low", "unit of rest_energy", "edge of the bin" },
                              { "energy_high", "unit of rest_energy", "edge of the bin" },
@@ -397,8 +400,8 @@ static enum kd_status continuum_of(const struct kd_integral_request *r, const st
         shape = (struct kd_corona_shape) { .height = r->height, .top = r->height };
     if (!kd_corona_continuum_of(&image->hole, &shape, r->photon_index, image->cos_i, out))
         return kd_error_field(error, "/height",
-                              "height and corona_radius are of a place from which no direct light to this inclination "
-                              "was found");
+                              "height and corona_radius place the source where no light that reaches the observer "
+                              "directly was found; one of them, or inclination_deg, must be different");
     return KD_OK;
 }
 
@@ -481,11 +484,10 @@ static enum kd_status returning_of(const struct kd_integral_request *r, struct k
         return kd_error_set(error, KD_ENOMEM, "out of memory for the kernel of returning light");
     kd_returning_init(*table, hole, r->limb);
     if (!((*table)->error < KD_RETURNING_WRONG))
-        return kd_error_field(
-            error, largest.pointer,
-            "%s is %.17g, so close to an extremal hole that the energy balance of returning light is wrong by %.1g; it "
-            "must be right to %g",
-            largest.name, largest.value, (*table)->error, KD_RETURNING_WRONG);
+        return kd_error_field(error, largest.pointer,
+                              "%s is %.17g, so close to an extremal hole that the energy balance of returning light "
+                              "has an error of %.1g (limit %g); it must be further from extremal",
+                              largest.name, largest.value, (*table)->error, KD_RETURNING_WRONG);
     return KD_OK;
 }
 

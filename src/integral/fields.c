@@ -100,10 +100,10 @@ const struct kd_row kd_integral_fields[] = {
     INCLINATION(TRANSFER, "0.1", "179.9"),
     OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "inner edge of the disk, the ISCO or beyond"),
     REAL(outer, "M", 1, 1e6, ALL, "outer edge of the disk"),
-    WORD(
-        emissivity, emissivity, "power|broken|lamppost|ring|disk|slab", LINE,
-        "emissivity of the line as a function of radius; that of the light that the disk receives: from a point on the "
-        "axis, a ring, a flat layer or a slab above the disk"),
+    WORD(emissivity, emissivity, "power|broken|lamppost|ring|disk|slab", LINE,
+         "dependence of the line's emissivity on radius. power, broken: powers of r; lamppost, ring, disk, slab: in "
+         "proportion to the light that the disk receives from a point on the axis, or from a ring, a flat layer or a "
+         "slab above it"),
     { .name = "emissivity",
       .kind = KD_KIND_WORD,
       .offset = AT(emissivity),
@@ -114,17 +114,16 @@ const struct kd_row kd_integral_fields[] = {
     REAL(index, "", -10, 20, LINE, "power and broken: the light per area falls as r^-index"),
     REAL(outer_index, "", -10, 20, LINE, "broken: index beyond break_r"),
     REAL(break_r, "M", 1, 1e6, LINE, "broken: radius at which the index changes"),
-    REAL(
-        height, "M", 0.1, 1e4, LINE | ECHO,
-        "lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); of a slab, of its lower side"),
+    REAL(height, "M", 0.1, 1e4, LINE | ECHO,
+         "lamppost, ring, disk, slab: height of the source above the plane, r cos(theta); for a slab, height of its "
+         "lower side"),
     REAL(corona_radius, "M", 1e-3, 1e4, LINE | ECHO,
          "ring: distance from the axis, r sin(theta); disk, slab: outer radius of the source"),
     REAL(corona_inner, "M", 0, 1e4, LINE, "disk, slab: inner radius of the source"),
     REAL(corona_top, "M", 0.1, 1e4, LINE, "slab: height of its upper side"),
-    WORD(
-        motion, motion, "static|zamo|corotating", LINE | ECHO,
-        "ring, disk, slab: at rest, with zero angular momentum, or with the angular velocity of the gas of the disk at "
-        "the same distance from the axis, within the ISCO that of the ISCO"),
+    WORD(motion, motion, "static|zamo|corotating", LINE | ECHO,
+         "ring, disk, slab: motion of the source: at rest, with zero angular momentum, or with the angular velocity of "
+         "the disk's gas at the same distance from the axis (within the ISCO, that of the ISCO)"),
     REAL(photon_index, "", 0, 10, LINE | ECHO, "lamppost, ring, disk, slab: photon index of the source's power law"),
     WORD(limb, limb, "isotropic|laor|haardt|scattering", LINE | SPECTRUM | ECHO,
          "dependence of the light on mu, the cosine of the angle from the disk's normal: none, 1 + 2.06 mu, ln(1 + "
@@ -162,8 +161,8 @@ const struct kd_row kd_integral_fields[] = {
       .of = LAGS,
       .help = "Fourier frequencies, instead of frequency_min, frequency_max and frequencies" },
     REAL(reflection, "", 0, 1e6, LAGS,
-         "photons of the line at all energies over those of the continuum between the first and the last edge, both at "
-         "the observer"),
+         "ratio of the line's photons at all energies to the continuum's photons between the first and the last edge, "
+         "both at the observer"),
     OR_WORD(reference_min, "", 1e-9, 1e9, "continuum", LAGS,
             "lower end of the band that lags are measured against, in the unit of rest_energy; continuum: the direct "
             "light alone"),

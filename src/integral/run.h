@@ -32,7 +32,7 @@ struct kd_integral_run {
     uint8_t *marks; /* for kd_simulate */
     double *scratch;
     double *scattering;         /* factor at each visibility; NULL: none */
-    struct kd_align_room *room; /* for a search; NULL: none is needed */
+    struct kd_align_room *room; /* for a search; NULL if there is none */
 };
 
 /* Computes everything if no pictures are needed. On failure there is nothing to finish. */

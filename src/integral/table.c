@@ -88,7 +88,7 @@ static const struct kd_row *field_named(const struct kd_integral_request *reques
     return found ? kd_integral_field_named(request, strcmp(name, ISCO) ? name : "inner") : NULL;
 }
 
-/* Reads one number of an axis; *rest is what follows it. */
+/* Reads one number of an axis; *rest is the text after it. */
 static enum kd_status read_number(const char *name, const char *text, double *out, const char **rest,
                                   struct kd_error *error)
 {

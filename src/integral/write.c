@@ -200,7 +200,7 @@ done:
     return status;
 }
 
-/* Writes what numpy.savez does: an array for each column; and answer.json, the rest of the answer. */
+/* Writes the same as numpy.savez: an array for each column, and the rest of the answer as answer.json. */
 static enum kd_status write_npz(const struct kd_integral_answer *answer, struct kd_buffer *out)
 {
     const struct kd_integral_kind_of *kind = kd_integral_kind_of(answer->request->what);

@@ -244,7 +244,7 @@ static enum kd_status read_exposure(struct reader *r)
     return KD_OK;
 }
 
-/* Returns in words what it is that cannot have motion blur; NULL: the request can. */
+/* Returns the part of the request that excludes motion blur, in words; NULL: motion blur is possible. */
 static const char *unblurred(const struct reader *r)
 {
     return r->playground              ? "a playground, whose bodies move from frame to frame"

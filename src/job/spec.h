@@ -51,7 +51,7 @@ struct kd_job_spec {
     double exposure;
 };
 
-/* What a request's scenes are merged over, and what replaces parts of the request. */
+/* The scene over which a request's scenes are merged, and values that replace parts of the request. */
 struct kd_job_base {
     const char *preset; /* name of a preset of scenes; NULL or "": none */
     /* a scene instead of a preset; NULL: the defaults, or the default view of the playground */

@@ -53,8 +53,8 @@ void kd_scattering_sgra(struct kd_scattering *out, double frequency_hz)
     out->wavelength_cm = C_CM_S / frequency_hz;
 }
 
-/* 1F1(-alpha/2; 1/2; -z) - 1. The series is that of exp(-z) 1F1((1 + alpha)/2; 1/2; z), whose terms are all positive
- * (Abramowitz & Stegun 13.1.27). Beyond z = 40 the asymptotic series has an error below 1e-15 (13.5.1). */
+/* 1F1(-alpha/2; 1/2; -z) - 1. It is computed by the series of exp(-z) 1F1((1 + alpha)/2; 1/2; z), all of whose terms
+ * are positive (Abramowitz & Stegun 13.1.27). Beyond z = 40 the asymptotic series has an error below 1e-15 (13.5.1). */
 static double turbulence(double z)
 {
     const double a = (1 + ALPHA) / 2, b = 0.5;

@@ -51,7 +51,7 @@ static void columns_of(const struct kd_orbit_sample *s, double to[COLUMNS])
     memcpy(to, all, sizeof all);
 }
 
-/* An output that stores its first failure; after it nothing more is written. */
+/* An output that stores its first failure, after which nothing more is written. */
 struct text {
     struct kd_buffer *out;
     enum kd_status status;
@@ -98,10 +98,11 @@ const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
         run->orbit.fate == KD_ORBIT_PLUNGE
             ? "Boyer-Lindquist t and phi grow without bound towards the horizon, at which a path ends"
             : NULL,
-        kd_orbit_is_seen(run->params) ? "each point has one image, continued from that of the point before: the direct "
-                                        "image, but close to a spinning hole seen nearly edge on it may change to an "
-                                        "image that has gone round the hole; points within 1.2 horizon radii have none"
-                                      : NULL,
+        kd_orbit_is_seen(run->params)
+            ? "each point has one image, which is continuous with the image of the point before; it is the direct "
+              "image, but close to a spinning hole seen nearly edge on it may become an image whose light has gone "
+              "round the hole; points within 1.2 horizon radii have no image"
+            : NULL,
     };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !index--)

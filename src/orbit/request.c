@@ -139,7 +139,8 @@ static enum kd_status read_tree(struct kd_orbit_request *request, const cJSON *r
     const cJSON *one = cJSON_GetObjectItemCaseSensitive(root, "orbit"),
                 *many = cJSON_GetObjectItemCaseSensitive(root, "orbits");
     if (one && many)
-        return kd_error_field(error, "/orbits", "orbits are given twice; there must be one of orbit and orbits, once");
+        return kd_error_field(error, "/orbits",
+                              "orbits are given twice; a request must have either orbit or orbits, once");
     enum kd_status status = kd_document_read(&kd_orbit_request_document, &request->params, root, "", NULL, error);
     return status || !(one || many) ? status : read_orbits(request, one ? one : many, error);
 }
@@ -200,7 +201,7 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
 {
     const struct kd_orbit_params *p = &request->params;
     if (!request->n)
-        return kd_error_field(error, "/orbit", "orbit is missing: one orbit, or orbits with a list");
+        return kd_error_field(error, "/orbit", "orbit is missing; a request must have orbit, or orbits with a list");
     if (!request->many) { /* fields were set by name, one at a time, so the orbit may be incomplete */
         struct kd_orbit_spec spec = *request->specs;
         enum kd_status status = settle(&spec, "/orbit", error);
@@ -212,8 +213,8 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
                               "duration is given as periods and as time: only one of them may be given");
     if (p->or_end && isnan(p->periods))
         return kd_error_field(error, "/duration/or_end",
-                              "or_end is true without periods; it must be false: without periods or a time, an orbit "
-                              "that plunges or escapes is followed to its end anyway");
+                              "or_end is true without periods; it must be false, because without a duration an orbit "
+                              "that plunges or escapes is followed to its end");
     if (!kd_orbit_is_seen(p) &&
         (isfinite(p->seen.r) || p->seen.azimuth_deg != 0 || p->seen.motion != KD_OBSERVER_STATIC))
         return kd_error_field(error, "/seen/observer_inclination_deg",

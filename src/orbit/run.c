@@ -12,7 +12,7 @@
 #define DEFAULT_PERIODS 10
 /* after this many samples in a row without an image, a full search is no longer made for each, ... */
 #define SEARCHES 3
-#define SEARCH_EVERY 64 /* ... but only for one sample of 64 */
+#define SEARCH_EVERY 64 /* ... but only for one sample in 64 */
 /* halvings of the step in the search for an end; each gains a factor of 64, from 1e-10 to rounding */
 #define HALVINGS 6
 
@@ -253,10 +253,10 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
     double pace = sqrt(
         fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: one step across w cannot resolve it */
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
-        return kd_error_field(error, "/r_max",
-                              "r_max is %g, too large for the short steps that this path needs, because it whirls near "
-                              "an unstable circle",
-                              run->params->r_max);
+        return kd_error_field(
+            error, "/r_max",
+            "r_max is %g; it must be smaller, because this path whirls near an unstable circle and needs short steps",
+            run->params->r_max);
     return status;
 }
 

@@ -32,7 +32,7 @@ struct kd_debris_source {
     uint32_t number; /* from 1; 0: free */
     char name[KD_PLAYGROUND_NAME];
     double t;                /* time of its first piece */
-    double piece_mass;       /* of one of its pieces */
+    double piece_mass;       /* mass of one of its pieces */
     double worth;            /* weight of a piece for pictures, as a fraction of a whole body */
     double spread;           /* half width of the pieces' energies, R/r_t^2 */
     uint32_t pieces;         /* torn off so far */

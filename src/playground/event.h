@@ -11,11 +11,13 @@ enum { KD_PLAYGROUND_EVENTS = 4096 };
 
 /* X(NAME, word, description of the event and of its energy) */
 #define KD_PLAYGROUND_EVENT_KINDS(X) \
-    X(MERGER, merger, "two bodies have become one; energy: what became heat") \
-    X(SHEDDING, shedding, "the tide has removed part of a star; energy: that of the shed mass in the hole's field") \
-    X(DISRUPTION, disruption, "the tide has torn a star apart; energy: that of the debris in the hole's field") \
-    X(CAPTURED, capture, "the hole has captured a body; energy: that of the body in the hole's field") \
-    X(INSPIRAL, inspiral, "gravitational waves have brought a body inside 6 M; energy: the energy that they took") \
+    X(MERGER, merger, "two bodies have merged; energy: the energy that became heat") \
+    X(SHEDDING, shedding, \
+      "the tide has removed part of a star; energy: the energy of the shed mass in the hole's field") \
+    X(DISRUPTION, disruption, "the tide has torn a star apart; energy: the energy of the debris in the hole's field") \
+    X(CAPTURED, capture, "the hole has captured a body; energy: the energy of the body in the hole's field") \
+    X(INSPIRAL, inspiral, \
+      "gravitational waves have brought a body inside 6 M; energy: the energy that the waves carried away") \
     X(ESCAPE, escape, "a test body has left the simulated space; energy: none")
 
 #define KD_EVENT_(NAME, ...) KD_PLAYGROUND_##NAME,
@@ -27,7 +29,7 @@ struct kd_playground_event {
     uint64_t number; /* from 1 */
     double t;
     enum kd_playground_event_kind kind;
-    uint32_t body, other; /* ids; other 0: none */
+    uint32_t body, other; /* ids of the bodies; other is 0 if there is only one */
     char name[KD_PLAYGROUND_NAME], other_name[KD_PLAYGROUND_NAME];
     /* Merger: the masses of the two bodies before it. Shedding and disruption: the mass lost, and the mass left. */
     double mass, other_mass;

@@ -33,11 +33,12 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
     BOOL(mergers, true, "bodies that touch merge") \
     BOOL(tides, true, "the hole's tide sheds a star's mass, and tears it apart") \
     BOOL(waves, false, "bodies lose energy to gravitational waves") \
-    REAL(amplification, 1, 0, 1e9, "factor on that loss; 1: the physical value") \
+    REAL(amplification, 1, 0, 1e9, "factor on the loss to gravitational waves; 1: the physical value") \
     BOOL(feeds, true, "debris that has returned is counted as accreted and removed; otherwise it moves on") \
     INT(debris_capacity, 100000, 0, KD_PLAYGROUND_DEBRIS_MAX, \
         "largest number of pieces of debris; beyond it, a new piece replaces the oldest") \
-    INT(debris_per_body, 20000, 16, KD_PLAYGROUND_DEBRIS_MAX, "pieces that a body falls into when it is torn apart") \
+    INT(debris_per_body, 20000, 16, KD_PLAYGROUND_DEBRIS_MAX, \
+        "number of pieces of debris of a body that is torn apart") \
     REAL(debris_temperature_k, 5000, 300, 1e9, "temperature in K of the debris, a black body in pictures") \
     REAL(debris_depth, 1, 0, 1e6, "optical depth in pictures of the debris of one body, spread over 1000 M^2") \
     REAL(albedo, 0, 0, 1, "share of the disk's light that bodies reflect in pictures; 0: reflection is not computed") \

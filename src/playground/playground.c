@@ -247,7 +247,7 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
                        "orbit, but without frame dragging and time dilation; its r is taken as Schwarzschild's.");
         kd_json_string(json, NULL, "The hole does not move, and captured bodies do not increase its mass.");
         kd_json_string(json, NULL, "Bodies attract one another by Newton's law, softened and without delay.");
-        kd_json_string(json, NULL, "Speeds are limited to c.");
+        kd_json_string(json, NULL, "Speeds of bodies are limited to c.");
         if (kd_playground_lost_momentum(p))
             kd_json_string(
                 json, NULL,

@@ -106,7 +106,7 @@ struct kd_playground_progress {
     bool ended;  /* KD_PLAYGROUND_TIME is reached, and the motion has stopped */
 };
 
-/* Advances by `time` > 0, or by as many sub-steps as the budget allows. */
+/* Advances by `time` > 0, or less if the budget of sub-steps is spent before. */
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress);
 
 /* Advances in pieces, to interleave other work: call begin, then go_on until it returns false. The result is bit for

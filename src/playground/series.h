@@ -17,7 +17,8 @@ enum { KD_SERIES_ROWS = 4096 };
     X(bodies, "", "number of bodies") \
     X(energy, "M", "energy of the bodies: kinetic, in the hole's field, and of all pairs") \
     X(energy_balance, "M", \
-      "the same with all energy that has left and entered; constant except for the error of the integration") \
+      "energy of the bodies, corrected for all energy that has left or entered; it is constant except for the error " \
+      "of the integration") \
     X(angular_momentum_x, "M^2", "of the bodies") \
     X(angular_momentum_y, "M^2", "of the bodies") \
     X(angular_momentum_z, "M^2", "of the bodies") \
@@ -25,7 +26,7 @@ enum { KD_SERIES_ROWS = 4096 };
     X(separation, "M", "separation of the closest bound pair of bodies, or else of the innermost body and the hole") \
     X(wave_frequency, "1/M", "wave frequency: twice the orbital frequency of these two") \
     X(h_plus, "M", "strain h+ times distance, seen along the hole's axis") \
-    X(h_cross, "M", "strain hx times distance, the other polarisation") \
+    X(h_cross, "M", "strain hx times distance, seen along the hole's axis") \
     X(debris, "", "number of moving pieces of debris") \
     X(debris_back, "M", "mass of the debris that has returned")
 

@@ -63,8 +63,10 @@
     P(velocity_r, .unit = "c", .typed = "0", .least = -1, .most = 1, \
       .help = "velocity outwards, relative to the observer of zero angular momentum (observer velocity)") \
     P(velocity_theta, .unit = "c", .typed = "0", .least = -1, .most = 1, \
-      .help = "velocity away from the north pole, likewise") \
-    P(velocity_phi, .unit = "c", .typed = "0", .least = -1, .most = 1, .help = "velocity towards +phi, likewise") \
+      .help = \
+          "velocity away from the north pole, relative to the observer of zero angular momentum (observer velocity)") \
+    P(velocity_phi, .unit = "c", .typed = "0", .least = -1, .most = 1, \
+      .help = "velocity towards +phi, relative to the observer of zero angular momentum (observer velocity)") \
     P(infall_from, .unit = "M", .typed = "infinity", .least = 1, .most = 1e7, .words = "infinity", .stands = INFINITY, \
       .help = "radius at which the observer's fall begins, at rest except for its angular momentum (observer infall)") \
     P(infall_energy, .unit = "1", .typed = "rest", .least = -100, .most = 1e3, .words = "rest", .stands = INFINITY, \

@@ -11,23 +11,30 @@
 #define OUTPUTS(O) \
     O(angle, .unit = "radians", \
       .help = "total bending towards +phi, whole turns included; null if captured, b < b_critical") \
-    O(angle_retrograde, .unit = "radians", .help = "the same for light that turns towards -phi") \
+    O(angle_retrograde, .unit = "radians", \
+      .help = "total bending of light that turns towards -phi, whole turns included; null if captured") \
     O(weak, .unit = "radians", .help = "weak field, 4/b") \
-    O(weak_second, .unit = "radians", .help = "with the next order, 4/b + (15 pi/4 - 4a - 3 pi Q^2/4)/b^2") \
-    O(weak_second_retrograde, .unit = "radians", .help = "the same towards -phi") \
+    O(weak_second, .unit = "radians", \
+      .help = "weak-field bending towards +phi to second order, 4/b + (15 pi/4 - 4a - 3 pi Q^2/4)/b^2") \
+    O(weak_second_retrograde, .unit = "radians", .help = "weak-field bending towards -phi to second order") \
     O(strong, .unit = "radians", \
-      .help = "limit close to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured") \
-    O(strong_retrograde, .unit = "radians", .help = "the same towards -phi") \
+      .help = "limit of the bending towards +phi close to b_critical, -rate ln(b/b_critical - 1) + offset; null if " \
+              "captured") \
+    O(strong_retrograde, .unit = "radians", \
+      .help = "limit of the bending towards -phi close to its critical b; null if captured") \
     O(closest, .unit = "M", .help = "closest approach r of the light towards +phi; null if captured") \
-    O(closest_retrograde, .unit = "M", .help = "the same towards -phi") \
+    O(closest_retrograde, .unit = "M", .help = "closest approach r of the light towards -phi; null if captured") \
     O(farthest, .unit = "M", \
-      .help = "largest radius of light towards +phi that is emitted inside the photon orbit and falls back; null if " \
-              "it escapes, or if no light there has so small an energy for its L") \
-    O(farthest_retrograde, .unit = "M", .help = "the same towards -phi") \
+      .help = "largest radius that light towards +phi reaches if it is emitted inside the photon orbit and falls " \
+              "back; null if it escapes, or if no light inside has this b") \
+    O(farthest_retrograde, .unit = "M", \
+      .help = \
+          "largest radius that light towards -phi reaches if it is emitted inside the photon orbit and falls back") \
     O(b_critical, .unit = "M", .fixed = true, .help = "impact parameter of the circular photon orbit towards +phi") \
-    O(b_critical_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi") \
+    O(b_critical_retrograde, .unit = "M", .fixed = true, \
+      .help = "impact parameter of the circular photon orbit towards -phi") \
     O(strong_rate, .unit = "1", .fixed = true, .help = "rate of the strong limit, 1 at spin 0") \
-    O(strong_offset, .unit = "radians", .fixed = true, .help = "its offset")
+    O(strong_offset, .unit = "radians", .fixed = true, .help = "offset of the strong limit")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {

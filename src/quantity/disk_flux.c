@@ -13,16 +13,17 @@
     P(r, .unit = "M", .typed = "20", .least = 1, .most = 1e9, .help = "radius in the disk")
 #define OUTPUTS(O) \
     O(page_thorne, .unit = "1/M^2", .help = "F/Mdot of one face; zero at and inside the ISCO") \
-    O(shakura_sunyaev, .unit = "1/M^2", .help = "the same in Newton's gravity, cut at the ISCO") \
+    O(shakura_sunyaev, .unit = "1/M^2", .help = "F/Mdot of one face in Newton's gravity, cut at the ISCO") \
     O(page_thorne_w_m2, .unit = "W/m^2", .help = "F") \
     O(shakura_sunyaev_w_m2, .unit = "W/m^2", .help = "F in Newton's gravity for the same accretion rate") \
     O(t_eff_k, .unit = "K", .help = "effective temperature, Page-Thorne") \
     O(t_eff_newton_k, .unit = "K", .help = "effective temperature, Shakura-Sunyaev") \
     O(inner, .unit = "M", .fixed = true, .help = "inner edge, the ISCO") \
     O(r_peak, .unit = "M", .fixed = true, .help = "radius of the largest Page-Thorne flux") \
-    O(t_peak_k, .unit = "K", .fixed = true, .help = "effective temperature there") \
+    O(t_peak_k, .unit = "K", .fixed = true, .help = "effective temperature at r_peak") \
     O(efficiency, .unit = "1", .fixed = true, .help = "luminosity over Mdot c^2, 1 - E at the ISCO") \
-    O(efficiency_newton, .unit = "1", .fixed = true, .help = "the same for the Newtonian disk, 1/(2 r_isco)") \
+    O(efficiency_newton, .unit = "1", .fixed = true, \
+      .help = "luminosity over Mdot c^2 of the Newtonian disk, 1/(2 r_isco)") \
     O(mdot_kg_s, .unit = "kg/s", .fixed = true, .help = "accretion rate") \
     O(mdot_msun_yr, .unit = "solar masses a year", .fixed = true, .help = "accretion rate") \
     O(luminosity_w, .unit = "W", .fixed = true, .help = "efficiency times Mdot c^2") \

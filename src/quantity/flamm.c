@@ -12,13 +12,13 @@
     P(phi_deg, .unit = "degrees", .typed = "0", .least = -360, .most = 360, \
       .help = "azimuth; ranges of azimuth and r make a mesh")
 #define OUTPUTS(O) \
-    O(x, .unit = "M", .help = "of the embedded surface: radius cos(phi)") \
-    O(y, .unit = "M", .help = "of the embedded surface: radius sin(phi)") \
-    O(z, .unit = "M", .help = "height over the horizon's circle") \
+    O(x, .unit = "M", .help = "x of the embedded surface: its radius times cos(phi)") \
+    O(y, .unit = "M", .help = "y of the embedded surface: its radius times sin(phi)") \
+    O(z, .unit = "M", .help = "z of the embedded surface: height over the horizon's circle") \
     O(radius, .unit = "M", .help = "circumference over 2 pi, sqrt(r^2 + a^2 + a^2 (2r - Q^2)/r^2)") \
-    O(proper_distance, .unit = "M", .help = "from the horizon along r") \
-    O(flamm, .unit = "M", .help = "sqrt(8 (r - 2)), z for a = Q = 0; null for r < 2") \
-    O(horizon, .unit = "M", .fixed = true, .help = "where the surface begins")
+    O(proper_distance, .unit = "M", .help = "proper distance from the horizon along r") \
+    O(flamm, .unit = "M", .help = "Flamm's paraboloid, sqrt(8 (r - 2)), which is z for a = Q = 0; null for r < 2") \
+    O(horizon, .unit = "M", .fixed = true, .help = "radius at which the surface begins")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {

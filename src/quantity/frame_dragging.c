@@ -14,7 +14,7 @@
     O(omega_least, .unit = "1/M", \
       .help = "smallest angular velocity of any observer at r; positive inside the ergosphere") \
     O(omega_most, .unit = "1/M", \
-      .help = "largest angular velocity of any observer at r; null on the axis, as is the smallest") \
+      .help = "largest angular velocity of any observer at r; this and the smallest are null on the axis") \
     O(horizon_omega, .unit = "1/M", .fixed = true, .help = "angular velocity of the horizon, a/(2 r+ - Q^2)") \
     O(ergosphere, .unit = "M", .fixed = true, .help = "static limit at theta_deg")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)

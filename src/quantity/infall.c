@@ -23,18 +23,21 @@
     O(proper_time_to_end, .unit = "M", \
       .help = \
           "proper time from r to the end of the model: the inner horizon, or without spin and charge the singularity") \
-    O(proper_time_to_horizon_s, .unit = "s", .help = "the same in seconds") \
-    O(proper_time_to_end_s, .unit = "s", .help = "the same in seconds") \
+    O(proper_time_to_horizon_s, .unit = "s", \
+      .help = "proper time from r to the outer horizon, in seconds; null inside it") \
+    O(proper_time_to_end_s, .unit = "s", .help = "proper time from r to the end of the model, in seconds") \
     O(velocity, .unit = "1", \
       .help = "velocity towards the hole relative to the observer of zero angular momentum, in units of c; null " \
               "inside the horizon") \
     O(g_behind, .unit = "1", \
-      .help = "frequency of starlight from straight behind, measured by the falling observer over that at infinity") \
+      .help = "frequency of starlight from straight behind as the falling observer measures it, over its frequency " \
+              "at infinity") \
     O(azimuth_to_end_deg, .unit = "degrees", \
-      .help = "change of azimuth until the end, in ingoing Kerr-Schild azimuth, that of camera.azimuth_deg") \
+      .help = "change of the ingoing Kerr-Schild azimuth until the end of the model; camera.azimuth_deg is such an " \
+              "azimuth") \
     O(time_to_end, .unit = "M", \
-      .help = \
-          "coordinate time until the end, in ingoing Kerr-Schild coordinates, which are regular at the outer horizon") \
+      .help = "coordinate time until the end of the model, in ingoing Kerr-Schild coordinates, which are regular at " \
+              "the outer horizon") \
     O(energy, .unit = "1", .fixed = true, .help = "per mass") \
     O(end, .unit = "M", .fixed = true, .help = "radius where the model ends")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
@@ -55,9 +58,10 @@ static enum kd_status check(const struct kd_observer_motion *motion, const struc
     if (kd_quantity_observer_exists(motion, at, error))
         return KD_EINVAL;
     if (!kd_infall_is_level(motion, at))
-        return kd_quantity_outside(error, "inclination_deg", atan2(at->s, at->u) * (180 / M_PI),
-                                   "a latitude that the fall would leave; with spin it must be 0, 90 or 180, or the "
-                                   "fall must begin at rest at infinity");
+        return kd_quantity_outside(
+            error, "inclination_deg", atan2(at->s, at->u) * (180 / M_PI),
+            "where the fall would change its latitude; with spin it must be 0, 90 or 180, or the "
+            "fall must begin at rest at infinity");
     return KD_OK;
 }
 

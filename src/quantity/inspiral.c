@@ -19,8 +19,9 @@
     O(chirp_mass, .unit = "solar masses", .fixed = true, .help = "(m1 m2)^(3/5)/(m1 + m2)^(1/5)") \
     O(eta, .unit = "1", .fixed = true, .help = "m1 m2/(m1 + m2)^2") \
     O(axis_km, .unit = "km", .fixed = true, .help = "semi-major axis a, by Kepler's law") \
-    O(axis, .unit = "M", .fixed = true, .help = "the same, in units of the total mass M") \
-    O(enhancement, .unit = "1", .fixed = true, .help = "power over that of a circular orbit with the same a") \
+    O(axis, .unit = "M", .fixed = true, .help = "semi-major axis a, in units of the total mass M") \
+    O(enhancement, .unit = "1", .fixed = true, \
+      .help = "radiated power over the power of a circular orbit with the same a") \
     O(power_w, .unit = "W", .fixed = true, .help = "radiated power") \
     O(axis_rate, .unit = "m/yr", .fixed = true, .help = "da/dt") \
     O(eccentricity_rate, .unit = "1/yr", .fixed = true, .help = "de/dt") \
@@ -30,13 +31,17 @@
     O(isco_hz, .unit = "Hz", .fixed = true, .help = "wave frequency at a = 6 M, where the chirp is cut") \
     O(isco_before_s, .unit = "s", .fixed = true, .help = "time before coalescence at a = 6 M") \
     O(axis_later_km, .unit = "km", \
+      .help = "a at the time when the eccentricity is eccentricity_later; null if eccentricity_later is larger than " \
+              "the present eccentricity") \
+    O(time_later_yr, .unit = "yr", \
       .help = \
-          "a at the time when the eccentricity is eccentricity_later; null if that is larger than the present one") \
-    O(time_later_yr, .unit = "yr", .help = "time until then; likewise") \
+          "time until the eccentricity is eccentricity_later; null if that is larger than the present eccentricity") \
     O(chirp_hz, .unit = "Hz", \
       .help = "wave frequency of a circular orbit before_s before coalescence; null inside a = 6 M") \
-    O(chirp_axis, .unit = "M", .help = "its a; likewise") \
-    O(chirp_strain, .unit = "1", .help = "amplitude of h+ and hx of that orbit, seen along the axis; likewise")
+    O(chirp_axis, .unit = "M", \
+      .help = "semi-major axis of a circular orbit before_s before coalescence; null inside a = 6 M") \
+    O(chirp_strain, .unit = "1", \
+      .help = "amplitude of h+ and hx of this circular orbit, seen along the axis; null inside a = 6 M")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -68,8 +73,7 @@ static enum kd_status fill_now(const struct parameters *p, const struct orbit *k
     if (!(a * (1 - e) > 6))
         return kd_quantity_outside(
             error, "period_s", p->period_s,
-            "for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; the period must be longer",
-            a);
+            "for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; it must be longer", a);
     o->eta = eta;
     o->chirp_mass = kd_inspiral_chirp_mass(eta) * k->total;
     o->axis = a, o->axis_km = a * k->unit_m * 1e-3;

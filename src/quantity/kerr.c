@@ -19,17 +19,18 @@
     O(photon_prograde, .unit = "M", .fixed = true, .help = "circular photon orbit that turns towards +phi") \
     O(photon_retrograde, .unit = "M", .fixed = true, .help = "circular photon orbit that turns towards -phi") \
     O(marginally_bound, .unit = "M", .fixed = true, .help = "circular orbit with E = 1, towards +phi") \
-    O(marginally_bound_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi") \
+    O(marginally_bound_retrograde, .unit = "M", .fixed = true, .help = "circular orbit with E = 1, towards -phi") \
     O(isco, .unit = "M", .fixed = true, .help = "innermost stable circular orbit, towards +phi") \
-    O(isco_retrograde, .unit = "M", .fixed = true, .help = "the same towards -phi") \
+    O(isco_retrograde, .unit = "M", .fixed = true, .help = "innermost stable circular orbit, towards -phi") \
     O(isco_energy, .unit = "1", .fixed = true, .help = "specific energy E at the ISCO") \
     O(isco_momentum, .unit = "M", .fixed = true, .help = "specific angular momentum L at the ISCO") \
     O(isco_omega, .unit = "1/M", .fixed = true, .help = "angular velocity Omega at the ISCO") \
     O(efficiency, .unit = "1", .fixed = true, .help = "1 - E at the ISCO") \
     O(energy, .unit = "1", .help = "specific energy E at r; null at and inside the photon orbit") \
-    O(momentum, .unit = "M", .help = "specific angular momentum L at r; likewise") \
-    O(omega_phi, .unit = "1/M", .help = "orbital frequency Omega_phi at r, angular, of coordinate time; likewise") \
-    O(kappa, .unit = "1/M", .help = "radial epicyclic frequency at r; null inside the ISCO too") \
+    O(momentum, .unit = "M", .help = "specific angular momentum L at r; null at and inside the photon orbit") \
+    O(omega_phi, .unit = "1/M", \
+      .help = "orbital angular frequency Omega_phi at r, in coordinate time; null at and inside the photon orbit") \
+    O(kappa, .unit = "1/M", .help = "radial epicyclic frequency at r; null inside the ISCO") \
     O(omega_theta, .unit = "1/M", .help = "vertical epicyclic frequency at r; null at and inside the photon orbit")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 

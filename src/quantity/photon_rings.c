@@ -11,7 +11,7 @@
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer, who is at infinity; at 90 the plane is a line") \
     P(angle_deg, .unit = "degrees", .typed = "0", .least = -360, .most = 720, \
-      .help = "where on the critical curve: about its centre, from the right over the top") \
+      .help = "position on the critical curve: angle about its centre, from the right over the top") \
     P(inner, .unit = "M", .typed = "horizon", .least = 1, .most = 1e9, .words = "horizon", .stands = INFINITY, \
       .help = "inner radius of the light's source in the equatorial plane") \
     P(outer, .unit = "M", .typed = "infinity", .least = 1, .most = 1e9, .words = "infinity", .stands = INFINITY, \
@@ -22,14 +22,14 @@
     O(inner_edge, .unit = "1", \
       .help = "distance of the image of inner from the critical curve, along the curve's radius and in units of it; " \
               "below 0 inside the curve; null if there is no image") \
-    O(outer_edge, .unit = "1", .help = "the same for outer") \
-    O(width, .unit = "M", .help = "width of the ring there, from edge to edge") \
-    O(ladder, .unit = "M", \
-      .help = "width of order 1 times e^(-gamma (order - 1)), to which the widths are proportional at high orders") \
+    O(outer_edge, .unit = "1", \
+      .help = "distance of the image of outer from the critical curve, in the same units; null if there is no image") \
+    O(width, .unit = "M", .help = "width of the ring at this angle, from edge to edge") \
+    O(ladder, .unit = "M", .help = "width by the limit of high orders: that of order 1 times e^(-gamma (order - 1))") \
     O(gamma, .unit = "1", .fixed = true, \
-      .help = "Lyapunov exponent of the photon orbit that is seen there, for each half turn; pi for a = 0") \
-    O(orbit_r, .unit = "M", .fixed = true, .help = "radius of that orbit") \
-    O(rho, .unit = "M", .fixed = true, .help = "radius of the critical curve about its centre there")
+      .help = "Lyapunov exponent, for each half turn, of the photon orbit seen at this angle; pi for a = 0") \
+    O(orbit_r, .unit = "M", .fixed = true, .help = "radius of the photon orbit seen at this angle") \
+    O(rho, .unit = "M", .fixed = true, .help = "distance of the critical curve from its centre at this angle")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -64,7 +64,7 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
         return kd_quantity_outside(error, "inner", m->inner, "inside the horizon at %.9g M; it must be outside",
                                    horizon);
     if (!(p->outer > m->inner))
-        return kd_quantity_outside(error, "outer", p->outer, "but must be more than inner, %.9g M", m->inner);
+        return kd_quantity_outside(error, "outer", p->outer, "not above inner, %.9g M; it must be larger", m->inner);
     m->curve = kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_charged(p->spin, p->charge),
                                                                .radius = INFINITY,
                                                                .cos_theta = fabs(kd_cos_deg(p->inclination_deg)),

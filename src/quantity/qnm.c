@@ -21,29 +21,30 @@
       .help = "mass of the hole, with any redshift: m (1 + z)") \
     P(t, .unit = "M", .typed = "0", .least = 0, .most = 1e6, .help = "time of the sample `wave`") \
     P(shift_octaves, .unit = "1", .typed = "0", .least = -40, .most = 40, \
-      .help = "octaves by which the sound is higher than the ringing; it is faster by the same factor") \
+      .help = "octaves by which the sound is higher than the ringing; it also decays faster by the same factor") \
     P(stretch, .unit = "1", .typed = "1", .least = 1, .most = 1e6, \
-      .help = "factor by which the shifted sound then decays more slowly, at the same pitch")
+      .help = "factor by which the decay of the shifted sound is then slowed down, at the same pitch")
 #define OUTPUTS(O) \
     O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency") \
     O(omega_im, .unit = "1/M", .fixed = true, .help = "minus the damping rate") \
     O(separation_re, .unit = "1", .fixed = true, .help = "separation constant A_lm(a omega), l(l+1) - 2 at spin 0") \
-    O(separation_im, .unit = "1", .fixed = true, .help = "its imaginary part") \
+    O(separation_im, .unit = "1", .fixed = true, .help = "imaginary part of the separation constant") \
     O(quality, .unit = "1", .fixed = true, .help = "Q = omega_re/(-2 omega_im)") \
     O(quality_cubic, .unit = "1", .fixed = true, \
-      .help = "2.1 + 11.3 a^3, a formula for l = m = 2, n = 0 in circulation; null for other modes") \
-    O(quality_cubic_error, .unit = "1", .fixed = true, .help = "its relative error") \
+      .help = "quality factor by 2.1 + 11.3 a^3, a common formula for l = m = 2, n = 0; null for other modes") \
+    O(quality_cubic_error, .unit = "1", .fixed = true, .help = "relative error of quality_cubic") \
     O(fit_omega_re, .unit = "1/M", .fixed = true, \
-      .help = "fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null for other modes") \
+      .help = "omega_re by the fit of Berti et al. 2006 for l = m = 2, n = 0 to 2; null for other modes") \
     O(fit_quality, .unit = "1", .fixed = true, .help = "their Q") \
-    O(fit_omega_re_error, .unit = "1", .fixed = true, .help = "its relative error") \
-    O(fit_quality_error, .unit = "1", .fixed = true, .help = "its relative error") \
+    O(fit_omega_re_error, .unit = "1", .fixed = true, .help = "relative error of fit_omega_re") \
+    O(fit_quality_error, .unit = "1", .fixed = true, .help = "relative error of fit_quality") \
     O(frequency_hz, .unit = "Hz", .help = "omega_re/(2 pi) for mass_msun") \
     O(damping_s, .unit = "s", .help = "time in which the amplitude falls by e") \
     O(t_s, .unit = "s", .help = "t for mass_msun") \
     O(wave, .unit = "1", .help = "e^(omega_im t) cos(omega_re t)") \
-    O(sound_hz, .unit = "Hz", .help = "frequency_hz shifted by shift_octaves: that of the WAV file") \
-    O(sound_damping_s, .unit = "s", .help = "damping_s likewise, times stretch")
+    O(sound_hz, .unit = "Hz", .help = "frequency of the WAV file: frequency_hz shifted by shift_octaves") \
+    O(sound_damping_s, .unit = "s", \
+      .help = "damping time of the WAV file: damping_s shifted by shift_octaves, times stretch")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -51,12 +52,12 @@ static const char *const sources[] = {
     "H.-P. Nollert 1993, Phys. Rev. D 47, 5253 (their remainder)",
     "S. R. Dolan & A. C. Ottewill 2009, Class. Quantum Grav. 26, 225003 (start at spin 0)",
     "fit: E. Berti, V. Cardoso & C. M. Will 2006, Phys. Rev. D 73, 064030, table VIII",
-    "quality_cubic: no source found; for comparison alone",
+    "quality_cubic: no source is known; it is given for comparison",
     NULL,
 };
 static const char *const approximations[] = {
     "first order in the perturbation; gravitational waves (spin weight -2) alone",
-    "wave is one mode of amplitude and phase 1 and 0, not a signal",
+    "wave is a single mode with amplitude 1 and phase 0, not a signal",
     NULL,
 };
 

@@ -16,26 +16,27 @@
       .help = "azimuth on the ring relative to the observer's: 0 is the near side, at 90 the gas recedes")
 #define OUTPUTS(O) \
     O(g, .unit = "1", .help = "redshift factor nu_observed/nu_emitted of the direct image") \
-    O(g4, .unit = "1", .help = "g^4: its bolometric intensity over the emitted one") \
-    O(alpha, .unit = "M", .help = "position in the image: to the right") \
-    O(beta, .unit = "M", .help = "position in the image: along the projected spin") \
-    O(delay, .unit = "M", .help = "time of flight minus r_o + 2 ln r_o, with r_o the observer's radius") \
+    O(g4, .unit = "1", .help = "g^4: bolometric intensity of the direct image over the emitted intensity") \
+    O(alpha, .unit = "M", .help = "position of the direct image, to the right") \
+    O(beta, .unit = "M", .help = "position of the direct image, along the projected spin") \
+    O(delay, .unit = "M", \
+      .help = "time of flight of the direct image's light, minus r_o + 2 ln r_o, with r_o the observer's radius") \
     O(images, .unit = "1", \
       .help = "number of direct images: 1, or 3 or more beyond a caustic, close to edge on; the answer has the first " \
               "from +alpha towards +beta") \
     O(g_1, .unit = "1", .help = "g of the image of order 1, whose light passes the other side of the hole") \
-    O(g4_1, .unit = "1", .help = "its g^4") \
-    O(alpha_1, .unit = "M", .help = "position of that image") \
-    O(beta_1, .unit = "M", .help = "position of that image") \
-    O(delay_1, .unit = "M", .help = "time of flight, likewise") \
-    O(images_1, .unit = "1", .help = "number of images of order 1, likewise") \
+    O(g4_1, .unit = "1", .help = "g^4 of the image of order 1") \
+    O(alpha_1, .unit = "M", .help = "position of the image of order 1, to the right") \
+    O(beta_1, .unit = "M", .help = "position of the image of order 1, along the projected spin") \
+    O(delay_1, .unit = "M", .help = "time of flight of the light of the image of order 1, minus r_o + 2 ln r_o") \
+    O(images_1, .unit = "1", .help = "number of images of order 1") \
     O(g_flat, .unit = "1", \
       .help = "sqrt(1 - 3/r)/(1 - v.n), v = sqrt(1/(r - 2)), without lensing or spin; null for r <= 3") \
-    O(g4_flat, .unit = "1", .help = "its fourth power")
+    O(g4_flat, .unit = "1", .help = "fourth power of g_flat")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
-    "C. T. Cunningham 1975, ApJ 202, 788 (g; inside the ISCO of gas that plunges with its E and L)",
+    "C. T. Cunningham 1975, ApJ 202, 788 (g; inside the ISCO, gas plunges with the E and L of the ISCO)",
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
     "J.-P. Luminet 1979, A&A 75, 228 (g_flat but for the straight rays)",
     NULL,

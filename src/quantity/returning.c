@@ -24,8 +24,8 @@
     O(received, .unit = "1/M^2", \
       .help = "F/Mdot of the light that returns; flux - page_thorne - received is the work of stresses") \
     O(temperature_ratio, .unit = "1", \
-      .help = "effective temperature with returning light over the one without; null at the ISCO, where the one " \
-              "without is 0") \
+      .help = \
+          "effective temperature with returning light over that without it; null at the ISCO, where the latter is 0") \
     O(isco, .unit = "M", .fixed = true, .help = "inner edge of the disk") \
     O(disk_returns, .unit = "1", .fixed = true, \
       .help = "share of the luminosity L of the whole disk, without returning light, that falls on the disk again") \
@@ -67,10 +67,10 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
         return KD_EINVAL;
     kd_returning_init(&m->table, &hole, (enum kd_limb)p->limb);
     if (!(m->table.error < KD_RETURNING_WRONG))
-        return kd_quantity_outside(error, largest.name, largest.value,
-                                   "so close to an extremal hole that the energy balance is wrong by %.1g; it must be "
-                                   "right to %g",
-                                   m->table.error, KD_RETURNING_WRONG);
+        return kd_quantity_outside(
+            error, largest.name, largest.value,
+            "so close to an extremal hole that the energy balance has an error of %.1g (limit %g); it must be smaller",
+            m->table.error, KD_RETURNING_WRONG);
     o->isco = m->table.isco;
     o->disk_returns = m->table.first.returns, o->disk_falls_in = m->table.first.falls_in,
     o->disk_escapes = m->table.first.escapes;

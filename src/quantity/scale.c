@@ -26,13 +26,14 @@
     O(shadow_uas, .unit = "microarcseconds", \
       .help = "mean diameter of the shadow for this hole and inclination; 2 sqrt(27) M for a = Q = 0") \
     O(ring_uas, .unit = "microarcseconds", .help = "measured diameter of the ring; null if hole is none") \
-    O(ring_error_uas, .unit = "microarcseconds", .help = "its error, one sigma") \
+    O(ring_error_uas, .unit = "microarcseconds", .help = "error of the measured diameter, one sigma") \
     O(ring_over_shadow, .unit = "1", .help = "ratio of measured to computed diameter") \
     O(horizon_km, .unit = "km", .help = "radius of the horizon r+") \
     O(horizon_au, .unit = "au", .help = "radius of the horizon r+") \
     O(light_crossing_s, .unit = "s", .help = "light-crossing time of the horizon, 2 r+/c") \
     O(isco_period_s, .unit = "s", .help = "period of the ISCO for an observer far away") \
-    O(photon_period_s, .unit = "s", .help = "the same for the circular photon orbit, towards +phi") \
+    O(photon_period_s, .unit = "s", \
+      .help = "period of the circular photon orbit towards +phi, for an observer far away") \
     O(fall_s, .unit = "s", \
       .help = "proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M") \
     O(fall_longest_s, .unit = "s", .help = "longest proper time from horizon to singularity, a = Q = 0: pi M")
@@ -48,7 +49,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "the measured ring is that of the emission, some per cent larger than the edge of the shadow",
+    "the measured ring is the ring of emission, which is some per cent larger than the edge of the shadow",
     "times of fall are those of a = Q = 0",
     NULL,
 };

@@ -13,14 +13,14 @@
 #define OUTPUTS(O) \
     O(p, .unit = "M", .help = "smallest semi-latus rectum of a stable bound orbit") \
     O(r_min, .unit = "M", .help = "radius at which a body on the separatrix whirls: its periapsis p/(1 + e)") \
-    O(r_max, .unit = "M", .help = "its apoapsis p/(1 - e)") \
+    O(r_max, .unit = "M", .help = "apoapsis of this orbit, p/(1 - e)") \
     O(circle, .unit = "M", \
       .help = "radius of the photon orbit of this inclination; circular orbits exist above it, and are unstable " \
               "below the separatrix")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
-    "L. C. Stein & N. Warburton 2020, Phys. Rev. D 101, 064007 (what the separatrix is: two radial turning points "
+    "L. C. Stein & N. Warburton 2020, Phys. Rev. D 101, 064007 (the definition: two radial turning points "
     "coincide)",
     "W. Schmidt 2002, Class. Quantum Grav. 19, 2743 (constants of motion from p, e, inclination)",
     NULL,

@@ -15,20 +15,28 @@
     O(alpha, .unit = "M", \
       .help = "coordinate of the curve on the image plane, to the right; at any distance it labels the constants of " \
               "motion") \
-    O(beta, .unit = "M", .help = "coordinate of the curve on the image plane, along the projected spin; likewise") \
+    O(beta, .unit = "M", \
+      .help = "coordinate of the curve on the image plane, along the projected spin; at any distance it labels the " \
+              "constants of motion") \
     O(rho, .unit = "M or radians", \
       .help = "distance from the centre, in M for an observer at infinity, otherwise an angle on the sky") \
     O(right, .unit = "1", \
       .help = "unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity") \
-    O(up, .unit = "1", .help = "component up, towards -theta") \
-    O(inwards, .unit = "1", .help = "component inwards, towards -r") \
-    O(orbit_r, .unit = "M", .help = "radius of the photon orbit that is seen there") \
-    O(lyapunov, .unit = "1", .help = "gamma of that orbit: images of order n lie closer by e^-gamma each half turn") \
+    O(up, .unit = "1", \
+      .help = \
+          "unit vector of the viewing direction at a finite radius: component up, towards -theta; null at infinity") \
+    O(inwards, .unit = "1", \
+      .help = \
+          "unit vector of the viewing direction at a finite radius: component inwards, towards -r; null at infinity") \
+    O(orbit_r, .unit = "M", .help = "radius of the photon orbit seen at this point of the curve") \
+    O(lyapunov, .unit = "1", \
+      .help = \
+          "Lyapunov exponent gamma of this orbit: with each half turn, images lie closer to the curve by e^-gamma") \
     O(area, .unit = "M^2 or sr", .fixed = true, .help = "area of the shadow in M^2, or its solid angle") \
     O(mean_radius, .unit = "M or radians", .fixed = true, \
       .help = "mean of rho about the midpoint of the left and right ends") \
     O(displacement, .unit = "M or radians", .fixed = true, \
-      .help = "displacement of that midpoint from the hole's centre, to the right") \
+      .help = "displacement of the midpoint of the left and right ends from the hole's centre, to the right") \
     O(asymmetry, .unit = "M or radians", .fixed = true, \
       .help = "twice the root mean square of the difference of rho and its mean") \
     O(width, .unit = "M or radians", .fixed = true, .help = "extent from left to right") \

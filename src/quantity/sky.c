@@ -17,9 +17,10 @@
     O(g, .unit = "1", \
       .help = \
           "measured frequency of starlight from that direction over its frequency at infinity; null in the dark disk") \
-    O(g_ahead, .unit = "1", .fixed = true, .help = "the same from straight ahead, towards the hole") \
-    O(g_behind, .unit = "1", .fixed = true, .help = "the same from straight behind, away from the hole") \
-    O(g_above, .unit = "1", .fixed = true, .help = "the same from overhead, towards -theta") \
+    O(g_ahead, .unit = "1", .fixed = true, .help = "g from straight ahead, towards the hole; null in the dark disk") \
+    O(g_behind, .unit = "1", .fixed = true, \
+      .help = "g from straight behind, away from the hole; null in the dark disk") \
+    O(g_above, .unit = "1", .fixed = true, .help = "g from overhead, towards -theta; null in the dark disk") \
     O(g_below, .unit = "1", .fixed = true, .help = "towards +theta") \
     O(g_right, .unit = "1", .fixed = true, .help = "towards +phi") \
     O(g_left, .unit = "1", .fixed = true, .help = "towards -phi") \

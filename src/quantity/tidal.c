@@ -32,9 +32,9 @@
     O(fallback_days, .unit = "days", .fixed = true, .help = "t_fb in days") \
     O(peak_msun_yr, .unit = "solar masses a year", .fixed = true, .help = "largest rate of fallback, m/(3 t_fb)") \
     O(peak_eddington, .unit = "Eddington rates", .fixed = true, \
-      .help = "the same in units of the Eddington rate, with the efficiency of this spin") \
+      .help = "largest rate of fallback in units of the Eddington rate, with the efficiency of this spin") \
     O(above_eddington_days, .unit = "days", .fixed = true, \
-      .help = "time until the rate falls to the Eddington rate; null if it is never above") \
+      .help = "time until the rate falls to the Eddington rate; null if it never exceeds that") \
     O(pericentre, .unit = "M", .help = "r_t over penetration") \
     O(pericentre_over_capture, .unit = "1", \
       .help = "pericentre over marginally_bound; below 1 the star is captured whole") \

@@ -19,7 +19,7 @@
  * The nature tells what a reader may conclude from a picture in which the field was changed. It is mandatory.
  *     PHYSICS  an exact consequence of general relativity or radiative transfer, or its numerical accuracy
  *     MODEL    chooses a model of matter or of a source, or a parameter of the model
- *     LOOK     changes the picture, not the physics
+ *     LOOK     a choice of presentation, which changes the picture but not the physics
  * The place tells where the page shows the field: FRONT among the few that most visitors use, REST among the others.
  * The group of a section (LOOK, GAS, HOLE, CAMERA or MORE) is the group in which the page shows its fields.
  *
@@ -99,11 +99,11 @@
     REAL(camera, eye_distance, LOOK, REST, 0.5, 1e-6, 1e6, "M", \
          "distance between the eyes, perpendicular to the viewing direction (stereo: pair)") \
     REAL(camera, ring_decades_max, LOOK, REST, 0.0, -12.0, 0.0, "decades", \
-         "log10 of the distance to the critical curve, in units of its radius, at the upper and the lower edge " \
-         "(ring)") \
+         "log10 of the distance between the critical curve and the picture's upper and lower edges, in units of the " \
+         "curve's radius (ring)") \
     REAL(camera, ring_decades_min, LOOK, REST, -10.0, -13.0, -1.0, "decades", \
-         "log10 of that distance at the middle line; rays above the line pass outside the curve, rays below it " \
-         "inside (ring)")
+         "log10 of the distance to the critical curve at the picture's middle line; rays above the line pass outside " \
+         "the curve, rays below it inside (ring)")
 
 #define KD_DISK_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(disk, model, MODEL, FRONT, KD_DISK_NOVIKOV_THORNE, \
@@ -137,11 +137,12 @@
          "gas's frame. isotropic; laor: as 1 + 2.06 mu; scattering: as from a deep atmosphere of free electrons, " \
          "which polarization.model \"scattering\" polarises. Each law has the disk's flux", \
          "isotropic|laor|scattering") \
-    ENUM(disk, returning, MODEL, REST, KD_RETURNS_NONE, \
-         "light of the disk that the hole bends back to it: none; thermalised, absorbed with its angular momentum " \
-         "and radiated again as by a black body; reflected, the share disk.albedo of it with the spectrum with " \
-         "which it came, the rest thermalised; any number of returns", \
-         "none|thermalised|reflected") \
+    ENUM( \
+        disk, returning, MODEL, REST, KD_RETURNS_NONE, \
+        "light that the hole bends back to the disk. none: it is ignored; thermalised: the disk absorbs it with its " \
+        "angular momentum, and radiates it again as a black body; reflected: the disk reflects the share disk.albedo " \
+        "with the spectrum of the arriving light, and thermalises the rest. Light may return any number of times", \
+        "none|thermalised|reflected") \
     REAL(disk, albedo, MODEL, REST, 0.5, 0.0, 1.0, "1", "share of the returning light that is reflected") \
     ENUM(disk, band, LOOK, REST, KD_BAND_BOLOMETRIC, \
          "brightness: bolometric, g^4 F; visible, the luminance that the eye perceives of the Planck " \
@@ -153,7 +154,7 @@
          "include the gravitational redshift and time dilation of the orbiting gas") \
     INT(disk, particles, MODEL, REST, 300000, 1000, 10000000, "1", "number of particles (model: particles)") \
     INT(disk, seed, MODEL, REST, 1, 0, 2147483647, "1", \
-        "seed of the random numbers: another seed gives other particles (model: particles)") \
+        "seed of the random numbers that place the particles (model: particles)") \
     REAL(disk, density_index, MODEL, REST, 2.0, 0.0, 4.0, "1", \
          "p: the number of particles per area is proportional to r^-p; for p = 2 every octave of r has the same " \
          "number (model: particles)") \
@@ -164,8 +165,8 @@
          "temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: " \
          "particles)") \
     REAL(disk, epicycles, MODEL, REST, 0.02, 0.0, 0.2, "1", \
-         "largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the " \
-         "ISCO, also that of the relative oscillations in r (model: particles)") \
+         "largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes " \
+         "at the ISCO, it is also the largest relative amplitude of oscillations in r (model: particles)") \
     BOOL(disk, slow_light, PHYSICS, REST, false, \
          "show particles, gas and spots at the time when the light of each ray left them, instead of at one " \
          "coordinate time")
@@ -178,9 +179,9 @@
     REAL(gas, scale, MODEL, REST, 0.4, 0.02, 2.0, "1", \
          "size of the largest eddies over r, before shear stretches them") \
     REAL(gas, shear, MODEL, REST, 5.0, -20.0, 20.0, "1", \
-         "azimuth by which streaks trail, in radians for each unit of ln r; streaks are 1 + shear^2 times as " \
-         "long as wide; below 0 they lead") \
-    INT(gas, seed, MODEL, REST, 1, 0, 2147483647, "1", "seed of the random numbers: another seed gives other gas")
+         "azimuth by which streaks trail, in radians for each unit of ln r; below 0 they lead. Streaks are 1 + " \
+         "shear^2 times as long as they are wide") \
+    INT(gas, seed, MODEL, REST, 1, 0, 2147483647, "1", "seed of the random numbers of the turbulence")
 
 #define KD_SPOTS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(spots, brightness, MODEL, FRONT, 0.0, 0.0, 1e6, "1", \
@@ -207,7 +208,7 @@
     REAL(bodies, phase_deg, MODEL, FRONT, 0.0, -360.0, 360.0, "degrees", \
          "azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0") \
     ENUM(bodies, motion, MODEL, REST, KD_OBSERVER_KEPLERIAN, \
-         "state of motion, which shifts its light; static, zamo, " KD_OBSERVER_CIRCULAR \
+         "state of motion, which shifts the body's light; static, zamo, " KD_OBSERVER_CIRCULAR \
          " move it round with time, the last two only in the disk's plane" KD_OBSERVER_HELP, \
          KD_OBSERVER_WORDS) \
     REAL(bodies, velocity_r, MODEL, REST, 0.0, -1.0, 1.0, "c", \
@@ -284,8 +285,8 @@
          "(models: riaf, torus)", \
          "toroidal|vertical|radial") \
     ENUM(volume, flow, MODEL, REST, KD_VOLUME_ORBITS, \
-         "motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at " \
-         "rest for observers of zero angular momentum (model: riaf)", \
+         "motion of the matter: with the angular velocity of the circular orbit at each r, and in free fall inside " \
+         "the ISCO; or at rest relative to observers of zero angular momentum (model: riaf)", \
          "orbits|rest") \
     ENUM(volume, electrons, MODEL, REST, KD_VOLUME_THERMAL, \
          "energy distribution of the electrons (models: riaf, torus, grid); kappa: thermal with a power-law " \
@@ -307,25 +308,26 @@
          "smallest Lorentz factor of the electrons (electrons: power-law)") \
     REAL(volume, gamma_max, MODEL, REST, 1e5, 1.0, 1e12, "1", \
          "largest Lorentz factor of the electrons; above gamma_min (electrons: power-law)") \
-    REAL( \
-        volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", \
-        "flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that " \
-        "it determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid)") \
+    REAL(volume, normalise_to_jy, MODEL, REST, 0.0, 0.0, 1e12, "Jy", \
+         "flux to which the picture is normalised: kerrd multiplies the density (gold: the emissivity; grid: the " \
+         "factor) by a number that small pictures determine, and reports this number; 0: no change (models: gold, " \
+         "riaf, torus, grid)") \
     WORD(volume, normalise_ghz, MODEL, REST, INFINITY, 1e-6, 1e12, "GHz", \
          "frequency of that flux; observed: volume.frequency_ghz", "observed")
 
 #define KD_JETS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(jets, brightness, MODEL, FRONT, 0.0, 0.0, 1e9, "1/M", \
-         "light emitted along 1 M in the jet's frame, in units of the disk's brightest: the power law's value at " \
-         "the inner edge, from which the light rises smoothly; 0: no jets") \
+         "light that the jet emits along 1 M in its own frame, in units of the disk's brightest surface brightness. " \
+         "It is the value of the power law at the inner edge; the actual light is 0 there and rises smoothly to the " \
+         "power law. 0: no jets") \
     REAL(jets, opening_deg, MODEL, FRONT, 8.0, 1.0, 60.0, "degrees", "half of the cone's opening angle") \
     REAL(jets, lorentz, MODEL, FRONT, 2.0, 1.0, 100.0, "1", "Lorentz factor of the outflow") \
     REAL(jets, inner, MODEL, REST, 4.0, 1.0, 1e6, "M", \
          "radius at which the light begins, at least 1.05 times that of the horizon") \
     REAL(jets, outer, MODEL, REST, 60.0, 1.0, 1e6, "M", "radius at which the light ends; larger than the inner edge") \
-    REAL(jets, falloff, MODEL, REST, 1.5, -10.0, 10.0, "1", "p: light along the jet is proportional to r^-p") \
+    REAL(jets, falloff, MODEL, REST, 1.5, -10.0, 10.0, "1", "p: the jet's light is proportional to r^-p") \
     REAL(jets, sheath, MODEL, REST, 0.5, 0.0, 1.0, "1", \
-         "brightness across the jet: 0, a bright spine; 1, bright edges") \
+         "distribution of brightness across the jet: 0, a bright spine; 1, bright edges") \
     REAL(jets, spectral_index, MODEL, REST, 0.7, -10.0, 10.0, "1", \
          "index: brightness is proportional to g^(2 + index)") \
     REAL(jets, temperature_k, LOOK, REST, 14000.0, 300.0, 1e9, "K", \
@@ -346,7 +348,7 @@
          "p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + " \
          "1)/(p + 7/3) (model: synchrotron)") \
     REAL(polarization, order, MODEL, REST, 1.0, 0.0, 1.0, "1", \
-         "factor on that polarisation for a field that is disordered within a pixel") \
+         "factor on the polarisation, below 1 for a field that is disordered within a pixel") \
     BOOL(polarization, faraday, PHYSICS, REST, true, \
          "include Faraday rotation, and conversion between linear and circular polarisation, by the electrons " \
          "(model: transfer)") \
@@ -361,9 +363,9 @@
          "the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars", \
          "none|grid|stars|catalogue|image") \
     WORD(sky, brightness, MODEL, FRONT, INFINITY, 0.0, 100.0, "1", \
-         "brightness in units of the disk's brightest surface brightness at g = 1: of the grid, or, for stars and " \
-         "the Milky Way in their real ratio, of 21 magnitudes per square arcsecond; auto: 0.2, or 0.01 for stars and " \
-         "the Milky Way behind something that shines", \
+         "brightness, in units of the disk's brightest surface brightness at g = 1, of the grid, or of a sky of 21 " \
+         "magnitudes per square arcsecond; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for " \
+         "stars and the Milky Way behind other light", \
          "auto") \
     REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid") \
     REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", \
@@ -373,8 +375,7 @@
           "wide as high, with galactic longitude 0 in the middle and rising to the left, latitude rising upwards; " \
           "its white is 21 magnitudes per square arcsecond") \
     REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "magnitude of the faintest stars") \
-    INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", \
-        "seed of the random numbers: another seed gives another generated sky") \
+    INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", "seed of the random numbers of the generated sky") \
     ENUM( \
         sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC, \
         "galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, " \
@@ -397,8 +398,8 @@
          "apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays " \
          "(samples: auto)") \
     INT(image, critical_factor, LOOK, REST, 4, 1, 16, "1", \
-        "factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner " \
-        "than a pixel; at most 16 rays a side in all") \
+        "factor on the number of rays along each side of pixels at the critical curve, where the photon ring is " \
+        "thinner than a pixel; the product is at most 16") \
     INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16") \
     WORDS(image, layers, LOOK, REST, \
           "contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the " \
@@ -423,14 +424,14 @@
 
 #define KD_STYLE_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(style, name, LOOK, FRONT, KD_STYLE_FILM, \
-         "style that sets all fields of the look, except those in the document; none: no style", \
+         "style, which sets all fields of the look except those that the document sets; none: no style", \
          "none|film|raw|dngr|eht|starless") \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops", \
-         "exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the " \
-         "light in the picture, limited for stars alone so that empty space is black", \
+         "exponent of 2 of the exposure, relative to the disk's brightest surface brightness at g = 1; " \
+         "auto: by the light in the picture, with a limit for pictures of stars alone so that empty space is black", \
          "auto") \
     ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES, \
-         "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is " \
+         "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours, and compresses light " \
          "near white", \
          "aces|srgb|neutral") \
     REAL(style, bloom, LOOK, FRONT, 0.4, 0.0, 1.0, "1", \
@@ -439,7 +440,7 @@
     REAL(style, beam_uas, LOOK, REST, 0.0, 0.0, 1e12, "microarcseconds", \
          "full width at half maximum of a round Gaussian telescope beam, seen from spacetime.distance_pc; 0: none") \
     ENUM(style, palette, LOOK, REST, KD_PALETTE_COLOUR, \
-         "colour: that of the light; heat: brightness in false colour (black, red, orange, white), with " \
+         "colour: the colour of the light; heat: brightness in false colour (black, red, orange, white), with " \
          "lightness proportional to it", \
          "colour|heat") \
     BOOL(style, colour_bar, LOOK, REST, false, \

@@ -119,7 +119,7 @@ static void write_styles(struct kd_writer *w)
 
 static void write_natures(struct kd_writer *w)
 {
-    kd_write(w, "\nEach field has a nature, which tells what a picture means after a change of the field:\n\n");
+    kd_write(w, "\nEach field has a nature, which states what a change of the field changes:\n\n");
     for (size_t i = 0; i < KD_NATURE_COUNT; i++)
         kd_write(w, "- **%s**: %s.\n", kd_natures[i].word, kd_natures[i].help);
 }

@@ -224,7 +224,7 @@ static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error 
     return KD_OK;
 }
 
-/* An observer on its own path determines azimuth and time, so neither may advance by itself. */
+/* An observer on a path of its own determines azimuth and time, so that neither may advance independently. */
 static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_motion *m = &scene->motion;

@@ -1,5 +1,5 @@
-/* A scene is what to render. It is a plain value: copy it, compare it by its hash, share it between threads as const.
- * Fields, defaults, ranges and units are in scene/fields.h. */
+/* A scene describes what to render. It is a plain value: copy it, compare it by its hash, share it between threads as
+ * const. Fields, defaults, ranges and units are in scene/fields.h. */
 #ifndef KD_SCENE_SCENE_H
 #define KD_SCENE_SCENE_H
 

@@ -21,7 +21,7 @@ const struct kd_nature kd_natures[KD_NATURE_COUNT] = {
     [KD_FIELD_PHYSICS] = { "physics", "an exact consequence of general relativity or radiative transfer, or the "
                                       "accuracy of its computation" },
     [KD_FIELD_MODEL] = { "model", "a chosen model of matter or of a source, or a parameter of one" },
-    [KD_FIELD_LOOK] = { "look", "changes the picture, not the physics" },
+    [KD_FIELD_LOOK] = { "look", "a choice of presentation, which changes the picture but not the physics" },
 };
 const char *const kd_groups[KD_GROUP_COUNT] = {
     [KD_GROUP_LOOK] = "look",     [KD_GROUP_GAS] = "gas",   [KD_GROUP_HOLE] = "hole",

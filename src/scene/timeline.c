@@ -128,8 +128,8 @@ static bool stays(const struct kd_timeline *timeline, size_t key, const struct k
            kd_field_get(from, field, index) == kd_field_get(to, field, index);
 }
 
-/* Interpolates a section. If only one of the two keyframes has an element of a list, the element counts in the other as
- * having all defaults. */
+/* Interpolates a section. If only one of the two keyframes has an element of a list, the other is taken to have this
+ * element with all defaults. */
 static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section,
                             struct kd_scene *out)
 {

@@ -94,7 +94,8 @@ struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *
         KD_TIMELINE_ROW_(type, items, distances), KD_TIMELINE_ROW_(type, items, angles), \
         KD_TIMELINE_ROW_(type, items, ease), KD_TIMELINE_ROW_(type, items, look_at)
 
-/* Returns the name of the first of these members, other than "keyframes", that the request has; NULL: it has none. */
+/* Returns the name of the first of these members, other than "keyframes", that the request contains; NULL if it
+ * contains none. */
 const char *kd_timeline_manner(const struct kd_timeline_items *items);
 
 /* Reads a timeline. Its first key is *first, which must be a valid scene; then each key of *out is valid. assets: where

@@ -260,7 +260,7 @@ static bool query_fault(const struct kd_request *request, struct kd_error *error
     return true;
 }
 
-/* Decides whether the request is handled. Returns false if it has been answered; *result is then what to return. */
+/* Decides whether the request is handled. Returns false if it has been answered; the caller then returns *result. */
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;

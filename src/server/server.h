@@ -39,7 +39,7 @@ struct kd_server_params {
     const char *token_file; /* access tokens and roles (http/access.h); NULL: everybody may send every request */
     const char *share_key;  /* name of the key of token_file that signs the addresses of shared scenes; NULL: none */
     const char *sky;        /* PNG file of a photograph of the whole sky that the page offers; NULL: none */
-    const char *state;      /* folder of what survives a restart: jobs, assets, budgets of links; NULL: none */
+    const char *state;      /* folder of the data that survive a restart: jobs, assets, budgets of links; NULL: none */
     /* time after a stop request during which the server still serves while /readyz fails; default 1000 */
     unsigned drain_ms;
     /* accepted work that is unfinished this long after a stop request is cancelled; default 600 */

@@ -39,7 +39,7 @@ struct kd_vk_info {
     bool own_driver;         /* its driver is the one that is installed with the program; the system has none */
     uint8_t uuid[16];        /* UUID of the device; the same with every driver and in every process */
     uint32_t driver_version; /* version in the driver's own encoding */
-    char missing[256];       /* what kerrd needs and the device lacks; "": the device is usable */
+    char missing[256];       /* features that kerrd needs and the device lacks; "": the device is usable */
 };
 
 struct kd_vk_params {

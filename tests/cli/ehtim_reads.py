@@ -50,7 +50,7 @@ class Ehtim(support.Case):
         return found
 
     def test_the_hole_of_m87(self):
-        """The picture is blurred by a beam. It is as many microarcseconds wide as mass, distance and field imply."""
+        """The picture is blurred by a beam. Its width in microarcseconds follows from mass, distance and field."""
         found = self.read_by_ehtim("-p", "m87", "--size", "128x128")
         field = json.loads(self.good("scene", "-p", "m87"))["camera"]["field_m"]
         self.assertEqual(found["size"], [128, 128])
@@ -300,7 +300,7 @@ print(json.dumps({"n": [len(read.data), len(given.data), len(ours)], "off": floa
         self.assertEqual((found["polarised"], found["same"]), (0, [True] * 4))
 
     def test_the_python_client(self):
-        """kerrd.to_ehtim gives what ehtim reads from the file of the same picture."""
+        """kerrd.to_ehtim gives the same as ehtim's reader for the file of the same picture."""
         code = """
 import json, pathlib, sys
 import ehtim, numpy

@@ -164,7 +164,7 @@ class Rays(Case):
             self.assertIn(accuracy["followed_again"], (1, 2, 3), accuracy)
             self.assertEqual(accuracy["beyond"], sum(error > tolerance for error in errors))
             self.assertLessEqual(accuracy["beyond"], beyond)
-            self.assertTrue(any("followed again" in sentence for sentence in answer["approximations"]))
+            self.assertTrue(any("traced again" in sentence for sentence in answer["approximations"]))
 
     def test_large(self):
         rays = [[(i * 37 % 1001) / 50 - 10, (i * 61 % 997) / 50 - 10] for i in range(50000)]

@@ -158,11 +158,11 @@ RADII = (
     "%s is %.17g, too close to an extremal hole for double precision to follow the disk's image at inclination_deg %.9g",
 )
 CORONA = (
-    "height is %.9g, where the source is %.9g M from the hole; it must be at least %.9g M away, %g times the ergosphere",
+    "height is %.9g, which places the source %.9g M from the hole; the source must be at least %.9g M away, %g times the radius of the ergosphere",
     "height is %.9g; it must be at least %.9g, %g times corona_radius",
     "motion is corotating, which is faster than light %.9g M from the axis and %.9g M above the plane; it must be static or zamo, or the corona must be elsewhere",
     "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this hole",
-    "height and corona_radius are of a place from which no direct light to this inclination was found",
+    "height and corona_radius place the source where no light that reaches the observer directly was found; one of them, or inclination_deg, must be different",
 )
 SESSION = (
     "image.layers has %zu layers; in a session, which shows one picture, it must have one",
@@ -235,7 +235,7 @@ TOGETHER = [
             "corona_top is %.9g and height %.9g; corona_top must be larger than height",
             "%s is %.9g after %.9g; each must be larger than the one before",
             "energy_max is %.9g and energy_min %.9g; energy_max must be larger than energy_min",
-            "height is %.9g, from where no rays to all radii of the disk were found",
+            "height is %.9g, from which rays to some radii of the disk were not found; it must be different",
             "%s is %.17g, so close to an extremal hole that the profile is not a number",
         ),
     ),
@@ -256,8 +256,8 @@ TOGETHER = [
         + (
             "%s is %.9g after %.9g; each must be larger than the one before",
             "energy_max is %.9g and energy_min %.9g; energy_max must be larger than energy_min",
-            "height and corona_radius are of a place from which no rays to all radii of the disk were found",
-            "inclination_deg is one for which no ray to the ring at %.9g was found",
+            "height and corona_radius place the source where rays to some radii of the disk were not found; one of them must be different",
+            "inclination_deg has a value for which no ray to the ring at %.9g was found; it must be different",
         ),
     ),
     (
@@ -283,7 +283,7 @@ TOGETHER = [
             "%s is %.9g after %.9g; each must be larger than the one before",
             "frequency_max_hz is %.9g and frequency_min_hz %.9g; frequency_max_hz must be larger than frequency_min_hz",
             "%s is %.17g, so close to an extremal hole that the flux at %.9g Hz is not a number",
-            "%s is %.17g, so close to an extremal hole that the energy balance of returning light is wrong by %.1g; it must be right to %g",
+            "%s is %.17g, so close to an extremal hole that the energy balance of returning light has an error of %.1g (limit %g); it must be further from extremal",
             'inner is %.9g; with returning "%s" it must be the ISCO, %.9g M, or "isco"',
             'returning is "scattered", which needs an atmosphere of electrons; limb must be "scattering"',
             'polarization is "yes", which needs an atmosphere of electrons; limb must be "scattering"',
@@ -364,7 +364,7 @@ TOGETHER = [
             "periods cannot be used with an orbit that will %s, because it has none: leave the duration out or add or_end to follow it to its end, or give a time",
             'method is "closed"; for an orbit that will %s it must be another, because "closed" follows only bound orbits',
             "the duration takes %.3g steps; it must take at most %.0f",
-            "r_max is %g, too large for the short steps that this path needs, because it whirls near an unstable circle",
+            "r_max is %g; it must be smaller, because this path whirls near an unstable circle and needs short steps",
             "r is %.16g; it must be above the horizon at %.9g",
             "r is %.16g, which no particle with these constants reaches",
             "energy is %.16g: no particle outside the horizon has these constants",
@@ -384,7 +384,7 @@ TOGETHER = [
         "GET /v1/physics/returning$",
         (
             "%s is %s, |inside the ISCO at %.9g M; it must be outside",
-            "%s is %s, |so close to an extremal hole that the energy balance is wrong by %.1g; it must be right to %g",
+            "%s is %s, |so close to an extremal hole that the energy balance has an error of %.1g (limit %g); it must be smaller",
         ),
     ),
     (
@@ -395,20 +395,20 @@ TOGETHER = [
         "GET /v1/physics/infall$",
         (
             "%s is %s, |not outside %.9g M, where the model ends",
-            "%s is %s, |a latitude that the fall would leave; with spin it must be 0, 90 or 180, or the fall must begin at rest at infinity",
+            "%s is %s, |where the fall would change its latitude; with spin it must be 0, 90 or 180, or the fall must begin at rest at infinity",
         ),
     ),
     (
         "GET /v1/physics/inspiral$",
         (
-            "%s is %s, |for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; the period must be longer",
+            "%s is %s, |for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; it must be longer",
         ),
     ),
     (
         "GET /v1/physics/photon-rings$",
         (
             "%s is %s, |inside the horizon at %.9g M; it must be outside",
-            "%s is %s, |but must be more than inner, %.9g M",
+            "%s is %s, |not above inner, %.9g M; it must be larger",
         ),
     ),
     (

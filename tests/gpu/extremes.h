@@ -1,4 +1,5 @@
-/* Shared by the parts of the suite of extremes: the table, the measure of an error, and the parts. One thread. */
+/* Shared by the files of the suite of extremes: the table of results, the measure of an error, and the parts of the
+ * suite. One thread. */
 #ifndef KD_TEST_EXTREMES_H
 #define KD_TEST_EXTREMES_H
 
@@ -15,7 +16,7 @@ struct extreme_row {
     const char *engine;         /* "mino-rkn6 f32", "lens map 16", ... */
     size_t rays;                /* number of rays or pixels */
     double median, most, worst; /* errors of r: the median, the 99th percentile, the largest */
-    double phi;                 /* largest error of phi, of crossings beyond 1.6 times the horizon's radius */
+    double phi;                 /* largest error of phi, among crossings beyond 1.6 times the horizon's radius */
     double bound, phi_bound;    /* the largest allowed `worst` and `phi` */
     size_t unsure;              /* rays that the answer itself marks as inaccurate */
     double unsure_most;         /* maximum fraction of such rays */
@@ -23,8 +24,8 @@ struct extreme_row {
     size_t broken; /* rays with a number that is not finite, or with a wrong fate or crossing that is not marked */
 };
 
-/* Prints a row, the first one with a heading. A row fails if `broken` is not 0, a worst error exceeds its bound, too
- * many rays are unsure, or more than one in a hundred is loose. */
+/* Prints a row, the first one with a heading. A row fails if `broken` is not 0, a worst error exceeds its bound, more
+ * rays than `limit` are unsure, or the errors of more than one ray in a hundred exceed their stated errors. */
 void extreme_row(const struct extreme_row *row);
 /* Number of rows so far, and of those that failed. */
 size_t extreme_rows(size_t *broken);
@@ -32,14 +33,14 @@ size_t extreme_rows(size_t *broken);
 /* Sorts the errors, and fills in median, most and worst; NaN if n is 0. */
 void extreme_spread(double *errors, size_t n, struct extreme_row *row);
 
-/* Condition numbers of the crossings of `path`, measured on the closed form: the sum of |d ln r/d ln x|, or |d phi/d
- * ln x|, over alpha, beta, spin, cos(theta) and radius, each times its weight (NULL: 1). INFINITY if a relative
- * change of `step` gives a different kind of ray. */
+/* Condition numbers of the crossings of `path`, measured on the closed form. Each is the sum of |d ln r/d ln x| or |d
+ * phi/d ln x| over the inputs x (alpha, beta, spin, cos(theta) and radius), each times its weight (NULL: 1). INFINITY
+ * if a relative change of `step` gives a different kind of ray. */
 enum { EXTREME_INPUTS = 5 };
 void extreme_condition(const struct kd_null_ray *ray, const struct kd_null_path *path, double step,
                        const double weight[EXTREME_INPUTS], double *r, double *phi);
-/* True if the ray keeps its fate and its path->crossings when each input moves by this fraction times its weight,
- * either way. */
+/* True if the ray keeps its fate and its path->crossings when each input is changed by plus or minus this fraction
+ * times its weight. */
 bool extreme_steady(const struct kd_null_ray *ray, const struct kd_null_path *path, double step,
                     const double weight[EXTREME_INPUTS]);
 

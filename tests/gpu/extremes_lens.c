@@ -25,7 +25,8 @@ struct kernel {
     double bound, phi_bound;
 };
 
-/* As in docs/accuracy.md; the closed form's series starts at an eighth of the time and loses a digit at order 7. */
+/* As in docs/accuracy.md. The series of the closed form starts at an eighth of the time, and loses a digit at order 7.
+ */
 static const struct kernel kernels[] = {
     { "lens_closed", { .quantities = KD_LENS_W }, 0, 5e-6, INFINITY },
     { "lens_closed", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 0, 5e-6, 2e-6 },
@@ -55,7 +56,7 @@ static struct kd_scene scene_of(const struct camera *v, int steps)
     return scene;
 }
 
-/* The ray of a pixel by the kernel's own arithmetic, and the error of its labels over one rounding. False for E <=
+/* The ray of a pixel by the kernel's own arithmetic, and the ratio of its labels' error to one rounding. False for E <=
  * 0, which the closed form does not support. */
 static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int pixel, struct kd_null_ray *ray,
                    double *weight)
@@ -76,7 +77,7 @@ static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int 
         return true;
     float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
     double m_phi = -kz * n, energy = c->e_t + c->e_phi * m_phi,
-           l = c->l_t + c->l_phi * m_phi; /* for observers that do not fall */
+           l = c->l_t + c->l_phi * m_phi; /* for observers at rest */
     ray->alpha = -l / energy;
     ray->beta = -c->p_theta * ky * n / energy;
     ray->outward = kx > 0;
@@ -107,12 +108,11 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         }
     while (found < ORDERS && map[(uint64_t)found * plan->lens.rays] > 0)
         found++;
-    for (int n = 0; n < p.crossings;
-         n++) { /* distance in 1/r from the horizon and, for a ray on its way out, from infinity */
+    for (int n = 0; n < p.crossings; n++) { /* for a ray on its way out, also the distance from infinity */
         double w = 1 / p.crossing[n].r;
         least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_hole(v->spin)->outer - w));
     }
-    /* There are some twenty roundings from a pixel to its labels and the motion. */
+    /* The way from a pixel to its labels and motion has some twenty roundings. */
     bool steady = p.status == KD_NULL_OK && least > 1e-6 && extreme_steady(ray, &p, 20 * FLT_EPSILON, weight);
     extreme_condition(ray, &p, 1e-9, weight, gain, phi_gain);
     if (!steady || (p.crossings && gain[p.crossings - 1] > 1e5)) {
@@ -132,8 +132,8 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
     }
 }
 
-/* A thousandth of M from the shadow's edge no ray is sure. In the throat of an extremal hole all rays from infinity
- * have L = 2E within 1e-4, which loses half the digits of the labels. */
+/* Within a thousandth of M of the shadow's edge all rays are unsure. In the throat of an extremal hole all rays from
+ * infinity have L = 2E within 1e-4, so that the labels lose half of their digits. */
 static double unsure_most(const struct camera *v)
 {
     return v->field < 1e-4 && isinf(v->r) ? 1 : fabs(v->spin) > 0.999 && v->r < 1.001 ? 0.5 : 0.1;

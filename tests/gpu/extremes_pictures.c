@@ -12,7 +12,7 @@
 
 struct picture {
     const char *what, *json;
-    bool lit;         /* some pixel must shine */
+    bool lit;         /* at least one pixel must shine */
     uint64_t binding; /* maximum bytes of a buffer, to force many bands; 0: the device's */
 };
 
@@ -111,8 +111,8 @@ static const struct picture pictures[] = {
       "deg\":90,"
       "\"fov_deg\":179},\"sky\":{\"model\":\"grid\"}," SMALL "}",
       true, 0 },
-    /* a = 0, r = L^(2/3) = 2.4957 M: E (r^(3/2) + a) - L, the divisor in g of an orbit there, vanishes in single
-     * precision in some thirty pixels. */
+    /* a = 0 and r = L^(2/3) = 2.4957 M: there E (r^(3/2) + a) - L, the divisor in g of a circular orbit, vanishes in
+     * single precision in some thirty pixels. */
     { "inside the photon orbit, E = Omega L",
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":80,\"centre_alpha\":-4,\"centre_beta\":2.2892487,"
       "\"field_m\":5e-5},"

@@ -1,6 +1,6 @@
 /* Listed rays at the extremes, by the engine in Mino time in both precisions, compared with the closed form and with
- * their own stated errors. The engine may be wrong about a ray if it says so, by marking it undecided or by a large
- * enough error. From a finite radius every second ray starts outwards. */
+ * their own stated errors. A result may be wrong only if the engine marks the ray as undecided or states a large enough
+ * error. From a finite radius every second ray starts outwards. */
 #include "extremes.h"
 
 #include "physics/spacetime/kerr.h"
@@ -106,7 +106,7 @@ static void make(const struct view *v, struct list *list)
 
 static bool all_finite(const struct kd_ray_end *e, const struct kd_ray_crossing *c)
 {
-    bool told = e->n_crossings || e->fate == KD_RAY_ESCAPED; /* a ray without numbers may lack an error too */
+    bool told = e->n_crossings || e->fate == KD_RAY_ESCAPED; /* a ray without numbers needs no stated error */
     bool ok = (isnan(e->error) ? !told : isfinite(e->error) && e->error >= 0) &&
               (e->fate != KD_RAY_ESCAPED || (isfinite(e->theta) && isfinite(e->phi)));
     for (uint32_t n = 0; n < e->n_crossings; n++)
@@ -129,7 +129,7 @@ static void judge_crossings(const struct view *v, const struct kd_null_path *p, 
         double r = fmax(fabs(c[n].r / x->r - 1) - x->error_r, 0) / (1 + gain[n]);
         double phi = fmax(turn(c[n].phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]);
         t->r[t->n++] = r;
-        bool thrown = p->turned && p->fate == KD_NULL_CAPTURED; /* see docs/accuracy.md */
+        bool thrown = p->turned && p->fate == KD_NULL_CAPTURED; /* the reason is in docs/accuracy.md */
         if (x->r > 1.6 * kd_hole_charged(v->spin, v->charge).outer && !thrown)
             t->phi = fmax(t->phi, phi);
     }
@@ -188,13 +188,13 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
                                .phi_bound = wide ? 1e-9 : 2e-6,
                                .unsure_most = 0.05 };
     struct kd_error error = { 0 };
-    /* From next to the horizon a half turn leads far out or back in, with the same number of steps as elsewhere. */
+    /* From next to the horizon, half a turn leads far out or back in with the usual number of steps. */
     if (v->r < 1.1 * kd_hole_charged(v->spin, v->charge).outer) {
         row.bound = wide ? 2e-8 : 1e-4;
         row.unsure_most = 0.1;
     }
-    /* How close to the critical curve a precision can decide; extremal holes reduce that as much as the last digits
-     * do. */
+    /* The distance from the critical curve down to which a precision can decide. Extremal holes increase it as much as
+     * they increase the errors of the last digits. */
     if (v->critical > 0)
         row.unsure_most = v->critical < (wide ? 1e-8 : 1e-4) ? 1 : 0.25;
     snprintf(row.what, sizeof row.what, "%s", what);

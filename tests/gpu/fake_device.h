@@ -1,5 +1,5 @@
-/* Simulates a device with properties that no driver here has: lower limits, incoherent memory, a lost device. From
- * `fake_device_on` on, it stands in the table of functions between the layer and a real driver. One thread. */
+/* Simulates a device with properties that no driver here has: lower limits, incoherent memory, a lost device. After
+ * `fake_device_on`, its functions replace those of the real driver in the layer's table. One thread. */
 #ifndef KD_TEST_FAKE_DEVICE_H
 #define KD_TEST_FAKE_DEVICE_H
 
@@ -22,7 +22,7 @@ static struct kd_vk_functions fake_real;
 static int fake_submissions;
 static unsigned fake_flushes, fake_invalidations;
 
-/* The host's copy of a block, with garbage in it at first. */
+/* The host's copy of a block, which is filled with garbage at first. */
 static struct fake_memory {
     VkDeviceMemory memory;
     VkDeviceSize size;

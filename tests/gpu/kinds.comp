@@ -1,4 +1,4 @@
-// y = y * scale + what each kind of binding holds for i. TABLE is packed tightly, which only the standard layout
+// y = y * scale + the element i of each kind of binding. TABLE is packed tightly, which only the standard layout
 // permits.
 #version 450
 #extension GL_EXT_samplerless_texture_functions : require

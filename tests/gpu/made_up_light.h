@@ -1,5 +1,4 @@
-/* Synthetic light for tests of the passes after light: it takes the path of a picture's light, through the passes
- * beam, expose, bloom and post. */
+/* Synthetic light for tests of the passes that follow light: beam, expose, bloom and post. */
 #ifndef KD_TEST_MADE_UP_LIGHT_H
 #define KD_TEST_MADE_UP_LIGHT_H
 

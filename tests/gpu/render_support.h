@@ -9,7 +9,8 @@
 #include <math.h>
 
 static struct kd_renderer *renderer;
-static const struct kd_assets *renderer_assets; /* provider of the scenes' assets; set before the renderer is opened */
+/* provider of the scenes' assets, which a test sets before it opens the renderer */
+static const struct kd_assets *renderer_assets;
 
 /* 0 if there is a renderer, otherwise the exit status, skipped or failed. */
 static inline int open_renderer(void)
@@ -21,7 +22,7 @@ static inline int open_renderer(void)
     const char *device = getenv("KERRD_TEST_DEVICE");
     struct kd_renderer_params params = {
         .device = device ? device : "auto", .validate = true, .assets = renderer_assets, .passing = true
-    }; /* costs learned in a test are not stored for others */
+    }; /* does not store the costs learned in a test for other programs */
     if (!kd_renderer_create(&params, &renderer, &error))
         return 0;
     fprintf(stderr, "%s\n", error.message);

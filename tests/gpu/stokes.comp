@@ -1,5 +1,5 @@
 // Passes light through a length of matter by shaders/light/stokes.glsl. Input: 10 numbers of the matter. Output: 8
-// numbers, the light from behind as it comes through, and the matter's own.
+// numbers, for the transmitted light from behind and for the light of the matter itself.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define real float

@@ -1,4 +1,4 @@
-/* Shared by the tests of src/vk: a device or a printed skip, kernels, buffers with contents. */
+/* Shared by the tests of src/vk: opening a device or skipping the test, kernels, and buffers with contents. */
 #ifndef KD_TEST_GPU_SUPPORT_H
 #define KD_TEST_GPU_SUPPORT_H
 
@@ -42,8 +42,8 @@
         assert_null(strchr(error.message, '\n')); \
     } while (0)
 
-/* Keeps drivers and layers loaded until the end: with an instance gone the loader unloads them, and a leak checker
- * could no longer attribute a leak or suppress it by name. */
+/* Keeps drivers and layers loaded until the end. When the last instance is destroyed the loader unloads them, and a
+ * leak checker could no longer attribute a leak to them or suppress it by name. */
 static inline void keep_drivers_loaded(void)
 {
     static struct kd_vk_instance keeper;
@@ -109,7 +109,8 @@ static inline void mix(struct kd_vk *vk, const struct kd_vk_pipeline *pipeline, 
                       &error));
 }
 
-/* kinds.comp: a uniform block, texels of one float, texels of four, storage, texels of one word, texels of two. */
+/* Bindings of kinds.comp: a uniform block, texels of one float, texels of four, storage, texels of one word, texels of
+ * two. */
 struct kinds_block {
     uint32_t n;
     float scale, table[6];
@@ -148,7 +149,7 @@ static inline void finish(struct kd_vk *vk)
     OK(kd_vk_wait(vk, 0, &error));
 }
 
-/* Runs on one device with validation, which must report nothing; the last test checks that. */
+/* Runs on one device with validation, which must report nothing. The last test checks that. */
 static inline int run_on_device(struct CMUnitTest *tests, size_t n)
 {
     int skipped = skip_without_device();

@@ -74,9 +74,9 @@ static double light_of(const struct kd_scene *scene, bool bright)
     return sum * pixel / kd_star_flux(kd_catalogue_star(0).magnitude);
 }
 
-/* The star is put on the seam, at the poles, and in rows of pixels beside them, as far as the sky can be turned.
- * Pixels are 2.8 degrees wide. Next to a pole a map of second order does not represent the whole turn. For bright
- * images only, two tiles of 25 degrees disagree at their border by up to 0.2 rays. */
+/* The star is put on the seam, at the poles, and in rows of pixels beside them, as far as the sky can be turned. Pixels
+ * are 2.8 degrees wide. Next to a pole a map of second order does not represent the whole turn. When only bright images
+ * are drawn, two tiles of 25 degrees disagree at their border by up to 0.2 rays. */
 static void a_star_anywhere(void **state)
 {
     (void)state;

@@ -53,7 +53,7 @@ static double show(const struct look *look, uint16_t *out)
     return show_light(&scene, &plan, look->lit ? (uint32_t)look->lit : plan.picture.height, out);
 }
 
-/* Points, thin rings and a ramp, up to the edges: difficult for a coarse grid. */
+/* Points, thin rings and a ramp up to the edges, which are difficult for a coarse grid. */
 static void make_light(int width, int height)
 {
     static const double rings[][4] = { { 0.4, 0.5, 0.23, 1 }, { 0.41, 0.52, 0.31, 0.4 }, { 0.97, 0.1, 0.2, 0.7 } };
@@ -80,7 +80,7 @@ static void weights_of(double *out, int n, int about, double sigma)
         out[i] = exp(-(i - about) * (i - about) / (2 * sigma * sigma)) / sum;
 }
 
-/* The sum over all pixels of the picture. */
+/* The oracle's sum over all pixels of the picture. */
 static double convolved(const struct look *look, int at, int channel)
 {
     static double across[MOST], down[MOST];
@@ -126,7 +126,7 @@ static void it_is_a_convolution(void **state)
     }
 }
 
-/* One bright pixel, wherever in its cell, becomes a round Gaussian about its own centre. */
+/* One bright pixel becomes a round Gaussian about its own centre, wherever it lies in its cell. */
 static void a_point_stays_where_it_is(void **state)
 {
     (void)state;
@@ -150,7 +150,7 @@ static void a_point_stays_where_it_is(void **state)
     }
 }
 
-/* The positions of bands and slices, and whether cells are texels or storage, do not change a byte. */
+/* The bytes depend neither on the positions of bands and slices nor on whether cells are texels or storage. */
 static void bands_and_readers(void **state)
 {
     (void)state;
@@ -177,8 +177,8 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* The unfinished part of a picture is dark. Finished rows look as they would in such a picture, and the beam leaves the
- * light unchanged for the next preview. */
+/* The unfinished part of a picture is dark. Finished rows look as they would in a picture that is dark there, and the
+ * beam leaves the light unchanged for the next preview. */
 static void what_is_not_lit_is_dark(void **state)
 {
     (void)state;
@@ -195,7 +195,7 @@ static void what_is_not_lit_is_dark(void **state)
     }
 }
 
-/* NaN and infinity count as no light, without side effects. */
+/* NaN and infinity count as no light, and do not affect other pixels. */
 static void no_numbers_are_no_light(void **state)
 {
     (void)state;

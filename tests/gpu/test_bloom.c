@@ -6,8 +6,7 @@
 
 static bool all_round; /* whether the pictures show all directions */
 
-/* Shows the light as pixels of 16 bits, proportional to it. rows: the number of rows in a band; 0: as many as there
- * are. */
+/* Shows the light as pixels of 16 bits, proportional to it. rows: the number of rows in a band; 0: all. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)
 {
     struct kd_scene scene;
@@ -78,11 +77,12 @@ static void energy(void **state)
             if (fabs(after / before - 1) > 2e-4)
                 fail_msg("%d x %d, channel %d: %.9g became %.9g", width, height, c, before, after);
         }
-        assert_true(moved > 2e-4 || height < 10); /* otherwise there would be nothing to conserve */
+        assert_true(moved > 2e-4 || height < 10); /* there must be some spread light to conserve */
     }
 }
 
-/* Which part of the light is spread, as in docs/physics: luminance y above 0.6 of white, with a knee from 0.2 to 1. */
+/* The part of the light that is spread, as in docs/physics: luminance y above 0.6 of white, with a knee from 0.2 to 1.
+ */
 static double taken(double y) { return y <= 0.2 ? 0 : y >= 1 ? y - 0.6 : (y - 0.2) * (y - 0.2) / 1.6; }
 
 /* One dimension of a Gaussian over n pixels, for light at `from`; light beyond the edges is mirrored. */
@@ -219,7 +219,7 @@ static void a_point_stays(void **state)
         }
 }
 
-/* The positions of bands, and whether cells are texels or storage, do not change a byte. */
+/* The bytes depend neither on the positions of bands nor on whether cells are texels or storage. */
 static void bands_and_readers(void **state)
 {
     (void)state;
@@ -254,7 +254,7 @@ static void others_unharmed(void **state)
     light[3 * AT] = NAN;
     light[3 * (AT + 900) + 1] = INFINITY;
     show(W, H, 1, 0, others);
-    for (int i = 0; i < 3 * W * H; i++) /* without the light that the two would have spread */
+    for (int i = 0; i < 3 * W * H; i++) /* without the spread light of both places */
         assert_true(i / 3 == AT || i / 3 == AT + 900 || abs(pixels[i] - others[i]) <= 40);
     make_light(W, H);
     for (int i = 0; i < 3 * W * H; i++)
@@ -312,7 +312,7 @@ static void over_the_seam(void **state)
             uint16_t *out = half ? others : pixels;
             memcpy(others, pixels, sizeof pixels);
             show(w, h, 1, 0, out);
-            for (int i = 0; i < 3 * w * h && !half; i++) /* compared with the picture with edges */
+            for (int i = 0; i < 3 * w * h && !half; i++) /* reference: the same picture with edges */
                 differ = abs(pixels[i] - others[i]) > differ ? abs(pixels[i] - others[i]) : differ;
         }
         all_round = false;
@@ -326,7 +326,8 @@ static void over_the_seam(void **state)
     }
 }
 
-/* In pictures of all directions no spread light is lost, for any bands, with cells read as texels or not. */
+/* In pictures of all directions no spread light is lost, whatever the bands are, and whether cells are read as texels
+ * or not. */
 static void all_round_too(void **state)
 {
     all_round = true;

@@ -1,6 +1,6 @@
 /* Bodies along rays. Their images are compared with the Kerr-Schild oracle, which does not use Mino time and measures
- * how closely a ray passes a place by an interval on a wave front. Also tested: their light, what they hide and what
- * hides them, and extreme numbers. */
+ * how closely a ray passes a place by an interval on a wave front. Also tested: their light, mutual hiding of bodies,
+ * disk and hole, and extreme numbers. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -57,7 +57,8 @@ static const float *intensity(const struct kd_frame *frame)
     return layer->data;
 }
 
-/* Images of order 0 and 1, and of higher orders; from infinity, and from nearby. At least this many pixels show one. */
+/* Images of order 0 and 1, and of higher orders, from infinity and from nearby. At least the given number of pixels
+ * must show one. */
 static const struct view {
     const char *json;
     int lit;
@@ -101,8 +102,8 @@ static const struct view {
       12 },
 };
 
-/* Distance in pixels of an image's edge from its expected place, if picture and oracle disagree about a pixel. It is
- * computed from the slope of b. */
+/* Distance in pixels of an image's edge from its expected place, for a pixel about which picture and oracle disagree.
+ * It is computed from the slope of b. */
 static double off_by(const struct kd_scene *scene, int x, int y)
 {
     const double radius = scene->bodies.at[0].radius;
@@ -195,7 +196,7 @@ static void test_light(void **state)
             const struct ks_photon photon = photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5);
             const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / b->radius, c = b->limb_darkening;
             if (x > 0.9)
-                continue; /* the limb's brightness falls steeply; its place is tested elsewhere */
+                continue; /* the limb's brightness falls steeply, and its place is tested elsewhere */
             const double t = b->temperature_k / scene.disk.peak_temperature_k / shift_of(&scene, &photon),
                          limb = (1 - c * (1 - sqrt(1 - x * x))) / (1 - c / 3);
             worst = fmax(worst, fabs(intensity(&frame)[i] / (b->brightness * limb * t * t * t * t) - 1));
@@ -207,7 +208,7 @@ static void test_light(void **state)
     }
 }
 
-/* Of a body and an opaque disk, the one whose light left later is visible. */
+/* Of a body and an opaque disk, the camera sees the one nearer along the ray, whose light left later. */
 static void test_order(void **state)
 {
     (void)state;
@@ -255,7 +256,7 @@ static void test_order(void **state)
     }
 }
 
-/* With many bodies each looks as it does alone. */
+/* Each of many bodies looks as it does alone. */
 static void test_tree(void **state)
 {
     (void)state;

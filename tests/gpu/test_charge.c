@@ -11,7 +11,8 @@
 
 enum { HOLES = 20, RAYS = 25, ORDERS = 3, MOST = HOLES * RAYS * ORDERS };
 
-/* Holes of a set: sqrt(a^2 + q^2) is the same in the first two. */
+/* Two uncharged or charged holes of a set have the same horizons if sqrt(a^2 + q^2) is the same, as in the first two.
+ */
 static const struct set {
     const char *name;
     bool charged;
@@ -33,7 +34,7 @@ static double between(struct kd_random *random, double low, double high)
     return low + (high - low) * kd_random(random);
 }
 
-/* The list has numbers that are exact in both precisions. */
+/* The list has numbers that both precisions represent exactly. */
 static void prepare(void)
 {
     for (int s = 0; s < SETS; s++) {
@@ -124,8 +125,8 @@ static void measure(int set, enum kd_engine engine, enum kd_precision precision,
     qsort(e->phi, e->n_phi, sizeof *e->phi, by_size);
 }
 
-/* Bounds of the worst errors of r and phi, and of the rays that differ, of each set: some three times what was
- * measured. The first is the oracle's own error. */
+/* Bounds of the worst errors of r and phi, and of the number of rays that differ, for each set: some three times the
+ * measured values. The first bound contains the oracle's own error. */
 static const struct row {
     enum kd_engine engine;
     enum kd_precision precision;
@@ -161,7 +162,7 @@ static void tell(const struct row *row, int set, const struct errors *e)
 }
 
 /* A charge costs no digits: the median is at most 1.5 times that without charge, and the worst is within its bound. The
- * ray's own error is a bound for 99 rays in a hundred. */
+ * stated error is a bound for 99 rays in a hundred. */
 static void test_engines(void **state)
 {
     static struct errors e;

@@ -59,7 +59,8 @@ static void test_disk(void **state)
         scene_of("{\"disk\":{\"inner\":12,\"outer\":15,\"taper\":0},\"camera\":{\"r\":20,\"inclination_deg\":60}}"));
 }
 
-/* The crossings of a column are bits of one word: eight rows of three orders, six of five, four of eight. */
+/* The crossings of a column are bits of one word: eight rows of three orders, six rows of five, or four rows of eight.
+ */
 static void test_many_orders(void **state)
 {
     (void)state;
@@ -104,7 +105,7 @@ static void assert_same_readers(struct kd_scene scene)
         struct kd_frame between = rendered(&other);
         kd_frame_finish(&between);
     }
-    info->max_texels = 1u << 17; /* enough for the tables of the emitters, fewer than a binding holds */
+    info->max_texels = 1u << 17; /* enough for the emitters' tables, but fewer than a binding holds */
     assert_false(kd_kernels_map_as_texels(renderer->vk));
     struct kd_frame of_storage = rendered(&scene);
     info->max_texels = texels;

@@ -56,7 +56,8 @@ static struct kd_playground *many(double spin)
                                            .temperature_k = LEAST_K + 2 * i,
                                            .x = { r * s * cos(phi), r * s * sin(phi), r * u },
                                            .v = { -0.3 * sin(phi), 0.3 * cos(phi), 0 } };
-        struct kd_error none; /* a motion at the edge between two kinds is an error, and another one is drawn instead */
+        /* if the motion is at the edge between two kinds it is an error, and another one is drawn */
+        struct kd_error none;
         i += !kd_playground_add(p, &body, NULL, &none);
     }
     return p;
@@ -111,8 +112,8 @@ struct judged {
     double worst;
 };
 
-/* Judges a picture of one image: each pixel shows the body where the oracle says so, or another body that the ray met
- * before. */
+/* Judges a picture of one image: where the oracle finds the body, a pixel shows this body, or another one that the ray
+ * met before. */
 static void judge(struct kd_scene scene, const struct kd_dynamic_bodies *dynamic, uint32_t which, const double at[2],
                   double size, struct judged *sum)
 {
@@ -181,7 +182,7 @@ static void test_places(void **state)
         size = image_near(&scene, b, at, 1);
         if (size > 0)
             judge(scene, dynamic, which, at, size, &first);
-        /* On the other side of the hole. */
+        /* Images of bodies on the far side of the hole. */
         double other[2] = { -5.6 * across[0] / fmax(impact, 0.1), -5.6 * across[1] / fmax(impact, 0.1) };
         size = i % 2 ? image_near(&scene, b, other, 0.4) : 0;
         if (size > 0 && hypot(other[0] - at[0], other[1] - at[1]) > 1)
@@ -204,7 +205,7 @@ static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
     return dynamic;
 }
 
-/* A body of a playground shows and hides the same, to the bit, as a body of a scene, which test_bodies.c tests. */
+/* A body of a playground is drawn to the bit as a body of a scene, which test_bodies.c tests, and hides the same. */
 static void test_as_a_scene_has_it(void **state)
 {
     (void)state;
@@ -245,8 +246,8 @@ static void test_as_a_scene_has_it(void **state)
     }
 }
 
-/* A body of temperature 0 is as dark as one of brightness 0: it hides the disk and bodies behind it, layers show its
- * temperature, and there is no NaN. One without a radius is reported. */
+/* A body of temperature 0 is as dark as one of brightness 0. It hides the disk and bodies behind it, layers show its
+ * temperature, and there is no NaN. A body without a radius is reported. */
 static void test_dark(void **state)
 {
     (void)state;
@@ -467,7 +468,7 @@ static void test_lit(void **state)
                                                                          .temperature_k = 5000,
                                                                          .albedo = 0.5 },
                                                 1);
-        /* Light is bent only weakly, so a first guess of the image's place is enough for this wide picture. */
+        /* Light is bent only weakly, so that a first estimate of the image's place is enough for this wide picture. */
         double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
         const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]),
                      more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
@@ -508,7 +509,7 @@ static void test_adversarial(void **state)
         body.radius = k == 6 ? INFINITY : body.radius;
         body.temperature_k = k == 7 ? 1e300 : body.temperature_k;
         struct kd_dynamic_bodies *dynamic =
-            one(&body, k == 5 ? 64 : MANY);           /* so fast that its image is stretched: no ray misses it */
+            one(&body, k == 5 ? 64 : MANY);           /* so fast that its image is stretched, and no ray misses it */
         for (size_t i = 0; k == 7 && i < MANY; i++) { /* bodies everywhere */
             dynamic->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
             dynamic->bodies[i].phi = 1e3 * chance();

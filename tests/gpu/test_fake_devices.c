@@ -25,7 +25,8 @@ static enum kd_status open(struct kd_renderer **out, struct kd_error *error)
     return kd_renderer_create(&params, out, error);
 }
 
-/* 0: a map of radii, bands and exposure; 1: a sky, a camera nearby; 2: particles, hot spots and the measured light. */
+/* 0: a map of radii, bands and exposure; 1: a sky and a camera nearby; 2: particles, hot spots and the measured light
+ */
 static struct kd_scene scene_of(int k)
 {
     struct kd_scene scene;
@@ -86,7 +87,7 @@ static void same(const struct answers *a, const struct answers *b)
         assert_true(x->light.measured == y->light.measured);
         if (x->light.measured)
             assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) <
-                        1e-6); /* the light is summed in another order */
+                        1e-6); /* the light is summed in another order than on the real device */
     }
     assert_memory_equal(a->crossings, b->crossings, sizeof a->crossings);
     assert_memory_equal(a->ends, b->ends, sizeof a->ends);
@@ -121,7 +122,7 @@ static void test_groups(void **state)
     answer_as(&(struct fake_device) { .groups = 40 }); /* covers 10240 pixels of post.comp; there are 18000 */
 }
 
-/* Allocations smaller than a binding: the last picture then has two bands, and slices of half of one. */
+/* Allocations are smaller than a binding. The last picture then has two bands, with slices of half a band. */
 static void test_allocation(void **state)
 {
     (void)state;
@@ -139,7 +140,8 @@ static void test_texels(void **state)
 {
     (void)state;
     answer_as(
-        &(struct fake_device) { .texels = 8192 }); /* the tables of the emitters take 4608, and 18000 pixels 13500 */
+        /* the emitters' tables take 4608 texels, and 18000 pixels take 13500 */
+        &(struct fake_device) { .texels = 8192 });
 }
 
 static void test_incoherent(void **state)
@@ -152,8 +154,8 @@ static void test_incoherent(void **state)
 void __lsan_disable(void) __attribute__((weak));
 void __lsan_enable(void) __attribute__((weak));
 
-/* Every operation of a renderer whose n-th submission loses the device ends with an error that says so, and no
- * crash. */
+/* For every operation and every n, the n-th submission loses the device. The operation must end with an error that says
+ * so, without a crash. */
 static void test_lost(void **state)
 {
     (void)state;
@@ -193,7 +195,7 @@ static void test_heap(void **state)
     fake_device_off();
 }
 
-/* Of a large heap only the part that other programs leave free counts. */
+/* Of a large heap only the part that other programs leave free is available. */
 static void test_budget(void **state)
 {
     (void)state;

@@ -99,9 +99,9 @@ static void tell(const struct kd_scene *s, unsigned number, const char *what, ui
                   c->yaw_deg, c->pitch_deg, c->roll_deg);
 }
 
-/* The captured part of the sky of an equirectangular picture is the area inside the critical curve, to two pixels
- * times its length and to the pixels that are undecided. An observer at 0.999999 c next to a horizon has many of these:
- * labels that are normalised by E cannot express their rays even in double precision. */
+/* The captured part of the sky of an equirectangular picture is the area inside the critical curve, to two pixels times
+ * its length and to the pixels that are undecided. An observer at 0.999999 c next to a horizon has many of these:
+ * labels that are divided by E cannot represent their rays even in double precision. */
 static void judge_share(const struct kd_scene *scene, unsigned number, const float *fate, struct tally *t)
 {
     const struct kd_camera *c = &scene->camera;
@@ -115,13 +115,13 @@ static void judge_share(const struct kd_scene *scene, unsigned number, const flo
         return;
     const double pixel = 2 * M_PI / SIDE;
     double captured = 0, undecided = 0;
-    for (int i = 0; i < RAYS; i++) { /* half a turn in height */
+    for (int i = 0; i < RAYS; i++) { /* the height is half a turn */
         const double up = M_PI / SIDE * (i / SIDE + 0.5) - M_PI / 2;
         const double size = pixel * 2 * sin(M_PI / (2 * SIDE)) * cos(up);
         captured += fate[i] == KD_FATE_CAPTURED ? size : 0;
         undecided += fate[i] == KD_FATE_UNDECIDED ? size : 0;
     }
-    /* at most the circumference of the circle of that area, plus the asymmetry */
+    /* the curve is at most as long as the circumference of the circle of that area, plus the asymmetry */
     const double length = 2 * M_PI * fmin(1, sin(fmin(m.mean_radius, M_PI / 2))) + 4 * m.asymmetry;
     t->shares++;
     if (fabs(captured - m.area) > 2 * pixel * length + pixel * pixel + undecided) {
@@ -190,7 +190,7 @@ static const struct once_random {
     uint64_t seed;
     unsigned number;
 } once_random[] = {
-    { random_camera, 7, 998 }, /* steps near an extremal hole lost the second crossing of a circling ray */
+    { random_camera, 7, 998 }, /* steps near an extremal hole missed the second crossing of a circling ray */
     { random_camera_near_horizon, 91, 4891 }, /* steps carried a crossing at 1.016 M beyond the horizon */
 };
 

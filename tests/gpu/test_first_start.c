@@ -57,7 +57,7 @@ static void test_once(void **state)
     read_all(path);
     assert_non_null(strstr(text, "kerrd " KD_VERSION));
 
-    for (int prove = 0; prove < 2; prove++) { /* results are known to every caller, and the passes' costs as well */
+    for (int prove = 0; prove < 2; prove++) { /* every caller gets the results, and the costs of the passes as well */
         r = start(prove);
         known = kd_renderer_verdict(r);
         assert_true(known->result == KD_PASSED && !known->now && known->checks > 50 && r->capacity.measured);
@@ -120,7 +120,7 @@ static void test_failed(void **state)
     kd_renderer_destroy(r);
     assert_int_equal(unlink(path), 0);
     kd_vk_functions_hook = plant;
-    for (int k = 0; k < 2; k++) { /* and again */
+    for (int k = 0; k < 2; k++) { /* the warning is repeated */
         struct kd_buffer json = { 0 };
         r = start(true);
         const struct kd_verdict *known = kd_renderer_verdict(r);

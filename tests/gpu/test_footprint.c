@@ -16,14 +16,16 @@
 #define WIDTH 160
 #define HEIGHT 90
 #define ORDERS 3
-#define NUDGE \
-    1e-3 /* in steps; the error of the oracle's differences is its square, and their rounding 1e-12 divided by it */
+#define NUDGE
+/* in steps; the error of the oracle's differences is this number's square, and their rounding 1e-12 divided by it
+ */
+1e-3
 
-struct view {
+    struct view {
     const char *name;
     double a, inclination, r; /* r: INFINITY, or a pinhole camera at r */
     double field;             /* M, or degrees */
-    int steps;                /* 0: the closed form */
+    int steps;                /* 0: the plan chooses the closed form */
     bool listed;
     bool ring;
 };
@@ -135,8 +137,8 @@ static struct change change_of(const struct ks_path *p, const struct ks_path *q,
     return (struct change) { s * (b.x - a.x), s * (b.y - a.y), s * (b.z - a.z) };
 }
 
-/* Footprints of all orders and of the sky at one place; NAN if undefined. share and tilt describe J J^T: rr over the
- * trace, and rf over sqrt(rr ff). */
+/* Footprints of all orders and of the sky at one place; NAN if undefined. share and tilt describe J J^T: share is rr
+ * over the trace, and tilt is rf over sqrt(rr ff). */
 struct sizes { double of[ORDERS + 1], share[ORDERS + 1], tilt[ORDERS + 1]; };
 
 static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene, double x, double y)
@@ -200,8 +202,8 @@ static void judge(struct tally *t, const struct range *range, int n, double got,
         return;
     }
     t->errors[t->n++] = fabs(got / own - 1);
-    /* `least` and `most` are samples, between which the long axis turns, and the kernel includes the second difference.
-     * Both effects are of second order in the step; the slack allows for them. */
+    /* `least` and `most` are samples between which the long axis turns, and the kernel includes the second difference.
+     * Both effects are of second order in the step, which the slack allows for. */
     if (got < least * (1 - slack - noise) || got > most * (1 + slack + noise)) {
         t->outside++;
         print_message("  order %d: %.6g, the oracle's %.6g between %.6g and %.6g\n", n, got, own, least, most);
@@ -259,8 +261,8 @@ static void test_grid(void **state)
         report(v->name, t);
         for (int n = 0; n <= ORDERS; n++)
             assert_true(t[n].outside == 0 && t[n].edges == 0);
-        /* Typical errors in a picture of many pixels: half of the direct image is within a two-hundredth, and nine
-         * tenths within a thirtieth */
+        /* Typical errors in a picture of many pixels: half of the direct image is within 1/200, and nine tenths are
+         * within 1/30 */
         assert_true(t[0].n > 50 && t[0].errors[t[0].n / 2] < 5e-3 && t[0].errors[t[0].n * 9 / 10] < 0.03);
         assert_true(t[1].n > 5 && t[ORDERS].n > 5);
         qsort(t[0].shapes, (size_t)t[0].n, sizeof *t[0].shapes, by_value);
@@ -347,7 +349,7 @@ static void test_bands(void **state)
     test_free(b);
 }
 
-/* Rays on pixels at the critical curve. */
+/* Rays of pixels on the critical curve. */
 static void test_listed_pixels(void **state)
 {
     (void)state;
@@ -386,7 +388,8 @@ static void test_listed_pixels(void **state)
         }
         report(v->name, t);
         for (int n = 0; n <= ORDERS;
-             n++) /* of four rays a pixel, those without neighbours determine only one direction */
+             /* of the four rays of a pixel, those without neighbours determine the footprint in one direction only */
+             n++)
             assert_true(10 * t[n].outside <= (factors[i] == 2 ? t[n].n : 0));
         assert_true(t[0].n > 40 && t[1].n > 15 && t[ORDERS].n > 10);
         assert_true(t[0].errors[t[0].n / 2] < 0.06 && t[1].errors[t[1].n / 2] < 0.1);

@@ -38,7 +38,7 @@ static bool planned(const struct kd_plan *plan, const char *name)
     for (size_t i = 0; i < plan->cost.n_passes; i++)
         if (!strcmp(plan->cost.passes[i].name, name))
             return true;
-    /* "rays": the device's part of a "trace" by listed rays; "kernels": compiled because they were missing */
+    /* "rays": the device's part of a "trace" by listed rays; "kernels": time to compile missing kernels */
     return !strcmp(name, "kernels") || !strcmp(name, "upload") || !strcmp(name, "fill") || !strcmp(name, "rays") ||
            !strcmp(name, "total");
 }
@@ -131,8 +131,8 @@ static double estimated(const struct kd_plan *plan, const char *pass)
     return 0;
 }
 
-/* Refinement takes as many rays as the picture needs, which is estimated from the pictures before. For turbulent gas
- * the estimate used to be a seventh of the actual number. */
+/* Refinement traces as many rays as the picture needs, which is estimated from earlier pictures. For turbulent gas the
+ * estimate used to be a seventh of the actual number. */
 static void test_refining_is_learned(void **state)
 {
     (void)state;
@@ -158,8 +158,8 @@ static void test_refining_is_learned(void **state)
     assert_true(estimate > took / 50 && estimate < 2 * took);
 }
 
-/* A picture is estimated from those of its class, whatever else was rendered in between: a volume's light takes a
- * hundred times that of a smooth disk. */
+/* The estimate for a picture comes from pictures of its class, whatever was rendered in between: the light of a volume
+ * takes a hundred times as long as that of a smooth disk. */
 static void test_classes_are_learned(void **state)
 {
     (void)state;
@@ -184,7 +184,7 @@ static void test_classes_are_learned(void **state)
     kd_frame_finish(&frame);
     const double known = kd_cost_known(&learned, plan.cost.class, KD_PASS_MARCH);
     print_message("a ray took %.0f ns, and is known to take %.0f\n", took, known);
-    assert_true(known > took / 100 && known < 4 * took); /* time of other processes excluded */
+    assert_true(known > took / 100 && known < 4 * took); /* the time of other processes is excluded */
     assert_true(fabs(estimated(&plan, "march") - known * 1e-6 * (double)kd_plan_rays(&plan.lens)) < 1e-6 * known);
 }
 

@@ -78,9 +78,9 @@ static void test_far_away(void **state)
         "\"lorentz\":1.3,\"opening_deg\":15,\"sheath\":0,\"spectral_index\":-0.5}}",
         "{\"camera\":{\"inclination_deg\":80,\"field_m\":300000}," FAR_AWAY
         "\"lorentz\":3,\"opening_deg\":10,\"counterjet\":false}}",
-        /* it moves towards the observer: g is up to 200, from a difference of 1/20000 */
+        /* the jet moves towards the observer: g is up to 200, from a difference of 1/20000 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY "\"lorentz\":100,\"opening_deg\":8}}",
-        /* so bright that g to the 12th is 2^70 */
+        /* so bright that g^12 is 2^70 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY
         "\"lorentz\":30,\"opening_deg\":8,\"spectral_index\":10}}",
     };
@@ -158,7 +158,7 @@ static void shine(void *user, const struct ks_photon *p, double r, double u, dou
     out[1] = 0;
 }
 
-/* On the rays judged from afar, light moves outwards above the plane and inwards below. */
+/* On the rays that are compared from afar, light moves outwards above the plane and inwards below it. */
 static void jet(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     shine(user, p, r, u, u > 0 ? 1 : -1, out);
@@ -191,7 +191,7 @@ static void test_near_the_hole(void **state)
             for (int x = WIDTH / 2 - 1; x <= WIDTH / 2 + 1; x++) {
                 const double alpha = 2.0 * (x - 0.5 * (WIDTH - 1)), beta = -2.0 * (y - 0.5 * (HEIGHT - 1)),
                              got = (double)intensity(&frame)[y * WIDTH + x];
-                if (fabs(beta) < 7.5) /* there a jet is seen on both sides of the rays' turning points */
+                if (fabs(beta) < 7.5) /* there a jet is visible on both sides of the rays' turning points */
                     continue;
                 const struct ks_light want =
                     ks_along(ks_from_infinity_charged(views[n].spin, views[n].charge,
@@ -212,17 +212,18 @@ static void test_near_the_hole(void **state)
     printf("near the hole, %d rays: worst %.2g\n", lit, worst);
 }
 
-/* As `jet`, for a ray that falls in: its light moves outwards everywhere. */
+/* As `jet`, but for a ray that falls in: its light moves outwards everywhere. */
 static void jet_below(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     shine(user, p, r, u, 1, out);
 }
 
-/* Jets from next to the horizon, by rays that fall in: no ray turns, at any latitude. There the term of the charge in
- * -k.U across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to be seen. */
+/* Jets from next to the horizon, on rays that fall in. No ray turns, at any latitude. There the charge's term in -k.U
+ * across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to matter. */
 static void test_beside_the_horizon(void **state)
 {
-    static const double views[][3] = { { 0.9, 0, 70 }, { 0.7, 0.7, 70 }, { -0.8, 0.59, 60 } }; /* spin, charge, i */
+    /* rows of spin, charge, i */
+    static const double views[][3] = { { 0.9, 0, 70 }, { 0.7, 0.7, 70 }, { -0.8, 0.59, 60 } };
     double worst = 0;
     int lit = 0;
     (void)state;
@@ -294,7 +295,7 @@ static void test_adversarial(void **state)
         "{\"camera\":{\"inclination_deg\":180},\"jets\":{\"brightness\":1,\"lorentz\":100,\"opening_deg\":1,\"outer\":"
         "1000000,\"falloff\":-3}}",
         "{\"camera\":{\"inclination_deg\":1,\"r\":10,\"fov_deg\":80},\"jets\":{\"brightness\":1,\"lorentz\":50,"
-        "\"spectral_index\":10}}", /* from within */
+        "\"spectral_index\":10}}", /* the camera is within the jet */
         "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"inclination_deg\":30,\"r\":1.2,\"fov_deg\":100,\"observer\":"
         "\"infall\"},\"jets\":{\"brightness\":1,\"inner\":1}}",
     };

@@ -19,7 +19,7 @@ static uint32_t made(void) { return renderer->vk->n_pipelines; }
 
 static const struct kd_vk_pipeline *post(bool film, bool wide)
 {
-    /* any address, to show that the pointer is set */
+    /* any address, to show that the function sets the pointer */
     const struct kd_vk_pipeline *out = (const struct kd_vk_pipeline *)renderer;
     OK(kd_kernels_get(&renderer->kernels, renderer->vk, KD_KERNEL_POST, (uint32_t[]) { film, wide }, 2, &out, &error));
     return out;
@@ -51,7 +51,7 @@ static void noted_kernels_are_made_once(void **state)
     assert_int_equal(made(), before + 3);
 }
 
-/* More kernels are requested than can be recorded. The others are compiled when they are used. */
+/* More kernels are requested than can be recorded. The rest is compiled at first use. */
 static void what_cannot_be_made_is_told_later(void **state)
 {
     (void)state;
@@ -71,8 +71,8 @@ static void what_cannot_be_made_is_told_later(void **state)
     assert_non_null(strstr(why.message, "broken"));
 }
 
-/* Each kernel that the first frame of a scene compiles in advance is used in this frame: its place in the order of use
- * is later than its compilation. */
+/* Each kernel that the first frame of a scene compiles in advance is used in this frame: it appears in the order of use
+ * after its compilation. */
 static void a_frame_notes_what_it_needs(void **state)
 {
     (void)state;
@@ -142,7 +142,7 @@ static bool goes_on(void *user, double fraction)
     return true;
 }
 
-/* Kernels compiled beside the device are those that the frame uses, and the picture is the same. */
+/* Kernels that are compiled while the device works are those that the frame uses, and the picture is the same. */
 static void compiled_beside_the_device(void **state)
 {
     (void)state;
@@ -200,8 +200,8 @@ static void compiled(struct kd_compilation *c)
     kd_compilation_end(c);
 }
 
-/* The pictures that determine a density are also rendered on a device that computes nothing, to compile their
- * kernels. */
+/* The pictures that determine a density are also rendered on a device that computes nothing, so that their kernels are
+ * compiled. */
 static void a_density_is_rehearsed(void **state)
 {
     (void)state;
@@ -286,7 +286,8 @@ static void a_kernel_that_nobody_foresaw(void **state)
         assert_int_equal(lack.times, 1);
         assert_int_equal(lack.background_renders, i == 1);
     }
-    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[2], &error)); /* once more, now that it is there */
+    /* requested again, now that the kernel is there */
+    OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[2], &error));
     assert_int_equal(lack.times, 1);
     for (int i = 0; i < 3; i++) {
         assert_memory_equal(kd_frame_pixels(&frames[0]), kd_frame_pixels(&frames[i]), 3 * 8 * 2);
@@ -320,7 +321,7 @@ static void kernels_of_lists_of_rays(void **state)
     assert_int_equal(made(), 2);
 }
 
-/* The last other reference to the bodies beside a scene may be dropped before the rehearsal. */
+/* The last other reference to a playground's bodies may be dropped before the rehearsal. */
 static void bodies_are_held_while_kernels_are_compiled(void **state)
 {
     (void)state;

@@ -2,8 +2,8 @@
  * integrates the photon's momentum in Cartesian coordinates, and g and the angle to the disk's normal follow from the
  * metric in the plane alone. Layers of light are compared with the picture's own linear light.
  *
- * The tolerance of a number is some last bits of a float, times the change of the number when the ray is changed by as
- * much. This change is measured on the oracle itself. */
+ * The tolerance of a number is some roundings of a float, times the sensitivity of the number to the ray. This
+ * sensitivity is measured on the oracle. */
 #include "cgs.h"
 #include "kerr_schild.h"
 #include "image/colour_map.h"
@@ -122,8 +122,8 @@ static double apart(int kind, double x, double y)
     return kind == PHI ? fabs(remainder(x - y, 2 * M_PI)) : fabs(x - y);
 }
 
-/* True if a crossing is on the disk. *near: it is so close to an edge that single precision may place it on either
- * side. */
+/* True if a crossing is on the disk. *near: whether it is so close to an edge that single precision may place it on
+ * either side. */
 static bool on_disk(const struct kd_scene *scene, const struct ks_path *path, int n, bool *near)
 {
     double in = kd_kerr_isco(kd_scene_hole(scene)), out = scene->disk.outer, r = path->r[n];
@@ -161,7 +161,8 @@ static void judge(const struct kd_scene *scene, const struct kd_frame *frame, co
                 if (i == DELAY && !delay)
                     continue;
                 double gain = apart(i, moved[i], want[i]) / 1e-6, scale = i == R || i == DELAY ? 1 + fabs(want[i]) : 1;
-                double steep = i == ANGLE ? 1 / fmax(sin(want[i]), 1e-3) : 1; /* the slope of the arc cosine */
+                /* sensitivity from the slope of the arc cosine */
+                double steep = i == ANGLE ? 1 / fmax(sin(want[i]), 1e-3) : 1;
                 worst[i] = fmax(worst[i], apart(i, values[i][n][k], want[i]) / (scale * steep + gain));
             }
             compared++;
@@ -178,7 +179,7 @@ static void judge(const struct kd_scene *scene, const struct kd_frame *frame, co
     print_message("\n");
     assert_true(compared > PIXELS / 4);
     for (int i = 0; i < KINDS; i++)
-        /* for g and angles ten times the observed error; delays follow the steps of the profile */
+        /* bounds: for g and angles ten times the observed error; for delays, the steps of the profile */
         assert_true(worst[i] < (i == DELAY ? 2e-5 : 4e-6));
 }
 
@@ -311,8 +312,8 @@ static double product(double a, double r, double x_t, double x_phi, double y_t, 
            delta;
 }
 
-/* Gas falling from the ISCO has a place, a temperature and a g. g is that of its four-velocity, with the E and L of
- * the ISCO, the radial part from u.u = -1, and that of the light from p.p = 0. */
+/* Gas falling from the ISCO has a place, a temperature and a g. g is that of its four-velocity, with the E and L of the
+ * ISCO, with its radial part from u.u = -1 and the light's from p.p = 0. */
 static void test_plunge(void **state)
 {
     (void)state;
@@ -361,7 +362,7 @@ static void test_bands(void **state)
     for (size_t i = 0; i < whole.n_layers; i++) {
         size_t bytes = PIXELS * kd_layer_pixel_bytes(&whole.layers[i]);
         assert_memory_equal(whole.layers[i].data, again.layers[i].data, bytes);
-        if (strcmp(whole.layers[i].name, "footprint")) /* at the edges of bands neighbours are on one side only */
+        if (strcmp(whole.layers[i].name, "footprint")) /* rays at the edges of bands have neighbours on one side only */
             assert_memory_equal(whole.layers[i].data, parts.layers[i].data, bytes);
     }
     const float *a = layer(&whole, "phi"), *b = layer(&other, "phi");
@@ -466,7 +467,7 @@ static void test_false_colour(void **state)
     }
 }
 
-/* One end of the scale may be set beyond all numbers: all are then at the near end of the colours. */
+/* One end of the scale may be set beyond all numbers, so that all of them have the colour of the near end. */
 static void test_ends_beyond(void **state)
 {
     (void)state;
@@ -493,7 +494,8 @@ static const float *numbers_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* If 32 bits cannot distinguish neighbouring rays, they have no footprint rather than one of 0. Other rays have one. */
+/* If 32 bits cannot distinguish neighbouring rays, these have no footprint, rather than one of 0. Other rays have one.
+ */
 static void test_tiny_fields(void **state)
 {
     (void)state;
@@ -553,7 +555,7 @@ static void test_one_frequency(void **state)
                     f * peak * pow(kd_disk_flux_page_thorne(kd_hole(0.9), r[k]) / largest, 0.25) * g[k];
                 const double x = H * nu / (K * kelvin), i = 2 * H * nu * (nu / C) * (nu / C) / expm1(x) / pow(f, 4);
                 const double bound = 2e-5 + 2e-4 * x;                          /* the table of T is good to 2e-4 */
-                if (i * 1e23 < 1e-30 || i * C * C / (2 * K * nu * nu) < 1e-30) /* near a float's end */
+                if (i * 1e23 < 1e-30 || i * C * C / (2 * K * nu * nu) < 1e-30) /* near the largest float */
                     continue;
                 if (!(fabs(light[k] / (i * 1e23) - 1) < bound) ||
                     !(fabs(t[k] / (i * C * C / (2 * K * nu * nu)) - 1) < bound))
@@ -566,8 +568,8 @@ static void test_one_frequency(void **state)
         }
 }
 
-/* Light too bright for 32 bits is refused by name; other light is finite, and scales with the brightness of the
- * matter. */
+/* Light that is too bright for 32 bits gives an error that names it. Other light is finite, and scales with the
+ * brightness of the matter. */
 static void test_too_bright(void **state)
 {
     (void)state;

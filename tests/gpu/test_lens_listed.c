@@ -1,5 +1,6 @@
-/* Tests of lens maps from listed rays in double precision, compared with the kernels' in single precision: two ways
- * from a pixel to its ray, and three methods from a ray to its end. Also tests rays that were given up. */
+/* Tests of lens maps from listed rays in double precision, compared with the kernels' in single precision: they differ
+ * in the way from a pixel to its ray, and there are three methods from a ray to its end. Also tests rays whose tracing
+ * was given up. */
 #include "render_support.h"
 
 #include "physics/spacetime/kerr.h"
@@ -220,7 +221,7 @@ static void test_profiles(void **state)
 
 static bool magenta(const unsigned char *pixel) { return pixel[0] > 200 && pixel[1] < 60 && pixel[2] > 200; }
 
-/* Rays that were given up, planted in a cached map: a crossing in row 3, the sky in row 20. */
+/* Rays marked as given up in a cached map: a crossing in row 3, the sky in row 20. */
 static void test_given_up(void **state)
 {
     (void)state;
@@ -262,10 +263,10 @@ static void test_given_up(void **state)
         sky += magenta((unsigned char *)kd_frame_pixels(&frame) + 3 * (40 * 20 + i));
     assert_true(sky > 0); /* where no disk is in front */
     kd_frame_finish(&frame);
-    memset(map->key, 0, sizeof map->key); /* keeps other tests from finding it */
+    memset(map->key, 0, sizeof map->key); /* other tests must not find this map */
 }
 
-/* An engine, precision or tolerance that is not available is refused before anything is traced. */
+/* An engine, precision or tolerance that is not available is refused before any ray is traced. */
 static void test_refused(void **state)
 {
     (void)state;

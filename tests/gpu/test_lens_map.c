@@ -1,9 +1,8 @@
 /* Tests of the lens map on the device. It is compared with the Kerr-Schild oracle, which traces the same pixels in
  * double precision by another method (tests/oracle).
  *
- * The tolerance of a crossing is the last bits of a float times the factor by which the crossing amplifies a change of
- * the ray. This amplification, d ln r/d ln b, is measured on the oracle itself; it reaches hundreds near the critical
- * curve. */
+ * The tolerance of a crossing is some roundings of a float times the amplification d ln r/d ln b, which is measured on
+ * the oracle. It reaches hundreds near the critical curve. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/render.h"
@@ -317,7 +316,7 @@ static void test_in_plane(void **state)
     assert_true(escaped > GRID / 2 && escaped < GRID);
 }
 
-/* The project's promise for the first crossing, without allowance for amplification: 1e-5, median 1e-6. */
+/* The project's promise for the first crossing holds without allowance for amplification: 1e-5, median 1e-6. */
 static void test_promise(void **state)
 {
     (void)state;

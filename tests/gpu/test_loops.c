@@ -201,7 +201,8 @@ static void test_loops(void **state)
             const double want = out + (vertical ? atan2(sqrt(1 - sine * sine), v * sine) : 0), evpa = kd_light_evpa(&s);
             off = fmax(off, fabs(remainder(evpa - want, M_PI)));
             assert_true(kd_light_fraction(&s) < 0.75 &&
-                        kd_light_fraction(&s) > 0.74); /* less than at a single place, because it is a mean */
+                        /* less than at a single place, because it is a mean over the spot */
+                        kd_light_fraction(&s) > 0.74);
             turned += k ? remainder(atan2(s.u, s.q) - angle, 2 * M_PI) : 0;
             went += k ? remainder(out - place, 2 * M_PI) : 0;
             angle = atan2(s.u, s.q);
@@ -226,8 +227,8 @@ static double sum_of(const struct kd_frame *frame, const struct kd_scene *scene,
     return sum * step * step;
 }
 
-/* The curve's values are sums of the layers: on a grid of rays, with more rays at the critical curve, through a volume,
- * and through one that is itself polarised. Pictures do not change. */
+/* The values of a light curve equal sums of the layers: on a grid of rays, with more rays at the critical curve,
+ * through a volume, and through one that polarises light itself. Pictures do not change. */
 static void test_layers(void **state)
 {
     (void)state;

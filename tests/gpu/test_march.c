@@ -1,6 +1,6 @@
 /* Tests of light along rays through volumes. It is compared with closed forms along paths measured by the Kerr-Schild
  * oracle, which uses neither Mino time nor a Nystroem method, and with integrals of emission and absorption along these
- * paths. Also tests its order with crossings of the plane, and self-consistency. */
+ * paths. Also tests the order of volumes and crossings of the plane, and self-consistency. */
 #include "render/device/store.h"
 #include "render_support.h"
 
@@ -79,11 +79,11 @@ static const struct view {
     { 0.9, 80, INFINITY, "{\"volume\":{\"outer\":11,\"opacity\":0.3,\"emissivity\":1}}" },
     { -0.7, 25, INFINITY, "{\"volume\":{\"inner\":7,\"outer\":10,\"opacity\":0}}" },
     { 0.95, 88, 30, "{\"volume\":{\"outer\":9,\"opacity\":2,\"emissivity\":3}}" },
-    { 0.5, 40, 7, "{\"volume\":{\"outer\":15,\"opacity\":0.01}}" }, /* from within */
+    { 0.5, 40, 7, "{\"volume\":{\"outer\":15,\"opacity\":0.01}}" }, /* cameras within the volume */
     { 0.3, 40, INFINITY, "{\"volume\":{\"inner\":3,\"outer\":30000,\"opacity\":0,\"emissivity\":1e-4}}" },
     { 0.3, 70, INFINITY,
       "{\"volume\":{\"inner\":18000,\"outer\":30000,\"opacity\":2e-5,\"emissivity\":2e-5},\"camera\":{\"field_m\":"
-      "70000}}" }, /* straight rays */
+      "70000}}" }, /* far from the hole, where rays are straight */
     { 0.5, 75, INFINITY,
       "{\"spacetime\":{\"charge\":0.8},\"volume\":{\"outer\":11,\"opacity\":0.3,\"emissivity\":1}}" },
     { 0, 60, 9, "{\"spacetime\":{\"charge\":0.95},\"volume\":{\"outer\":15,\"opacity\":0.01}}" },
@@ -194,8 +194,8 @@ static double largest(const float *light, int n)
 
 enum { THIN_WIDTH = 48, THIN_HEIGHT = 36, THIN = THIN_WIDTH * THIN_HEIGHT };
 
-/* Errors of a thick disk's light as its height goes to 0: the largest, relative to its own light or to a twentieth
- * of the brightest. */
+/* Errors of a thick disk's light as its height goes to 0. The largest is given, relative to its own light or to a
+ * twentieth of the brightest. */
 struct thin_errors {
     double worst, half, limit;
     int lit, off;
@@ -225,10 +225,9 @@ static struct thin_errors thin_limit(struct kd_scene scene, double height)
     return e;
 }
 
-/* A thick disk of almost no height equals the thin one, with opacity by depth, a chosen opacity, and its taper.
- * Where the flux vanishes steeply, at the inner edge of a disk seen nearly edge-on, the difference is the height
- * itself, because the ray sees a place a little further in. It halves with the height, and vanishes in the limit, by
- * the line through both. */
+/* A thick disk of almost no height equals the thin one, with opacity by depth, a chosen opacity, and its taper. Where
+ * the flux vanishes steeply, at the inner edge of a disk seen nearly edge-on, the difference is the height itself,
+ * because the ray meets the gas a little further in. The difference halves with the height, and extrapolates to 0. */
 static void test_thin_limit(void **state)
 {
     (void)state;
@@ -416,8 +415,8 @@ static struct kd_frame picture_of(int32_t width, enum kd_volume_model model)
     return rendered(&scene);
 }
 
-/* A picture does not depend on what was rendered before. A picture without a volume needs the same lens map, and has no
- * pixels at the critical curve. */
+/* A picture does not depend on what was rendered before. The picture without a volume uses the same lens map, and has
+ * no pixels at the critical curve. */
 static void test_order_of_pictures(void **state)
 {
     (void)state;

@@ -99,7 +99,7 @@ static void judge_ray(const struct kd_scene *scene, int x, int y, struct judged 
     kd_frame_finish(&frame);
 }
 
-/* Tests the times that the march computes, along rays that pass by, circle and fall in. */
+/* Tests the times that the march computes, for rays that pass the hole, circle it and fall in. */
 static void test_delays(void **state)
 {
     (void)state;

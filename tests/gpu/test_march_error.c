@@ -38,8 +38,8 @@ static struct kd_frame by_plan(const struct kd_scene *scene, uint32_t fine, uint
 
 static const float *intensity(const struct kd_frame *frame) { return kd_frame_layer(frame, "intensity")->data; }
 
-/* Errors relative to a pixel's light, or to a thousandth of the brightest, over the pixels that differ: the 80, 90
- * and 96 % quantiles, and the worst. */
+/* Errors relative to a pixel's light, or to a thousandth of the brightest pixel's, among the pixels that differ: the
+ * 80, 90 and 96 % quantiles, and the largest. */
 struct errors { double eight, nine, most, worst; };
 
 static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
@@ -74,8 +74,8 @@ static const struct {
     { "jet", "{\"disk\":{\"model\":\"none\"}}" },
 };
 
-/* The error that nine of ten of a hundred rays do not exceed corresponds to the 80 to 96 % quantiles of all pixels (two
- * standard deviations). Doubling the steps leaves at most half of the error. */
+/* A frame states the error that nine tenths of a hundred rays do not exceed. Within two standard deviations this is
+ * between the 80 % and 96 % quantiles of all pixels. Doubling the steps leaves at most half of the error. */
 static void test_said(void **state)
 {
     (void)state;
@@ -136,7 +136,8 @@ static double shell_error(struct kd_scene scene)
     return worst;
 }
 
-/* Each profile meets its target where all is smooth: for a shell in each ray, for a thick disk in nine of ten. */
+/* Each profile meets its target where the light is smooth: on each ray of a shell, and on nine tenths of the rays of a
+ * thick disk. */
 static void test_profiles(void **state)
 {
     (void)state;
@@ -159,8 +160,8 @@ static void test_profiles(void **state)
     kd_frame_finish(&fine);
 }
 
-/* In turbulence each profile also meets its target, and its stated error is no less than the true one. Profiles that
- * take minutes are left out. */
+/* Each profile meets its target in turbulence as well, and states at least the true error. Profiles that take minutes
+ * are left out. */
 static void test_stirred(void **state)
 {
     (void)state;
@@ -207,8 +208,8 @@ static void test_close_rays(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The sketch of a changing view is marked as a sketch, measures its error, and is as accurate as it says. It leaves out
- * fine octaves and does not change the lens map. */
+/* The sketch of a changing view is marked as a sketch, measures its error, and is as accurate as it states. It leaves
+ * out fine octaves and does not change the lens map. */
 static void test_sketch(void **state)
 {
     (void)state;
@@ -246,7 +247,7 @@ static void test_sketch(void **state)
     kd_frame_finish(&all);
 }
 
-/* A tolerance beyond 32 bits is refused, and the possible one is named. */
+/* A tolerance that 32 bits cannot meet is refused with a message that names one that they can. */
 static void test_refused(void **state)
 {
     (void)state;

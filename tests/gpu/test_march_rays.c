@@ -1,5 +1,5 @@
-/* Tests of pixels with several rays through a volume. Their light is the mean of their rays' light, whatever the driver
- * does with many loops in succession. */
+/* Tests of pixels with several rays through a volume. Their light is the mean of their rays' light, also if the driver
+ * stops loops after many passes. */
 #include "render_support.h"
 
 #include "render/frame/probe.h"
@@ -63,7 +63,7 @@ static void test_mean(void **state)
     }
     printf("%d pixels: worst %.2g; %d refined: worst %.2g\n", WIDTH * HEIGHT, worst, refined, worst_chosen);
     assert_true(worst < 1e-5 && refined > WIDTH * HEIGHT / 8 &&
-                worst_chosen < 0.01); /* a listed ray's footprint is measured differently */
+                worst_chosen < 0.01); /* the footprint of a listed ray is measured differently */
     struct kd_frame *all[] = { &rays, &many, &one, &chosen };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         kd_frame_finish(all[i]);
@@ -170,8 +170,8 @@ static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
     return worst;
 }
 
-/* lavapipe ends the loops of eight such rays, but not of one. Rays that it ends are continued in pieces. They then have
- * the light that they have alone, also within their pixel. Without pieces 16 rays of the tile were given up. */
+/* lavapipe stops the loops of eight such rays, but not of a single one. Rays that it stops are continued in pieces.
+ * They then have the same light as alone, also within their pixel. Without this, 16 rays of the tile were given up. */
 static void test_pieces(void **state)
 {
     (void)state;

@@ -25,7 +25,9 @@ struct numbers {
     double a, r[2];
     bool ingoing, packed;
     double phi;
-    double bend[2]; /* theta = y + bend sin 2y in the first and in the last row, y even from pole to pole; 0: even */
+    /* theta = y + bend sin 2y in the first and in the last row, where y goes evenly from pole to pole; 0: theta is even
+     */
+    double bend[2];
     double of[ARRAYS][MOST];
 };
 
@@ -34,7 +36,7 @@ static struct keeper {
     struct kd_buffer file;
     bool missing;
     unsigned taken;
-    pthread_t taker; /* the thread that has taken the file last */
+    pthread_t taker; /* the thread that last took the file */
 } keeper;
 
 static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
@@ -76,7 +78,7 @@ static double theta_of(const struct numbers *g, double row, double column)
     return y + bend * sin(2 * y);
 }
 
-/* Adds theta: one line if all rows have the same angles, otherwise a line for each row. */
+/* Writes theta: one line if all rows have the same angles, otherwise a line for each row. */
 static void add_angles(struct kd_zip *zip, const struct numbers *g)
 {
     double theta[MOST];
@@ -246,7 +248,7 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
     double field[4] = { 0, at[5], at[6], at[7] / g[3] }, axis[4] = { 1, 0, 0, -g[4] / g[3] };
     assert_true(fabs(product(g, flow, flow) + 1) < 1e-9);
     const double more =
-        -product(g, field, flow) / product(g, axis, flow); /* along the normal, whose covariant phi component is 0 */
+        -product(g, field, flow) / product(g, axis, flow); /* the normal's covariant phi component is 0 */
     for (int i = 0; i < 4; i++)
         field[i] += more * axis[i];
     assert_true(fabs(product(g, field, flow)) < 1e-6);
@@ -324,7 +326,7 @@ static void test_rays(void **state)
     compare(&ingoing, "{" HIGH ",\"camera\":{\"inclination_deg\":50,\"azimuth_deg\":-70}}", 2e-3);
 }
 
-/* Extreme numbers: light is a number, 0 or more, polarised or not. */
+/* For extreme numbers, light is a number and at least 0, polarised or not. */
 static void test_adversarial(void **state)
 {
     (void)state;
@@ -400,8 +402,8 @@ static enum kd_status render_one(struct kd_renderer *r, const struct kd_scene *s
     return kd_render(r, scene, &plan, NULL, NULL, out, why);
 }
 
-/* A thread reads a grid that is requested before its picture, and the picture then needs no reading. A grid that is on
- * the device is not read again. A missing file is an error at the field, until it is there. */
+/* A thread reads a grid before a picture needs it, and the picture then does not read it. A grid that is on the device
+ * is not read again. A missing file is an error at the field until the file is there. */
 static void test_reading(void **state)
 {
     (void)state;

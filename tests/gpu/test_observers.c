@@ -137,8 +137,8 @@ static void photon(const struct seer *seer, int face, double x, double y, double
     ks_seen(&f, k, p);
 }
 
-/* The kernels' starting values, in their arithmetic: E, which is the redshift, L, p_theta and p^r of each pixel of
- * the whole sky, over the size of the legs that they are made of. */
+/* The kernels' starting values, in their arithmetic: E, which is the redshift, L, p_theta and p^r of each pixel of the
+ * whole sky, relative to the size of the tetrad's legs. */
 static double constants(const struct seer *seer)
 {
     const struct ks_place at = place_of(seer);
@@ -173,8 +173,8 @@ static double constants(const struct seer *seer)
     return worst;
 }
 
-/* In double precision, aberration: the direction in which a photon of given constants is seen, by contraction with
- * the oracle's legs. */
+/* In double precision, the direction in which an observer sees a photon with given constants, by contraction with the
+ * oracle's legs. */
 static double aberration(const struct seer *seer)
 {
     const struct ks_place at = place_of(seer);
@@ -217,14 +217,15 @@ struct judged {
 static double twist(const struct seer *seer)
 {
     double a = seer->spin, root = sqrt((1 - a) * (1 + a));
-    if (seer->motion.observer == KD_OBSERVER_INFALL) /* its own azimuth is ingoing */
+    if (seer->motion.observer == KD_OBSERVER_INFALL) /* the observer's azimuth is ingoing */
         return 0;
     return a / (2 * root) * log1p(2 * root / (seer->r - 1 - root));
 }
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Errors over the map's amplification. A ray whose end or number of crossings changes when it is moved is unsure. */
+/* Errors over the map's amplification. A ray whose end or number of crossings changes when it is moved slightly is
+ * unsure. */
 static void judge(const struct seer *seer, int face, int k, const float *planes, struct judged *o)
 {
     const struct ks_place at = place_of(seer);
@@ -384,7 +385,7 @@ static void no_seam_at_the_horizon(void **state)
                                  moved = hypot(acos(end[0]) - acos(before[0]), s * turn(end[RAYS] - before[RAYS]));
                     turned += moved > 1e-4 + 100 * apart;
                 }
-            /* Rays within 0.01 of the critical curve, some in a hundred, move by 100 times as much. */
+            /* Within 0.01 of the critical curve, some rays in a hundred move by 100 times as much. */
             if (turned > FACES * RAYS / 100 || (k && sky < FACES * RAYS / 3))
                 fail_msg("a = %g, inclination %g, r = %.7g: %zu of %zu rays end elsewhere than next to it", spins[i],
                          inclinations[i], r, turned, sky);

@@ -173,7 +173,7 @@ static void test_rates(void **state)
     double worst = 0;
     for (size_t i = 0; i < n; i++) {
         if (now[i].r < 9)
-            continue; /* too fast for such a step */
+            continue; /* too fast for differences over such a step */
         double dphi = remainder((double)after[i].phi - before[i].phi, 2 * M_PI) / 2;
         worst = fmax(worst, fabs((after[i].r - before[i].r) / 2 - now[i].dr));
         worst = fmax(worst, fabs(dphi - now[i].dphi));
@@ -201,7 +201,8 @@ static void test_parts(void **state)
     float *some = fill(&part);
     for (size_t i = 0; i < 1000; i++)
         assert_memory_equal(some + 3 * i, rows + 3 * (11 + 7 * i), 12);
-    OK(kd_particle_list_fill(renderer, &part, 500, 500, rows, &error)); /* from its middle */
+    /* a part that begins in the middle of the list */
+    OK(kd_particle_list_fill(renderer, &part, 500, 500, rows, &error));
     assert_memory_equal(rows, some + 1500, 6000);
     assert_false(part.orbits);
     test_free(some);

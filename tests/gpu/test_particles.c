@@ -64,7 +64,7 @@ static void test_phase(void **state)
                 long double x = sqrtl(r), phase = times[k] / (x * x * x + spins[s]);
                 double off =
                     remainder((double)remainderl(phase, 2 * M_PIl) - angle(then[i].phi - start[i].phi), 2 * M_PI);
-                /* a double resolves a large phase to 1e-16 of it */
+                /* a double resolves a large phase to 1e-16 of its size */
                 double bound = 1e-8 + 4e-16 * (double)fabsl(phase);
                 if (!(fabs(off) < bound))
                     fail_msg("a = %g, r = %g, t = %g: phase off by %.2g", spins[s], r, times[k], off);
@@ -210,7 +210,8 @@ static void test_lists_between_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* An observer that co-rotates with a narrow ring sees it stand still. One that moves the other way does not. */
+/* To an observer that co-rotates with a narrow ring, the ring stands still. To one that moves the other way it does
+ * not. */
 static void test_turning(void **state)
 {
     (void)state;
@@ -274,9 +275,9 @@ static void test_edges(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Light with delay D shows the disk at t - D. So a pixel of slow light equals that of a fast-light picture at t - D,
- * where D is the delay of its ray, for an observer at infinity and a near one. They are not equal to the last step,
- * because a grid that is rotated by a part of a cell is blurred differently. */
+/* Light with delay D shows the disk at t - D. So a pixel of a picture with slow light equals that of a picture with
+ * fast light at t - D, where D is the delay of its ray. This holds for an observer at infinity and a near one. The two
+ * are not equal to the last step, because a grid that is rotated by a part of a cell is blurred differently. */
 static void test_slow_light(void **state)
 {
     (void)state;

@@ -205,7 +205,7 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
         fail_msg("the path ends otherwise");
     if (!isnan(x.path.error))
         near("crossings of the path", x.path.error, 0,
-             fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* both grow with the ray's amplification */
+             fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* both differences grow with the ray's amplification */
     kd_explained_finish(&x);
 }
 
@@ -283,7 +283,7 @@ static void sums(void **state)
     }
 }
 
-/* Layers of the pixel are the same numbers bit for bit: of the first crossing on the disk. */
+/* The layers of the pixel have the same numbers, bit for bit, for its first crossing of the disk. */
 static void layers(void **state)
 {
     static const char *const names[] = { "r", "g", "temperature", "emission_angle", "delay", "phi" };
@@ -616,9 +616,9 @@ static void judge_volumes(const struct kd_probed_ray *told)
                 (told->steps > 0 && told->samples >= 3 * told->n_stretches && told->steps <= told->samples + 12 * 16));
 }
 
-/* Each of two overlapping volumes is explained with the depth that it has alone. Where nothing is hidden, it also has
- * the light of a picture without the other volume. The shell's edges lie within the jets' bounds and are resolved to a
- * part of a step; without that the error is 1 %. */
+/* Each of two overlapping volumes is explained with the depth that it has alone. If neither hides the other, it also
+ * has the light of a picture without the other volume. The shell's edges lie within the jets' bounds and are located
+ * within a step; otherwise the error would be 1 %. */
 static void volumes(void **state)
 {
     static const char *const names[] = { "volume", "jets" };

@@ -126,7 +126,7 @@ static void thermal(double n, double theta, double turn, double sine, double nu,
     const double x = nu / (2.0 / 9 * turn * theta * theta * sine),
                  shape = sqrt(x) + pow(2, 11.0 / 12) * pow(x, 1.0 / 6);
     out[0] = out[1] = 0;
-    if (!(x < 1e6)) /* contributes e^-100 of the total */
+    if (!(x < 1e6)) /* this part contributes e^-100 of the total */
         return;
     out[0] = n * E2 * turn / C * sqrt(2) * M_PI / 27 * sine * shape * shape * exp(-cbrt(x));
     out[1] = out[0] * expm1(H * nu / (theta * ME * C * C)) * C * C / (2 * H * nu * nu * nu);
@@ -235,8 +235,8 @@ static double kelvin(const struct kd_scene *scene, int i)
            (2 * K * nu * nu);
 }
 
-/* The inner edges are where the light is still 0, because the oracle's quadrature is inaccurate for unbounded growth.
- * The outer edges are close to the hole, to save time. */
+/* The inner edges are where the light is still 0, because the oracle's quadrature is inaccurate where light grows
+ * without bound. The outer edges are close to the hole, to save time. */
 static const struct view {
     const char *preset, *json;
     double allowed;
@@ -327,8 +327,8 @@ static void test_adversarial(void **state)
     }
 }
 
-/* Optically thick matter shines as a black body: its temperature, shifted, whatever the density, up to depths beyond
- * single precision. */
+/* Optically thick matter shines as a black body of its redshifted temperature, whatever its density, up to depths
+ * beyond single precision. */
 static void test_deep(void **state)
 {
     (void)state;
@@ -348,7 +348,7 @@ static void test_deep(void **state)
                 fail_msg("density %s, pixel %d: %g K, %g K at the least of them", densities[i], p,
                          (double)kelvin_of(&frame)[p], first[p]);
         }
-        /* At 20 M, at rest, in the middle of the picture: T sqrt(1 - 2/r) to the dragging's order. */
+        /* At rest at 20 M, in the middle of the picture: T sqrt(1 - 2/r), to the order of frame dragging. */
         assert_true(fabs(first[PIXELS / 2] / (3e11 * sqrt(0.9)) - 1) < 0.01);
         kd_frame_finish(&frame);
     }
@@ -424,9 +424,9 @@ static void test_published(void **state)
     }
 }
 
-/* With ipole's camera, which is at 1000 M and moves inwards at 2/r, kerrd has ipole's fluxes but for its constants and
- * its steps, 0.2 %, and 0.05 % of one ray a pixel (docs/physics/volume.md). From infinity they are up to 0.9 % too
- * small. */
+/* With ipole's camera, which is at 1000 M and moves inwards at 2/r, kerrd reproduces ipole's fluxes. Differences are
+ * 0.2 % from its constants and steps, and 0.05 % from one ray a pixel (docs/physics/volume.md). From infinity they are
+ * up to 0.9 % too small. */
 static void test_the_camera_of_ipole(void **state)
 {
     (void)state;
@@ -452,8 +452,8 @@ static void test_the_camera_of_ipole(void **state)
     }
 }
 
-/* If nothing else shines there are a flux and layers in physical units. Otherwise there is no flux, and such layers are
- * refused. */
+/* If nothing else shines, the picture has a flux and layers in physical units. Otherwise it has no flux, and such
+ * layers are refused. */
 static void test_alone(void **state)
 {
     (void)state;

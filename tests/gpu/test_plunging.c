@@ -63,8 +63,8 @@ static void integrate(double a, double time, double *r, double *phi)
 
 static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
 
-/* A particle at (r, phi) continues along its geodesic, or starts anew. This holds at early, late and negative times.
- * The reported r has single precision, 6e-8, at either end. */
+/* A particle at (r, phi) continues along its geodesic, or starts again. This holds at early, late and negative times.
+ * The reported r has single precision, 6e-8, at both ends. */
 static void test_geodesics(void **state)
 {
     (void)state;
@@ -133,7 +133,7 @@ static void test_stream(void **state)
         double mean = FALLING / BINS, sigma = sqrt(mean * (1 - 1.0 / BINS));
         for (int b = 0; b < BINS; b++)
             assert_true(fabs(phases[b] - mean) < 4 * sigma && fabs(turns[b] - mean) < 4 * sigma);
-        assert_true(same < 40); /* 13 would be equal by chance */
+        assert_true(same < 40); /* 13 equal values are expected by chance */
     }
 }
 
@@ -174,7 +174,7 @@ static void test_slopes(void **state)
             double w[] = { planes[0][at], planes[1][at] }, dw[] = { planes[0][slope], planes[1][slope] };
             if (!(w[0] > 1.01 / isco && w[1] > 0 && fabs(w[0] / w[1] - 1) < 1e-4 &&
                   1 / w[0] > 1.02 * kd_hole(0.3)->outer))
-                continue; /* only in one of them, or next to the critical curve */
+                continue; /* the crossing is in only one of them, or is next to the critical curve */
             double off = fabs(dw[0] - dw[1]) / (fabs(dw[1]) + 0.05);
             far += off > 1e-3;
             worst = fmax(worst, off);

@@ -128,8 +128,9 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
     return ks_screen_near(&at, &frame, look, top);
 }
 
-/* Each place is judged where its order shines. Each half turn round the hole amplifies single-precision errors by
- * some 20. So the tolerance of order 1 is ten times as large, and its radius checks that both follow the same ray. */
+/* Each place is judged where the order in question shines. Each half turn round the hole amplifies single-precision
+ * errors by some 20. So the tolerance of order 1 is ten times as large, and its radius checks that both methods follow
+ * the same ray. */
 static void judge(const struct view *view)
 {
     static const char *const names[] = { "evpa_0", "evpa_1" }, *const parts[] = { "polarization_fraction_0",
@@ -177,7 +178,7 @@ static void test_evpa(void **state)
 }
 
 /* A pixel has the mean Q and U of its rays, from which its angle and fraction are computed. Orders add up to the total.
- * The march gives the same for its light. */
+ * The march of a volume is consistent in the same way. */
 static void test_stokes(void **state)
 {
     (void)state;
@@ -221,10 +222,10 @@ static void test_stokes(void **state)
 
 /* Face-on and without spin light stays in a plane through the axis, and its direction relative to that plane is
  * unchanged. By the ray's angle to the radius in the rest frame, sin = b sqrt(1 - 2/r)/r, and the aberration of the
- * orbit, whose speed is 1/sqrt(r - 2), the angle of the electric field, from outwards to +phi, is for
- *   a toroidal field 0,  a radial one atan2(sin, -v cos),  a vertical one atan2(cos, v sin)
- * (Narayan et al. 2021, ApJ 912, 35; Gelles et al. 2021, PRD 104, 044060), which in closed form have cos = 2/r
- * (Beloborodov 2002): accurate to relative order 1/r. */
+ * orbit, whose speed is 1/sqrt(r - 2), the angle of the electric field, from outwards to +phi, is for a toroidal field
+ * 0,  a radial one atan2(sin, -v cos),  a vertical one atan2(cos, v sin) (Narayan et al. 2021, ApJ 912, 35; Gelles et
+ * al. 2021, PRD 104, 044060), where the closed form of Beloborodov 2002 has cos = 2/r, accurate to relative order 1/r.
+ */
 static void test_face_on(void **state)
 {
     (void)state;
@@ -364,8 +365,8 @@ static void test_returning(void **state)
     }
 }
 
-/* The optical depth of gas goes with its flux, which reflection leaves as it is: with any albedo the disk is as bright.
- */
+/* The optical depth of gas follows its flux, which reflection does not change, so that the disk is equally bright with
+ * any albedo. */
 static void test_depth_of_reflecting_gas(void **state)
 {
     (void)state;

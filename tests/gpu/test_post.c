@@ -75,8 +75,9 @@ static double noise(double x, double y)
     return outer - floor(outer) - 0.5;
 }
 
-/* Dithered grey: rows, columns and channels are at their places, in pictures of any width and from any offset, also
- * far beyond 2^24, where floats do not resolve offsets. After the last pixel there are zeros up to whole groups. */
+/* In dithered grey, rows, columns and channels are at their places. This holds in pictures of any width and from any
+ * offset, also far beyond 2^24, where floats do not resolve offsets. The last pixel is followed by zeros up to a whole
+ * group. */
 static void places(void **state)
 {
     (void)state;
@@ -94,7 +95,7 @@ static void places(void **state)
     };
     static float light[3 * 65536];
     static uint16_t found[3 * (65536 + KD_GROUP_SIZE * KD_POST_PIXELS)];
-    const float level[3] = { 1000.5f, 30000.5f, 60000.5f }; /* dithered down or up by the place's own threshold */
+    const float level[3] = { 1000.5f, 30000.5f, 60000.5f }; /* dither rounds down or up at the threshold of the place */
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         uint32_t n = cases[c].pixels, unsure = 0;
         for (uint32_t i = 0; i < 3 * n; i++)
@@ -106,7 +107,8 @@ static void places(void **state)
         for (uint32_t i = 0; i < 3 * n; i++) {
             uint32_t at = cases[c].first + i / 3;
             double d = 0.998 * noise(at % cases[c].width, at / cases[c].width), v = level[i % 3] + 0.5 + d;
-            /* A tie, within the errors of curve and noise, may go either way; so may a noise that wraps round. */
+            /* A value that is a tie within the errors of curve and noise may be rounded either way; so may one whose
+             * noise wraps round. */
             bool tie = fabs(v - round(v)) < 0.1 || fabs(d) > 0.45;
             unsure += tie;
             assert_true(tie ? abs(found[i] - (int)floor((double)level[i % 3] + 0.5)) <= 1 : found[i] == (int)floor(v));
@@ -134,7 +136,7 @@ static void both_readers(void **state)
         post(false, film, wide, light, push, storage);
         post(true, film, wide, light, push, texels);
         assert_memory_equal(storage, texels, bytes);
-        for (int c = 0; c < 3; c++) { /* pixel 1001 stands in the middle of its words */
+        for (int c = 0; c < 3; c++) { /* pixel 1001 is in the middle of its words */
             float kept = light[3 * 1001 + c];
             light[3 * 1001 + c] = c ? INFINITY : NAN;
             post(true, film, wide, light, push, mended);
@@ -169,8 +171,8 @@ static void no_number(void **state)
         }
 }
 
-/* White and brighter light stays white: dither does not overflow the last level, nor does it lower the level by more
- * than one of 16 bits. Black stays black. */
+/* White and brighter light stays white: dither neither overflows the last level nor lowers it by more than one of 16
+ * bits. Black stays black. */
 static void ends(void **state)
 {
     (void)state;

@@ -141,8 +141,8 @@ static void wide(void **state)
 }
 
 /* Rays that fly outwards, along the hole's axis more than round it, meet the plane late or never. Their Q is 0 or
- * nearly so, and the polar motion's closed form gave a time for a crossing that does not exist. At these sizes a row of
- * pixels lies there. */
+ * nearly so, and the closed form of the polar motion once gave a time for a crossing that does not exist. At these
+ * sizes a row of pixels shows such rays. */
 static void outwards(void **state)
 {
     (void)state;
@@ -154,13 +154,13 @@ static void outwards(void **state)
         scene.sky.model = KD_SKY_GRID;
         scene.disk.model = KD_DISK_NONE;
         struct kd_frame frame = rendered(&scene);
-        assert_in_range(frame.accuracy.undecided, 0, 3); /* those next to the critical curve */
+        assert_in_range(frame.accuracy.undecided, 0, 3); /* rays next to the critical curve */
         kd_frame_finish(&frame);
     }
 }
 
-/* The same for rays inwards, which fill an ellipse in a picture. None of them may have a crossing that the independent
- * closed form in double does not have. One in this picture did. */
+/* The same for rays that start inwards, which fill an ellipse in a picture. All of their crossings must exist in the
+ * independent closed form in double. One crossing of this picture did not. */
 static void inwards(void **state)
 {
     (void)state;

@@ -72,7 +72,7 @@ static void place(const struct view *v, const struct kd_critical *curve, size_t 
     double x = fraction(k, 0.7548776662466927), y = fraction(k, 0.5698402909980532), half = isinf(v->r) ? 12 : 8;
     out[0] = half * (2 * x - 1);
     out[1] = half * (2 * y - 1);
-    if (v->where == FLAT) { /* aimed at the hole along the disk's plane, where the polar motion is most uneven */
+    if (v->where == FLAT) { /* aimed at the hole along the disk's plane, where the polar motion varies most */
         out[0] = 0.9 * (2 * x - 1);
         out[1] = -pow(10, -4 + 3.5 * y);
     }
@@ -296,7 +296,7 @@ static struct held hold(const struct kd_setting *by, double tolerance, bool agai
     return t;
 }
 
-/* A tolerance is met by each ray at any place of the image, except those marked as beyond it: few, next to the
+/* Each ray at any place of the image meets a tolerance unless it is marked. Only a few rays are marked, next to the
  * critical curve, where even double precision is not enough. */
 static void test_tolerance(void **state)
 {
@@ -313,7 +313,7 @@ static void test_tolerance(void **state)
                       asked_accuracy.tolerance, kd_engine_name(by.engine), kd_precision_name(by.precision), by.steps,
                       once.crossings, once.off, 100.0 * (double)once.off / (double)once.crossings, held.off, held.again,
                       held.rays, held.beyond);
-        assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0); /* otherwise the test proves nothing */
+        assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0); /* the test needs some marked rays */
         assert_true(10000 * held.silent <= held.crossings);
         assert_true(1000 * held.off <= held.crossings || k > 8);
         assert_true(10 * held.beyond <= held.rays ||

@@ -140,7 +140,7 @@ static void test_double(void **state)
     check(KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 1e-9, 2e-9, 1e-9, 1e-6);
 }
 
-/* Median error of the crossings of one order, by an engine in double precision. */
+/* Median error of an order's crossings, by an engine in double precision. */
 static double median_error(enum kd_engine engine, uint32_t steps, int order)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS];
@@ -248,7 +248,7 @@ static void test_orders(void **state)
 }
 
 /* The Kerr-Schild engines at difficult starts, compared with the closed form. The starts are on the axis and next to
- * it, in the plane and an ulp from it. Some rays meet the plane far beyond the start at 1000 M, on the way in or out,
+ * it, in the plane and one ulp from it. Some rays meet the plane far beyond the start at 1000 M, on the way in or out,
  * and some impact parameters are beyond that start. */
 static void test_starts(void **state)
 {
@@ -368,7 +368,7 @@ static bool stop_at_once(void *user, double fraction)
     return false;
 }
 
-/* The costliest rays are submitted in small groups, so that long requests can be cancelled and others can
+/* The costliest rays are submitted in small groups, so that long requests can be cancelled and other requests can
  * interleave. */
 static void test_submissions_are_short(void **state)
 {
@@ -439,8 +439,8 @@ static void test_most_steps(void **state)
 }
 
 /* A ray whose distance from the plane underflows a float, on either side, has the correct crossing for each engine,
- * also on a device that flushes denormal numbers. beta = 1e-6 is close enough to the limit; for two tiny labels
- * their ratio counts. */
+ * also on a device that flushes denormal numbers. beta = 1e-6 is close enough to the limit. If both labels are tiny,
+ * only their ratio matters. */
 static void test_tiny_labels(void **state)
 {
     (void)state;

@@ -153,8 +153,8 @@ static void test_refined(void **state)
     }
 }
 
-/* w' is the rate of w in the recorded time: by the trapezoidal rule, from the step before or, where steps are taken
- * back, from the crossing. */
+/* w' is the rate of w in the recorded time. It is tested by the trapezoidal rule, from the step before or, where steps
+ * are taken back, from the crossing. */
 static void test_time(void **state)
 {
     (void)state;
@@ -194,7 +194,7 @@ static void test_kerr_schild(void **state)
         for (size_t k = 0; k < steps.n; k++) {
             const struct kd_rays_step *s = &steps.steps[k];
             assert_true(isnan(s->res_w) && isfinite(s->x) && s->stage != KD_STAGE_CROSSING);
-            if (s->r > 1.8 * (1 + sqrt(1 - rays[i].spin * rays[i].spin))) { /* further in the steps lose more */
+            if (s->r > 1.8 * (1 + sqrt(1 - rays[i].spin * rays[i].spin))) { /* steps further in have larger errors */
                 assert_true(fabs(s->res_null) < bound && fabs(s->res_l) < 10 * bound);
                 assert_true(fabs(s->u * s->r - s->z) < 1e-9 * s->r);
             }

@@ -64,7 +64,7 @@ static const char *const scenes[] = {
     "{\"disk\": {\"gas\": {\"amplitude\": 0.5}}}",
     "{\"camera\": {\"inclination_deg\": 85}, \"disk\": {\"gas\": {\"amplitude\": 0.8}, \"emission_opacity\": 10}}",
     "{\"sky\": {\"model\": \"grid\"}, \"disk\": {\"model\": \"none\"}}",
-    /* Almost no edges: the remaining differences are curvature, and the map's third differences. */
+    /* Almost no edges: the remaining differences come from curvature and from the map's third differences. */
     "{\"spacetime\": {\"spin\": 0.998}, \"camera\": {\"inclination_deg\": 85}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
@@ -94,9 +94,9 @@ static void residual(const struct kd_frame *adaptive, const struct kd_frame *tru
     assert_true(said < 4 * left && said > left / 4);
 }
 
-/* The requirement: a picture has at most a quarter of the rays of that with 16 rays a pixel, and is within 0.5 dB of
- * it, both compared with that of 64. Its pixels are those of the picture with one ray or with 16, except for few where
- * an interpolated ray falls on the other side of an edge. */
+/* The requirement: an adaptive picture has at most a quarter of the rays of the picture with 16 rays a pixel. Compared
+ * with the picture with 64 rays a pixel, its error is within 0.5 dB of that picture's. Its pixels are those of the
+ * picture with one ray or with 16, except for a few where an interpolated ray falls on the other side of an edge. */
 static void test_as_good(void **state)
 {
     (void)state;
@@ -221,7 +221,7 @@ static struct kd_choice bent(const uint16_t *pixels, uint64_t most)
 
 static struct kd_pixel place(const struct kd_choice *c, size_t i) { return c->list.pixels[i]; }
 
-/* A faint curvature is chosen if nothing stronger is present, until almost no sum of squares is left. It is not chosen
+/* A faint curvature is chosen if there is nothing stronger, until almost no sum of squares is left. It is not chosen
  * beside an edge. */
 static void test_faint(void **state)
 {
@@ -268,7 +268,7 @@ static void test_choice(void **state)
     assert_true(place(&choice, 0).x == 5 && place(&choice, 0).y == 2 && place(&choice, 24).x == 9 &&
                 place(&choice, 24).y == 6);
     kd_choice_finish(&choice);
-    choice = bent(pixels, 9); /* the largest first: the corner and its neighbours */
+    choice = bent(pixels, 9); /* the largest differences are chosen first: the corner and its neighbours */
     assert_true(choice.list.n == 9 && place(&choice, 8).x == 7 && place(&choice, 8).y == 4);
     kd_choice_finish(&choice);
     kinds[2 * W + 5] = kinds[2 * W + 6] = kinds[3 * W + 12] = kinds[6 * W + 9] = 1;
@@ -288,8 +288,8 @@ static void test_choice(void **state)
     kd_choice_finish(&choice);
 }
 
-/* Plans count traced and interpolated rays to a factor of two, whether pixels need them only at the curve or
- * everywhere. With one fraction for all pictures, the count of a smooth disk was four times too high. */
+/* Plans estimate the numbers of traced and interpolated rays to a factor of two, whether pixels need them only at the
+ * curve or everywhere. With one fraction for all pictures, the count of a smooth disk was four times too high. */
 static void test_planned(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of frames on the device: what must not change the picture (bands, slices, the cache), what must change it,
- * limits, and cancelling. */
+/* Tests of frames on the device. Bands, slices and the cache must not change a picture; fields of the scene must. Also
+ * tests limits and cancelling. */
 #include "render/render.h"
 #include "render/view/critical_pixels.h"
 
@@ -57,7 +57,7 @@ static void test_reuse(void **state)
     struct kd_frame first = rendered(&scene), again = rendered(&scene);
     assert_false(first.lens_reused);
     assert_true(again.lens_reused && ran(&first, "trace") && !ran(&again, "trace"));
-    assert_false(ran(&again, "upload")); /* the tables are on the device already */
+    assert_false(ran(&again, "upload")); /* the tables are already on the device */
     assert_same(&first, &again);
 
     scene.disk.peak_temperature_k = 12000;
@@ -65,7 +65,8 @@ static void test_reuse(void **state)
     scene.style.exposure = 1;
     scene.image.bit_depth = 16;
     first = rendered(&scene);
-    assert_true(first.lens_reused && ran(&first, "upload") == ran(&first, "transfer")); /* where there are timestamps */
+    /* only where there are timestamps */
+    assert_true(first.lens_reused && ran(&first, "upload") == ran(&first, "transfer"));
     kd_frame_finish(&first);
 
     double *const geometry[] = { &scene.spacetime.spin, &scene.camera.inclination_deg, &scene.camera.field_m,
@@ -97,8 +98,8 @@ static void test_the_curve_is_followed_once(void **state)
     assert_int_equal(kd_critical_pixels_made() - before, 1);
 }
 
-/* A picture that is rendered in many bands, cached or not, has the same bytes as in one band. Tested with
- * supersampling, 16 bits, a sky and an odd width. */
+/* A picture in many bands, cached or not, has the same bytes as in one band. Tested with supersampling, 16 bits, a sky
+ * and an odd width. */
 static void test_bands(void **state)
 {
     (void)state;
@@ -121,7 +122,7 @@ static void test_bands(void **state)
 
         whole = rendered(&scene);
         c.memory_bytes = plan.cost.device_bytes + (c.host_memory ? 2 * plan.cost.host_bytes : 0) -
-                         1; /* room for one band of the lens map only */
+                         1; /* room for only one band of the lens map */
         banded = render_with(&scene, &c, &plan);
         assert_false(plan.lens.cacheable);
         assert_same(&whole, &banded);
@@ -181,7 +182,7 @@ static void check_lens(const struct kd_scene *scene)
     test_free(planes);
 }
 
-/* Cameras and holes at the ends of their ranges. */
+/* Cameras and holes at the limits of their ranges. */
 static void test_extremes(void **state)
 {
     (void)state;
@@ -230,7 +231,7 @@ static void test_progress(void **state)
     struct kd_frame frame;
     int calls = 0;
     double last = 0;
-    scene.spacetime.spin = 0.123; /* not in the cache of any test */
+    scene.spacetime.spin = 0.123; /* no test has cached this map */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     FAILS(KD_ECANCELLED, "cancelled", kd_render(renderer, &scene, &plan, stop_at_once, &calls, &frame, &error));
     assert_int_equal(calls, 1);
@@ -270,7 +271,7 @@ static void test_glances(void **state)
     for (int k = 0; k < 6; k++) {
         struct kd_scene scene = small_scene();
         struct kd_plan plan;
-        scene.camera.inclination_deg = 60 + k;                              /* a lens map of its own */
+        scene.camera.inclination_deg = 60 + k;                              /* this picture has a lens map of its own */
         scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays traced, and a sampled map */
         scene.image.bit_depth = k % 2 ? 16 : 8;
         scene.style.exposure = k < 3 ? 0 : INFINITY;
@@ -341,12 +342,11 @@ struct others {
     struct kd_scene scenes[2];
     struct kd_plan plans[2];
     struct kd_frame frames[2];
-    int dynamic; /* number of additional kernels requested */
+    int dynamic; /* number of kernels that are requested in addition */
     int calls;
 };
 
-/* In the middle of a picture, renders another long one, a short one, and then more with one kernel each, in
- * succession. */
+/* In the middle of a picture, renders another long picture, then a short one, then several with one kernel each. */
 static bool let_others(void *user, double fraction)
 {
     struct others *o = user;
@@ -370,7 +370,7 @@ static bool let_others(void *user, double fraction)
     return true;
 }
 
-/* Interleaved pictures are the same as alone, and so are the interrupted ones. Each has its own times. */
+/* Interleaved pictures, and those that they interrupt, are the same as when rendered alone. Each has its own times. */
 static void test_asides(void **state)
 {
     (void)state;
@@ -397,10 +397,10 @@ static void test_asides(void **state)
     assert_true(o.calls > 10 && !beside.lens_reused);
     assert_true(timing_of(&beside, "trace") > 0 && timing_of(&beside, "transfer") > 0 &&
                 timing_of(&beside, "total") > 0);
-    assert_true(isnan(timing_of(&beside, "particles"))); /* the particles belonged to the other picture */
+    assert_true(isnan(timing_of(&beside, "particles"))); /* the particles on the device belonged to the other picture */
 
     OK(kd_render(o.r, &scene, &plan, NULL, NULL, &alone, &error));
-    assert_true(alone.lens_reused); /* the lens map is found wherever it was made */
+    assert_true(alone.lens_reused); /* the lens map is found wherever it was traced */
     kd_frame_finish(&alone);
     struct kd_renderer *fresh;
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
@@ -455,8 +455,8 @@ static struct kd_frame rendered_by(struct kd_renderer *r, const struct kd_scene 
     return frame;
 }
 
-/* Idle memory is released. Later pictures are the same, and the latest view finds its lens map. If too much memory that
- * the program cannot account for is left, the device is reopened instead. */
+/* Idle memory is released. Later pictures are the same, and the latest view finds its lens map. If too much memory
+ * remains that the program cannot account for, the device is reopened. */
 static void test_rest(void **state)
 {
     (void)state;
@@ -478,8 +478,8 @@ static void test_rest(void **state)
     scene.camera.inclination_deg = 41;
     for (int often = 0; often < 2; often++) {
         struct kd_frame before = rendered_by(fresh, &scene), after;
-        /* Simulates that no memory has been added since the renderer was opened, or all of this process's and much
-         * more. */
+        /* Simulates that no memory was added since the renderer was opened, or that all memory of this process and much
+         * more was added. */
         fresh->opened_bytes = fresh->started_bytes = often ? 0 : UINT64_MAX / 4;
         OK(kd_renderer_rest(fresh, &error));
         kd_renderer_cached(fresh, kept);
@@ -492,7 +492,7 @@ static void test_rest(void **state)
         if (often) /* other resident memory keeps its category after reopening */
             assert_true(kept[KD_CACHE_OTHER] + kept[KD_CACHE_HEAP] > 1 << 20);
         assert_true(kd_renderer_held(fresh) < held &&
-                    kd_renderer_held(fresh) <= BLOCKS); /* each of the map's buffers may keep one */
+                    kd_renderer_held(fresh) <= BLOCKS); /* each of the map's buffers may keep one page */
         if (!often)
             assert_in_range(kept[KD_CACHE_LENS_MAPS], 1, KD_REST_MAPS_BYTES);
         after = rendered_by(fresh, &scene);
@@ -503,8 +503,8 @@ static void test_rest(void **state)
     kd_renderer_destroy(fresh);
 }
 
-/* A picture rendered in the background leaves resources for the next one, up to a bound. The last one leaves all of its
- * resources. */
+/* A picture rendered in the background leaves resources for the next one, up to a bound. The last picture leaves all of
+ * its resources. */
 static void test_what_idle_asides_keep_is_bounded(void **state)
 {
     (void)state;
@@ -537,7 +537,7 @@ static void test_what_idle_asides_keep_is_bounded(void **state)
     kd_renderer_destroy(fresh);
 }
 
-/* Resident memory is measured on request, and not in each frame. */
+/* Resident memory is measured on request, not in each frame. */
 static void test_what_is_resident_is_counted_when_asked(void **state)
 {
     (void)state;
@@ -552,7 +552,7 @@ static void test_what_is_resident_is_counted_when_asked(void **state)
     renderer->started_bytes = started;
 }
 
-/* A defect of the program, here a buffer that is too small, is reported as one, and the store starts afresh. */
+/* A defect of the program, here a buffer that is too small, is reported as such, and the store starts afresh. */
 static void test_a_defect_does_not_stay(void **state)
 {
     (void)state;
@@ -569,7 +569,7 @@ static void test_a_defect_does_not_stay(void **state)
     assert_same(&before, &after);
 }
 
-/* Particles deposited for another picture between the slices do not affect this one. */
+/* Particles that were deposited for another picture between the slices do not affect this one. */
 static void test_asides_with_particles(void **state)
 {
     (void)state;
@@ -610,8 +610,9 @@ static void test_too_big(void **state)
     FAILS(KD_ETOOBIG, "row", kd_plan_make(&scene, &c, &plan, &error));
 }
 
-/* The reported error of an answer, measured in double precision: small for accurate profiles, larger for a draft;
- * cached with the lens map; the same for a camera at a finite radius; absent where it cannot be measured. */
+/* The error that an answer reports is measured in double precision. It is small for accurate profiles and larger for a
+ * draft. It is cached with the lens map, is the same for a camera at a finite radius, and is absent where it cannot be
+ * measured. */
 static void test_audit(void **state)
 {
     (void)state;
@@ -649,7 +650,8 @@ static void test_audit(void **state)
     kd_frame_finish(&first);
 }
 
-/* Rays that start sideways: single-precision constants would start them elsewhere, so the audit uses double. */
+/* Rays that start sideways. Constants in single precision would start them elsewhere, so that the audit uses double
+ * precision. */
 static void test_audit_of_rays_that_start_sideways(void **state)
 {
     (void)state;
@@ -668,7 +670,7 @@ static void test_audit_of_rays_that_start_sideways(void **state)
     kd_frame_finish(&frame);
 }
 
-/* A plan has nothing that its scene does not use. */
+/* A plan contains only what its scene uses. */
 static void test_plan(void **state)
 {
     (void)state;

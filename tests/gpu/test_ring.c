@@ -59,8 +59,8 @@ static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 
 static const struct { double spin, inclination_deg; } views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
 
-/* Returns 1 if a pixel sees the plane nearer than `source` exactly when the edge says so. Pixels too close to the edge
- * for alpha and beta to decide do not count. */
+/* Returns 1 if a pixel shows the plane nearer than `source` exactly when the edge predicts it. Pixels too close to the
+ * edge for alpha and beta to decide do not count. */
 static int check_column(const struct kd_ring *ring, const struct kd_critical_point *column, int n, double source,
                         const float *w, int *skipped)
 {
@@ -130,7 +130,7 @@ static void each_order_is_a_gamma_further_in(void **state)
                                       row_of(w + n * plan.lens.rays + x, HEIGHT));
                 if (!(fabs(apart - gamma) <
                       1.05 * row +
-                          0.02)) /* rounding to rows is two half rows at most; order 3 is not at the limit yet */
+                          0.02)) /* rounding to rows is at most two half rows, and order 3 is not yet at the limit */
                     fail_msg("a = %g, column %u: orders %d and %d are e^-%.4f apart, not e^-%.4f", views[k].spin, x, n,
                              n + 1, apart, gamma);
                 sum += apart / gamma;
@@ -181,7 +181,7 @@ static void shoot(const struct kd_scene *scene, struct kd_frame *frame)
     OK(kd_render(renderer, scene, &plan, NULL, NULL, frame, &error));
 }
 
-/* Parameters of a case, and the spacing of the pixels compared. */
+/* Parameters of a case, and the spacing of the compared pixels. */
 struct shown {
     const char *what;
     uint32_t width, height, every;
@@ -217,7 +217,7 @@ static void same_light(const struct shown *shown)
         const struct kd_camera_label label = kd_ring_label(&ring, &column, i / shown->width);
         struct kd_frame one;
         plane = ring_scene;
-        plane.image.width = plane.image.height = 3; /* a single ray has no footprint */
+        plane.image.width = plane.image.height = 3; /* the ray is alone and has no footprint */
         plane.camera.projection = KD_PROJECTION_PLANE;
         plane.camera.field_m = 1e-5;
         plane.camera.centre_alpha = label.alpha;
@@ -261,7 +261,7 @@ static void needs_double_precision(void **state)
     struct kd_plan plan;
     struct kd_error refused = { 0 };
     kd_renderer_capacity(renderer, &capacity);
-    scene.accuracy.tolerance = 1e-4; /* the table's rays are not those of a ring, so its rows do not apply */
+    scene.accuracy.tolerance = 1e-4; /* the table's rows are not for rays of a ring, and do not apply */
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     assert_true(plan.lens.setting.engine == KD_ENGINE_CLOSED && plan.lens.setting.holds < 1e-7);
     scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;

@@ -80,7 +80,7 @@ static void follow(const char *name, struct kd_scene scene)
             sum += got * rest;
             squares += rest * rest;
         }
-        assert_true(squares > 1e-2); /* otherwise nothing would ring */
+        assert_true(squares > 1e-2); /* there must be light that rings */
         worst = fmax(worst, fabs(sum / squares - gain));
         if (t < 0)
             assert_memory_equal(kd_frame_pixels(&rung), kd_frame_pixels(&still), 2 * samples(&still));
@@ -125,7 +125,8 @@ static void test_paths(void **state)
     follow("the ring projection", scene);
 }
 
-/* Particles and spots, whose brightness changes by itself: the reference is at the same time without ringdown. */
+/* Particles and spots change their brightness by themselves, so that the reference is the same time without ringdown.
+ */
 static void test_lumps(void **state)
 {
     (void)state;
@@ -161,7 +162,7 @@ static void test_lumps(void **state)
     }
 }
 
-/* sum: the light that a ringing hole adds to a disk's, over all samples; off: the difference of this light from that of
+/* sum: the light that ringing adds to a disk's, over all samples. off: the difference of this light from that of
  * another disk. */
 struct change { double sum, off; };
 
@@ -198,7 +199,7 @@ static void test_thick(void **state)
     scene.image.height = 32;
     double *last = calloc((size_t)scene.image.width * (size_t)scene.image.height * 3, sizeof *last);
     assert_non_null(last);
-    scene.accuracy.orders = 8; /* the march includes all of them */
+    scene.accuracy.orders = 8; /* the march contains all orders */
     const struct change flat = changed(&scene, 0, last, false);
     for (int high = 0; high < 2; high++) {
         scene.disk.height = high ? 0.1 : 5e-5;

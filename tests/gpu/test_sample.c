@@ -63,14 +63,14 @@ static uint32_t crossings(const struct map *m, size_t i)
 
 struct tally {
     uint64_t rays, other_fate, other_order, other_side, same;
-    /* errors of w over the condition: `between` in the interpolated map, `followed` in the traced one; `sky`: the
-     * angles between the directions of both */
+    /* `between`, `followed`: errors of w over the condition, in the interpolated and in the traced map; `sky`: angles
+     * between the directions of both */
     double *between, *followed, *sky;
     size_t n, n_sky;
 };
 
-/* How much w changes when all directions change by a fraction CONDITION of themselves, from the differences of
- * neighbours. The tolerance is relative to it (comp/lens_cells.comp). */
+/* The change of w when all directions change by the fraction CONDITION, from the differences of neighbours. The
+ * tolerance is relative to it (comp/lens_cells.comp). */
 static double condition(const struct map *m, uint32_t n, uint32_t x, uint32_t y)
 {
     const float *w = plane(m, KD_LENS_W, n);
@@ -266,7 +266,7 @@ static void footprints_are_derivatives(void **state)
     test_free(b.planes);
 }
 
-/* Profiles that promise more trace every ray, and so does a scene that names an engine. */
+/* Profiles that promise more accuracy trace every ray, and so does a scene that names an engine. */
 static void some_scenes_follow_every_ray(void **state)
 {
     (void)state;
@@ -298,8 +298,8 @@ static void some_scenes_follow_every_ray(void **state)
     assert_true(plan.lens.interpolates == 0);
 }
 
-/* The statement of docs/accuracy.md about a picture's tolerance: 99 of 100 crossings of the bulk are within it, all
- * orders together, and nearly all of order 0; of order 1 most are, and the others are within four times. */
+/* Tests the statement of docs/accuracy.md about a picture's tolerance. Of all crossings of the bulk 99 in 100 are
+ * within it. Of order 0 nearly all are, and of order 1 most are; the others are within four times the tolerance. */
 static void a_tolerance_of_a_picture(void **state)
 {
     (void)state;

@@ -44,7 +44,7 @@ static void test_passes(void **state)
     assert_true(table.n > 60);
 }
 
-/* If every number is off by more than single precision allows, every line that uses the table fails. */
+/* If every number is off by more than single precision allows, every line that uses the table must fail. */
 static void test_everything_wrong(void **state)
 {
     (void)state;
@@ -68,7 +68,7 @@ static void test_everything_wrong(void **state)
     }
     for (size_t i = 0; i < wrong.n_deflections; i++)
         wrong.deflections[i].phi += 1e-3;
-    for (size_t i = 0; i < wrong.n_criticals; i++) /* two of the rays beside it change sides */
+    for (size_t i = 0; i < wrong.n_criticals; i++) /* two of the rays next to the edge change sides */
         wrong.criticals[i].alpha *= 1 + 2e-5, wrong.criticals[i].beta *= 1 + 2e-5;
     for (size_t i = 0; i < wrong.n_bounds; i++)
         for (double *x = &wrong.bounds[i].energy; x <= &wrong.bounds[i].mino_proper; x++)
@@ -82,14 +82,14 @@ static void test_everything_wrong(void **state)
     run(&wrong, &table);
     for (int i = 0; i < table.n; i++) {
         bool itself = table.rows[i].bound == 0 ||
-                      strstr(table.rows[i].what, "Mercury"); /* the numbers of this line are not from the table */
+                      strstr(table.rows[i].what, "Mercury"); /* this line's numbers are not from the table */
         if (table.rows[i].ok != itself)
             fail_msg("%s by %s: %g, bound %g", table.rows[i].what, table.rows[i].by, table.rows[i].error,
                      table.rows[i].bound);
     }
 }
 
-/* If one radius is wrong in its tenth digit, double precision detects it, in the lines of that set alone. */
+/* If one radius is wrong in its tenth digit, double precision detects it, and only lines of that set fail. */
 static void test_one_wrong(void **state)
 {
     (void)state;
@@ -135,7 +135,7 @@ static void test_compare(void **state)
     kd_selftest_begin(&row, "source", "by", "what %d", 1);
     kd_selftest_compare(&row, -1e-3, 1e-3);
     assert_true(row.ok && row.error == 1e-3 && row.compared == 1);
-    kd_selftest_compare(&row, 1e-2, 1e-1); /* larger, but farther from its bound */
+    kd_selftest_compare(&row, 1e-2, 1e-1); /* larger than the other error, but farther from its bound */
     assert_true(row.ok && row.error == 1e-3);
     kd_selftest_compare(&row, nextafter(1e-3, 1), 1e-3);
     assert_true(!row.ok && row.bound == 1e-3);

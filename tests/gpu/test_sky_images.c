@@ -1,5 +1,5 @@
-/* Tests of sky.image: places of a panorama in the picture, their brightness, what covers what, and missing panoramas.
- * The panorama is synthetic, with a mark at each of some bright stars. */
+/* Tests of sky.image: places of a panorama in the picture, their brightness, the order of covering, and missing
+ * panoramas. The panorama is synthetic, with a mark at each of some bright stars. */
 #include "image/png.h"
 #include "render/output/png.h"
 #include "render/render.h"
@@ -13,7 +13,7 @@
 #define DEGREE (M_PI / 180)
 enum { WIDTH = 960, HEIGHT = 480, COLUMNS = 2048, ROWS = 1024, MARKS = 12 };
 
-/* Pictures provided by this test under made-up hashes, which nobody recomputes. */
+/* Pictures that this test provides under invented hashes, which no code recomputes. */
 static struct keeper {
     struct {
         char hash[KD_ASSET_NAME];
@@ -192,8 +192,8 @@ static void marks_and_stars(void **state)
     kd_frame_finish(&points);
 }
 
-/* A white sky has the requested brightness, with and without lensing. Near the hole it has g = 1/sqrt(1 - 2/r):
- * bolometric light of a black body times g^4, and bluer. */
+/* A white sky has the requested brightness, with and without lensing. Near the hole g = 1/sqrt(1 - 2/r): the bolometric
+ * light of a black body is multiplied by g^4, and is bluer. */
 static void white(void **state)
 {
     (void)state;
@@ -288,7 +288,7 @@ static double largest(const struct kd_frame *a, const struct kd_frame *b, const 
     return worst;
 }
 
-/* Stars over a panorama add up, as over the Milky Way that is used where there is none. */
+/* Stars are added to a panorama, as they are to the Milky Way where there is no panorama. */
 static void stars_over_pictures(void **state)
 {
     for (int model = KD_SKY_STARS; model <= KD_SKY_CATALOGUE; model++)
@@ -310,7 +310,7 @@ static void stars_over_pictures(void **state)
         }
 }
 
-/* A missing panorama, or one that is no picture, is an error at the field, without further effect. A missing one is
+/* A missing panorama, or a file that is no picture, is an error at the field, without further effect. A missing file is
  * read once it is there. More panoramas than the cache holds give the same pictures again. */
 static void here_and_gone(void **state)
 {
@@ -350,7 +350,7 @@ static void here_and_gone(void **state)
         assert_non_null(strstr(why.message, "damaged PNG file"));
         assert_int_equal(keeper.taken, taken);
     }
-    for (int k = 0; k < 3; k++) { /* others between */
+    for (int k = 0; k < 3; k++) { /* with others read between the two */
         pixels[3 * 40 + k] = 255;
         struct kd_scene other = scene_of(KD_SKY_IMAGE, k < 2 ? keep(32, 16, pixels, "") : "");
         struct kd_frame between = shot(&other);
@@ -384,7 +384,7 @@ static void memory(void **state)
     assert_true(plan.cost.making_bytes == 12ull * 4096 * 2048 + 6ull * 8192 * 4096);
 }
 
-/* A picture's file credits those whose work it contains, and no other file does. */
+/* A picture's file credits the authors whose work it contains, and no others. */
 static void credit_in_files(void **state)
 {
     for (int with = 0; with < 2; with++) {

@@ -68,9 +68,9 @@ static void same_light(const struct kd_light *a, const struct kd_light *b, doubl
     off(a->y, b->y, 1 + hypot(b->x, b->y), bound, what);
 }
 
-/* The circular orbit and g from the metric in the plane, g_tt = -(1 - f), g_tphi = -a f, g_phiphi = r^2 + a^2 + a^2 f,
- * f = (2r - q^2)/r^2, with Omega where the radial force vanishes: g_tt' + 2 Omega g_tphi' + Omega^2 g_phiphi' = 0, by
- * differences. */
+/* The circular orbit and g in the plane, from the metric g_tt = -(1 - f), g_tphi = -a f, g_phiphi = r^2 + a^2 + a^2 f
+ * with f = (2r - q^2)/r^2. Omega is where the radial force vanishes, g_tt' + 2 Omega g_tphi' + Omega^2 g_phiphi' = 0,
+ * by differences. */
 static double line(const struct kd_spacetime *hole, double r, double omega)
 {
     const double a = hole->spin, f = (2 * r - hole->charge * hole->charge) / (r * r);
@@ -291,8 +291,8 @@ static void test_period(void **state)
     }
 }
 
-/* With slow light the centroid of a small spot is at t + D where with fast light it is at t, D being the delay of
- * the ray from there, by the oracle. */
+/* With slow light the centroid of a small spot at t + D is that with fast light at t, where D is the delay of the ray
+ * from there, by the oracle. */
 static void test_slow_light(void **state)
 {
     (void)state;
@@ -481,7 +481,7 @@ static void test_plans(void **state)
     plan = plan_of(&scene, 0);
     assert_true(!kd_plan_holds(&plan.lens, KD_LENS_PHI) && !plan.light.photometry && !plan.light.apart &&
                 !kd_plan_holds(&plan.lens, KD_LENS_DELAY) && plan.lens.planes == plan.lens.orders);
-    scene.disk.slow_light = true; /* slow light has nothing to act on */
+    scene.disk.slow_light = true; /* without moving matter, slow light has no effect */
     plan = plan_of(&scene, 0);
     assert_false(kd_plan_holds(&plan.lens, KD_LENS_DELAY));
     scene.spots.at[0].brightness = 1;
@@ -489,7 +489,7 @@ static void test_plans(void **state)
     assert_true(kd_plan_holds(&plan.lens, KD_LENS_DELAY));
 }
 
-/* Light measured without a picture is the same bit for bit, in one band and in many, and needs none of the picture's
+/* Light measured without a picture is the same bit for bit, in one band and in many. It needs none of the picture's
  * passes. */
 static void test_unseen(void **state)
 {
@@ -504,7 +504,7 @@ static void test_unseen(void **state)
         kd_renderer_capacity(renderer, &c);
         c.max_binding_bytes = bands ? 1 << 16 : c.max_binding_bytes;
         OK(kd_scene_set(&scene, "image.layers", bands ? "rgb" : "rgb,r,intensity_1",
-                        &error)); /* without a picture too */
+                        &error)); /* the light is the same without a picture */
         for (int unseen = 0; unseen < 2; unseen++) {
             struct kd_plan plan;
             struct kd_needs needs = kd_needs_of(&scene);

@@ -153,8 +153,8 @@ static void compare(struct kd_scene *scene, double x, double y, double *worst_li
     kd_frame_finish(&frame);
 }
 
-/* Compares images at several places of the picture. The last ones are next to the critical curve of the primary image,
- * where light diverges. */
+/* Compares images at several places of the picture. The last places are next to the critical curve of the primary
+ * image, where light diverges. */
 static void by_rays(double spin, double inclination, double *worst_light, double *worst_place)
 {
     struct kd_scene scene = scene_of(spin, inclination);
@@ -217,7 +217,7 @@ static double swept(double b)
     return sum;
 }
 
-/* The angle from the hole of a ray that sweeps this azimuth. */
+/* The angle from the hole of the ray that sweeps this azimuth. */
 static double looking(double azimuth)
 {
     double low = asin(sqrt(27) * (1 + 1e-7) * sqrt(1 - 2 / RADIUS) / RADIUS), high = 1.2;
@@ -241,8 +241,8 @@ static bool in_the_picture(const struct blob *b, int margin)
     return b->x > margin && b->y > margin && b->x < WIDTH - 1 - margin && b->y < HEIGHT - 1 - margin;
 }
 
-/* From the lens equation: place and light of the image on the star's side or the opposite one, that has gone round
- * the hole `rounds` more times. */
+/* From the lens equation: place and light of the image on the star's side or on the opposite one, whose light goes
+ * round the hole `rounds` more times. */
 static struct blob by_the_lens_equation(double beta, double turned, int side, int rounds)
 {
     const double flux = kd_star_flux(kd_catalogue_star(0).magnitude), g = 1 / sqrt(1 - 2 / RADIUS),
@@ -254,8 +254,8 @@ static struct blob by_the_lens_equation(double beta, double turned, int side, in
                            0.5 * (WIDTH - 1) + off * cos(turned), 0.5 * (HEIGHT - 1) - off * sin(turned) };
 }
 
-/* Each image of a star behind the hole, and both together, however close to the caustic. The star goes all round the
- * hole, so that no position relative to the grid of rays is left out. */
+/* Tests each image of a star behind the hole, and the sum of both, however close to the caustic. The star goes all
+ * round the hole, so that it has every position relative to the grid of rays. */
 static void behind(const double *betas, size_t n, int rounds)
 {
     static const double turns[] = { 0, 0.3, 0.9, 2.1, 3.7, 5 };
@@ -343,8 +343,8 @@ static double edge(const struct kd_scene *scene, double angle)
 }
 
 /* The solid angle of the sky that a pixel at the small picture's middle maps to, to fourth order, by steps outwards and
- * along the curve. The steps along the curve are longer, because the oracle's rays this close are not accurate enough
- * for short ones, and the curve bends by the step's square. */
+ * along the curve. This close the oracle's rays are not accurate enough for short steps along the curve. Longer ones
+ * have an error, since the curve bends by the square of the step. */
 static double patch_close(const struct kd_scene *scene, const struct close *c, double off, double curve)
 {
     const double ahead = c->angle + 1e-3, behind = c->angle - 1e-3, far = edge(scene, ahead),
@@ -373,7 +373,8 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
     const struct vec3 n = seen_by(scene, middle, &g);
     /* The factor cos^3 converts areas of the plane to solid angles of view; the pixel is in the middle of its own
      * picture. */
-    const double square = fabs(cos(c->angle) * ty - sin(c->angle) * tx) / length; /* of outwards and along */
+    /* components outwards and along the curve */
+    const double square = fabs(cos(c->angle) * ty - sin(c->angle) * tx) / length;
     return fabs(dot(n, cross(i, j))) / square * pow(dot(middle, middle), 1.5) * pixel * pixel;
 }
 
@@ -412,8 +413,8 @@ static void next_to_the_curve(void **state)
             continue;
         struct kd_frame frame = seen(&scene);
         const double x = 0.5 * (CLOSE_WIDTH - 1), y = 0.5 * (CLOSE_HEIGHT - 1);
-        const struct blob b = blob_at(&frame, x, y, 1); /* all of this image, and almost nothing of the star's other
-                                                         * images */
+        /* contains all of this image, and almost nothing of the star's other images */
+        const struct blob b = blob_at(&frame, x, y, 1);
         if (fabs(b.light / want - 1) > 0.003 || hypot(b.x - x, b.y - y) > 0.003)
             printf("spin 0.9, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", off, angle,
                    want, b.light / want - 1, hypot(b.x - x, b.y - y));
@@ -428,8 +429,8 @@ static void next_to_the_curve(void **state)
     assert_true(n == 39 && tried == 41 && worst < 0.005 && off_most < 0.02);
 }
 
-/* Fast holes, seen edge-on or not, on the approaching side. Each image is only some hundredths nearer to the curve than
- * the last. The picture is so small that the middle one is `AWAY` pixels from the curve. */
+/* Fast holes, seen edge-on or not, on the approaching side. Each image is only some hundredths closer to the curve than
+ * the one before. The picture is so small that the middle one is `AWAY` pixels from the curve. */
 #define AWAY 100
 static void next_to_the_curve_of_fast_holes(void **state)
 {
@@ -469,7 +470,8 @@ static void next_to_the_curve_of_fast_holes(void **state)
         }
         printf("spin %g, inclination %g: %d images, light within %.5f, places within %.4f pixels\n", holes[h].spin,
                holes[h].inclination, n, worst, off_most);
-        /* Most are within 0.002 pixels; one next to a caustic at spin 0.9999, in pixels of 1e-5 rad, is 0.02 off. */
+        /* Most are within 0.002 pixels. An image next to a caustic at spin 0.9999, in pixels of 1e-5 rad, is off by
+         * 0.02. */
         assert_true(n >= 4 && worst < 0.005 && off_most < 0.03);
     }
 }
@@ -546,7 +548,7 @@ static void another_sky_meanwhile(void **state)
     turned = scene;
     turned.camera.azimuth_deg = 40;
     o.scene = turned;
-    o.scene.image.critical_factor = 2; /* has its own map */
+    o.scene.image.critical_factor = 2; /* this picture has its own map */
     o.plan = plan_of(&o.scene, &c);
     const struct kd_plan plan = plan_of(&scene, &c), plan_turned = plan_of(&turned, &c);
     assert_true(plan.picture.bands > 1 && plan.lens.cacheable);
@@ -570,8 +572,8 @@ static bool was_run(const struct kd_frame *frame, const char *pass)
 }
 
 /* The light of stars is cached with the lens map. A frame that reuses the map after one change equals a frame with a
- * map of its own. The second frame has another number of rays at the curve, which forces a new map; this changes no
- * pixel, because the curve is out of view. */
+ * map of its own. To force a new map, the second frame has another number of rays at the curve. This changes no pixel,
+ * because the curve is out of view. */
 static void kept_and_made_anew(void **state)
 {
     (void)state;
@@ -602,7 +604,7 @@ static void kept_and_made_anew(void **state)
 }
 
 /* With bright images only, those above half the threshold are present, with their light, at their places to a fifth of
- * a ray. Many others are absent. The plan says so, and the map has no footprints. */
+ * a ray. Many others are absent, which the plan reports. The map has no footprints. */
 static void bright_images(void **state)
 {
     (void)state;
@@ -680,8 +682,8 @@ static void bright_images_before_spread_light(void **state)
     kd_frame_finish(&again);
 }
 
-/* With diffuse light on the sky, however faint, each pixel is lit by itself. If there are only stars, columns of pixels
- * go from crossing to crossing. */
+/* With diffuse light on the sky, however faint, each pixel is lit by itself. With stars only, columns of pixels go from
+ * crossing to crossing. */
 static void points_behind_a_disk(void **state)
 {
     (void)state;

@@ -24,7 +24,7 @@ static void each_half_is_an_eyes(const struct kd_scene *scene)
     for (int side = 0; side < 2; side++) {
         struct kd_scene one = kd_scene_eye(scene, 2 * side - 1);
         if (side)
-            one.style.exposure = pair.exposure; /* the left eye's, which is "auto" */
+            one.style.exposure = pair.exposure; /* the left eye's exposure, which is "auto" */
         struct kd_frame eye = rendered(&one);
         assert_true(eye.exposure == pair.exposure);
         const uint8_t *whole = kd_frame_pixels(&pair), *half = kd_frame_pixels(&eye);

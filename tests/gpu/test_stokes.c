@@ -110,8 +110,8 @@ static void take(void *user, const struct ks_carried *at)
         field[i] += along * flow[i];
     const double size = sqrt(ks_carried_product(at, field, field)), seen = -ks_carried_product(at, at->k, flow),
                  c = ks_carried_product(at, at->k, field) / (size * seen), s = sqrt(1 - c * c);
-    /* The component of the field perpendicular to the ray: its component along the light's direction in the matter's
-     * frame is subtracted. */
+    /* The component of the field perpendicular to the ray, in the matter's frame: its component along the light's
+     * direction is subtracted. */
     double across[4];
     for (int i = 0; i < 4; i++)
         across[i] = field[i] / size - c * (at->k[i] / seen - flow[i]);
@@ -179,7 +179,7 @@ static void integrate(double s[4])
     }
 }
 
-#define INSIDE 2.5 /* a ray this close does not return; rays that return also see what is behind the hole */
+#define INSIDE 2.5 /* a ray this close does not return, while rays that return also see matter behind the hole */
 
 /* In the picture's unit of brightness, 1e10 K. */
 static void wanted(const struct kd_scene *scene, int i, double s[4])
@@ -207,7 +207,7 @@ static const struct view {
       1e-3 },
     { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"inclination_deg\":40,\"field_m\":20},\"polarization\":{\"rotation\":"
       "\"dexter\"},\"volume\":{\"inner\":2.5,\"outer\":15,\"field\":\"vertical\",\"frequency_ghz\":100}}",
-      /* strong Faraday rotation: the march has an error of 1.4e-3, and 1.3e-3 by the other fit, which differs by
+      /* Faraday rotation is strong: the march has an error of 1.4e-3, or 1.3e-3 with the other fit, which differs by
        * 5e-3 */
       2e-3 },
     { "{\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":35,\"field_m\":22},\"volume\":{\"inner\":2.5,"
@@ -256,7 +256,7 @@ static void test_rays(void **state)
         if (!(turned * 180 / M_PI <= 0.5))
             fail_msg("view %zu: EVPA is off by %g degrees", v, turned * 180 / M_PI);
         assert_true(hypot(sums[1], sums[2]) > 0.01 * sums[0] &&
-                    fabs(sums[3]) > 1e-4 * sums[0]); /* otherwise nothing would be tested */
+                    fabs(sums[3]) > 1e-4 * sums[0]); /* at least one value must have been tested */
         kd_frame_finish(&frame);
     }
 }
@@ -303,9 +303,9 @@ static void test_adversarial(void **state)
                                   layer_of(&frame, "stokes_u")[p], layer_of(&frame, "stokes_v")[p] };
             if (!(isfinite(s[0]) && s[0] >= 0 && hypot(hypot(s[1], s[2]), s[3]) <= s[0] * (1 + 1e-5)))
                 fail_msg("%s, pixel %d: %g %g %g %g", extremes[i], p, s[0], s[1], s[2], s[3]);
-            /* Degree and angle agree with the numbers of the other layers, however dim or bright. They come from
-             * another kernel, whose rounding Faraday rotation amplifies. Below 1e-30 light has fewer than 24 bits on
-             * its way. */
+            /* Degree and angle agree with the numbers of the other layers, however dim or bright the light is. The
+             * layers come from another kernel, whose rounding Faraday rotation amplifies. Below 1e-30 light has fewer
+             * than 24 bits on its way. */
             const double part = hypot(s[1], s[2]) / s[0], told = layer_of(&frame, "polarization_fraction")[p],
                          angle = layer_of(&frame, "evpa")[p];
             if (s[0] > 1e-30 && !(fabs(told - part) <= 1e-3))
@@ -400,9 +400,9 @@ static void one_electron(double x, double out[3])
     }
 }
 
-/* Integrals of these over all energies, and of absorption, which goes as -d(n/gamma^2)/dgamma. A kappa distribution is
- * the Laplace transform of lambda^kappa exp(-lambda). So its rotativities are those of a mixture of thermal electrons
- * with 1/Theta = lambda/(kappa w) and these weights. */
+/* Integrals of these over all energies; those of absorption contain -d(n/gamma^2)/dgamma. A kappa distribution is the
+ * Laplace transform of lambda^kappa exp(-lambda). So its rotativities are those of a mixture of thermal electrons with
+ * 1/Theta = lambda/(kappa w) and these weights. */
 static struct coefficients kappa_integrals(double kappa, double w, double turn, double s, double c, double nu)
 {
     struct coefficients o = { 0 };

@@ -1,6 +1,6 @@
 /* Tests of a length of matter that emits, absorbs and rotates polarised light. It is compared with matrix exponentials
- * in 40 digits (tests/oracle/stokes_reference.py): from nothing to depths of 1e6 and Faraday depths of 1e6, and where
- * both characteristic lengths vanish. */
+ * in 40 digits (tests/oracle/stokes_reference.py). Depths and Faraday depths go from 0 to 1e6; in one case both
+ * characteristic lengths vanish. */
 #include "support.h"
 
 #include "stokes_reference.h"
@@ -68,7 +68,7 @@ static void test_cases(void **state)
     for (size_t i = 0; i < CASES; i++) {
         const struct stokes_reference *r = &stokes_references[i];
         const float *passes = out + OUT * i, *gives = passes + 4;
-        /* An angle of m radians has an error of the last digit of m, however it is reduced. */
+        /* An angle of m radians has the absolute error of the last digit of m, however it is reduced. */
         const double turn = hypot(hypot(r->turns[0], r->turns[1]), r->turns[2]), allowed = 4e-6 + 1.2e-7 * turn;
         sound(passes, "light from behind", i);
         sound(gives, "its own light", i);
@@ -86,7 +86,7 @@ static void test_cases(void **state)
     printf("%d lengths, off by at most %.2g\n", CASES, worst);
 }
 
-/* For any size that a float can have, light is a number, and polarised by at most 100 %. */
+/* For numbers of any size that a float can have, light is a number, and is polarised by at most 100 %. */
 static void test_extremes(void **state)
 {
     enum { N = 4096 };

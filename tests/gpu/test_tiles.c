@@ -50,8 +50,8 @@ static struct kd_frame by_format(struct kd_scene scene, const struct kd_format *
     return frame;
 }
 
-/* Counts the bytes of a tile that differ from the whole picture's; for numbers, the displayed picture is not in the
- * file. */
+/* Counts the bytes of a tile that differ from the whole picture's. The displayed picture of layers is not in the file.
+ */
 static size_t off(const struct kd_frame *whole, const struct kd_frame *tile, uint32_t left, uint32_t top)
 {
     size_t n = 0;
@@ -95,8 +95,8 @@ static void test_tiles_of_pictures(void **state)
     }
 }
 
-/* A small tile searches only part of the rim of the shadow for stars. Its light stays that of the whole picture where
- * the critical curve passes it, beside the curve, and where the rays of the rim begin and end. */
+/* A small tile searches only part of the rim of the shadow for stars. Its light equals that of the whole picture: where
+ * the critical curve crosses the tile, beside the curve, and where the rays of the rim begin and end. */
 static void test_small_tiles_of_stars(void **state)
 {
     (void)state;
@@ -136,7 +136,7 @@ static void test_small_tiles_of_stars(void **state)
     }
 }
 
-/* Exposure "auto" and a lens's glare apply to the picture only. */
+/* Exposure "auto" and the glare of a lens need the whole picture. */
 static void test_tiles_of_numbers(void **state)
 {
     (void)state;

@@ -94,7 +94,7 @@ static void for_pipelines_alone(void **state)
     assert_non_null(pipeline);
     FAILS(KD_EINTERNAL, "only for pipelines", kd_vk_buffer_create(vk, 64, KD_VK_UPLOAD, "x", &buffer, &error));
     assert_null(buffer);
-    OK(kd_vk_submit(vk, NULL, &error)); /* nothing recorded */
+    OK(kd_vk_submit(vk, NULL, &error)); /* no command is recorded */
     OK(kd_vk_wait(vk, 0, &error));
     kd_vk_pipeline_destroy(vk, pipeline);
     assert_int_equal(kd_vk_validation_messages(vk), 0);
@@ -192,7 +192,7 @@ static void one_at_a_time(void **state)
     kd_vk_destroy(vk);
 }
 
-/* Without validation nothing is named: the loader would walk its list of devices for each name. */
+/* Without validation no object gets a name, because the loader would walk its list of devices for each one. */
 static void names_only_for_validation(void **state)
 {
     struct kd_vk *vk;

@@ -1,4 +1,4 @@
-/* A failing driver: every call that can fail does so once, and a device hangs. */
+/* A driver that fails: every call that can fail does so once, and one device hangs. */
 #include "support.h"
 
 #include "base/log.h"
@@ -6,8 +6,8 @@
 #include <time.h>
 
 static struct kd_vk_functions real;
-static int countdown;     /* calls until one fails */
-static VkResult injected; /* the result it returns then */
+static int countdown;     /* number of calls until one fails */
+static VkResult injected; /* the result of the failing call */
 static const char *tripped;
 static int teardown_calls, layer_messages;
 
@@ -70,8 +70,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityF
     return VK_FALSE;
 }
 
-/* Replaces the device's own messenger, to keep counting while the device is destroyed, when leaked objects are
- * reported. */
+/* Replaces the device's own messenger, which counts on while the device is destroyed and leaked objects are reported.
+ */
 static VKAPI_ATTR VkResult VKAPI_CALL listen(VkInstance instance, const VkDebugUtilsMessengerCreateInfoEXT *info,
                                              const VkAllocationCallbacks *allocator,
                                              VkDebugUtilsMessengerEXT *messenger)
@@ -218,7 +218,7 @@ static void device_lost(void **state)
         __lsan_enable();
 }
 
-static int waits;     /* calls of hang */
+static int waits;     /* calls of `hang` */
 static bool busy;     /* uses processor time meanwhile */
 static bool finishes; /* its third call succeeds */
 static VKAPI_ATTR VkResult VKAPI_CALL hang(VkDevice device, const VkSemaphoreWaitInfo *info, uint64_t timeout)
@@ -257,7 +257,7 @@ static void deadline(void **state)
     buffer = make_buffer(vk, 64, KD_VK_READBACK, "b");
     OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 1, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
-    OK(kd_vk_wait(vk, ticket, &error)); /* actually idle, so that nothing runs after the test */
+    OK(kd_vk_wait(vk, ticket, &error)); /* really idle, so that no thread of it runs after the test */
     vk->core.fn.WaitSemaphores = hang;
     vk->core.fn.GetSemaphoreCounterValue = unfinished;
     vk->core.fn.DeviceWaitIdle = idle_called;

@@ -37,7 +37,7 @@ static void pairs(void **state)
                 if (!first && !second)
                     continue;
                 assert_int_equal(barrier.src_stages, stages[a]);
-                /* Only writes are flushed; write-after-read needs an execution dependency only. */
+                /* Only writes are flushed. A write after a read needs an execution dependency only. */
                 assert_int_equal(barrier.src_access, !first                 ? 0
                                                      : stages[a] == COMPUTE ? VK_ACCESS_SHADER_WRITE_BIT
                                                                             : VK_ACCESS_TRANSFER_WRITE_BIT);
@@ -70,9 +70,9 @@ static void emptied_by_a_barrier(void **state)
     assert_true(add(1, 0, 100, COMPUTE, false));
     assert_int_equal(barrier.src_stages, COMPUTE | TRANSFER);
     assert_int_equal(barrier.src_access, VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    assert_false(add(2, 0, 100, COMPUTE, false)); /* the same barrier served buffer 2 */
+    assert_false(add(2, 0, 100, COMPUTE, false)); /* the barrier before served buffer 2 as well */
     assert_false(add(1, 0, 100, TRANSFER, false));
-    assert_true(add(1, 0, 4, TRANSFER, true)); /* after two readers */
+    assert_true(add(1, 0, 4, TRANSFER, true)); /* a write after two readers */
     assert_int_equal(barrier.src_stages, COMPUTE | TRANSFER);
     assert_int_equal(barrier.src_access, 0);
 }
@@ -106,7 +106,7 @@ static void overflow(void **state)
     (void)state;
     for (uint64_t i = 0; i < KD_VK_MAX_ACCESSES; i++)
         assert_false(add(1, i * 512, i * 512 + 256, COMPUTE, true));
-    assert_true(add(2, 0, 1, COMPUTE, false)); /* table full: it starts afresh */
+    assert_true(add(2, 0, 1, COMPUTE, false)); /* the table is full and starts afresh */
     assert_int_equal(table.count, 1);
     assert_false(add(1, 0, 1, COMPUTE, false));
 }

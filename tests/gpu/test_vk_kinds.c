@@ -7,13 +7,13 @@
 
 enum { MOST = 3000 };
 
-/* The buffers of one dispatch of kinds.comp, with contents by a rule, integers so that sums are exact. */
+/* The buffers of one dispatch of kinds.comp, filled by a rule with integers, so that sums are exact. */
 struct set { struct kd_vk_buffer *block, *singles, *fours, *y, *single_words, *pairs; };
 
 static float single_of(uint32_t i) { return (float)(i * 7 % 1013); }
 static float four_of(uint32_t i) { return (float)(i * 5 % 811); } /* i: index of the float */
 static float table_of(uint32_t k) { return (float)(100000 * (k + 1)); }
-/* Small integers, which are denormal as floats. */
+/* Small integers. As floats their bits are denormal numbers. */
 static uint32_t word_of(uint32_t i) { return i * 3 % 97; }
 static uint32_t pair_of(uint32_t i) { return i * 11 % 89; } /* i: index of the word */
 static float expected(uint32_t i, float y, float scale)
@@ -78,7 +78,7 @@ static void values(void **state)
         uint32_t n = counts[c];
         struct set set = make_set(vk, n, 3);
         const struct kd_vk_dispatch d = dispatch_of(pipeline, &set, n);
-        OK(kd_vk_fill(vk, "fill", set.y, 0, 4ull * n, 0x40000000, &error)); /* 2.0 */
+        OK(kd_vk_fill(vk, "fill", set.y, 0, 4ull * n, 0x40000000, &error)); /* the bits of 2.0 */
         OK(kd_vk_dispatch(vk, &d, &error));
         finish(vk);
         const float *y = kd_vk_buffer_map(set.y);
@@ -140,7 +140,7 @@ static void order(void **state)
         d.bindings[k].buffer = read[k];
     OK(kd_vk_fill(vk, "fill", set.y, 0, 4 * n, 0, &error));
     for (int round = 0; round < rounds; round++)
-        for (int k = 0; k < 3; k++) { /* by a copy, then by a kernel that adds 0 to 1 times the same */
+        for (int k = 0; k < 3; k++) { /* read by a copy, then by a kernel that adds 0 to the same buffer */
             for (int j = 0; j < 3 && (k == 0 || !round); j++)
                 OK(kd_vk_copy(vk, NULL, read[j], 0, from[j], 0, kd_vk_buffer_size(from[j]), &error));
             OK(kd_vk_fill(vk, "fill", read[k], 0, kd_vk_buffer_size(read[k]), 0, &error));

@@ -18,7 +18,7 @@ static VKAPI_ATTR void VKAPI_CALL counting(VkCommandBuffer commands, VkPipelineS
 static void count_from_here(struct kd_vk *vk)
 {
     finish(vk);
-    vk->hazards.count = 0; /* forget earlier tests */
+    vk->hazards.count = 0; /* forgets earlier tests */
     barriers = 0;
 }
 
@@ -42,7 +42,7 @@ static void counted(void **state)
     assert_int_equal(barriers, 1);
     mix(vk, pipeline, b[2], b[3], n, 1); /* write after write; b[2] needs no further barrier */
     assert_int_equal(barriers, 2);
-    mix(vk, pipeline, b[3], b[1], n, 1); /* b[3] read after write */
+    mix(vk, pipeline, b[3], b[1], n, 1); /* b[3] is read after it was written */
     assert_int_equal(barriers, 3);
     mix(vk, pipeline, b[2], b[0], n, 1);
     assert_int_equal(barriers, 3);
@@ -54,10 +54,10 @@ static void counted(void **state)
     OK(kd_vk_copy(vk, "c", b[1], n * 2, b[0], n * 2, n * 2, &error)); /* copies the other half */
     assert_int_equal(barriers, 0);
     OK(kd_vk_submit(vk, NULL, &error));
-    OK(kd_vk_copy(vk, "c", b[3], 0, b[1], 0, n * 4, &error)); /* hazard with the previous submission */
+    OK(kd_vk_copy(vk, "c", b[3], 0, b[1], 0, n * 4, &error)); /* hazard with a command of the previous submission */
     assert_int_equal(barriers, 1);
     kd_vk_discard(vk);
-    OK(kd_vk_copy(vk, "c", b[2], 0, b[1], 0, n * 4, &error)); /* its barrier was discarded with the commands */
+    OK(kd_vk_copy(vk, "c", b[2], 0, b[1], 0, n * 4, &error)); /* its barrier was discarded with its commands */
     assert_int_equal(barriers, 2);
 
     finish(vk);

@@ -42,7 +42,7 @@ static void many(void **state)
     }
     assert_int_equal(pools(vk), settled);
     assert_int_equal(kd_vk_allocated(vk), held);
-    OK(kd_vk_wait(vk, first, &error)); /* completed long ago */
+    OK(kd_vk_wait(vk, first, &error)); /* these were completed long ago */
     OK(kd_vk_wait(vk, last, &error));
     for (int i = 0; i < n; i++)
         assert_int_equal(words(y)[i], submissions * each);
@@ -90,7 +90,7 @@ static void nothing_and_discarded(void **state)
     finish(vk);
     assert_int_equal(words(y)[0], 3);
     OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 4, &error));
-    kd_vk_buffer_destroy(vk, y); /* recorded, then discarded: freed nevertheless */
+    kd_vk_buffer_destroy(vk, y); /* recorded and then discarded: the buffer is freed nevertheless */
     kd_vk_discard(vk);
     assert_int_equal(kd_vk_allocated(vk), 0);
 }

@@ -59,7 +59,7 @@ static void plausible(void **state)
     }
     struct kd_vk_pipeline *pipeline = make_spin(vk);
     struct kd_vk_buffer *buffer = make_buffer(vk, n, KD_VK_DEVICE, "state");
-    char name[] = "long"; /* compared by content, not by address */
+    char name[] = "long"; /* names are compared by content, not by address */
     spin(vk, "warm", pipeline, buffer, 10);
     finish(vk);
     kd_vk_times_reset(vk);
@@ -116,7 +116,7 @@ static void many(void **state)
     kd_vk_buffer_destroy(vk, b);
 }
 
-/* Devices that reset queries only in command buffers, and devices without timestamps. */
+/* Tests devices that reset queries only in command buffers, and devices without timestamps. */
 static void lesser_devices(void **state)
 {
     (void)state;

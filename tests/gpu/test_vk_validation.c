@@ -34,8 +34,8 @@ static uint32_t fill_then_add(bool barriers)
     return messages;
 }
 
-/* Number of messages for a fill that a kernel then reads through binding k: a uniform block, texels of one float, of
- * four; of one word, of two. */
+/* Number of messages for a fill that a kernel then reads through binding k. The bindings are a uniform block, texels of
+ * one float, of four, of one word, and of two. */
 static uint32_t fill_then_read(int k, bool barriers)
 {
     struct kd_vk *vk = open_device(true);
@@ -78,7 +78,7 @@ static void synchronisation(void **state)
     }
 }
 
-/* The core checks: an unaligned fill. It is discarded, not run. */
+/* Tests the core checks by an unaligned fill, which is discarded and not run. */
 static void core(void **state)
 {
     (void)state;

@@ -112,7 +112,7 @@ def advance(q, p, e):
     the root. The rest of the integrand is regular."""
     w1, w2 = (1 - e) / p, (1 + e) / p
     f1, both, squares = 1 - 2 * w1 + q * q * w1 * w1, w1 + w2, w1 * w1 + w2 * w2
-    # this is divided by w2 - w1, so that a circle is no special case
+    # this is divided by w2 - w1, so that a circle needs no special case
     l2 = (2 - q * q * both) / (both - 2 * (squares + w1 * w2) + q * q * both * squares)
     rest = [q * q * l2, both * q * q * l2 - 2 * l2, (1 - f1 * (1 + l2 * w1 * w1)) / (w1 * w2)]
 

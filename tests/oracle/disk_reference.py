@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Reference numbers for the thin disk, as the C table disk_reference.h.
 
-python3 tests/oracle/disk_reference.py > tests/oracle/disk_reference.h      (needs mpmath)
+python3 tests/oracle/disk_reference.py > tests/oracle/disk_reference.h (needs mpmath)
 
-Flux: the defining integral of Page & Thorne 1974 (eqs 11b and 12), by quadrature, with orbits from the metric alone:
+Flux: the defining integral of Page & Thorne 1974 (eqs 11b and 12), by quadrature; the orbits come from the metric
+alone:
 
-F/Mdot = 1/(4 pi r)  (-dW/dr) (E - W L)^-2  Integral from ISCO to r of (E - W L) dL/dr dr
+F/Mdot = 1/(4 pi r) (-dW/dr) (E - W L)^-2 Integral from ISCO to r of (E - W L) dL/dr dr
 
 Their closed form 15n is not used. Peak: where the slope of this flux is zero, by bisection. Temperature: in cgs units,
 from G and the Sun's mass in grams instead of from their product.

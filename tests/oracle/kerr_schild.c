@@ -54,7 +54,7 @@ struct ks_photon ks_from_infinity_charged(double a, double charge, double u, dou
 {
     double s = sqrt((1 - u) * (1 + u)), l = -alpha * s, r = 1e6;
     double q = (alpha * alpha - a * a) * u * u + beta * beta;
-    /* The way from infinity to here, by the first terms of the series in 1/r. */
+    /* The part of the path from infinity to here, by the first terms of the series in 1/r. */
     double t = 1 / r, pull = a * a - l * l - q, here = u + s * beta * t + 0.5 * (pull - 2 * a * a * u * u) * u * t * t;
     double delta = r * r - 2 * r + a * a + charge * charge, w = r * r + a * a - a * l;
     double big = w * w - delta * (q + (l - a) * (l - a));
@@ -132,8 +132,8 @@ static void medium_at(const struct along *w, const double *from, double t, doubl
     extrapolate(&w->system, from, t, y);
     const double a = w->system.a, r = radius(a, y), u = y[2] / r, s = sqrt((1 - u) * (1 + u)), q = r * r + a * a,
                  term = 2 * r - w->system.q * w->system.q, delta = r * r - term + a * a;
-    /* Traced back, the ray is mirrored; ingoing Kerr-Schild t and phi increase with r by (2r - q^2)/Delta and a/Delta.
-     */
+    /* The traced ray is mirrored in time; ingoing Kerr-Schild t and phi increase with r by (2r - q^2)/Delta and
+     * a/Delta. */
     const double p_r = ((r * y[0] + a * y[1]) * y[3] + (r * y[1] - a * y[0]) * y[4]) / q + u * y[5];
     struct ks_photon at = *w->photon;
     at.r = r;
@@ -167,7 +167,7 @@ static double radius_after(const struct along *w, const double *from, double t)
 
 static bool holds(const struct along *w, double r) { return r >= w->inner && r <= w->outer; }
 
-/* As add_stretch, for the part of the interval that is between the two radii, at most one of which is passed. */
+/* As add_stretch, for the part of the interval that is between the two radii, at most one of which lies within it. */
 static void add_inside(struct along *w, const double *from, double t0, double t1)
 {
     bool first = holds(w, radius_after(w, from, t0)), last = holds(w, radius_after(w, from, t1));

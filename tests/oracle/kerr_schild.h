@@ -2,9 +2,9 @@
  * Gragg-Bulirsch-Stoer extrapolation to about 1e-12 a step. It shares no equation with the code under test: no Mino
  * time, no separation of variables, no elliptic function, no Boyer-Lindquist motion.
  *
- * A ray traced back from an observer is a photon of the mirrored spacetime (t, phi) -> (-t, -phi), in which Kerr
- * looks the same, flying away from the observer with the same E and L: it falls through the future horizon, where
- * these coordinates are regular. Azimuths are mirrored back on return: source minus observer, Boyer-Lindquist. */
+ * A ray traced back from an observer is a photon of the mirrored spacetime (t, phi) -> (-t, -phi), in which Kerr looks
+ * the same, flying away from the observer with the same E and L: it falls through the future horizon, where these
+ * coordinates are regular. The returned Boyer-Lindquist azimuths, source minus observer, are mirrored back. */
 #ifndef KD_TESTS_KERR_SCHILD_H
 #define KD_TESTS_KERR_SCHILD_H
 
@@ -25,8 +25,9 @@ struct ks_path {
     int crossings;
     double r[16], phi[16], delay[16]; /* at each crossing of the equatorial plane after the start */
     double momentum[16];              /* integrated angular momentum about the axis there */
-    bool falls[16];                   /* the light moves inwards there; the path, traced back, goes out */
-    /* |p_z| there, by a unit vector normal to the plane: at z = 0, where l_z = 0, the metric's zz component is 1. */
+    bool falls[16];                   /* whether the light moves inwards there; the path, traced back, goes outwards */
+    /* |p_z| there, the component along a unit normal of the plane: at z = 0, where l_z = 0, the metric's zz component
+     * is 1. */
     double p_z[16];
     enum ks_fate fate;
     double u, sky_phi; /* direction of escape */
@@ -47,7 +48,7 @@ struct ks_path ks_trace(struct ks_photon photon, int max_crossings);
 /* The same in long double: to about 1e-16 a step where that has 64 bits. It costs some five times as much. */
 struct ks_path ks_trace_long(struct ks_photon photon, int max_crossings);
 
-/* Medium along a ray: light emitted and optical depth per unit of the affine parameter. `photon` is the arriving one
+/* Medium along a ray: light emitted and optical depth per unit of the affine parameter. `photon` is the arriving photon
  * at that place: r, u, p_r and p_theta are those of the place, and phi is its azimuth minus the observer's. */
 typedef void ks_medium(void *user, const struct ks_photon *photon, double r, double u, double light_and_depth[2]);
 
@@ -61,7 +62,7 @@ struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bo
 /* Closest approaches of the path back in time to a place (r, cos(theta), azimuth: source minus observer). One is
  * reported each time that the path comes within `within` of the place, measured in these Cartesian coordinates. b:
  * distance of the approach, in M. It is the interval, by the metric at the place, from the event there on the same wave
- * front, which does not depend on the observer. delay: as the delay of a crossing. */
+ * front, which does not depend on the observer. delay: defined as for a crossing. */
 struct ks_near { double b, delay; };
 int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out);
 

@@ -74,7 +74,7 @@ static void complete(const struct ks_place *at, struct ks_frame *f)
 struct ks_frame ks_zamo(const struct ks_place *at)
 {
     double delta = at->r * at->r - 2 * at->r + at->a * at->a;
-    struct ks_frame f = { .e = { { [T] = -1, [R] = 2 * at->r / delta }, { [R] = 1 } } }; /* p^r = 0 */
+    struct ks_frame f = { .e = { { [T] = -1, [R] = 2 * at->r / delta }, { [R] = 1 } } }; /* the case p^r = 0 */
     complete(at, &f);
     return f;
 }

@@ -17,7 +17,8 @@ double ks_product(const struct ks_place *at, const double p[4], const double q[4
  * body, 0 for light. */
 void ks_inwards(const struct ks_place *at, double mass, double energy, double momentum, double p_theta, double p[4]);
 
-/* Frames of zero angular momentum, outside the horizon; and of rain, from rest at infinity, anywhere. */
+/* Frames of zero angular momentum, which exist outside the horizon, and of rain (a fall from rest at infinity), which
+ * exist anywhere. */
 struct ks_frame ks_zamo(const struct ks_place *at);
 struct ks_frame ks_rain(const struct ks_place *at);
 

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { VECTORS = 3 }; /* k, right, up */
+enum { VECTORS = 3 }; /* derivatives of k, right and up */
 struct state { double x[4], v[VECTORS][4]; };
 
 struct hole { double a, q; };
@@ -165,7 +165,7 @@ struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame
     }
     for (int i = 0; i < 3; i++)
         across[i] /= sqrt(size);
-    for (int i = 0; i < 3; i++) /* look x up */
+    for (int i = 0; i < 3; i++) /* x rotated to look up */
         side[i] = look[(i + 1) % 3] * across[(i + 2) % 3] - look[(i + 2) % 3] * across[(i + 1) % 3];
     ks_seen(f, look, p);
     to_cartesian(at, o.x, p, o.k);
@@ -225,7 +225,7 @@ static void gas(struct hole o, const double *x, double r_isco, double u[4])
                         round[4] = { 0, 0, y[1], 0 };
     metric(o, y, there);
     const double want[2] = { product(there, v, t), product(there, v, round) };
-    /* u = c t + d turn + e out. c and d follow from its products with t and turn, e from its length. */
+    /* u = c t + d turn + e out. Its products with t and turn give c and d, and its length gives e. */
     double out[4] = { 0, x[1], x[2], 0 }, basis[2][4], c[2] = { 0 };
     memcpy(basis[0], t, sizeof t);
     memcpy(basis[1], turn, sizeof turn);
@@ -270,7 +270,7 @@ static void judge(const struct state *s, struct hole hole, enum ks_field field, 
     }
     memcpy(before[2], b, sizeof b);
     across(g, before[2], before, 2);
-    /* The direction outside their span: of the components of four vectors outside it, the longest. */
+    /* The direction outside their span. Of four vectors outside it, the longest component is taken. */
     double most = 0;
     for (int n = 0; n < 4; n++) {
         double v[4] = { 0 };
@@ -356,7 +356,7 @@ static void tell(const struct state *s, struct hole o, double h, ks_told *told, 
     told(user, &at);
 }
 
-/* The fraction of a pair of steps after which the ray reaches this radius, which it passes within the pair. */
+/* The fraction of a pair of steps after which the ray reaches this radius, if it passes the radius within the pair. */
 static double landing(const struct state *s, struct hole o, double h, double r)
 {
     const bool inwards = radius(o.a, s->x) > r;

@@ -15,8 +15,8 @@ struct ks_screen { double a, q, x[4], k[4], right[4], up[4]; };
 
 /* The screen of the ray (alpha, beta) for an observer at infinity, placed at r = 1e6. */
 struct ks_screen ks_screen_far(double a, double q, double theta, double alpha, double beta);
-/* Of an uncharged hole. The screen for the direction `look` of a camera whose upward direction is `up`, both (r, theta,
- * phi) in a local frame. */
+/* The hole is uncharged. The screen for the direction `look` of a camera whose upward direction is `up`, both (r,
+ * theta, phi) in a local frame. */
 struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame *frame, const double look[3],
                                 const double up[3]);
 
@@ -31,7 +31,7 @@ struct ks_polarized {
     double r, angle, cosine, g;
 };
 
-/* At the crossing of this order, going back in time. */
+/* The crossing of this order, counted back in time. */
 struct ks_polarized ks_polarization(const struct ks_screen *screen, int order, enum ks_field field, double r_isco);
 
 /* A place on a ray that is followed back in time from the screen, in Cartesian coordinates. k: wave vector of the

@@ -1,7 +1,7 @@
 /* Oracle for line profiles. It traces a ray for each place of the disk's image, while the profile interpolates a table.
- * It uses triangles with linear g and uniform light, while the profile has cells with moments. It extrapolates from two
- * such sums. g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16, 5.4a; with charge Dadhich &
- * Kale 1977, J. Math. Phys. 18, 1727). The rays themselves are tested by tests/oracle/kerr_schild.h. The cumulative
+ * It sums triangles with linear g and uniform light, while the profile has cells with moments, and extrapolates from
+ * two such sums. g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16, 5.4a; with charge Dadhich
+ * & Kale 1977, J. Math. Phys. 18, 1727). The rays themselves are tested by tests/oracle/kerr_schild.h. The cumulative
  * share is accurate to about a tenth of `apart`: 1e-5 to 1e-4 with 1024 directions. */
 #ifndef KD_TESTS_LINE_TRIANGLES_H
 #define KD_TESTS_LINE_TRIANGLES_H
@@ -66,8 +66,8 @@ static inline double lt_cosine(const struct kd_disk_image *image, const struct l
 }
 
 /* Computes the cumulative share of a line with this law. cumulative[i]: fraction of photons below edges[i + 1]; edges
- * ascend. n directions and m rings, both even. Returns the largest difference of the two sums over all edges; negative:
- * a place was not found. */
+ * ascend. n directions and m rings, both even. Returns the largest difference of the two sums over all edges; negative
+ * if a place was not found. */
 static inline double lt_profile_of(const struct kd_disk_image *image, const struct lt_law *law, int n, int m,
                                    const double *edges, int bins, double *cumulative)
 {

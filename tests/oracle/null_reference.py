@@ -90,7 +90,7 @@ def trace(a, u, radius, alpha, beta, outward, orders, q=0):
     dw = sqrt(1 + A * w * w + 2 * K * w**3 + C * w**4) * (-1 if outward else 1)
     n, dn = [s, mpf(0), u], [-beta * u, alpha, beta * s]
     phi = mpf(0)
-    # azimuths count from the direction in the image, so the frame is turned so that the ray sets out along +x
+    # azimuths count from the direction in the image, so that the frame is turned to let the ray start along +x
     if s == 0:
         phi = atan2(alpha, -beta * u)
         dn = [sqrt(alpha**2 + beta**2), mpf(0), mpf(0)]
@@ -431,7 +431,7 @@ def carlson_table():
 
 
 def half_line2(f, near, width):
-    """The same integral, split where the integrand peaks at t = near > 0."""
+    """The same integral, split at t = near > 0, where the integrand peaks."""
     if near <= 0:
         return half_line(f)
     w = mpf(width)

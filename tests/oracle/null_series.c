@@ -71,7 +71,7 @@ static number slope(const number *c, number h)
     return sum;
 }
 
-/* Root of series = level in (0, h), which the ends bracket. */
+/* Root of series = level in (0, h); the values at the ends have different signs. */
 static number root(const number *c, number level, number h)
 {
     number low = 0, high = h, side = value(c, h) - level, x = 0.5L * h;

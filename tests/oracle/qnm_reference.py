@@ -27,7 +27,7 @@ SEEDS = {
     (4, 0): 0.8092 - 0.0942j,
 }
 SPINS = [0.0, 0.2, 0.5, 0.8, 0.95, 0.99, 0.999]
-EXTREME = [(2, 2, 0), (2, 2, 1), (2, 0, 0)]  # these are followed up to 0.9999
+EXTREME = [(2, 2, 0), (2, 2, 1), (2, 0, 0)]  # these modes are followed up to 0.9999
 MODES = [(2, m, n) for n in (0, 1) for m in range(-2, 3)] + [
     (2, 2, 2),
     (2, -2, 3),
@@ -165,7 +165,7 @@ def wronskian(a, m, omega, lam, far, terms):
     gap = 2 * (sqrt if isinstance(omega, mpc) else cmath.sqrt)((1 - a) * (1 + a))
     outer, r = 1 + gap / 2, far
     y, dy = infinity(a, m, omega, lam, r, 3 * terms)
-    # not in a straight line, because near r+ the waves keep their size only on the real axis
+    # the path is no straight line, because near r+ the waves keep their size only on the real axis
     for goal in (10 + 0 * r, outer + gap / 4 + 0 * r):
         while r != goal:
             room = 0.5 * min(abs(r - outer), abs(r - outer + gap))
@@ -180,7 +180,7 @@ def mode(m, a, omega, sep, final):
     """The mode by the secant method from the guess; None if the guess was too far off. Near a = 1 the wave changes fast
     at the horizon and its series cancels, so that more digits are used."""
     gap = 2 * np.sqrt((1 - a) * (1 + a))
-    exact = final or a > 0.6 or omega.imag < -0.4  # for overtones 16 digits are not enough either
+    exact = final or a > 0.6 or omega.imag < -0.4  # 16 digits are not enough for overtones either
     mp.dps = (26 if final else 16) + int(0.5 * abs((2 + gap) * omega - a * m) / gap)
     terms, reach = (4 * mp.dps, 2.5 * mp.dps) if exact else (50, 25)
     small, start = (mpf(10) ** -12, mpf(10) ** -8) if final else (1e-6, 1e-4)

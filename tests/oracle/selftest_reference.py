@@ -106,7 +106,7 @@ def redshift(a, r, lam, eta, sense, q=0):
 
 
 def quantities(ray):
-    """Crossings (r, phi, delay, g), whether the ray is captured, and (theta, phi) of the escape."""
+    """Crossings (r, phi, delay, g), whether the ray is captured, and (theta, phi) of its escape."""
     a, i, radius, alpha, beta = ray[:5]
     outward, q = ray[5] if len(ray) > 5 else 0, ray[6] if len(ray) > 6 else 0
     u = angles(i)
@@ -167,7 +167,7 @@ def ray_text(job):
 
 
 def contraction(g, p, q):
-    """p.q of two vectors with components t, r, theta, phi."""
+    """p.q of two vectors with the components t, r, theta, phi."""
     tt, tp, pp, rr, hh = g
     return tt * p[0] * q[0] + tp * (p[0] * q[3] + p[3] * q[0]) + pp * p[3] * q[3] + rr * p[1] * q[1] + hh * p[2] * q[2]
 

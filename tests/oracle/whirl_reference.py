@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Reference values for bodies in the equatorial plane that whirl at an unstable circle.
 
-Carter's equations in 1/r are integrated by quadrature in 30 digits, with nodes crowded where the radial motion almost
+Carter's equations in 1/r are integrated by quadrature in 30 digits, with dense nodes where the radial motion almost
 stops. E and L are first rounded to double: the values are those of the motion with exactly these numbers.
 
 whirl_reference.py > whirl_reference.h

@@ -74,12 +74,12 @@ static void the_cheapest_that_holds(void **state)
     (void)state;
     expect(0.5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
     expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
-    expect(0.99e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8); /* the fastest row below the tolerance, not the least
-                                                                * accurate one */
+    /* takes the fastest row below the tolerance, not the most accurate one */
+    expect(0.99e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
     expect(1e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
     expect(0.99e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
     expect(1e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
-    table.rows[1].sets[KD_ACCURACY_BULK].rays_per_s = 1; /* now Runge-Kutta is the fastest at 1e-4 */
+    table.rows[1].sets[KD_ACCURACY_BULK].rays_per_s = 1; /* now the Runge-Kutta method is the fastest at 1e-4 */
     expect(1e-4, KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64);
 }
 
@@ -103,7 +103,7 @@ static void what_none_holds(void **state)
     refused(-1e-6, "above 0");
     refused(NAN, "nan");
     refused(1, "below 1");
-    table.n = 1; /* the closed form's own row does not contain its errors */
+    table.n = 1; /* the row of the closed form does not contain the errors of the closed form itself */
     refused(0.5, "kerrd bench accuracy");
     table.n = 0;
     refused(0.5, "kerrd bench accuracy");
@@ -273,8 +273,8 @@ static double least_potential(double a, double inclination_deg, const double *x)
     return least;
 }
 
-/* The near-critical set lies alternately on both sides of the critical curve, at the stated distances; no other set
- * comes near. */
+/* Rays of the near-critical set lie alternately on both sides of the critical curve, at the stated distances. Rays of
+ * the other sets are not near it. */
 static void critical_curve(void **state)
 {
     (void)state;

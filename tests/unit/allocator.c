@@ -22,7 +22,7 @@
 
 static size_t mapped(void) { return mallinfo2().hblks; }
 
-/* Written to, so that the compiler keeps it. */
+/* The block is written to, so that the compiler does not remove the allocation. */
 static void *block(size_t size)
 {
     char *p = malloc(size);
@@ -35,7 +35,7 @@ static void large_blocks_are_the_kernels_again(void **state)
 {
     (void)state;
     const size_t before = mapped();
-    free(block(16 * MIB)); /* by default the library would cache all smaller blocks from now on */
+    free(block(16 * MIB)); /* by default the C library would from now on cache all smaller blocks */
     void *large = block(2 * MIB);
     assert_int_equal(mapped(), before + 1);
     free(large);

@@ -18,7 +18,8 @@ MODULES = {
     "scene": {"base", "document", "physics"},
     "quantity": {"base", "document", "physics", "scene"},  # uses scene's field table and its writer
     "image": {"base"},
-    "orbit": {"base", "document", "physics", "scene", "image"},  # uses the same of scene as quantity
+    # uses scene's field table and its writer, as quantity does
+    "orbit": {"base", "document", "physics", "scene", "image"},
     "observe": {"base"},
     "integral": {
         "base",
@@ -29,10 +30,11 @@ MODULES = {
         "image",
         "render",
     },  # uses plans and frames of render
-    "playground": {"base", "document", "physics", "scene", "image"},  # uses the same of scene as quantity
+    # uses scene's field table and its writer, as quantity does
+    "playground": {"base", "document", "physics", "scene", "image"},
     "vk": {"base"},
     "render": {"base", "document", "physics", "scene", "image", "vk"},
-    "job": {"base", "document", "scene", "playground", "render"},  # uses what render makes of frames
+    "job": {"base", "document", "scene", "playground", "render"},  # uses the frames that render makes
     "server": {
         "base",
         "document",

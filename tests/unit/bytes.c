@@ -1,5 +1,5 @@
-/* Tests of the bytes that clients hold: the total, a client's share, the reserve for small ones, and the one that may
- * exceed the total. */
+/* Tests of the limits on bytes that clients hold: the total, a client's share, the reserve for small requests, and the
+ * single client that may exceed the total. */
 #include "server/http/bytes.h"
 
 #include <setjmp.h>
@@ -56,7 +56,7 @@ static void test_room_for_small_ones(void **state)
     assert_int_equal(take(b, "a", 5), FULL);
     kd_bytes_give(b, "b", 50);
     for (int i = 0; i < 4; i++)
-        assert_int_equal(take(b, "a", 5), TAKEN); /* 8 more of its share, and 12 beyond it */
+        assert_int_equal(take(b, "a", 5), TAKEN); /* 8 are within its share, and 12 beyond it */
     assert_int_equal(take(b, "a", 5), OVER_SHARE);
     kd_bytes_destroy(b);
 }
@@ -69,8 +69,8 @@ static void test_a_lone_one(void **state)
     (void)state;
     assert_int_equal(take(b, "a", 150), TAKEN);
     assert_int_equal(take(b, "a", 1), OVER_SHARE);
-    assert_int_equal(take(b, "b", 1), FULL); /* the reserve for small ones is not available beside one that exceeds
-                                              * the total */
+    /* the reserve for small requests is closed while a client exceeds the total */
+    assert_int_equal(take(b, "b", 1), FULL);
     kd_bytes_give(b, "a", 150);
     assert_int_equal(take(b, "b", 30), TAKEN);
     assert_int_equal(take(b, "a", 70), TAKEN);

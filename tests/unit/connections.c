@@ -1,5 +1,5 @@
-/* Tests of the deadlines of connections: a sweep shuts down those whose client is late, and none for which only the
- * daemon is late. */
+/* Tests of the deadlines of connections: a sweep shuts down connections whose client is late, but no connection for
+ * which only the daemon is late. */
 #include "server/http/connections.h"
 
 #include <setjmp.h>

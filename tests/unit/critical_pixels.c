@@ -76,8 +76,8 @@ static size_t judge(const struct kd_scene *scene, const char *what)
         assert_true(list.pixels[i].x < WIDTH && list.pixels[i].y < HEIGHT && (!i || at > before));
         listed[before = at] = true;
     }
-    /* Beyond the picture nothing is judged: near its edge a pixel may be listed because of a part of the curve
-     * outside. */
+    /* Pixels outside the picture are not judged, since near its edge a pixel may be listed because of a part of the
+     * curve outside. */
     const int far = (int)KD_CRITICAL_NEAR + 2;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -159,8 +159,7 @@ static void from_nearby(void **state)
     }
 }
 
-/* Tests a small hole, a hole of which only the edge is in the picture, one that fills the picture, and one outside
- * it. */
+/* Tests a small hole, a hole whose edge alone is in the picture, one that fills the picture, and one outside it. */
 static void sizes(void **state)
 {
     (void)state;

@@ -26,7 +26,7 @@ static void all_are_there(void **state)
         assert_non_null(kd_emitters[i]->present);
         assert_true(kd_emitters[i]->n_sentences > 0); /* each has approximations */
         assert_true(!kd_emitters[i]->fill ||
-                    kd_emitters[i]->depends[0].size); /* otherwise the numbers would be filled only once */
+                    kd_emitters[i]->depends[0].size); /* else the numbers would be filled only once */
     }
 }
 
@@ -67,8 +67,8 @@ static void names_are_short_and_differ(void **state)
         check_name(one.name, all);
 }
 
-/* An approximation that only a rendered picture shows has a sentence where the report counts it, after the sentences of
- * the plan. */
+/* A report lists the approximations of the plan first. Then come approximations that only a rendered picture can have.
+ */
 static void what_a_report_counts_is_said(void **state)
 {
     (void)state;
@@ -244,7 +244,7 @@ static void numbers_follow_each_field(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof volumes / sizeof *volumes; k++)
         assert_true(follow_each_field(volumes[k]) > 30);
-    assert_true(follow_each_field(BASE) > 40); /* the others are words, or tied to a third field */
+    assert_true(follow_each_field(BASE) > 40); /* the other fields are words, or are tied to a third field */
     assert_true(follow_each_field(GAS) > 40);
     assert_true(follow_each_field(STARS) > 40);
 }
@@ -346,7 +346,7 @@ static void a_frequency_is_a_variant(void **state)
 static void reflection_is_a_variant(void **state)
 {
     (void)state;
-    static const char *const told[] = { "disk: light that the hole bends back", "disk: the light that returns",
+    static const char *const told[] = { "disk: light that the hole bends back", "disk: returning light",
                                         "disk: the reflected share" };
     for (int returning = KD_RETURNS_NONE; returning <= KD_RETURNS_REFLECTED; returning++)
         for (int albedo = 0; albedo < 2; albedo++) {
@@ -538,7 +538,7 @@ static bool alike(const struct kd_scene *scene, const struct kd_work *work)
 }
 
 /* kd_emit_work differs between scenes of different cost: with each emitter, with each variant, and with twice as many
- * of what has a pass or buffers of its own. It is the same whatever the places, the time and the brightness. */
+ * elements of an emitter that has a pass or buffers of its own. Places, time and brightness do not change it. */
 static void work_follows_emitters(void **state)
 {
     (void)state;
@@ -607,7 +607,8 @@ static void work_follows_emitters(void **state)
         assert_true(kd_work_alike(&bodies[n], n ? &bodies[n - 1] : &work) == !n);
     }
 
-    /* bodies and debris of a playground: 4 and 5 bodies are alike; 100 are not, nor is debris */
+    /* debris, and the number of bodies of a playground: the cost of 4 equals that of 5, and differs from that of 100
+     * and from that of debris */
     struct kd_dynamic_bodies *shown[4];
     struct kd_error error;
     for (int n = 0; n < 4; n++) {

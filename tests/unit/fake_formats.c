@@ -1,5 +1,6 @@
-/* The table of formats with an additional format, for tests: "fake" is a line of text with kd_encode's arguments, then
- * the scene. It needs the light of a frame and not its picture, and counts its files. */
+/* The table of formats with an additional format for tests. "fake" is a line of text with kd_encode's arguments,
+ * followed by the scene. The format requires the light of a frame, but not its picture. It counts the files that it
+ * writes. */
 #include "fake_formats.h"
 
 #include <stdio.h>

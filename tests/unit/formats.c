@@ -50,7 +50,7 @@ static struct kd_buffer encoded(const struct kd_format *format, const struct kd_
     return file;
 }
 
-/* An encoder's memory belongs to its latest format. */
+/* An encoder keeps the memory of the format that it used last. */
 static void memory_is_kept_and_forgotten(void **state)
 {
     (void)state;
@@ -112,7 +112,7 @@ static struct kd_plan planned(const struct kd_format *format, struct kd_scene *s
     return plan;
 }
 
-/* What a WebP takes while it is encoded is counted when a request is admitted. */
+/* Admission of a request counts the memory that the encoder of WebP needs. */
 static void memory_of_an_encoder_is_counted(void **state)
 {
     struct kd_scene scene;
@@ -123,7 +123,7 @@ static void memory_of_an_encoder_is_counted(void **state)
                      kd_webp_bytes((uint32_t)scene.image.width, (uint32_t)scene.image.height));
 }
 
-/* Number of passes that only a picture needs. */
+/* Number of passes that are needed only for a picture. */
 static int shows(const struct kd_plan *plan)
 {
     int n = 0;

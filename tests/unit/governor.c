@@ -215,7 +215,7 @@ static void settles_on_a_steady_machine(void **state)
     assert_true(reached > 200 && hopeless > 20);
 }
 
-/* The governor settles also if frames report only their total time. */
+/* The governor also settles if frames report only their total time. */
 static void settles_when_told_only_totals(void **state)
 {
     (void)state;
@@ -280,7 +280,7 @@ static void two_slow_frames_are_enough(void **state)
 
 /* Costs that do not depend on the size */
 
-/* Ten million particles take 220 ms: no size of picture brings them to 33. */
+/* Ten million particles take 220 ms: at no size of the picture does a frame take 33 ms. */
 static void what_cannot_be_mended_costs_no_resolution(void **state)
 {
     (void)state;
@@ -417,7 +417,8 @@ static void drags_across_an_octave_go_on(void **state)
     }
 }
 
-/* The bodies of a playground are part of what a frame costs, and are not kept. */
+/* The number of bodies of a playground determines the cost of a frame, although the governor does not store the bodies.
+ */
 static void bodies_of_a_playground_count(void **state)
 {
     (void)state;
@@ -500,8 +501,8 @@ static void what_refinement_measured_is_believed(void **state)
     /* a first estimate that is much too low is corrected, too */
     begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 180, .reused = 6, .pixels = 4 });
     change(&s, true);
-    /* Nothing was rendered while the camera moved. The governor learns that frames trace from one that misses its
-     * lens map. */
+    /* Nothing was rendered while the camera moved. From one frame that misses its lens map the governor learns that
+     * frames trace rays. */
     s.now += 1000;
     frame(&s);
     change(&s, true);
@@ -553,7 +554,7 @@ static void load_that_comes_and_goes_is_followed(void **state)
         run(&s, DRAG, 30e3);
         assert_true(s.changes <= 7);
         s.load = 1;
-        run(&s, DRAG, 15e3); /* it climbs back by no more changes */
+        run(&s, DRAG, 15e3); /* it climbs back without further changes */
         assert_int_equal(s.governor.paces[1].rung, 0);
         run(&s, DRAG, 60e3);
         assert_true(s.changes <= 8);
@@ -619,8 +620,8 @@ static struct kd_frame_cost restless(const struct simulation *s, const struct kd
     return c;
 }
 
-/* Bounds the number n of failed climbs: since the wait doubles after each, 3 s (2^n - 1) <= T. In addition there are
- * those before the first wait, one for each rung. Each causes at most a descent and a climb of the whole ladder. */
+/* Bounds the number n of failed climbs. The wait doubles after each, so that 3 s (2^n - 1) <= T. Before the first wait
+ * there may be one more for each rung. Each failed climb causes at most a descent and a climb of the whole ladder. */
 static void assert_settles(machine *adversary, struct truth truth, int hours)
 {
     struct simulation s;
@@ -948,7 +949,7 @@ static void what_measures_nothing_is_not_counted(void **state)
     assert_int_equal(s.governor.paces[1].rung, 0);
 }
 
-/* Anything at all */
+/* Random machines and scenes */
 
 static void whatever_happens_the_answer_is_sound(void **state)
 {

@@ -16,7 +16,7 @@ NUMBERS_A_LINE = 4
 
 
 def costs(frame):
-    """Milliseconds: constant, over rays, over pixels, and for the whole frame with its PNG."""
+    """Milliseconds of a frame: its constant part, its rays, its pixels, and all of it with its PNG."""
     fixed = sum(frame.get(k, 0) for k in ("audit", "particles"))
     rays = sum(frame.get(k, 0) for k in ("trace", "transfer"))
     pixels = sum(frame.get(k, 0) for k in ("expose", "post", "readback", "encode_1"))

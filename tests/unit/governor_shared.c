@@ -161,7 +161,7 @@ static void parts_are_equal_on_any_machine(void **state)
     assert_true(reached > 60 && seen <= 40);
 }
 
-/* A frame that waits for others longer than a hand rests is not taken for a resting hand. */
+/* A session whose frame waits long for other sessions is not taken for one at rest. */
 static void who_waits_is_not_taken_for_resting(void **state)
 {
     (void)state;

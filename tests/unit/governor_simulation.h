@@ -30,7 +30,7 @@ struct truth {
     double traced, reused, pixels;
     double fixed, hidden; /* ms independent of the size: reported, and not reported */
     double noise;         /* relative to the time, uniformly distributed */
-    double spikes, spike; /* how often a spike comes, and how many times as long a frame then takes */
+    double spikes, spike; /* how often a spike comes, and by which factor it lengthens a frame */
     bool silent;          /* reports only the total */
 };
 
@@ -54,7 +54,7 @@ static double rays_of(const struct kd_scene *scene)
     return (double)scene->image.width * scene->image.height * scene->image.samples * scene->image.samples;
 }
 
-/* Orders and profiles cost something else here than ray_cost() in quality.c assumes. */
+/* Here orders and profiles do not cost what ray_cost() in quality.c assumes. */
 static double ray_weight(const struct kd_scene *scene)
 {
     static const double profile[] = { 0.9, 0.95, 1, 1.1, 9 };

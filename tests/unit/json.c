@@ -1,4 +1,4 @@
-/* JSON documents: their text, and that a document is never partial. */
+/* Tests of JSON documents: their text, and that no document is written in part. */
 #include "base/json.h"
 
 #include <math.h>

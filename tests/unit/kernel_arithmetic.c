@@ -1,7 +1,7 @@
-/* Tests how much freedom kernels leave to the driver. Vulkan 1.2 lets it fuse, reorder and expand floating-point
- * operations unless they are decorated NoContraction, and behave as if NaN and infinity did not exist (no kernel uses
- * SignedZeroInfNanPreserve). A driver that does neither cannot show this in pictures, so the SPIR-V is inspected: as
- * glslangValidator wrote it, with its functions, and as drivers get it, without (shaders/compile.py). */
+/* Tests that kernels restrict what a driver may do with their arithmetic. Vulkan 1.2 lets a driver fuse, reorder and
+ * expand floating-point operations unless they are decorated NoContraction, and behave as if NaN and infinity did not
+ * exist (no kernel uses SignedZeroInfNanPreserve). Pictures cannot show this on a driver that does neither, so the
+ * SPIR-V is inspected. This is done before and after shaders/compile.py inlines the functions. */
 #include <stdint.h>
 
 #define KD_SPIRV_PLAIN

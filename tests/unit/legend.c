@@ -55,7 +55,7 @@ static void letters_are_strokes(void **state)
         double x, y, distance;
     } points[] = {
         { 'L', 0, 0, 0 },        { 'L', 0, 2.5, 0 },     { 'L', 0.5, 3, 0.5 },
-        { 'L', -0.75, 6, 0.75 }, { 'L', 4.6, 6.8, 1 },   { 'L', 0.5, 5.5, 0.5 }, /* not 0: the corner is not cut */
+        { 'L', -0.75, 6, 0.75 }, { 'L', 4.6, 6.8, 1 },   { 'L', 0.5, 5.5, 0.5 }, /* the corner is cut if this is 0 */
         { 'X', 1.5, 2.5, 0 },                                                    /* between dots across */
         { 'X', 2, 0, 1 },        { '.', 2.5, 5.5, 0.5 },
     };

@@ -48,11 +48,11 @@ static void test_who_has_answered_stays(void **state)
     pupil(3)->answered = 2; /* the vote counts */
     pupil(4)->answered = 1; /* an earlier question */
     for (unsigned i = 3; i <= 5; i++)
-        pupil(i)->seen_ms -= gone + 10 * (6 - i); /* 3 is away for longest, then 4, then 5 */
+        pupil(i)->seen_ms -= gone + 10 * (6 - i); /* pupil 3 has been away for longest, then 4, then 5 */
     assert_ptr_equal(pupil(100), &one->pupils[4]);
     assert_ptr_equal(pupil(101), &one->pupils[5]);
     assert_int_equal(one->pupils[3].answered, 2);
-    assert_ptr_equal(pupil(102), &one->pupils[3]); /* the last place without a pupil who is present */
+    assert_ptr_equal(pupil(102), &one->pupils[3]); /* the last place whose pupil is absent */
     assert_int_equal(one->pupils[3].answered, 0);
     assert_null(pupil(103));
 }

@@ -1,4 +1,5 @@
-/* Tests of the budgets of signed links: what is spent, what a full table refuses, and that expired links make room. */
+/* Tests of the budgets of signed links: charges, the refusals of a full table, and the reuse of places of expired
+ * links. */
 #include "server/http/link_budgets.h"
 
 #include <fcntl.h>
@@ -60,8 +61,8 @@ static struct kd_link_budgets *opened(const char *folder)
     return all;
 }
 
-/* The file has each charge at once: a server that is killed loses none. Places of expired links are used again there
- * too. */
+/* The file has each charge at once, so that a server that is killed loses none. Its places of expired links are reused
+ * as well. */
 static void a_folder_keeps_them(void **state)
 {
     (void)state;
@@ -81,7 +82,7 @@ static void a_folder_keeps_them(void **state)
     kd_link_budgets_destroy(next);
     kd_link_budgets_destroy(killed);
     next = opened(folder);
-    assert_int_equal(kd_link_budget(next, &one, NOW), KD_LINK_LEFT); /* its place has another link */
+    assert_int_equal(kd_link_budget(next, &one, NOW), KD_LINK_LEFT); /* another link has its place */
     assert_int_equal(kd_link_budget(next, &other, NOW), KD_LINK_SPENT);
     assert_int_equal(kd_link_budget(next, &late, NOW), KD_LINK_SPENT);
     kd_link_budgets_destroy(next);

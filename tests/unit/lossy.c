@@ -62,13 +62,14 @@ static void webp_pixels(void **state)
     assert_true(before < 1.5);
 }
 
-/* The peak of memory of noise, in a process of its own, is within the bound, and not far below it. */
+/* The peak of memory while noise is encoded, measured in a process of its own, is within the bound and not far below
+ * it. */
 static void webp_memory(void **state)
 {
     enum { SIDE = 1200 };
     (void)state;
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-    skip(); /* they have memory of their own */
+    skip(); /* sanitizers use memory of their own */
 #endif
     const pid_t child = fork();
     if (!child) {
@@ -113,8 +114,8 @@ static const void *find(bool webp, const void *data, size_t size, size_t *length
     return room->data;
 }
 
-/* A file that ends anywhere is refused, or still has its packet. The copies have no byte to spare, so that a tool that
- * watches memory sees each read beyond the end. */
+/* A file that is cut anywhere is refused, or still has its packet. Each copy has exactly its size, so that a sanitizer
+ * notices a read beyond the end. */
 static void cut_anywhere(bool webp, const struct kd_buffer *file)
 {
     for (size_t size = 0; size <= file->size; size++) {

@@ -27,7 +27,7 @@ static void there_and_back(void **state)
     escaped("&lt; &amp;amp; &", KD_MARKUP_CONTENT, "&amp;lt; &amp;amp;amp; &amp;");
 }
 
-/* Other references, and pieces of known ones, are left. */
+/* Other references, and pieces of known ones, stay as they are. */
 static void what_is_no_reference(void **state)
 {
     struct kd_buffer text = { 0 };

@@ -43,7 +43,7 @@ static void a_device_that_is_the_host(void **state)
     assert_null(c.memory_by);
 }
 
-/* Memory held for the last picture is available to the next, but only the part that was ever written. */
+/* Memory held for the last picture is available to the next, but only the part that has been written. */
 static void what_is_held_counts_once(void **state)
 {
     (void)state;
@@ -104,7 +104,7 @@ static void frames_count(void **state)
     kd_scene_defaults(&scene);
     scene.image.width = scene.image.height = 4096;
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);
-    c.memory_bytes = plan.cost.device_bytes - 1; /* the lens map in bands */
+    c.memory_bytes = plan.cost.device_bytes - 1; /* the lens map is made in bands */
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);
     c.memory_bytes = plan.cost.device_bytes;
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &error), KD_OK);

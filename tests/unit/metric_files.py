@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""The files whose formulas know the charge of the hole are as many as docs/adding-a-metric.md says.
+"""The number of files whose formulas depend on the hole's charge is that in docs/adding-a-metric.md.
 
 metric_files.py ROOT     exit 1 if the page has another number; the files are printed
 
-A formula is a line that computes with the charge, or a branch for charged holes. Lines that hand the charge on, as a
-row of a table, a cache key or an argument, do not count.
+A formula is a line that computes with the charge, or a branch for charged holes. Lines that only pass the charge on, as
+a row of a table, a cache key or an argument, do not count.
 """
 
 import pathlib
@@ -18,7 +18,7 @@ FORMULA = re.compile(
     r"|\bCHARGED [?&|]|\(CHARGED\b"  # GLSL
     r"|\bcharge2 [*/+-]|[-+*/] ?(?:cam\.)?charge2\b(?!,)|-= (?:cam\.)?charge2\b"
     r"|[-+] q2 \*|\ba2 \+ q2\b"
-    r"|\bq2? = [\w.>-]*hole(?:->|\.)q\b"  # a name of its own for it
+    r"|\bq2? = [\w.>-]*hole(?:->|\.)q\b"  # a local name of the charge
 )
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 PAGE = "docs/adding-a-metric.md"

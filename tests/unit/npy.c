@@ -255,7 +255,8 @@ static void texts(void **state)
         } else
             assert_true(*error.message);
         if (table[i].type[1] == 'U')
-            assert_int_equal(kd_npy_read(file.data, file.size, &array, &error), KD_EINVAL); /* numbers alone */
+            /* the file has numbers only */
+            assert_int_equal(kd_npy_read(file.data, file.size, &array, &error), KD_EINVAL);
         kd_buffer_finish(&out);
         free(file.data);
     }

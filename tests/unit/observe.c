@@ -66,7 +66,7 @@ static void transform(const struct kd_comparison *c, double (*out)[2])
 }
 
 /* ehtim: load_uvfits, avg_coherent, add_fractional_noise, flag_uvdist, chisq of ttype "direct". */
-enum { OLD = KD_PRODUCT_VISIBILITY }; /* products before it */
+enum { OLD = KD_PRODUCT_VISIBILITY }; /* the number of products that this table has */
 static const struct {
     struct kd_comparison_params params;
     size_t n[OLD];

@@ -14,7 +14,7 @@
 
 #define COUNT(x) (sizeof(x) / sizeof *(x))
 
-/* The copy has exactly that size, so that a sanitizer notices a byte read beyond the end. */
+/* The copy has exactly the size of the text, so that a sanitizer notices a byte read beyond the end. */
 static enum kd_status read_exact(const char *text, size_t length, struct kd_orbit_request *request,
                                  struct kd_error *error)
 {
@@ -176,11 +176,8 @@ static void to_its_end_instead(void **state)
     (void)state;
 #define PLUNGE "{\"samples\":20,\"orbit\":{\"case\":\"plunge\"}"
 #define ESCAPE "{\"samples\":20,\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"v_r\":0.9}}"
-#define WHIRL \
-    "{\"samples\":20,\"method\":\"rkn6\",\"orbit\":{\"energy\":1,\"angular_momentum\":3.9999999}" /* it goes round \
-                                                                                                     twice and more: L \
-                                                                                                     = 4 does so for \
-                                                                                                     ever */
+/* goes round more than twice; with L = 4 it would do so for ever */
+#define WHIRL "{\"samples\":20,\"method\":\"rkn6\",\"orbit\":{\"energy\":1,\"angular_momentum\":3.9999999}"
 #define PERIODS ",\"duration\":{\"periods\":1,\"or_end\":true}}"
     static const char *const bodies[][2] = { { PLUNGE "}", PLUNGE PERIODS },
                                              { ESCAPE "}", ESCAPE PERIODS },
@@ -202,7 +199,7 @@ static void to_its_end_instead(void **state)
     struct kd_orbit_sample *samples =
         follow("{\"samples\":3,\"orbit\":{\"p\":8,\"e\":0.5},\"duration\":{\"periods\":2,\"or_end\":true}}", UINT64_MAX,
                &request, &run);
-    assert_float_equal(samples[0].place.r, 16. / 3, 1e-6);            /* the periapsis */
+    assert_float_equal(samples[0].place.r, 16. / 3, 1e-6);            /* the radius of the periapsis */
     assert_float_equal(samples[1].place.r, samples[2].place.r, 1e-6); /* after one period and after two */
     kd_orbit_request_finish(&request);
     free(samples);

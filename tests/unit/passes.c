@@ -1,5 +1,5 @@
-/* Tests that the table of passes is consistent: every pass occurs in some plan, and every figure of cost is measured by
- * some pass. The same is tested for the emitters that have a figure. */
+/* Tests that the table of passes is consistent: every pass occurs in some plan, and some pass measures every cost
+ * figure. The same is tested for the emitters that have a cost figure. */
 #include "render/accuracy/table.h"
 #include "render/emit/emitter.h"
 #include "render/frame/frame.h"
@@ -34,7 +34,8 @@ static struct kd_plan planned(const char *json, const struct kd_capacity *c)
     return plan;
 }
 
-/* Each pass and each figure occurs in at least one of these scenes. A new pass or figure needs a scene that uses it. */
+/* Each pass and each cost figure occurs in at least one of these scenes. A new pass or cost figure needs a scene that
+ * uses it. */
 static const char *const scenes[] = {
     "{}",
     "{\"image\": {\"samples\": \"auto\"}}",
@@ -161,7 +162,7 @@ static void estimates_are_figures(void **state)
     assert_true(plan.cost.trace_ns == 10);
 }
 
-/* A sky of stars has figures of its own, which are not used for anything else. */
+/* A sky of stars has cost figures of its own, which no other scene uses. */
 static void stars_have_figures(void **state)
 {
     (void)state;

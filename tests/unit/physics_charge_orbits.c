@@ -41,7 +41,7 @@ static void places(void **state)
     }
 }
 
-/* r is given in 53 bits, so that a number that changes by d in an ulp of r is known to d. */
+/* r is a double: a number that changes by d from one double to the next is known to d. */
 static void orbits(void **state)
 {
     (void)state;
@@ -81,7 +81,7 @@ static void small_charges(void **state)
     }
 }
 
-/* Gas that plunges has at the ISCO the redshift of the orbit there, and u.u = -1 inside. */
+/* Plunging gas has the redshift of the circular orbit at the ISCO, and u.u = -1 inside. */
 static void plunge(void **state)
 {
     (void)state;

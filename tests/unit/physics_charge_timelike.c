@@ -117,9 +117,9 @@ static struct kd_orbit_place followed(const struct kd_orbit *o, const struct kd_
     return kd_orbit_path_place(&path);
 }
 
-/* Bound orbits are followed for a radial period and a bit, by the closed form and by both integrators. An orbit closer
- * to the separatrix than to 0 magnifies the errors of all of them, and so do the rounded constants of the oracle's
- * start. */
+/* Bound orbits are followed for somewhat more than a radial period by the closed form and by both integrators. An orbit
+ * closer to the separatrix than to 0 magnifies the errors of all of them, and so do the rounded constants of the
+ * oracle's start. */
 static void bound_orbits(void **state)
 {
     (void)state;
@@ -141,7 +141,7 @@ static void bound_orbits(void **state)
     }
 }
 
-/* Falls and flights from a place, with the velocity that an observer measures there. */
+/* Falls and flights from a place, with a velocity as an observer there measures it. */
 static void free_motion(void **state)
 {
     (void)state;

@@ -202,7 +202,7 @@ static void unit_colours(void **state)
         near("luminance", t, 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b, 1, 2e-7);
         if (!(c.r >= -1e-15 && c.g >= -1e-15 && c.b >= -1e-15))
             fail_msg("%g K: (%g, %g, %g) is outside the gamut", t, c.r, c.g, c.b);
-        /* below 890 K all the light is far red, whose chromaticity hardly changes, and the mapping into the gamut
+        /* below 890 K all the light is far red, so that the chromaticity hardly changes; the mapping into the gamut
          * reverses the order by less than 1e-3 a step */
         if (!(c.r <= last * (t < 890 ? 1.001 : 1)))
             fail_msg("%g K: redder than the cooler body before it", t);

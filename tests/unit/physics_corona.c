@@ -35,7 +35,7 @@ static struct kd_corona_source source_of(const struct kd_hole *hole, double radi
     return source;
 }
 
-/* A ring that shrinks to the axis is a lamp; and on the axis it is the lamp. */
+/* A ring of radius 0 equals the lamp, and a ring tends to the lamp as its radius tends to 0. */
 static void test_axis(void **state)
 {
     static const double holes[][2] = { { 0, 0 }, { 0.9, 0 }, { 0.998, 0 }, { -0.7, 0 }, { 0.6, 0.7 } },
@@ -63,7 +63,7 @@ static void test_axis(void **state)
         }
 }
 
-/* Far away space is flat but for the deflection of light, some 4/b. */
+/* Far away space is flat. The deflection of light, some 4/b, remains. */
 static void test_flat_ring(void **state)
 {
     const double radius = 2000, height = 1000;
@@ -81,8 +81,8 @@ static void test_flat_ring(void **state)
     kd_corona_finish(&corona);
 }
 
-/* Without spin a ray is an integral over u = 1/r, of b/sqrt(1 - b^2 u^2 (1 - 2u)) for its azimuth and of 1/(u^2 (1 -
- * 2u) sqrt(...)) for its time, here by midpoints. */
+/* Without spin the azimuth of a ray is the integral of b/sqrt(1 - b^2 u^2 (1 - 2u)) over u = 1/r, and its time is that
+ * of 1/(u^2 (1 - 2u) sqrt(...)). Both are computed by midpoints. */
 static void test_direct_time(void **state)
 {
     static const double cases[][2] = { { 5, 60 }, { 5, 30 }, { 20, 60 }, { 100, 80 } };
@@ -110,7 +110,7 @@ static void test_direct_time(void **state)
         }
         within("direct time", 0, h, direct.time, time - h - 2 * log(h), 2e-4);
         within("redshift", 0, h, direct.g, sqrt(1 - 2 / h), 1e-10);
-        /* its light comes from the solid angle between neighbouring rays: sin(delta) = b sqrt(1 - 2/h)/h */
+        /* the light of the ring is that in the solid angle between neighbouring rays: sin(delta) = b sqrt(1 - 2/h)/h */
         for (int side = 0; side < 2; side++) {
             const double other = b * (side ? 1.001 : 0.999);
             turn[side] = 0;
@@ -125,7 +125,7 @@ static void test_direct_time(void **state)
     }
 }
 
-/* A wide corona is the mean of its rings, here by the midpoints of a grid with weights as their circumferences. */
+/* A wide corona is the mean of its rings, weighted by their circumferences; here the rings are midpoints of a grid. */
 static void test_shapes(void **state)
 {
     static const struct kd_corona_shape shapes[] = { { 0, 12, 3, 3, KD_CORONA_ZAMO },
@@ -160,8 +160,8 @@ static void test_shapes(void **state)
     }
 }
 
-/* A photon of the oracle: where it meets the disk and when, or in which direction it escapes; its number for a photon
- * of the source a time and energy of the observer at rest at infinity, and a function of it. */
+/* A photon of the oracle. r, delay: where and when it meets the disk. u: the cosine of the inclination to which it
+ * escapes, or NAN. weight: the photons that arrive for one that the source emits. */
 struct photon { double r, delay, u, weight; };
 
 struct metric { double tt, tp, pp; };
@@ -172,17 +172,17 @@ static struct metric metric_at(double a, double r, double u)
     return (struct metric) { f - 1, -f * a * s2, (r * r + a * a + f * a * a * s2) * s2 };
 }
 
-/* u^t of a motion at an angular velocity. */
+/* u^t of a motion with this angular velocity. */
 static double ut_of(const struct metric *g, double omega)
 {
     return 1 / sqrt(-g->tt - omega * (2 * g->tp + omega * g->pp));
 }
 
-/* n photons, evenly over the sphere of the source's own frame. */
+/* Sends n photons, evenly distributed over the sphere in the source's frame. */
 static void send(double a, double radius, double height, enum kd_corona_motion motion, double photon_index, int n,
                  struct photon *out)
 {
-    /* next to the axis, where the oracle's frame does not exist */
+    /* a source on the axis is placed beside it, since the oracle has no frame there */
     const double off = fmax(radius, 1e-5 * height), r = hypot(off, height), u = height / r,
                  isco = kd_kerr_isco(kd_hole(a));
     const struct metric g = metric_at(a, r, u);
@@ -196,7 +196,8 @@ static void send(double a, double radius, double height, enum kd_corona_motion m
         const double z = 1 - 2 * (k + 0.5) / n, turn = k * M_PI * (3 - sqrt(5)), across = sqrt(1 - z * z),
                      m[3] = { z, across * cos(turn), across * sin(turn) }, energy = gamma * (1 + v * m[2]),
                      along = gamma * (m[2] + v) / energy;
-        /* the light that arrives from a direction, traced back, is light that leaves into it, phi being mirrored */
+        /* The oracle traces light that arrives from a direction. Mirrored in phi, its path is that of light that leaves
+         * in this direction. */
         struct ks_photon p =
             ks_from_camera(a, r, atan2(off, height), true, (const double[]) { m[0] / energy, m[1] / energy, -along });
         const struct ks_path path = ks_trace(p, 1);
@@ -226,14 +227,15 @@ static const struct {
 enum { PHOTONS = 12000 };
 static struct photon photons[PHOTONS];
 
-/* Error of a number of photons: that of even points on a sphere falls faster than their root. */
+/* Relative error of a count of n photons. Evenly spread points have a smaller error than the root of n of random ones.
+ */
 static double scatter(int n) { return 0.003 + 3 * pow(n, -0.75); }
 
-/* Photons between rings of the disk, their mean time, and those that escape between two inclinations, against the
- * oracle's. */
+/* Compares with the oracle the number of photons that arrive between rings of the disk, their mean time, and the number
+ * that escapes between two inclinations. */
 static void test_photons(void **state)
 {
-    const double bins[] = { 1, 1.7, 3, 6, 20, 100 }; /* of the ISCO */
+    const double bins[] = { 1, 1.7, 3, 6, 20, 100 }; /* in units of the ISCO */
     (void)state;
     for (size_t k = 0; k < COUNT(rings); k++) {
         const double a = rings[k].a, isco = kd_kerr_isco(kd_hole(a));
@@ -256,7 +258,7 @@ static void test_photons(void **state)
                     got += light, got_late += light * time[j];
                 }
             }
-            /* the last bin is a strip of the source's sky that is narrower than the distance of photons */
+            /* photons of the last bin leave the source in a strip that is narrower than their spacing */
             within("photons of a ring", a, bins[b], got / want, 1, b + 2 < COUNT(bins) ? scatter(n) : 2 / sqrt(n));
             within("their mean time", a, bins[b], got_late / got / (late / want), 1,
                    b + 2 < COUNT(bins) ? scatter(n) : 1 / sqrt(n));
@@ -279,9 +281,10 @@ static void test_photons(void **state)
 
 static struct kd_disk_image image;
 
-/* A lamp high above a disk seen face on: light of the ring at distance d from it comes d + h late, and between d and d
- * + dd there are h dd/d^2 of the photons. Where the gas emits one photon for each it has twice the equivalent width
- * that it would have without a disk. Left are the deflection of light, and its delay of some 4 ln d. */
+/* A lamp at the height h far above a disk that is seen face on. Light from the ring at distance d from the lamp arrives
+ * d + h late; h dd/d^2 of the photons hit the disk between d and d + dd. If the gas emits one photon for each, the
+ * equivalent width is twice that without a disk. The remaining differences are the deflection of light and its delay of
+ * some 4 ln d. */
 static void test_flat_echo(void **state)
 {
     enum { TIMES = 200 };
@@ -304,8 +307,8 @@ static void test_flat_echo(void **state)
     }
 }
 
-/* The echo by rays of the oracle: light of the image plane (tests/unit/physics_line.c), with the times at which photons
- * of the source met the disk nearby. */
+/* The echo by rays of the oracle. Light of the image plane is summed as in tests/unit/physics_line.c; its delay is that
+ * of the source's photons which met the disk nearby. */
 static int by_radius(const void *x, const void *y)
 {
     const struct photon *a = x, *b = y;
@@ -317,7 +320,7 @@ static void test_echo(void **state)
     enum { BINS = 4, TIMES = 6, ACROSS = 70, AROUND = 60, NEAR = 12 };
     const double edges[BINS + 1] = { 0.2, 0.6, 0.85, 1, 1.5 }, i = 50, outer = 60, step = 12;
     (void)state;
-    for (size_t k = 1; k < COUNT(rings); k += 3) { /* a ring and a lamp */
+    for (size_t k = 1; k < COUNT(rings); k += 3) { /* one of these is a ring, the other a lamp */
         const double a = rings[k].a, isco = kd_kerr_isco(kd_hole(a)), c = cos(i * RADIAN), s = sin(i * RADIAN);
         const struct kd_echo_params params = { isco, outer, 2.4, KD_LIMB_ISOTROPIC,
                                                source_of(kd_hole(a), rings[k].radius, rings[k].height,
@@ -369,7 +372,7 @@ static void test_echo(void **state)
     }
 }
 
-/* Transforms are those of the impulse response: by its bins of time, which are narrow against the period. */
+/* The transform equals the sum over the bins of the impulse response, which are short compared with the period. */
 static void test_transform(void **state)
 {
     enum { BINS = 2, TIMES = 4000 };

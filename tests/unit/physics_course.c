@@ -53,15 +53,15 @@ static void check_neighbours(const struct kd_null_ray *ray, const struct kd_null
                              const struct kd_null_place *q)
 {
     const double s = sqrt((1 - p->u) * (1 + p->u)), t = sqrt((1 - q->u) * (1 + q->u));
-    if (s < 0.05 || t < 0.05 || fabs(ray->hole.a) > 0.01) /* otherwise frame dragging turns places as well */
+    if (s < 0.05 || t < 0.05 || fabs(ray->hole.a) > 0.01) /* frame dragging turns places as well */
         return;
     const double apart = acos(fmin(1, p->u * q->u + s * t * cos(p->phi - q->phi)));
     if (apart > 0.035)
         say(ray, "angle between neighbours at order", p->order, apart, 0.03, 0.005);
 }
 
-/* The path's crossings must be those of the reference integration. Errors of both grow along the way by the
- * condition number, which the estimates of the closed form contain, times about ten DBL_EPSILON. */
+/* The path's crossings must be those of the reference integration. Along the way the errors of both grow to about ten
+ * DBL_EPSILON times the condition number, which the closed form's error estimates contain. */
 static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
 {
     static struct kd_null_place places[MOST];
@@ -97,7 +97,7 @@ static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
         if (!(fabs(p->phi - closed.crossing[n].phi) <= phi)) /* the number of turns counts, too */
             say(ray, "turns of crossing", n, p->phi, closed.crossing[n].phi, phi);
     }
-    int there = 0; /* crossings farther out than the path, or closer to the horizon than it, are not part of it */
+    int there = 0; /* crossings beyond the ends of the path, at larger or smaller radii, are not part of it */
     for (int n = 0; n < oracle.crossings; n++)
         there += oracle.r[n] < 0.999 * far && oracle.r[n] > 1.001 * (horizon(ray->hole.a) + near);
     if (met < there)
@@ -204,7 +204,7 @@ static void between_crossings(void **state)
     assert_true(judged > 300);
 }
 
-/* Errors: such a ray does not exist, or there is no room for its course. */
+/* Errors: no such ray exists, or its course has more places than there is room for. */
 static void without_a_course(void **state)
 {
     struct kd_null_place places[10];

@@ -249,7 +249,7 @@ static void the_edge_from_nearby(void **state)
     }
 }
 
-/* Far off the angles become those of the image plane over r. */
+/* Far from the hole the angles become those of the image plane over r. */
 static void from_far_away(void **state)
 {
     (void)state;
@@ -319,7 +319,7 @@ static void bad_input(void **state)
     assert_int_equal(kd_critical_of(&held).status, KD_CRITICAL_NO_OBSERVER);
 }
 
-/* The points of the curve that are meant for drawing lie on the curve and reach from one end to the other. */
+/* The curve's points for drawing lie on the curve, and reach from one end to the other. */
 static void drawn(void **state)
 {
     (void)state;

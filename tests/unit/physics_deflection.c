@@ -32,7 +32,7 @@ static void critical(void **state)
         close_to("critical", a, 0, kd_deflection_critical(kd_hole(a)), critical_reference[i].b, 1e-15);
     }
     close_to("critical", 0, 0, kd_deflection_critical(kd_hole(0)), sqrt(27), 1e-15);
-    /* the edges of the extremal hole's shadow: Bardeen 1973 */
+    /* the edges of the extremal hole's shadow (Bardeen 1973) */
     double most = 1 - 1e-15;
     close_to("critical", 1, 0, kd_deflection_critical(kd_hole(most)), 2, 1e-7); /* 2 + sqrt(3) sqrt(2 (1 - a)) */
     close_to("critical", -1, 0, kd_deflection_critical(kd_hole(-most)), 7, 1e-14);
@@ -77,7 +77,7 @@ static void farthest(void **state)
     assert_true(isnan(kd_deflection_farthest(kd_hole(0), 5)));
 }
 
-/* 1.75 seconds of arc at the limb of the sun (Einstein 1916; here from M/R = 1476.625 m / 6.957e8 m, b = R to 1e-5). */
+/* 1.75 seconds of arc at the limb of the sun (Einstein 1916; here with M/R = 1476.625 m / 6.957e8 m, b = R to 1e-5). */
 static void the_sun(void **state)
 {
     (void)state;

@@ -83,7 +83,7 @@ static void nothing_inside_the_isco(void **state)
     }
 }
 
-/* Far away both fluxes fall as 3/(8 pi r^3) (1 - C/sqrt(r)), with C below 5. */
+/* Far away both fluxes fall as 3/(8 pi r^3) (1 - C/sqrt(r)), where C is below 5. */
 static void far_away_it_is_newtonian(void **state)
 {
     (void)state;
@@ -94,8 +94,8 @@ static void far_away_it_is_newtonian(void **state)
     }
 }
 
-/* The radius of the peak in the table is where the slope of the flux vanishes, by differences with 30 digits. For
- * the Newtonian disk: a maximum, as far as rounded values nearby can show it. */
+/* The radius of the peak in the table is where the slope of the flux vanishes, by differences with 30 digits. For the
+ * Newtonian disk the test shows that values nearby are smaller, as far as rounding allows. */
 static void peak_of_the_flux(void **state)
 {
     (void)state;

@@ -24,8 +24,9 @@ static void within(const char *what, double a, double x, double got, double want
                  fabs(got - want), bound);
 }
 
-/* The errors are a few ulp. kappa^2 has a zero at the ISCO. A sixteenth of the radius away from it, a factor of ten is
- * lost. At 1 - a = 1e-12, where r - 1 is 1e-4 and r known to 1e-16, a factor of 1e4 is lost. */
+/* The errors are a few ulp. kappa^2 vanishes at the ISCO, so that a sixteenth of the radius away from it the relative
+ * error is ten times larger. At 1 - a = 1e-12, where r - 1 is 1e-4 and the rounding of r 1e-16, it is 1e4 times larger.
+ */
 static void frequencies(void **state)
 {
     (void)state;
@@ -77,8 +78,8 @@ static void potentials(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(potential_reference); i++) {
         const struct potential_reference *p = &potential_reference[i];
-        /* Where a L < 0 two terms cancel, so their size counts. Next to the horizon sqrt(r - r+) is known to 1e-16
-         * of r+. */
+        /* Where a L < 0 two terms cancel, so that the error is relative to their size. Next to the horizon sqrt(r - r+)
+         * is known to 1e-16 of r+. */
         double near = 1e-15 / (p->r - kd_hole(p->a)->outer),
                drag = fabs(kd_kerr_dragging(kd_hole(p->a), p->r, 0) * p->l);
         double loss = 2e-15 + fmin(near, 1e-9);

@@ -317,8 +317,8 @@ static void test_face_on(void **state)
         struct kd_line_profile profile;
         struct kd_error error;
         assert_int_equal(kd_line_profile(&image, &params, edges, 5, share, &profile, &error), KD_OK);
-        /* the rings have equal widths in r and areas of pi d(b^2), with g = sqrt(1 - 3/r) and b of the ring by its
-         * ray */
+        /* the rings have equal widths in r; a ring has the area pi d(b^2), where its ray gives b, and g = sqrt(1 - 3/r)
+         */
         double in[5] = { 0 }, all = 0, b2 = 0;
         for (int k = 0; k <= 4000; k++) {
             double r = 6 * pow(200. / 6, k / 4000.), low = 0, high = 2 * r;
@@ -383,8 +383,8 @@ static void test_lamp(void **state)
             within("lamp", h, delta, kd_lamppost_at(&lamp, r) / want, 1, 1e-4);
         }
     }
-    /* With spin: the number of photons that all rings receive, by the hole's time, is that sent between the angles of
-     * the first and the last ring. */
+    /* With spin, the number of photons that all rings receive, counted by the time at infinity, is the number sent
+     * between the angles of the first and the last ring. */
     static const double holes[][2] = { { 0.9, 0 }, { 0.998, 0 }, { -0.5, 0 }, { 0.6, 0.7 }, { -0.3, 0.9 } };
     for (size_t s = 0; s < COUNT(holes); s++) {
         const struct kd_hole hole = kd_hole_charged(holes[s][0], holes[s][1]);
@@ -407,7 +407,7 @@ static void test_lamp(void **state)
     }
 }
 
-/* Where a ray of the oracle starts in the plane, and with which redshift. */
+/* Where a ray of the oracle starts in the plane, and its redshift. */
 struct start { double r, g; };
 
 static struct start start_of(const struct kd_hole *hole, double u, double alpha, double beta)

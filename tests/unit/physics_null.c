@@ -26,8 +26,8 @@ static struct kd_null_ray ray_of(const struct null_reference *e)
                                   .orders = 4 };
 }
 
-/* Rays that meet the axis may pass it on either side, so that their number of turns is undefined. For others it
- * counts. */
+/* Rays that meet the axis may pass it on either side, so that their number of turns is undefined. For other rays the
+ * number is compared. */
 static double azimuth_off(const struct kd_null_ray *ray, double got, double want)
 {
     return ray->alpha == 0 ? fabs(remainder(got - want, 2 * M_PI)) : fabs(got - want);
@@ -245,7 +245,7 @@ static void principal_rays(void **state)
     double turn = a / (plus - minus) * log((10 - minus) / (10 - plus));
     assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0);
     within(0, 0, "u of a principal ray", fabs(p.sky_u - 0.5),
-           1e-7); /* at a double root of U the rounding of alpha is under a square root */
+           1e-7); /* at a double root of U the rounding of alpha becomes its square root */
     within(0, 0, "phi of a principal ray", fabs(p.sky_phi + turn), 1e-7);
     struct kd_null_ray axis = { .hole = kd_hole_of(a), .radius = 10, .cos_theta = 1, .orders = 3, .outward = true };
     p = kd_null_trace(&axis);

@@ -109,7 +109,7 @@ static void paths_are_the_quadratures(void **state)
             struct kd_orbit_state start = kd_orbit_start(&o, NAN, true);
             struct kd_orbit_path path;
             kd_orbit_path_init(&path, &o, &start, (enum kd_orbit_method)method);
-            /* the wider the orbit, the sharper the peak of 1/w^2 at apastron */
+            /* the wider the orbit, the sharper is the peak of 1/w^2 at apastron */
             int n = (int)ceil(e->mino * e->mino_theta * 160 / sqrt(1 - e->e));
             for (int k = 0; k < n; k++)
                 kd_orbit_path_step(&path, e->mino / n);
@@ -136,7 +136,7 @@ static void falls_are_the_quadratures(void **state)
                 kd_orbit_path_step(&path, h);
             path = kd_orbit_path_to_radius(&path, 20 * h, 1 / e->to);
             struct kd_orbit_place at = kd_orbit_path_place(&path);
-            /* the rounding of r, a double, corresponds to this error of the time to get there */
+            /* the error of the time of arrival that the rounding of r, a double, causes */
             close_to(i, "Mino time", at.mino, e->mino, 1e-12);
             close_to(i, "r", at.r, e->to, 1e-13 * e->to);
             close_to(i, "proper time", at.proper, e->proper, 2e-11 * e->proper);
@@ -145,7 +145,7 @@ static void falls_are_the_quadratures(void **state)
         }
 }
 
-/* worst: the largest |drift|; slope: by how much the largest |drift| of an orbit grows an orbit, by least squares. */
+/* worst: the largest |drift|; slope: growth of the largest |drift| from orbit to orbit, by least squares. */
 struct line { double worst, slope; };
 
 static struct line energy_drift(enum kd_orbit_method method, int steps, int orbits)
@@ -182,10 +182,11 @@ static void yoshida_does_not_drift(void **state)
                   yoshida.worst, yoshida.slope, nystroem.worst, nystroem.slope);
     assert_true(yoshida.worst <= 1e-13);
     assert_true(fabs(yoshida.slope) * 1000 <= 1e-15);
-    assert_true(nystroem.slope * 1000 > 0.5 * nystroem.worst); /* shows that the fit finds growth where there is some */
+    /* shows that the fit finds growth where the drift grows */
+    assert_true(nystroem.slope * 1000 > 0.5 * nystroem.worst);
 }
 
-/* All first integrals stay constant, off the plane and across the axis. Halving the step shows the order. */
+/* All first integrals stay constant, also off the plane and across the axis. Halving the step shows the order. */
 static void first_integrals_stay(void **state)
 {
     (void)state;

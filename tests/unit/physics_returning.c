@@ -113,8 +113,8 @@ static void gas_at(const struct flight *f, double r, double u[4])
     normalise(f, r, u);
 }
 
-/* The end of one ray: radius where it meets the disk, 0 in the hole, INFINITY; E, L at infinity, for energy 1 in the
- * gas's frame. */
+/* The end of one ray. r: the radius where it meets the disk, 0 if it falls into the hole, INFINITY if it escapes.
+ * energy, momentum: E and L at infinity of light with energy 1 in the gas's frame. */
 struct end { double r, energy, momentum; };
 
 static struct end fly(const struct kd_hole *hole, double isco, double r, double mu, double azimuth)
@@ -140,7 +140,7 @@ static struct end fly(const struct kd_hole *hole, double isco, double r, double 
             h *= fmax(0.2, 0.9 * pow(error, -0.25));
             continue;
         }
-        if ((next[1] - M_PI / 2) * side < 0) { /* the cubic through both ends and their slopes */
+        if ((next[1] - M_PI / 2) * side < 0) { /* interpolates by the cubic through both ends and their slopes */
             double d0[4], d1[4], low = 0, high = 1;
             rates(&f, y, d0);
             rates(&f, next, d1);
@@ -168,8 +168,8 @@ static struct end fly(const struct kd_hole *hole, double isco, double r, double 
     return (struct end) { 0 };
 }
 
-/* Direction i of `side` squared ones: those of a grid about the direction to the hole, at an angle rho from it, whose
- * rows are shifted. Far out they crowd where light is bent back to the disk. weight: mu dOmega/pi. */
+/* Direction i of side^2 directions. They form a grid about the direction to the hole, at angles rho from it; its rows
+ * are shifted. For distant gas they are dense where light is bent back to the disk. weight: mu dOmega/pi. */
 struct direction { double mu, azimuth, weight; };
 
 static struct direction direction_of(double r, int i, int side)
@@ -235,14 +235,15 @@ static void light_of_a_ring_goes_where_followed_rays_go(void **state)
 }
 
 enum { BINS = 8, RINGS = 24 };
-/* Light of the whole disk of Page & Thorne: shares of its luminosity, and what the rings inside r = r_isco/s^2 receive,
- * for s = 1/8, 2/8, ...: energy in the gas's frame, and the angular momentum that it lacks. */
+/* Light of the whole disk of Page & Thorne. shares: shares of its luminosity. energy, deficit: for s = 1/8, 2/8, ...,
+ * what the rings within r = r_isco/s^2 receive. This is the energy in the gas's frame, and the angular momentum that
+ * the light lacks to move with the gas. */
 struct sums {
     struct kd_returning_shares shares;
     double energy[BINS], deficit[BINS], momentum; /* momentum: L of the gas times the energy, summed over all rings */
 };
 
-static double area(const struct kd_hole *hole, double isco, double s) /* 4 pi r dr over the efficiency, by s */
+static double area(const struct kd_hole *hole, double isco, double s) /* 4 pi r dr/ds over the efficiency */
 {
     return 8 * M_PI * isco * isco / pow(s, 5) / kd_kerr_efficiency(hole);
 }
@@ -275,7 +276,7 @@ static void sum_rays(const struct kd_hole *hole, enum kd_limb limb, struct sums 
     }
 }
 
-/* Cumulative from the outside: rings with s of at least b/BINS. */
+/* Sums over the rings with s of at least b/BINS. */
 static void sum_table(const struct kd_returning *table, struct sums *sums)
 {
     const int points = 1024;
@@ -309,7 +310,7 @@ static void the_kernel_is_that_of_followed_rays(void **state)
                    (got.deficit[b] - want.deficit[b]) / want.momentum);
             within("energy received", hole->a, got.energy[b] / want.energy[0], want.energy[b] / want.energy[0],
                    3e-3 + grain());
-            /* L of the gas grows outwards, and few rays come so far. */
+            /* L of the gas grows outwards, and only a few rays arrive that far out. */
             if (b)
                 within("angular momentum lacking", hole->a, got.deficit[b] / want.momentum,
                        want.deficit[b] / want.momentum, 3e-3 + 2 * grain());
@@ -353,8 +354,8 @@ static void energy_is_conserved(void **state)
     free(table);
 }
 
-/* Flux times temperature of the light that arrives at rings with s of at least b/BINS, by rays from a disk whose light
- * has the fluxes and temperatures of the reflection under test: it must be its own result. */
+/* Flux times temperature of the light that arrives at rings with s of at least b/BINS, by rays. They start from a disk
+ * with the fluxes and temperatures of the reflection under test, which must give the same result. */
 static void reflected_light_is_as_warm_as_followed_rays(void **state)
 {
     (void)state;
@@ -397,14 +398,16 @@ static void reflected_light_is_as_warm_as_followed_rays(void **state)
         for (int b = 0; b < BINS; b++) {
             printf("    a = %g, from s = %.3f: warmth %+.2e of all\n", hole->a, (double)b / BINS,
                    (got[b] - want[b]) / want[0]);
-            /* g^2 makes few rays count much, the more the faster the hole; the error falls as the number of rays */
+            /* a few rays dominate because of the factor g^2, the more so the faster the hole rotates; the error falls
+             * as the number of rays */
             within("warmth", hole->a, got[b] / want[0], want[b] / want[0], 3e-3 + (hole->a > 0.99 ? 10 : 3) * grain());
         }
     }
     free(table);
 }
 
-/* Reflected light carries what returns; the fluxes add to that of a disk that absorbs all, and neither is negative. */
+/* Reflected light carries away the light that returns. The fluxes add to that of a disk that absorbs all light; neither
+ * is negative. */
 static void reflection_changes_no_flux(void **state)
 {
     (void)state;
@@ -429,8 +432,8 @@ static void reflection_changes_no_flux(void **state)
     free(table);
 }
 
-/* A disk whose light is that of a torque at the ISCO alone, F ~ -Omega'/(r (E - Omega L)^2): E. Agol & J. H. Krolik
- * 2000, ApJ 528, 161, abstract: up to 58 % of the light returns, at a = 0.998. They followed rays at random. */
+/* A disk that radiates only by a torque at the ISCO, F ~ -Omega'/(r (E - Omega L)^2). E. Agol & J. H. Krolik 2000, ApJ
+ * 528, 161, abstract: up to 58 % of its light returns, at a = 0.998. They followed random rays. */
 static void published_share_of_a_disk_with_torque(void **state)
 {
     (void)state;
@@ -447,7 +450,7 @@ static void published_share_of_a_disk_with_torque(void **state)
         returns += light * kd_returning_shares_at(table, &table->energy, r).returns;
     }
     within("share that returns", 0.998, returns / all, 0.58, 0.01);
-    /* K. S. Thorne 1974, ApJ 191, 507, abstract: the hole's capture of light leaves 30 % of efficiency. */
+    /* K. S. Thorne 1974, ApJ 191, 507, abstract: since the hole captures light, the efficiency is 30 %. */
     within("efficiency", 0.998, kd_kerr_efficiency(hole) * table->lastly.escapes, 0.30, 6e-3);
     free(table);
 }

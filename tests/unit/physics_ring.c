@@ -61,7 +61,7 @@ static void without_spin(void **state)
 static void with_spin(void **state)
 {
     static const double cases[][4] = {
-        /* a, i, r, phi */
+        /* rows of a, i, r, phi */
         { 0.9, 60, 6, 90 },    { 0.9, 60, 6, 200 },   { 0.9, 60, 2.5, 20 }, { 0.998, 80, 1.5, 300 },
         { -0.7, 30, 12, 150 }, { 0.5, 85, 4.5, 5 },   { 0.99, 10, 3, 250 }, { 0.999999, 45, 2, 120 },
         { 0.3, 70, 100, 181 }, { -0.95, 75, 9, 330 },

@@ -64,7 +64,7 @@ static void comes_from(const struct kd_observer_motion *m, const struct kd_vanta
 }
 
 static const double rings[][4] = {
-    /* a, i, the observer's radius, the ring's */
+    /* rows of a, i, the observer's radius, and the ring's radius */
     { 0, 60, 1.2, 3 },        { 0, 75, 2, 6 },          { 0, 30, 2.5, 3 },        { 0, 120, 1.9, 40 },
     { 0.9, 60, 1.3, 1.5578 }, { 0.9, 60, 1.436, 2.32 }, { 0.9, 20, 0.8, 3.91 },   { 0.9, 80, 1.2, 2 },
     { 0.5, 80, 2.2, 6 },      { 0.9, 60, 6, 20 },       { 0.998, 85, 1.05, 1.2 }, { 0.998, 70, 1.5, 2 },
@@ -92,7 +92,7 @@ static void from_free_fall(void **state)
 static void from_nearby(void **state)
 {
     static const double cases[][5] = {
-        /* a, i, observer's r, r, chi */
+        /* rows of a, i, the observer's r, the ring's r, and chi */
         { 0.9, 60, 20, 6, 90 },   { 0.9, 60, 6, 20, 200 },      { 0.9, 60, 12, 2.5, 20 },  { 0.998, 80, 30, 1.5, 300 },
         { -0.7, 30, 9, 22, 150 }, { 0.5, 85, 3.2, 22, 5 },      { 0.99, 10, 2.5, 3, 250 }, { 0.3, 70, 500, 100, 181 },
         { 0, 45, 2.8, 18.7, 33 }, { 0.999, 84, 74.1, 9.26, 1 }, { 0.7, 98, 26, 22, 271 },  { 0.9, 3, 15, 9, 77 },
@@ -121,8 +121,8 @@ static void from_nearby(void **state)
         }
 }
 
-/* An infalling observer sees every ring outside the horizon, from anywhere. Azimuth and time are not given where they
- * do not exist. */
+/* An infalling observer sees every ring outside the horizon, from anywhere. No azimuth and time are given where none
+ * exist. */
 static void everywhere(void **state)
 {
     static const double spins[] = { 0, 0.5, -0.9, 0.998 }, inclinations[] = { 0, 60, 89, 130 };

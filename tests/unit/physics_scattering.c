@@ -48,9 +48,9 @@ static void flux_comes_out(void **state)
     assert_true(fabs(sum - 1) < 1e-5);
 }
 
-/* Photons that fall on the atmosphere at a cosine, and are scattered until they leave. Their Stokes parameters change
- * by the amplitudes of Thomson's scattering, of fields in three dimensions; directions are drawn by rejection. A photon
- * that has been scattered CAP times is left out, a few of a thousand. */
+/* Follows photons that fall on the atmosphere at a cosine until they leave. Thomson scattering changes their Stokes
+ * parameters, computed from field amplitudes in three dimensions; directions are drawn by rejection. A photon is
+ * dropped after CAP scatterings, which happens to a few in a thousand. */
 enum { PHOTONS = 60000, CAP = 3000, BINS = 4 };
 static uint64_t seed = 1;
 static double drawn(void)
@@ -61,7 +61,7 @@ static double drawn(void)
 
 static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Unit vectors along growing angle from the normal, and along growing azimuth. */
+/* Unit vectors of increasing angle from the normal, and of increasing azimuth. */
 static void bases(const double n[3], double l[3], double r[3])
 {
     const double level = hypot(n[0], n[1]);
@@ -69,7 +69,8 @@ static void bases(const double n[3], double l[3], double r[3])
     r[0] = -n[1] / level, r[1] = n[0] / level, r[2] = 0;
 }
 
-/* stokes: I_l, I_r, U with I_l + I_r = 1. Scatters it into the direction n; returns the intensity over its maximum. */
+/* stokes: I_l, I_r and U, with I_l + I_r = 1. Scatters the light into the direction n; returns the ratio of the
+ * intensity to its maximum. */
 static double scattered_into(const double from[3], const double stokes[3], const double n[3], double out[3])
 {
     double l0[3], r0[3], l[3], r[3];
@@ -82,7 +83,7 @@ static double scattered_into(const double from[3], const double stokes[3], const
     return out[0] + out[1];
 }
 
-/* Sums of Stokes parameters of light that leaves in bins of its cosine, times 1, cos, sin, cos 2x, sin 2x. */
+/* Stokes parameters of light that leaves, summed in bins of its cosine, times 1, cos, sin, cos 2x and sin 2x. */
 static void follow(double mu0, const double light[3], double sums[BINS][3][5])
 {
     for (int photon = 0; photon < PHOTONS; photon++) {
@@ -139,7 +140,8 @@ static void light_is_reflected_like_photons(void **state)
                 kd_scattering_reflect(&at[i], mu[i], &in, mu0, cases[n].light, &out);
                 const double *const all[3] = { out.l, out.r, out.u };
                 for (int k = 0; k < 3; k++)
-                    for (int m = 0; m < 5; m++) /* photons carry mu times the intensity; means of squares are 1/2 */
+                    /* a photon counts mu times the intensity; the mean of a squared cosine or sine is 1/2 */
+                    for (int m = 0; m < 5; m++)
                         want[k][m] += all[k][m] * (m ? M_PI : 2 * M_PI) * mu[i] / (STEPS * BINS) / mu0;
             }
             const char *const names = "lru";
@@ -152,7 +154,7 @@ static void light_is_reflected_like_photons(void **state)
     }
 }
 
-/* All light that falls in leaves again: 2 pi times the integral of mu I is mu0. */
+/* All light that enters leaves again: 2 pi times the integral of mu I is mu0. */
 static void reflection_loses_nothing(void **state)
 {
     (void)state;

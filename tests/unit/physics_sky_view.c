@@ -93,7 +93,8 @@ static struct kd_sky_view view_of(const struct seer *s)
     return view;
 }
 
-/* E of light seen with energy 1 in the direction (right, up, inwards), and its origin. */
+/* Energy at infinity of light that is seen with energy 1 in the direction (right, up, inwards), and the light's origin.
+ */
 static double oracle_energy(const struct seer *s, const struct ks_frame *f, const double k[3], enum ks_fate *fate)
 {
     const struct ks_place at = place_of(s);
@@ -139,9 +140,9 @@ static void directions(void **state)
     }
 }
 
-/* Directions with one value of g form a circle about the axis along which E changes most. For a g that is 1e-5 beyond
- * an extreme value, the whole circle is dark, or there is none. For a g that is 1e-5 short of it, some of the circle is
- * seen. */
+/* Directions with one value of g form a circle about the axis along which E changes most. If g is 1e-5 beyond an
+ * extreme value, the whole circle is dark or does not exist. If g is 1e-5 short of it, a part of the circle is bright.
+ */
 static bool circle_is_seen(const struct seer *s, const struct ks_frame *f, double g, int directions)
 {
     static const double axes[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };

@@ -1,12 +1,11 @@
 /* Tests of polarised spectra of a disk whose atmosphere scatters the light that returns. The same light is summed by
- * the Monte Carlo method: over places of the image, and at each over one direction from which light arrives there. All
- * rays are followed in Cartesian Kerr-Schild coordinates, with vectors of their polarisation; the gas's frame is found
- * by contraction with the metric. Energies are not counted by temperature, no ring is interpolated, and no constant of
- * motion is used. The rays are compared with kerr_schild_transport.h, which takes derivatives as differences. The law
- * of reflection is tested by itself (physics_scattering.c).
+ * the Monte Carlo method. Each sample is a place of the image and one direction from which light arrives at the disk
+ * there. All rays are followed in Cartesian Kerr-Schild coordinates, with vectors of their polarisation; the gas's
+ * frame is found by contraction with the metric. Unlike the code under test, it has no bins of temperature,
+ * interpolates no ring and uses no constant of motion. The rays are compared with kerr_schild_transport.h, which takes
+ * derivatives as differences. The law of reflection is tested by itself (physics_scattering.c).
  *
- *     unit_physics_stokes [SAMPLES [CASE]]     samples of each case; with SAMPLES all nine cases, or one, from 0 to 8
- */
+ *     unit_physics_stokes [SAMPLES [CASE]]     samples of each case; runs all nine cases, or CASE, from 0 to 8 */
 #include "kerr_schild_transport.h"
 #include "physics/disk/disk_stokes.h"
 #include "physics/disk/scattering.h"
@@ -27,7 +26,7 @@
 
 enum { ENERGIES = 4, BATCHES = 8 };
 #define OUTER 60
-#define NEAR 1e-4 /* of rays of both integrators */
+#define NEAR 1e-4 /* largest difference of rays of both integrators */
 #define RADIAN (M_PI / 180)
 static const double kev[ENERGIES] = { 2, 3, 5, 8 };
 static long samples, chosen = -1;
@@ -65,8 +64,8 @@ static void make_atmosphere(void)
 static int row(double mu) { return (int)lround(FINE * sqrt(fmin(mu, 1))); }
 static struct kd_scattered emitted(double mu) { return emission[row(mu)]; }
 
-/* Light followed back in time in Cartesian ingoing Kerr-Schild coordinates, g = eta + f l l: its place, its wave vector
- * and two vectors that are transported with it. */
+/* Light that is followed back in time, in Cartesian ingoing Kerr-Schild coordinates with g = eta + f l l. x: its place;
+ * v: its wave vector and two vectors that are transported with it. */
 enum { VECTORS = 3 };
 struct light { double x[4], v[VECTORS][4]; };
 
@@ -98,12 +97,12 @@ static double product(const struct field *o, const double *p, const double *q)
     return dot(p, q) - 2 * p[0] * q[0] + o->f * dot(o->l, p) * dot(o->l, q);
 }
 
-/* dx = -k, dv^m = Gamma^m_ab k^a v^b. */
+/* dx = -k and dv^m = Gamma^m_ab k^a v^b */
 static void derivative(double a, const struct light *s, struct light *d)
 {
     const struct field o = field_at(a, s->x);
     const double *k = s->v[0], lk = dot(o.l, k), dfk = dot(o.df, k);
-    double by_k[4], of_k[4]; /* of l along k; of l.k by each coordinate */
+    double by_k[4], of_k[4]; /* derivatives of l along k, and of l.k by each coordinate */
     for (int m = 0; m < 4; m++) {
         by_k[m] = k[1] * o.dl[1][m] + k[2] * o.dl[2][m] + k[3] * o.dl[3][m];
         of_k[m] = dot(o.dl[m], k);
@@ -147,9 +146,9 @@ static void step(double a, struct light *s, double h)
         add(s, &d[i], h * (i == 0 || i == 3 ? 1. / 6 : 1. / 3));
 }
 
-/* Follows light to its next place on the plane. False: it comes from the hole, or from beyond `outer`. Light from
- * within the innermost photon orbit (J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972, ApJ 178, 347, eq. 2.18) comes
- * from the hole. */
+/* Follows light to the next place where it meets the plane. Returns false if it comes from the hole or from beyond
+ * `outer`. Light from within the innermost photon orbit (J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972, ApJ 178,
+ * 347, eq. 2.18) comes from the hole. */
 static bool to_plane(double a, struct light *s, double outer)
 {
     const double horizon = 1 + sqrt(1 - a * a), innermost = 2 * (1 + cos(2. / 3 * acos(-a)));
@@ -179,7 +178,8 @@ static void frame_of(const struct disk *d, const double *x, double legs[4][4])
     };
     static const int order[4] = { 0, 3, 2, 1 };
     memcpy(legs, raw, sizeof raw);
-    /* Outwards is across both Killing vectors, that is, across the velocity and the projected turn. */
+    /* The outward leg is orthogonal to both Killing vectors, that is, to the velocity and to the projected azimuthal
+     * one. */
     for (int n = 0; n < 4; n++) {
         double *v = legs[order[n]];
         for (int k = 0; k < n; k++) {
@@ -193,7 +193,7 @@ static void frame_of(const struct disk *d, const double *x, double legs[4][4])
     }
 }
 
-/* Light at a place on the plane: r, its energy in the gas's frame, its direction there, and components of the two
+/* Light at a place of the plane: r, its energy and direction in the gas's frame, and the components of the two
  * transported vectors along l and r of scattering.h. */
 struct met { double r, energy, n[3], l[2], r_[2]; };
 
@@ -230,7 +230,7 @@ static struct met met_by(const struct disk *d, const struct light *s, double leg
     return m;
 }
 
-/* Light that arrives in the gas's frame against the direction `source`: adds what is reflected to n. */
+/* Adds the light that arrives in the gas's frame from the direction `source` and is reflected to n. */
 static void reflect(const struct disk *d, const double *x, double legs[4][4], const double n[3], double g, double solid,
                     const double source[3], double light[ENERGIES][3])
 {
@@ -254,7 +254,7 @@ static void reflect(const struct disk *d, const double *x, double legs[4][4], co
             break;
     }
     const struct kd_scattered own = emitted(fabs(from.n[2]));
-    /* Emitted light is polarised along r of its source. */
+    /* The source's light is polarised along r. */
     const double fraction = kd_scattered_fraction(&own), all = (own.across + own.along) * solid,
                  part = fraction / (from.r_[0] * from.r_[0] + from.r_[1] * from.r_[1]),
                  q = part * (from.r_[0] * from.r_[0] - from.r_[1] * from.r_[1]), u = part * 2 * from.r_[0] * from.r_[1];
@@ -273,20 +273,20 @@ static void reflect(const struct disk *d, const double *x, double legs[4][4], co
         }
 }
 
-/* Light of the ray (alpha, beta) of an observer at infinity, placed at r = 1e6. Its vectors point up and to the left.
- */
+/* Light of the ray (alpha, beta) of an observer at infinity, placed at r = 1e6. Its two vectors point up and to the
+ * left. */
 static struct light seen_at(const struct disk *d, double alpha, double beta)
 {
     const double far = 1e6, s = sin(d->theta), c = cos(d->theta);
     struct light o = { .x = { 0, far * s - beta * c, alpha, far * c + beta * s },
                        .v = { { 0, s, 0, c }, { 0, -c, 0, s }, { 0, 0, -1, 0 } } };
     const struct field f = field_at(d->hole.a, o.x);
-    const double along = f.l[1] * s + f.l[3] * c; /* g kk = 0 for k = (t, s, 0, c) */
+    const double along = f.l[1] * s + f.l[3] * c; /* solves g kk = 0 for k = (t, s, 0, c) */
     o.v[0][0] = (f.f * along + sqrt(1 - f.f + f.f * along * along)) / (1 - f.f);
     return o;
 }
 
-/* One sample, of four numbers between 0 and 1. light: direct and reflected Stokes parameters at each energy. */
+/* One sample, chosen by four numbers between 0 and 1. light: direct and reflected Stokes parameters at each energy. */
 static void sample(const struct disk *d, const double at[4], double light[2][ENERGIES][3])
 {
     const double most = log(1.25 * OUTER), least = log(0.5), b = exp(least + (most - least) * at[0]),
@@ -308,7 +308,7 @@ static void sample(const struct disk *d, const double at[4], double light[2][ENE
         light[0][e][1] += of * part * (r[0] * r[0] - r[1] * r[1]);
         light[0][e][2] += of * part * 2 * r[0] * r[1];
     }
-    /* Directions are densest about the direction to the hole, rho = 0. */
+    /* Directions are densest near the direction to the hole, rho = 0. */
     const double spread = 1 + log(seen.r), rho = M_PI * sinh(spread * at[2]) / sinh(spread), sine = sin(rho),
                  chi = M_PI * at[3], source[3] = { -cos(rho), sine * cos(chi), sine * sin(chi) },
                  solid = sine * M_PI * spread * cosh(spread * at[2]) / sinh(spread) * M_PI;
@@ -349,7 +349,7 @@ static void rays_are_those_of_differences(void **state)
     }
 }
 
-/* Degree in per cent and angle of the light of both kinds, or of the direct light alone. */
+/* The degree, in per cent, and the angle of polarisation of direct and scattered light, or of direct light alone. */
 struct shown { double i, q, u; };
 static struct shown shown_of(double light[2][ENERGIES][3], int e, bool both)
 {
@@ -416,7 +416,8 @@ static void judge(double a, double inclination, long count)
                 const double of_share = sigma(shares, &share), wanted = two.i / one.i;
                 printf("    a %g, i %g, %g keV: share of scattered light %.5f, by samples %.5f +- %.5f\n", a,
                        inclination, kev[e], wanted, share, of_share);
-                /* Above 3 keV a few samples carry most of this light, so that their deviation is too small. */
+                /* Above 3 keV this light comes from a few samples, so that their standard deviation is underestimated.
+                 */
                 if (!(e || fabs(wanted - share) <= 3 * of_share + 0.02 * wanted))
                     fail_msg("a %g, i %g, %g keV: share %g, by samples %g +- %g", a, inclination, kev[e], wanted, share,
                              of_share);
@@ -446,8 +447,8 @@ static void polarisation_is_that_of_samples(void **state)
                 judge(spins[a], inclinations[i], samples ? samples : suite[a][i]);
 }
 
-/* Summed over directions and energies, scattered over direct light is first.returns / first.escapes of the kernel of
- * returning light, less the share that falls on the disk or into the hole again. */
+/* Summed over directions and energies, the ratio of scattered to direct light is first.returns / first.escapes of the
+ * kernel of returning light, less the share that meets the disk or the hole again. */
 static void scattered_light_is_what_returned(void **state)
 {
     (void)state;
@@ -467,7 +468,7 @@ static void scattered_light_is_what_returned(void **state)
         assert_true(kd_disk_image_init(image, &hole, acos(cosines[i])));
         assert_int_equal(kd_disk_stokes_init(stokes, image, &p, true, &error), KD_OK);
         for (int k = 0; k < KD_STOKES_NODES; k++) {
-            const double fourth = exp(0.08 * k); /* of the temperature of the node */
+            const double fourth = exp(0.08 * k); /* fourth power of the node's temperature */
             direct += weights[i] * fourth * stokes->direct[k].i;
             scattered += weights[i] * fourth * stokes->scattered[k].i;
         }

@@ -59,7 +59,7 @@ static void enthalpy_holds_the_gas(void **state)
                     slope(a, t.l, inner + (k + 1) * h));
         if (!(fabs(sum / t.log_most - 1) < 1e-6))
             fail_msg("a = %g, from %g to %g M: ln h = %.9g, integrated %.9g", a, inner, most, t.log_most, sum);
-        /* At the pressure maximum ln h is largest: the gas needs no pressure there. */
+        /* ln h is largest at the pressure maximum, where the gas moves freely. */
         assert_true(fabs(slope(a, t.l, most)) < 1e-6 && slope(a, t.l, 0.9 * most) > 0 && slope(a, t.l, 1.1 * most) < 0);
         assert_true(t.outer > most && fabs(kd_torus_log_enthalpy(&t, kd_hole(a), t.outer, 0)) < 1e-9);
         assert_true(t.height > 0.1 && t.height < 0.95);

@@ -154,7 +154,7 @@ static void rain_in_schwarzschild(void **state)
         const struct kd_worldline_place got = kd_worldline_after(&m, &at, whole - left);
         const double r = pow(3 / sqrt(2) * left, 2. / 3);
         const struct fall rain = { 0, 0, 20, 0, 0, 0 };
-        /* the remaining time is a difference */
+        /* the remaining time is small compared with both numbers, whose difference it is */
         near("r", &rain, whole - left, got.r / r, 1, 1e-12 + 1e-14 * whole / left);
         near("time", &rain, whole - left, got.time, advanced(20) - advanced(r) - r + 20, 1e-11);
         near("azimuth", &rain, whole - left, got.azimuth, 0, 0);
@@ -216,8 +216,8 @@ static void others_stay_and_go_round(void **state)
 }
 
 /* Next to the inner horizon of fast holes, E = 1 and L = 2/a, by quadrature in 40 digits of the same doubles. P
- * vanishes at r = 1, so that all that is integrated is small. P has an absolute error of 4e-16 and is of the order of
- * the distance between the horizons; the bound is 100 times the quotient of these. */
+ * vanishes at r = 1, so that all that is integrated is small. P has an absolute error of 4e-16, and its size is about
+ * the distance between the horizons; the bound is 100 times the ratio. */
 static void falls_between_horizons_that_almost_coincide(void **state)
 {
     (void)state;

@@ -110,7 +110,7 @@ static void near_the_hole_it_is_his_power_and_another_pace(void **state)
     kd_playground_destroy(p);
 }
 
-/* An eccentric pair follows Peters' e(a), eq. 5.11. */
+/* The eccentricity of a pair follows Peters' e(a), eq. 5.11. */
 static void an_eccentric_pair_grows_round_as_peters_says(void **state)
 {
     (void)state;
@@ -168,8 +168,8 @@ static void mergers_keep_mass_and_momentum(void **state)
     }
     assert_true(fabs(pow(p->bodies[0].radius, 3) - 0.125 - 0.027) < 1e-15);
     assert_int_equal(kd_playground_event_at(&p->events, 1)->kind, KD_PLAYGROUND_MERGER);
-    /* The balance of energy: the loss is heat, half of mu v^2, and the pair's own potential; the step's error is a
-     * thousandth of it. */
+    /* The energy balances: what is lost is heat, half of mu v^2, and the pair's own potential. The error of the step is
+     * a thousandth of it. */
     assert_true(fabs(after.energy + p->spent.merged - before.energy) < 1e-3 * p->spent.merged);
     kd_playground_destroy(p);
 }
@@ -434,8 +434,8 @@ static void the_least_stars(void **state)
     }
 }
 
-/* A series without end has, however long it gets, rows at equal distances from the beginning. In files the present is
- * the last row. */
+/* A series without end keeps rows at equal distances from the beginning, however long it gets. In files the last row is
+ * the present. */
 static void series_of_no_end_are_even(void **state)
 {
     (void)state;

@@ -107,8 +107,8 @@ static void who_leaves_is_told(void **state)
 }
 
 /* A body that starts on a circle, next to one, or at a turning point up to rounding, is never refused. The middle of
- * the motion is where W has its maximum, which fixes the rate of oscillation: W is even about the middle except for its
- * cubic part, whose share is the width squared. */
+ * the motion is the maximum of W. There W determines the rate of oscillation, apart from its cubic part, which
+ * contributes the square of the width. */
 static void circles_are_no_refusals(void **state)
 {
     (void)state;
@@ -160,9 +160,9 @@ static void circles_go_round_evenly(void **state)
     }
 }
 
-/* If the budget ends within a stride, all bodies are where they were at its beginning, at one common time; the next
- * calls bring them, to the bit, to where a single call with enough budget does, also through a snapshot. One call
- * takes at most that number of steps, however long a stride is. */
+/* If the budget ends within a stride, all bodies are where they were at its beginning, at one common time. Further
+ * calls bring them to the same bits as a single call with enough budget, also through a snapshot. A call takes at most
+ * the budget's number of steps, however long a stride is. */
 static void bodies_are_at_one_time(void **state)
 {
     (void)state;
@@ -180,7 +180,7 @@ static void bodies_are_at_one_time(void **state)
         kd_playground_advance(q, 2000 - q->t, &progress);
         assert_true(progress.slowed || q->t == 2000);
         assert_true(q->t > t || q->bodies[2].x[0] == x);
-        if (k % 50 == 0) { /* compare with a playground that has all the budget it needs up to this time */
+        if (k % 50 == 0) { /* the reference is a playground that has enough budget up to this time */
             struct kd_playground *whole = playground_read(text);
             playground_advance(whole, q->t);
             assert_true(whole->t == q->t && whole->n == 3 && q->n == 3);
@@ -227,7 +227,7 @@ static void bodies_are_at_one_time(void **state)
     kd_playground_destroy(q);
 }
 
-/* Time has a largest value, which is reported; a snapshot cannot exceed it. */
+/* Time has a largest value, which is reported. No snapshot may exceed it. */
 static void time_has_an_end(void **state)
 {
     (void)state;
@@ -267,8 +267,9 @@ static struct kd_buffer snapshot(struct kd_playground *p)
     return out;
 }
 
-/* A snapshot is taken, the playground goes on, and a second one is taken. After reading the first and going on, a new
- * one has the same bytes as the second. This is tested in the middle of shedding, of an inspiral, and of geodesics. */
+/* A snapshot is taken, the playground goes on, and a second one is taken. A playground that continues from the first
+ * snapshot must give the same bytes as the second. This is tested in the middle of shedding, of an inspiral, and of
+ * geodesics. */
 static void snapshots_start_again_to_the_bit(void **state)
 {
     (void)state;
@@ -376,7 +377,7 @@ static void documents_are_checked_and_changes_are_whole(void **state)
     assert_string_equal(kd_playground_find(p, 7)->name, "new");
     kd_playground_destroy(p);
     /* A star that is being torn at its periastron continues to be torn when its temperature is changed. A snapshot
-     * records the energy added with new bodies. */
+     * contains the energy that new bodies added. */
     p = playground_read("{\"preset\":\"disruption\",\"debris_per_body\":1000}");
     playground_advance(p, 2600);
     const double shed = p->bodies[0].shed;

@@ -21,7 +21,7 @@ static void energy_has_no_trend_over_a_thousand_orbits(void **state)
             add(p, 5e-4, 9e5, 15, 0.5 * v, 0);
             add(p, 5e-4, 9e5, -15, -0.5 * v, 0);
             period = 2 * M_PI * sqrt(8000 / 1e-3);
-        } else { /* r from 30 to some 13 */
+        } else { /* r goes from 30 to some 13 */
             add(p, 1e-6, 30, 0, 0, 0.7 * kd_playground_circular(30));
             period = 2 * M_PI * pow(22, 1.5);
         }
@@ -94,7 +94,7 @@ static void the_marginally_bound_orbit_is_at_four(void **state)
     }
 }
 
-/* However the time is divided into calls, also with a budget that stops them, the result is the same to the bit. */
+/* The result is the same to the bit however the time is divided into calls, also if a budget stops them. */
 static void calls_do_not_matter(void **state)
 {
     (void)state;

@@ -17,8 +17,8 @@ static struct kd_dynamic_bodies *shown(struct kd_playground *p)
     return dynamic;
 }
 
-/* The place shown is the body's. The energy of a body that moves by Newton's law, u^2/2, becomes (gamma v)^2/2, and its
- * direction stays. */
+/* The body is shown at its place. The energy of a body that moves by Newton's law, u^2/2, becomes (gamma v)^2/2, and
+ * its direction stays. */
 static void bodies(void **state)
 {
     (void)state;

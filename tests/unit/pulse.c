@@ -10,11 +10,11 @@
 
 #include <cmocka.h>
 
-#define DEADLINE_MS 20u /* deadline of a submission: the longest time that may pass between two looks */
+#define DEADLINE_MS 20u /* deadline of a submission, which is the longest time between two calls of kd_pulse */
 
 static void sleep_ms(double ms) { nanosleep(&(struct timespec) { .tv_nsec = (long)(1e6 * ms) }, NULL); }
 
-/* Looks every 2 ms, for as long as a busy machine may need; returns the seconds that were reported last. */
+/* Checks every 2 ms, for as long as a busy machine may need; returns the seconds that were reported last. */
 static double look(struct kd_pulse *pulse, double ms, bool beats)
 {
     double s = 0;

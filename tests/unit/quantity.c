@@ -89,7 +89,8 @@ static void defaults_answer(void **state)
         for (size_t i = 0; i < answer.points * kd_quantities[q]->n_outputs; i++)
             finite += isfinite(answer.values[i]);
         assert_true(2 * finite > answer.points * kd_quantities[q]->n_outputs);
-        /* A request with default values is cheap: only the kernel of returning light takes more than some 50 ms. */
+        /* A request with default values is cheap: it takes at most some 50 ms, except for the kernel of returning
+         * light. */
         assert_true(kd_quantity_cost_ms(&answer.request) < 400);
         cJSON_Delete(parsed(&answer));
         kd_quantity_answer_finish(&answer);

@@ -36,8 +36,9 @@ def erlang_c(n, load):
 
 
 def waits(n, load, count, draw, seed, maxconn=1, limit=10**9, retries=5, patience=math.inf):
-    """Seconds that pieces of work waited beyond their own time, by number, and the statuses answered. All have the same
-    estimate, so that the scheduler cannot know which are short."""
+    """Seconds that pieces of work waited beyond their own time, by number, and the statuses of the answers. All pieces
+    have the same estimated time, so that the scheduler cannot know which are short.
+    """
     rng, env = random.Random(seed), simpy.Environment()
     servers = [queueing.Server(env, limit) for _ in range(n)]
     balancer, log = queueing.Balancer(env, servers, maxconn, patience, retries), []
@@ -59,7 +60,7 @@ def exponential(rng):
 class Queues(unittest.TestCase):
     def near(self, found, expected):
         """The mean is within four standard errors, which are estimated from the means of thirty batches because
-        successive waits are correlated. The standard error must be small; otherwise the test would show nothing."""
+        successive waits are correlated. The standard error must be small, else the test could not fail."""
         size = len(found) // 30
         batches = [statistics.mean(found[k * size : (k + 1) * size]) for k in range(30)]
         error = statistics.stdev(batches) / math.sqrt(len(batches))
@@ -110,7 +111,7 @@ class Queues(unittest.TestCase):
 
 class Shares(unittest.TestCase):
     def served(self, works, seconds):
-        """Device seconds of each of these clients, who request again as soon as they are served."""
+        """Device seconds of each of these clients, which request again as soon as they are served."""
         env = simpy.Environment()
         server, had = queueing.Server(env), [0.0] * len(works)
 

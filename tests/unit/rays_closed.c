@@ -39,7 +39,8 @@ static void trace_one(const struct kd_rays_params *params, double alpha, double 
 
 static bool same_azimuth(double a, double b, double bound) { return fabs(remainder(a - b, 2 * M_PI)) < bound; }
 
-/* The reference starts at 1e6 M with a series, good to about 1e-9; that error grows by up to 23 times an order. */
+/* The reference starts at 1e6 M with a series, good to about 1e-9; the error grows by a factor of up to 23 with each
+ * order. */
 static void against_the_oracle(void **state)
 {
     (void)state;
@@ -201,8 +202,8 @@ static struct ks_path seen_by(const struct kd_rays_params *p, const double *look
 }
 
 /* Every kind of observer, in all directions. The reference starts from a velocity that contains the square root of the
- * radial potential, which is 0 where an observer stays or circles. This leaves an error of 1e-8, which grows by up to
- * 23 times an order. */
+ * radial potential, which is 0 where an observer stays or circles. This leaves an error of 1e-8, which grows by a
+ * factor of up to 23 with each order. */
 static void observers_that_move(void **state)
 {
     static const double looks[][2] = { { 3, 2 },  { -21, 13 }, { 40, -33 },  { -75, 5 },

@@ -142,7 +142,7 @@ static struct kd_buffer read_by(const struct kd_rays_answer *answer, enum kd_ray
 static void pieces_of_any_size(void **state)
 {
     (void)state;
-    for (uint32_t orders = 1; orders <= KD_RAYS_MAX_ORDERS; orders += 15) /* the longest row too */
+    for (uint32_t orders = 1; orders <= KD_RAYS_MAX_ORDERS; orders += 15) /* the longest row is tested as well */
         for (int format = KD_RAYS_JSON; format <= KD_RAYS_CSV; format++) {
             struct kd_rays_answer answer = some_answer(orders);
             struct kd_buffer whole = read_by(&answer, (enum kd_rays_format)format, 10000);

@@ -87,8 +87,8 @@ static double above_of(double azimuth)
     return 0.5 * (low + high);
 }
 
-/* A star lies cos(psi) along the direction towards the observer and sin(psi) to its side, at `angle` from the
- * picture's right. Finds all of its images within the rim from the azimuth that their rays cover. */
+/* A star lies at the angle psi from the direction towards the observer: cos(psi) along it and sin(psi) beside it, at
+ * `angle` from the picture's right. Finds all of its images within the rim from the azimuth that their rays cover. */
 static size_t judge(double psi, double angle, double *place, double *area)
 {
     size_t images = 0;
@@ -135,7 +135,8 @@ static void by_the_lens_equation(void **state)
         look(0, 90);
         assert_int_equal(kd_rim_images(&scene, &rim, &star, NULL, 1, keep, NULL, &error), KD_OK);
         const size_t images = judge(psi, angle, &place, &area);
-        if (n_seen < images || n_seen > images + 2) /* at each edge there may be one more image, which is not tested */
+        /* at each edge of the range there may be one more image, which is not tested */
+        if (n_seen < images || n_seen > images + 2)
             fail_msg("psi %g: %zu images instead of %zu", psi, n_seen, images);
         all += images;
     }
@@ -143,7 +144,8 @@ static void by_the_lens_equation(void **state)
     assert_true(all > 25 && place < 1e-4 && area < 1e-3);
 }
 
-/* The solid angle of the sky that a pixel shows there, in sr: tells which places are bright enough to be tested. */
+/* The solid angle in sr that a pixel shows at that place, which determines whether the place is bright enough to be
+ * tested. */
 static double shown(double u, double off)
 {
     double n[3][3], at[3][2], a[3], b[3];

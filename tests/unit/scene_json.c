@@ -207,7 +207,7 @@ static void old_names_are_read(void **state)
         assert_memory_equal(&old, &now, sizeof old);
     }
     struct kd_scene preset, picture;
-    kd_scene_smooth(&picture); /* the base over which a picture's document is read */
+    kd_scene_smooth(&picture); /* the default scene, over which a picture's document is read */
     assert_int_equal(support_parse(&picture, hot_spot, NULL), KD_OK);
     assert_int_equal(kd_scene_preset(&preset, "hot-spot", NULL), KD_OK);
     picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* this field did not exist then */
@@ -525,9 +525,9 @@ static void locale_does_not_matter(void **state)
     free(text);
 }
 
-/* How often the reader of a large document lets other work go first while the document is read and freed. The number
- * shows that its pieces are short. The test also measures the share of this thread's time that the longest piece
- * took. */
+/* Counts how often the reader of a large document lets other work go first while it reads and frees the document. A
+ * high number shows that its pieces are short. The test also measures the share of this thread's time that the longest
+ * piece took. */
 static unsigned pauses;
 static double last_s, longest_s, longest_share;
 static double thread_s(void)

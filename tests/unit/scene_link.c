@@ -149,7 +149,7 @@ static void minus_zero_has_a_link(void **state)
     free(link);
 }
 
-/* No field can shorten a list. In that case the link is based on another preset, or on the default scene. */
+/* No field can shorten a list, so that a link to a shorter list is based on another preset or on the default scene. */
 static void a_shorter_list_has_another_base(void **state)
 {
     (void)state;

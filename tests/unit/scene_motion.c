@@ -58,12 +58,12 @@ static void rings_move_while_time_does(void **state)
     scene.disk.model = KD_DISK_NONE;
     assert_false(kd_emit_moves(&scene));
     scene = struck(0.5, 1);
-    scene.accuracy.orders = 1; /* with this nothing in the picture shows the ringdown */
+    scene.accuracy.orders = 1; /* with this change, nothing in the picture shows the ringdown */
     assert_false(kd_emit_moves(&scene));
 }
 
-/* The slope of the sRGB curve at white is 0.44. When the motion ends, less than half of one of 255 steps is left, and
- * it does not go on until less than a fortieth of one is left. The decay time is by another method. */
+/* The slope of the sRGB curve at white is 0.44. When the motion ends, less than half of one of 255 steps remains, and
+ * it ends before a fortieth of a step is left. The decay time is computed by another method. */
 static void it_ends_when_it_cannot_be_seen(void **state)
 {
     (void)state;
@@ -129,8 +129,8 @@ static void an_observer_goes_on_by_its_own_clock(void **state)
     assert_true(kd_scene_time_goes_on(&scene));
 }
 
-/* With slow light `time` is that of the clock far away: for rain in Schwarzschild it advances by the integral of
- * 2/(r - 2) dr more. */
+/* With slow light, `time` is the time of a clock far away: for rain in Schwarzschild's metric it advances by the
+ * integral of 2/(r - 2) dr in addition. */
 static void slow_light_has_the_far_clock(void **state)
 {
     (void)state;

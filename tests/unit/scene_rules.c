@@ -342,7 +342,7 @@ static void lists_have_an_end(void **state)
     assert_string_equal(error.message, "spots has 17 elements; it must have at most 16");
 }
 
-/* A session draws a new frame if something visible has moved. */
+/* A session draws a new frame if a visible part of the scene has moved. */
 static void what_moves(void **state)
 {
     (void)state;
@@ -426,7 +426,7 @@ static void presets_show_what_they_say(void **state)
     (void)state;
     static const char *const stirred[] = { "falling", "infall", "jet", "thick-disk", "companions" };
     struct kd_scene scene, base;
-    for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* only scenes with gas have any */
+    for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* only scenes with gas have radiating electrons */
         assert_int_equal(kd_scene_preset(&scene, kd_scene_preset_name(i), NULL), KD_OK);
         bool gas = strstr(kd_scene_preset_name(i), "gas");
         for (size_t k = 0; k < sizeof stirred / sizeof *stirred; k++)

@@ -84,7 +84,7 @@ static void far_away_eyes_are_euclids(void **state)
                                                 .field_uas = INFINITY,
                                                 .ring_decades_min = -10 };
             assert_false(kd_wcs_of(&scene).known);
-            compare(&scene, k == 3 ? 3e-6 : 2e-6); /* the error is M/r, and half as much again for an infalling one */
+            compare(&scene, k == 3 ? 3e-6 : 2e-6); /* the error is M/r, and 1.5 M/r for an infalling observer */
         }
 }
 

@@ -293,7 +293,8 @@ static void schema_has_natures_places_and_groups(void **state)
     assert_string_equal(word_of(film, "x-group"), "more");
     assert_string_equal(word_of(film, "x-nature"), "look");
     const cJSON *meanings = cJSON_GetObjectItemCaseSensitive(schema, "x-natures");
-    assert_string_equal(word_of(meanings, "look"), "changes the picture, not the physics");
+    assert_string_equal(word_of(meanings, "look"),
+                        "a choice of presentation, which changes the picture but not the physics");
     assert_int_equal(cJSON_GetArraySize(cJSON_GetObjectItemCaseSensitive(schema, "x-groups")), 5);
     cJSON_Delete(schema);
     text.size = 0;

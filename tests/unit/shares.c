@@ -254,7 +254,7 @@ static void a_class_that_was_barred(void **state)
         }
 }
 
-/* A client that comes and goes, each time with new work, gets no more than its share. */
+/* A client that disconnects and returns with new work each time gets no more than its share. */
 static void coming_and_going(void **state)
 {
     (void)state;

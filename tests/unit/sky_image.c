@@ -191,8 +191,8 @@ static void wave(bool even, double period, double latitude, int level, double *a
     free(words);
 }
 
-/* At 86 degrees 32 texels are as wide as 2.2 at the equator. So nothing of that wave is left at the level whose texels
- * are as wide as 4 texels of level 0. At level 0, or next to the equator, the wave is there. */
+/* At a latitude of 86 degrees 32 texels are as wide as 2.2 at the equator. At the level whose texels are as wide as 4
+ * texels of level 0, nothing of that wave remains. At level 0, and next to the equator, the wave remains. */
 static void poles(void **state)
 {
     (void)state;
@@ -204,7 +204,7 @@ static void poles(void **state)
     NEAR(amplitude, 0.70, 0.03);
     wave(true, 32, 0.5, 2, &amplitude, &mean);
     NEAR(amplitude, 0.97, 0.03);
-    wave(false, 32, 86, 2, &amplitude, &mean); /* as in a picture that needs no such averaging */
+    wave(false, 32, 86, 2, &amplitude, &mean); /* as for a wave that needs no such averaging */
     NEAR(amplitude, 0.98, 0.02);
 }
 

@@ -3,7 +3,7 @@
 
 spaces.py SHADERS
 
-Some kernels of SHADERS are built by themselves under such a name, one with each kind of command. Only kernels have
+The test builds some kernels of SHADERS in a folder with such a name, one with each kind of command. Only kernels have
 dependencies that are found while building.
 """
 

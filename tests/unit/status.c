@@ -1,5 +1,5 @@
-/* Tests of steps that can fail: each is taken once, none after the first that fails, and resources are released in both
- * cases. */
+/* Tests of steps that can fail: each step is taken once, none is taken after a failed one, and resources are released
+ * in both cases. */
 #include "base/error.h"
 
 #include <setjmp.h>

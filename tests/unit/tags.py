@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that a name which the whole program knows means one thing: no tag with the prefix kd_ is declared twice.
+"""Checks that each public name means one thing: no tag with the prefix kd_ is declared twice.
 
 tags.py SRC SHADERS     exit 1 naming every tag that has two meanings in C and GLSL together
 

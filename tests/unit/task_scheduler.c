@@ -99,8 +99,7 @@ static void test_a_short_turn_comes_between_long_ones(void **state)
     kd_scheduler_destroy(scheduler);
 }
 
-/* While a short turn waits, a job whose turns are shared by several workers begins no more of them than there are
- * workers. */
+/* While a short turn waits, a job that several workers share begins at most one turn for each worker. */
 static void test_a_shared_job_does_not_begin_all_its_turns(void **state)
 {
     (void)state;
@@ -132,7 +131,7 @@ static void *destroy(void *scheduler)
     return NULL;
 }
 
-/* A paused turn ends when the queue is destroyed, like one that is running. */
+/* A paused turn ends when the queue is destroyed, as a running one does. */
 static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
 {
     (void)state;

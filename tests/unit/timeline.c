@@ -171,7 +171,7 @@ static void what_is_no_path_is_refused(void **state)
             fail_msg("%s: %s %s", wrong[i].keys, error.pointer, error.message);
         assert_null(t.keys);
     }
-    /* An error between two keyframes: from a fall to an orbit that does not exist with that clock. */
+    /* An error between two valid keyframes: on the way from a fall to an orbit, the clock has no valid observer. */
     struct kd_timeline t = made(RAIN,
                                 "[{\"at\":1,\"proper_time\":2},{\"at\":2,\"scene\":{\"camera\":{\"observer\":"
                                 "\"velocity\"}},\"proper_time\":0}]",
@@ -205,7 +205,7 @@ static struct kd_timeline turning(size_t n, enum kd_interpolation by, double *tu
     return t;
 }
 
-/* The shortest of nine measurements of this thread's time: other processes may be running. */
+/* The shortest of nine measurements of this thread's time, since other processes may be running. */
 static double seconds_of(const struct kd_timeline *t, int frames)
 {
     double least = INFINITY;

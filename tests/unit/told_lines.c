@@ -1,6 +1,6 @@
-/* Tests the error that a line profile states against its true error, over a random sample of all possible requests:
- * at least 999 of 1000 must be within the stated error. The true one is found with triangles between rays
- * (tests/oracle/line_triangles.h), more and more of them until its own uncertainty is below the stated error.
+/* Tests the error that a line profile states against its true error, over a random sample of all possible requests: at
+ * least 999 of 1000 must be within the stated error. The true error is found with triangles between rays
+ * (tests/oracle/line_triangles.h), whose number grows until their own uncertainty is below the stated error.
  *
  *     unit_told_lines [PROFILES [SEED]]     a long run: 2000 take some ten minutes */
 #include "base/random.h"
@@ -114,7 +114,7 @@ static double worst_of(const double *share, const double *want, int bins)
     return worst;
 }
 
-struct truth { double error, known; }; /* known: the uncertainty of error */
+struct truth { double error, known; }; /* the uncertainty of `error` */
 
 static struct truth truth_of(const struct asked *q, const double *share, double told)
 {

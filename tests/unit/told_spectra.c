@@ -1,7 +1,7 @@
 /* Tests the error that a disk's spectrum states against its true error, over a random sample of spins, radii, limb
- * darkening and frequencies, at 80 to 87 degrees, where the image is most curved: at least 999 of 1000 must be
- * within the stated error. The true one is found with rays traced individually instead of the table, with more rings
- * and directions; its own uncertainty by repeating that with half as many of each.
+ * darkening and frequencies, at 80 to 87 degrees, where the image is most curved: at least 999 of 1000 must be within
+ * the stated error. The true error is found with more rings and directions, and with rays traced individually instead
+ * of the table. A repetition with half as many of each gives its uncertainty.
  *
  *     unit_told_spectra [SPECTRA [SEED]]     a long run: 200 take some ten minutes */
 #include "base/random.h"

@@ -118,7 +118,7 @@ function panel(scene, session) {
   async function exchange(more) {
     if (ended) return;
     const now = present(),
-      // Sends only what has changed on this page: the same lesson may be open in another tab, which shows another
+      // Sends only the values that changed on this page, since the same lesson may be open in another tab with another
       // session.
       news = Object.entries(now).filter(([name, value]) => value != null && sent[name] !== value),
       fresh = { ...Object.fromEntries(news), ...more };

@@ -309,7 +309,7 @@ export function buildPixel(stage, scene, size) {
   function place() {
     cross.style.left = `${100 * at.u}%`;
     cross.style.top = `${100 * at.v}%`;
-    // The card does not cover the pixel: it is beside it in a wide window, above or below it on a telephone.
+    // The card must not cover the pixel: it is placed beside it in a wide window, and above or below it on a telephone.
     card.dataset.side = at.u < 0.5 ? 'right' : 'left';
     card.dataset.edge = at.v < 0.5 ? 'bottom' : 'top';
   }

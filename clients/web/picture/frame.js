@@ -44,8 +44,8 @@ export const passes = header =>
       ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
     }));
 
-// What the page states about a picture's size. all: the picture has all the pixels of one at rest. narrow: it has fewer
-// than should be kept in motion.
+// The page's statement about the size of a picture. all: the picture has all pixels of a picture at rest. narrow: it
+// has fewer than the minimum for motion.
 export function fits(quality, { width }, { keeps, part }) {
   const all = Math.round(width * part);
   return {
@@ -71,7 +71,7 @@ export function state(get, scene) {
   };
 }
 
-// What the page says of a picture, from its headers and its state. from: its session; size: of the window.
+// The page's description of a picture, from its headers and its state. from: its session; size: of the window.
 export const said = (get, { quality, revision, clock, falls, azimuth }, from, size) => ({
   ...quality,
   revision,

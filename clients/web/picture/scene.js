@@ -109,7 +109,7 @@ export class Scene extends EventTarget {
   #clock = null; // timer of the clock without pictures
   #linked = 0; // when the address was last updated
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody presses Play
-  varies = []; // what another time or azimuth would change, as the server states it (docs/live.md)
+  varies = []; // the changes that another time or azimuth would cause, as the server states them (docs/live.md)
   emitters = []; // the scene's emitters, as the server states them
   unknown = []; // keys of the link that the page does not know
   linked = []; // paths of scene fields that the link set
@@ -368,7 +368,7 @@ export class Scene extends EventTarget {
     ]);
   }
 
-  // The scene as JSON, only with what differs from the defaults. other: values that override the page's. begun: moved
+  // The scene as JSON, without values that equal the defaults. other: values that override the page's. begun: moved
   // values are given as at the start of the motion. Elements at their defaults are {} if others follow.
   document(other = {}, begun = false) {
     const out = {};

@@ -5,7 +5,8 @@ import * as link from '../base/link.js';
 import { linkedTime } from '../picture/scene.js';
 import { samples } from '../picture/changes.js';
 
-// The values to render with, over those of the scene. With the window's shape the picture shows what the window shows.
+// Values with which the picture is rendered, instead of the scene's own. With the window's shape the picture shows the
+// same part as the window.
 export function picked(scene, size) {
   const choice = byId('save-size').value,
     here = size(),

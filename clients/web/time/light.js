@@ -6,7 +6,7 @@ import { apart } from './living.js';
 import { plot } from '../base/plot.js';
 import { drawing, drawTrack } from './track.js';
 
-const kept = 1500; // points, of which 20 to 45 come a second
+const kept = 1500; // number of points; 20 to 45 arrive a second
 const pace_ms = 200; // least time between two drawings
 
 const far = scene => scene.get('camera.r') === 'infinity';

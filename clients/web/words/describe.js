@@ -11,7 +11,7 @@ const views = {
 };
 const seen = {}; // what each view shows, by the view's name
 
-// Sets what a view shows; the page's title has it while the view is open.
+// Sets the description of a view; the page's title contains it while the view is open.
 export function entitle(view, what) {
   if (what != null) seen[view] = what;
   const title = `${views[view]}${seen[view] ? `: ${seen[view]}` : ''} – kerrd`;

@@ -149,7 +149,7 @@ export function nature(name, help) {
   const [word, text] = locale?.natures[name] ?? [];
   return { word: word ?? name, text: text ?? helpOf(help).help, lang: locale && !text ? 'en' : null };
 }
-// Labels of choices whose own words say too little.
+// Labels of choices for which the choice's own word is not clear enough.
 const choices = {
   static: 'at rest',
   zamo: 'zero angular momentum (ZAMO)',

@@ -31,7 +31,7 @@ const sentences = {
     'The stars of the Hipparcos catalogue over a picture of the sky behind.',
   'said.the-server-is-stopping-and': 'the server is stopping and accepts no new sessions',
   'said.each-point-has-one-image':
-    'each point has one image, continued from that of the point before: the direct image, but close to a spinning hole seen nearly edge on it may change to an image that has gone round the hole; points within 1.2 horizon radii have none',
+    'each point has one image, which is continuous with the image of the point before; it is the direct image, but close to a spinning hole seen nearly edge on it may become an image whose light has gone round the hole; points within 1.2 horizon radii have no image',
   'said.the-body-is-a-test': 'the body is a test particle: no gravity of its own, no radiation, no tidal disruption',
   'said.spin-parameter-a-a-0': 'spin parameter a; a < 0: the orbit or the disk turns against its hole',
   'said.spin-parameter-a-a-0-the': "spin parameter a; a < 0: the star's orbit is against the hole's spin",
@@ -41,7 +41,8 @@ const sentences = {
   'said.impact-parameter-of-light-in': 'impact parameter of light in the equatorial plane, |L|/E',
   'said.polar-angle-of-the-observer': 'polar angle of the observer, who is at infinity; at 90 the plane is a line',
   'said.polar-angle-of-the-observer-at': 'polar angle of the observer, at infinity; not within 0.1 of 90',
-  'said.where-on-the-critical-curve': 'where on the critical curve: about its centre, from the right over the top',
+  'said.where-on-the-critical-curve':
+    'position on the critical curve: angle about its centre, from the right over the top',
   'said.angular-momentum-positive-towards-phi':
     'angular momentum, positive towards +phi: per unit mass for matter, and of the photon for v_light',
   'said.radius-of-the-ring': 'radius of the ring',
@@ -93,12 +94,12 @@ const sentences = {
   'playground.bodies-that-touch-merge': 'bodies that touch merge',
   'playground.the-holes-tide-sheds-a': "the hole's tide sheds a star's mass, and tears it apart",
   'playground.bodies-lose-energy-to-gravitational': 'bodies lose energy to gravitational waves',
-  'playground.factor-on-that-loss-1': 'factor on that loss; 1: the physical value',
+  'playground.factor-on-that-loss-1': 'factor on the loss to gravitational waves; 1: the physical value',
   'playground.debris-that-has-returned-is':
     'debris that has returned is counted as accreted and removed; otherwise it moves on',
   'playground.largest-number-of-pieces-of':
     'largest number of pieces of debris; beyond it, a new piece replaces the oldest',
-  'playground.pieces-that-a-body-falls': 'pieces that a body falls into when it is torn apart',
+  'playground.pieces-that-a-body-falls': 'number of pieces of debris of a body that is torn apart',
   'playground.temperature-in-k-of-the': 'temperature in K of the debris, a black body in pictures',
   'playground.share-of-the-disks-light':
     "share of the disk's light that bodies reflect in pictures; 0: reflection is not computed",
@@ -116,7 +117,7 @@ const sentences = {
     "The hole's gravity is the potential of Paczynski and Wiita, with Schwarzschild's last stable orbit, but without frame dragging and time dilation; its r is taken as Schwarzschild's.",
   'playground.the-hole-does-not-move': 'The hole does not move, and captured bodies do not increase its mass.',
   'playground.bodies-attract-one-another-by': "Bodies attract one another by Newton's law, softened and without delay.",
-  'playground.speeds-are-limited-to-c': 'Speeds are limited to c.',
+  'playground.speeds-are-limited-to-c': 'Speeds of bodies are limited to c.',
   'playground.bodies-accelerated-one-another-beyond':
     'Bodies accelerated one another to the speed limit c; limiting their speeds removed momentum.',
   'playground.the-loss-to-gravitational-waves':

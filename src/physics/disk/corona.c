@@ -16,7 +16,7 @@
 #define EXACT 1e-8      /* error of ln r of a ray that meets a ring */
 #define RIGHT 1e-4      /* relative error of epsilon below which no more angles are taken */
 #define CORRECT 1e-10   /* error of a direction of the sky, in the chart below */
-#define FAR 1e7         /* M, where the course of light to infinity ends; the rest is added */
+#define FAR 1e7         /* M, radius to which light is followed; the rest of the way to infinity is added */
 #define DIFFERENCE 1e-5 /* step of differences on the source's sky, in radians */
 enum { FEWEST = 16, PLACES = 2000, NEWTON = 60 };
 
@@ -134,7 +134,7 @@ static struct kd_corona_light nodes_of(double centre, double width, double inner
 static void fill_radii(const struct kd_corona_light *c, double radii[KD_CORONA_RINGS])
 {
     const double last = c->first + (KD_CORONA_RINGS - 1) * c->step;
-    for (int k = 0; k < KD_CORONA_RINGS; k++) /* s is ln r plus something with the sign of ln r - centre */
+    for (int k = 0; k < KD_CORONA_RINGS; k++) /* s - ln r has the sign of ln r - centre */
         radii[k] = exp(log_radius_of(c, c->first + k * c->step, fmin(c->first, c->centre), fmax(last, c->centre)));
 }
 
@@ -149,7 +149,7 @@ static double slope_at(const double *values, int k)
     for (int i = first; i < first + STENCIL; i++)
         for (int j = first; j < first + STENCIL; j++) {
             double term =
-                1. / (i - j); /* of the derivative of Lagrange's polynomial i, in which factor j is left out */
+                1. / (i - j); /* terms of the derivative of Lagrange's polynomial i: each leaves out one factor j */
             for (int l = first; l < first + STENCIL && j != i; l++)
                 term *= l == i || l == j ? 1 : (double)(k - l) / (i - l);
             sum += j == i ? 0 : term * values[i];
@@ -209,8 +209,9 @@ void kd_corona_finish(struct kd_corona *c)
     c->log_part = c->time = NULL;
 }
 
-/* Makes n angles, of which every second one is there already if n is more than the fewest. The sum over a period
- * converges as a power of n, so that the square of the change by the last doubling is left; its power 1.5 is stated. */
+/* Makes n angles. If n is more than the smallest number, every second one exists already. The sum over a period
+ * converges as a power of n, so that after a doubling the error is about the square of the last change. The power 1.5
+ * of the change is reported. */
 static enum kd_status take_angles(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
                                   const double *radii, int n)
 {
@@ -376,8 +377,8 @@ static bool aim(const struct kd_corona_source *source, const double want[2], dou
     return false;
 }
 
-/* Coordinate time to infinity, less r_o + 2 ln r_o: that to FAR, and to first order in 1/FAR the rest, from dt/dr = 1 +
- * 2/r + (4 - q^2 + a^2 u^2 - A/2)/r^2 (null_radial.h; A of null_quartic.h). */
+/* Coordinate time to infinity minus r_o + 2 ln r_o. The part beyond FAR is computed to first order in 1/FAR, from dt/dr
+ * = 1 + 2/r + (4 - q^2 + a^2 u^2 - A/2)/r^2 (null_radial.h; A of null_quartic.h). */
 static double time_of(const struct kd_corona_source *source, const double m[3])
 {
     struct kd_null_place places[PLACES];
@@ -403,7 +404,8 @@ static void straight(const struct kd_corona_source *source, double cos_i, double
     m[2] = sin_i * sin(azimuth);
 }
 
-/* Aims from m by way of directions between that where its light arrives and the wanted one, in so many steps. */
+/* Aims from m in this number of steps, by way of directions between the one where its light arrives and the wanted one.
+ */
 static bool aim_by_steps(const struct kd_corona_source *source, const double want[2], int steps, double m[3],
                          double *solid)
 {
@@ -419,8 +421,8 @@ static bool aim_by_steps(const struct kd_corona_source *source, const double wan
     return true;
 }
 
-/* Aims from m; or else from other lines, the first of which may be bent down to the plane or into the hole: further and
- * further from it. */
+/* Aims from m. If that fails, aims from other lines, further and further from the first, which may be bent down to the
+ * plane or into the hole. */
 static bool aim_anew(const struct kd_corona_source *source, double cos_i, double azimuth, const double want[2],
                      double m[3], double *solid)
 {
@@ -468,7 +470,8 @@ bool kd_corona_direct_of(const struct kd_corona_source *source, double photon_in
     return isfinite(out->time) && out->flux > 0;
 }
 
-/* Gauss points a height of the corona; in z, and at least and at most in rho. */
+/* Numbers of Gauss points. In rho: POINTS_A_HEIGHT for each height of the corona, between FEWEST_RHO and MOST_RHO. In
+ * z: POINTS_Z. */
 #define POINTS_A_HEIGHT 2
 enum { POINTS_Z = 3, FEWEST_RHO = 5, MOST_RHO = 20 };
 
@@ -494,7 +497,7 @@ int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring o
     return n;
 }
 
-/* Of a single ring the table is its own; of several it is even in ln r. */
+/* For a single ring the table is the ring's own. For several rings its nodes are even in ln r. */
 static enum kd_status make_light(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
                                  double inner, double outer, struct kd_corona_light *out)
 {

@@ -19,9 +19,9 @@ struct point { double alpha, beta, g, time, light; };
 
 struct view {
     struct kd_corona corona;
-    struct point (*points)[AROUND]; /* of RINGS + 1 rings */
+    struct point (*points)[AROUND]; /* light at each of RINGS + 1 rings */
     double log_epsilon[RINGS + 1];
-    double *part, *time; /* of the corona, by ring and angle */
+    double *part, *time; /* light of the corona, by ring and angle */
 };
 
 static void finish(struct view *view)
@@ -66,16 +66,15 @@ static enum kd_status make_view(const struct kd_disk_image *image, const struct 
         return kd_error_set(error, KD_ENOMEM, "out of memory for the image of a disk");
     if (!kd_corona_direct_of(&p->source, p->photon_index, image->cos_i, &echo->direct))
         return kd_error_field(error, "/height",
-                              "height and corona_radius are of a place from which no direct light to "
-                              "this inclination was found");
+                              "height and corona_radius place the source where no light that reaches the observer "
+                              "directly was found; one of them, or inclination_deg, must be different");
     const enum kd_status status = kd_corona_init(&view->corona, &p->source, p->photon_index, p->inner, p->outer);
     if (status == KD_ENOMEM)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the light of a corona");
     if (status)
-        return kd_error_field(
-            error, "/height",
-            "height and corona_radius are of a place from which no rays to all radii of the disk were "
-            "found");
+        return kd_error_field(error, "/height",
+                              "height and corona_radius place the source where rays to some radii of the disk were not "
+                              "found; one of them must be different");
     const size_t angles = (size_t)view->corona.angles;
     view->part = malloc((RINGS + 1) * angles * sizeof(double));
     view->time = malloc((RINGS + 1) * angles * sizeof(double));
@@ -89,10 +88,9 @@ static enum kd_status make_view(const struct kd_disk_image *image, const struct 
             all += view->part[(size_t)i * angles + j];
         view->log_epsilon[i] = log(all);
         if (!fill_ring(image, p, r, view->points[i]))
-            return kd_error_field(error, "/inclination_deg",
-                                  "inclination_deg is one for which no ray to the ring at "
-                                  "%.9g was found",
-                                  r);
+            return kd_error_field(
+                error, "/inclination_deg",
+                "inclination_deg has a value for which no ray to the ring at %.9g was found; it must be different", r);
     }
     return KD_OK;
 }

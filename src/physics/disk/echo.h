@@ -28,8 +28,8 @@ struct kd_echo_params {
 
 struct kd_echo {
     struct kd_corona_direct direct;
-    /* Equivalent width of the line at infinity over its equivalent width in the gas's frame. This is the number of the
-     * line's photons for each photon of the continuum per energy, if the gas emits one for each that it receives. */
+    /* Equivalent width of the line at infinity over its equivalent width in the gas's frame. The gas emits one photon
+     * of the line for each photon of the continuum per unit of energy that it receives. */
     double strength;
     /* Of kd_echo_impulse only. mean: mean time of all photons of the line, after t_0. error: estimated from sums over
      * every second ring and direction. */

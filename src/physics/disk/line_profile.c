@@ -343,8 +343,10 @@ static enum kd_status receive(const struct kd_hole *hole, const struct kd_line_p
     if (status == KD_ENOMEM)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the light of a corona");
     if (status)
-        return kd_error_field(error, "/height",
-                              "height is %.9g, from where no rays to all radii of the disk were found", p->height);
+        return kd_error_field(
+            error, "/height",
+            "height is %.9g, from which rays to some radii of the disk were not found; it must be different",
+            p->height);
     return KD_OK;
 }
 

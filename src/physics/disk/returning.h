@@ -72,8 +72,8 @@ struct kd_returning {
      * angular momentum. */
     double once[KD_RETURNING_RINGS], lacks[KD_RETURNING_RINGS];
     struct kd_returning_list { double returns[KD_RETURNING_RINGS], falls_in[KD_RETURNING_RINGS]; } photons, energy;
-    struct kd_returning_shares first;  /* of the luminosity by Page & Thorne, by where its light goes first */
-    struct kd_returning_shares lastly; /* of the same luminosity, by where it ends; `returns` is 0 */
+    struct kd_returning_shares first;  /* shares of Page & Thorne's luminosity, by where the light goes first */
+    struct kd_returning_shares lastly; /* shares of the same luminosity, by where the light ends; `returns` is 0 */
     double hottest, largest;           /* radius of the largest F; the largest F, over Mdot */
     /* Matrices for kd_reflection_init. They give r^3 Int g^5 F T/pi f(mu_e) mu dOmega at the nodes, where F and T are
      * the flux and the temperature of the light that rings emit: warmth_of from r^(15/4) F T at the nodes, echo_of from

@@ -6,8 +6,8 @@
 
 struct point { double x, f; };
 
-/* The place to evaluate next, as a fraction of the way from a to b. It is that of inverse quadratic interpolation
- * through a, b and c if the inverse function is monotone there, and otherwise that of bisection. */
+/* The place to evaluate next, as a fraction of the way from a to b. It is found by inverse quadratic interpolation
+ * through a, b and c if the inverse function is monotone there, and otherwise by bisection. */
 static double fraction(struct point a, struct point b, struct point c)
 {
     double xi = (a.x - b.x) / (c.x - b.x), phi = (a.f - b.f) / (c.f - b.f);

@@ -59,7 +59,7 @@ struct kd_critical {
     struct kd_critical_observer observer;
     struct kd_shell shell;
     struct kd_tetrad tetrad; /* at a finite radius; if the observer moves along theta, that of zero angular momentum */
-    struct kd_tetrad skew;   /* in that case the observer's own tetrad; otherwise not set */
+    struct kd_tetrad skew;   /* the own tetrad of an observer that moves along theta; otherwise not set */
     bool is_skew;
     double sine;        /* of the inclination                          */
     double low, high;   /* places of the orbits at the left and right end, divided by `sine` unless that is 0 */

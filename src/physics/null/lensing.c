@@ -85,7 +85,8 @@ static double late(const void *user, double s)
     return ray.crossing - (q->out ? 2 * ray.radial.turn.tau - there : there);
 }
 
-/* A function that is zero where the ray turns at the source's radius. The turning point moves outwards as d grows. */
+/* A function whose zero is the d at which the ray turns at the source's radius. The turning point moves outwards as d
+ * grows. */
 static double beyond(const void *user, double s)
 {
     const struct search *q = user;

@@ -49,10 +49,10 @@ static double binding_at(const struct kd_orbit *o, double x, double l, double w)
     return fixed / (1 + a2 * w * w * (1 + z * kd_hole_delta_sum_w(&o->hole, w)));
 }
 
-/* His formula for E loses the digits of b in wide orbits, and l those of b. With E^2 = 1 - b, eliminating l^2 from
- * the two equations gives rho b = chi - 2 a x sigma E l with chi from f - d instead of d, where E and l enter a small
- * term only. Next to a parabola this loses digits too; there the outer turning point gives b, since W = 0 is almost
- * b = 2w. */
+/* His formula for E loses the digits of b in wide orbits, and the formula for l loses them as well. With E^2 = 1 - b,
+ * eliminating l^2 from the two equations gives rho b = chi - 2 a x sigma E l with chi from f - d instead of d, where E
+ * and l enter a small term only. Next to a parabola this loses digits too; there the outer turning point gives b, since
+ * W = 0 is almost b = 2w. */
 static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double r2, double *l)
 {
     double a2 = o->hole.a * o->hole.a, z = (1 - x) * (1 + x), ax = o->hole.a * x, mass[2];

@@ -227,7 +227,7 @@ static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state
 
 /* The range of motion for a start at a turning point within rounding, possibly beyond it. There W is known only to
  * `unknown`, 64 roundings of its largest terms, so the range is searched for where W exceeds this. If W does not exceed
- * it before its next extremum, both ends of the range coincide: a circle. */
+ * it before its next extremum, the orbit is a circle: both ends of the range coincide. */
 static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, slope = kd_orbit_radial_slope(o, w),

@@ -13,8 +13,8 @@ double kd_ringdown_quality(double complex omega);
 /* e^(Im(omega) t) cos(Re(omega) t), t >= 0 from the start, where it is 1. */
 double kd_ringdown_wave(double complex omega, double t);
 
-/* 2.1 + 11.3 a^3, a fit in circulation for the l = m = 2 fundamental mode; no source could be found. It is within
- * 4.1 % only below a = 0.33: +30 % at 0.5, +104 % at 0.8, -71 % at 0.999. For comparison only. */
+/* 2.1 + 11.3 a^3, a commonly used fit for the l = m = 2 fundamental mode; no source could be found. It is within 4.1 %
+ * only below a = 0.33; its errors are +30 % at 0.5, +104 % at 0.8 and -71 % at 0.999. It is given for comparison. */
 double kd_ringdown_quality_cubic(const struct kd_hole *hole);
 
 /* Berti, Cardoso & Will 2006, Phys. Rev. D 73, 064030, table VIII, l = m = 2, n = 0, 1, 2; 0 <= a < 1 (else NaN):

@@ -7,7 +7,7 @@ enum { PROFILES = KD_PROFILE_REFERENCE + 1 };
 /* Default number of steps of each engine; docs/accuracy.md has the engines' errors. */
 static const struct {
     const char *name;
-    uint32_t steps[2];             /* by precision, for requests that name neither steps nor a profile */
+    uint32_t steps[2];             /* indexed by precision, for requests without steps and profile */
     uint32_t profile[2][PROFILES]; /* by precision, for the profiles draft, interactive, balanced, high, reference */
 } engines[KD_ENGINE_COUNT] = {
     [KD_ENGINE_CLOSED] = { .name = "closed" },

@@ -45,7 +45,7 @@ struct kd_accuracy_table {
     char version[32], date[32]; /* version of kerrd; date in UTC, ISO 8601 */
     char command[256];
     char machine[256], device[800]; /* the processor and system; the Vulkan device with its driver */
-    char skipped[400];              /* what this device cannot do; "" if nothing */
+    char skipped[400];              /* limits of this device, in words; "" if there are none */
     uint32_t cores;                 /* cores that the device computes on; 0 if it is not a CPU */
     bool device_clock, quick;
     double seconds; /* device time of one speed measurement; less if a million rays take less */
@@ -64,7 +64,7 @@ struct kd_accuracy_choice {
 double kd_accuracy_holds(const struct kd_accuracy_row *row);
 
 /* The fastest row within the limits (NULL: any) that meets a relative error of the crossing radius. If none does,
- * KD_EINVAL at "/accuracy/tolerance" with what this device can meet. */
+ * KD_EINVAL at "/accuracy/tolerance"; the message states the best that this device can meet. */
 struct kd_accuracy_limits { int engine, precision; /* -1: any */ };
 enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance,
                                   const struct kd_accuracy_limits *limits, struct kd_accuracy_choice *out,

@@ -41,10 +41,10 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
                                   struct kd_error *error);
 void kd_renderer_destroy(struct kd_renderer *renderer);
 
-/* Closes a device that has failed and reopens it. What the renderer has measured and what it keeps on the host stay,
- * and pictures come out the same; buffers and kernels are made again when needed. KD_EDEVICE: the device hangs, so
- * nothing can be done (kd_renderer_hangs), or it is unavailable now, or another one answers in its place; the call
- * may be repeated. */
+/* Closes a device that has failed and reopens it. The measurements and the cached data on the host are kept, and
+ * pictures come out the same; buffers and kernels are made again when needed. KD_EDEVICE: the device hangs, so that it
+ * cannot be closed (kd_renderer_hangs); or it is unavailable now; or another device answers in its place. The call may
+ * be repeated. */
 enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error);
 /* Whether its device has missed a deadline: it can be neither closed nor reopened, and the process should soon end
  * by _exit. */
@@ -98,8 +98,8 @@ struct kd_accuracy_report {
     /* change of the light of these rays, relative to that light or to KD_MARCH_DARK of the brightest: 90th percentile;
      * worst. 1 if light is not finite or a ray has no end */
     double volume_error, volume_error_worst;
-    /* for the displayed picture: number of rays given up in volumes, also magenta, plus pixels whose light is not
-     * finite */
+    /* for the displayed picture: the number of rays given up in volumes, which are magenta, plus the number of pixels
+     * whose light is not finite */
     uint64_t lost;
 };
 

@@ -41,8 +41,8 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
     return named + more_than(resident_bytes(), r->opened_bytes + named);
 }
 
-/* Resident memory that belongs to no other kind is either in the heap or `other`. Device memory is counted in full
- * although some pages may never have been touched; the heap is therefore limited to what is left. */
+/* Resident memory that belongs to no other category is counted as heap or `other`. Device memory is counted in full
+ * although some pages may never have been touched; the heap is therefore limited to the remainder. */
 void kd_renderer_cached(const struct kd_renderer *r, uint64_t out[KD_N_CACHE_KINDS])
 {
     const uint64_t left = more_than(resident_bytes(), r->started_bytes + named_bytes(r, out)),

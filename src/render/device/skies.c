@@ -74,8 +74,8 @@ static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t
         }
 }
 
-/* Uploads the stars. The table of coarse cells follows that of fine ones; likewise the places of stars in coarse cells
- * follow those in fine ones. */
+/* Uploads the stars. The table of coarse cells follows the table of fine cells, and the places of stars in coarse cells
+ * follow those in fine cells. */
 static enum kd_status send_stars(struct kd_renderer *r, struct kd_sky_buffers *b, const struct kd_scene *scene,
                                  struct kd_error *error)
 {

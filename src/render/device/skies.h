@@ -13,7 +13,7 @@ struct kd_sky_buffers {
     struct kd_vk_buffer *panorama; /* words as in render/sky/panorama.h; NULL: never made */
     struct kd_vk_buffer
         *stars; /* direction and flux of each, cell by cell, the brightest of a cell first; then all temperatures */
-    uint32_t n; /* number of entries: a star may be in up to three fine cells, and in as many coarse cells */
+    uint32_t n; /* number of entries: a star may be in up to three fine cells, and in up to three coarse cells */
     struct kd_vk_buffer *cells; /* the indices in `stars` at which the cells of faces.h begin */
     struct kd_sky of;           /* the sky that the buffers hold, if `there` is true */
     bool there;                 /* the buffers hold a sky */

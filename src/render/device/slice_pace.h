@@ -9,7 +9,7 @@
 
 struct kd_slice_pace {  /* initialise to 0 */
     double slowness;    /* time of a submission over its estimate, smoothed, 1 to KD_SLOWEST; 0: none yet */
-    double expected_ms; /* estimate of what is being submitted; 0: unknown */
+    double expected_ms; /* estimated time of the present submission; 0: unknown */
     double begun_ms;    /* when that was begun */
 };
 

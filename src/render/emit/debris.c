@@ -113,22 +113,24 @@ WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 
 static const struct kd_sentence sentences[] = {
     { "debris.plane",
-      "debris: projected onto the disk's plane at its r and azimuth, as a density on a grid; a stream is at least one "
-      "cell wide",
+      "debris: projected onto the disk's plane, and shown as a density on a grid of r and azimuth; a stream is at "
+      "least one cell wide",
       NULL },
-    { "debris.no-height", "debris: its mean distance from that plane exceeds r/50; its height is not shown", thick },
+    { "debris.no-height", "debris: its mean distance from the disk's plane exceeds r/50; this height is not shown",
+      thick },
     { "debris.black-body",
       "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column density, "
       "independent of angle",
       NULL },
     { "debris.mean",
-      "debris: its light is shifted by the local mean velocity within the plane; no heating by shocks, no spread of "
-      "velocities",
+      "debris: its light is shifted by the local mean velocity within the plane; heating by shocks and the spread of "
+      "velocities are ignored",
       NULL },
     { "debris.fast", "debris: fast light: all of it is shown at one coordinate time; the light's delay is ignored",
       NULL },
     { "debris.potential",
-      "debris: it moves in a potential; its r is taken as the Boyer-Lindquist radius, its velocity as gamma v",
+      "debris: it moves in a potential; the r of the potential is taken as the Boyer-Lindquist radius, and its "
+      "velocity as gamma v",
       by_potential },
     { "debris.not-shown", "debris: some pieces are outside the grid and not shown", hidden },
     { "debris.bolometric", "debris: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",

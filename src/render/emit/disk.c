@@ -203,19 +203,19 @@ static const struct kd_sentence sentences[] = {
       "disk: geometrically thin, in the equatorial plane; its gas moves on circular Kerr orbits and ends at the "
       "inner edge",
       thin },
-    { "disk.isotropic", "disk: each element shines as an isotropic black body; no limb darkening", isotropic },
+    { "disk.isotropic", "disk: each element shines as an isotropic black body, without limb darkening", isotropic },
     { "disk.atmosphere",
-      "disk: the limb darkening of a deep, plane atmosphere at all wavelengths alike; each element has the spectrum of "
-      "a black body",
+      "disk: the limb darkening is that of a deep, plane atmosphere, and the same at all wavelengths; each element has "
+      "the spectrum of a black body",
       darkened },
     { "disk.no-returning", "disk: light that the hole bends back to the disk is ignored", without_returning },
     { "disk.returning",
-      "disk: the light that returns is that of a smooth, opaque disk from the ISCO to infinity; where it arrives it is "
-      "absorbed, with its angular momentum, and radiated again",
+      "disk: returning light is computed for a smooth, opaque disk from the ISCO to infinity; it is absorbed with its "
+      "angular momentum where it arrives, and radiated again",
       with_returning },
     { "disk.reflected",
-      "disk: the reflected share of returning light leaves with the law and the angular momentum of the disk's own "
-      "light, as a dilute black body of the mean temperature of its sources as the gas sees them",
+      "disk: the reflected share of returning light leaves with the angular law and the angular momentum of the disk's "
+      "own light; its spectrum is a dilute black body, with the mean temperature at which the gas sees the sources",
       reflected },
     { "disk.newtonian",
       "disk: the flux of the Newtonian thin disk, cut at the ISCO, instead of the Page-Thorne integral", newtonian },
@@ -225,9 +225,8 @@ static const struct kd_sentence sentences[] = {
     { "disk.bolometric", "disk: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",
       bolometric },
     { "disk.frequency",
-      "disk: brightness is the specific intensity of a black body of the colour temperature at disk.frequency_ghz, "
-      "over "
-      "the fourth power of disk.hardening; 1 is that of the hottest place without a shift; the light is grey",
+      "disk: brightness is the specific intensity at disk.frequency_ghz of a black body of the colour temperature, "
+      "over the fourth power of disk.hardening; brightness 1 is the hottest place without a shift; the light is grey",
       at_frequency },
     { "disk.no-flux",
       "disk: light of one frequency is shown beside light of other kinds, on different scales of brightness; the "

@@ -35,13 +35,14 @@ struct kd_scene_part { size_t at, size; };
 struct kd_emitter {
     const char *name;
     const char *title; /* its common name without an article: "spots" */
-    /* Writes one sentence, without quotation marks, about how the emitter appears; NULL: there is nothing to say. */
+    /* Writes one sentence, without quotation marks, about the appearance of the emitter; NULL: there is none. */
     void (*tell)(const struct kd_scene *scene, char out[KD_EMIT_TOLD]);
     bool (*present)(const struct kd_scene *scene);
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
-    unsigned (*varies)(const struct kd_scene *scene); /* enum kd_varies: what changes its light; NULL: nothing */
+    /* enum kd_varies: the causes of a change of its light; NULL: it does not change */
+    unsigned (*varies)(const struct kd_scene *scene);
     /* The emitter's own device buffers, their bytes, and the invocations of the pass that fills them before light is
      * computed (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the
      * buffers. */
@@ -69,8 +70,8 @@ struct kd_emitter {
     const struct kd_sentence *sentences;
     size_t n_sentences;
     const struct kd_emitter *kind; /* an emitter whose approximations apply to this one as well; NULL: none */
-    /* an emitter whose numbers and tables this one reads besides its own, including all those that the other
-     * emitter reads; NULL: none */
+    /* another emitter whose numbers and tables this one reads, including all those that the other one reads; NULL: none
+     */
     const struct kd_emitter *reads;
     const struct kd_emitter *replaces; /* an emitter that is left out where this one is present; NULL: none */
 };

@@ -137,17 +137,18 @@ static const struct kd_sentence sentences[] = {
       "changes temperature and colour, and the optical depth if disk.emission_opacity is not 0",
       turbulent },
     { "gas.rings",
-      "gas: the pattern turns as rigid rings that blend into each other, each with the angular velocity of its "
-      "middle; it drifts but does not shear",
+      "gas: the pattern consists of rigid rings that blend into each other; each ring turns with the angular velocity "
+      "of its middle, so that the pattern does not shear",
       turbulent },
     { "gas.octaves",
-      "gas: octaves finer than a ray's footprint on the disk fade to their mean; the light then varies in time by up "
-      "to a tenth less than with 64 rays a pixel",
+      "gas: octaves finer than a ray's footprint on the disk fade to their mean; the variation of the light with time "
+      "is then up to a tenth smaller than with 64 rays a pixel",
       turbulent },
-    { "gas.fast", "gas: fast light: shown at one coordinate time; the light's delay is ignored", fast },
+    { "gas.fast", "gas: fast light: the gas is shown at one coordinate time, and the delay of its light is ignored",
+      fast },
     { "gas.depth",
-      "gas: the disk's optical depth is grey and proportional to its flux, with a chosen number at the "
-      "brightest radius; a crossing absorbs by its depth over the cosine of the angle of emission",
+      "gas: the disk's optical depth is grey and proportional to its flux, with a chosen value at the brightest "
+      "radius; at a crossing it is divided by the cosine of the angle of emission",
       deep },
 };
 

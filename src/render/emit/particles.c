@@ -19,8 +19,8 @@ static double inner(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Range of guiding orbits. It exceeds the edges of the disk by the particles' swing, so that as many particles cross
- * the edges inwards as outwards. */
+/* Range of guiding orbits. It exceeds the edges of the disk by the particles' swing, so that equal numbers of particles
+ * cross the edges inwards and outwards. */
 struct span { double low, high, s; };
 static struct span span_of(const struct kd_scene *scene)
 {
@@ -351,12 +351,13 @@ static const struct kd_sentence sentences[] = {
       "opacity is that of the smooth disk",
       NULL },
     { "particles.epicycles",
-      "particles: epicycles to first order about circular orbits, with a chosen radial distribution of particles; no "
-      "pressure, no collisions",
+      "particles: particles move on epicycles, to first order, about circular orbits; their radial distribution is "
+      "chosen; pressure and collisions are ignored",
       NULL },
     { "particles.fast",
       "particles: fast light: the whole disk is shown at one coordinate time, and the light's delay is ignored", fast },
-    { "particles.slow", "particles: during the light's delay they move on their guiding circles", slow },
+    { "particles.slow",
+      "particles: during the delay of the light they move on their guiding circles, without epicycles", slow },
 };
 
 const struct kd_emitter kd_emit_particles = {

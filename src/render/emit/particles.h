@@ -28,7 +28,7 @@
 
 struct kd_particles_push; /* push constants of particles.comp: render/view/layout.h */
 
-/* number of guiding orbits, if there are as many particles; 35 orbits to a row of the default grid */
+/* number of guiding orbits if there are at least as many particles; 35 orbits to a row of the default grid */
 #define KD_PARTICLE_RADII 4096u
 #define KD_PARTICLE_RADII_MAX 65536u /* the most orbits: if there are many rows, or some are nearly empty */
 #define KD_PARTICLE_ROWS 4096u

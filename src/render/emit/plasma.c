@@ -72,7 +72,7 @@ static double knot(const struct kd_scene *scene)
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
 static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) && !*scene->volume.grid; }
 
-/* Nodes of the scene's grid; if its file has not been found yet, as many as are not packed. */
+/* Number of nodes of the scene's grid; if its file has not been found yet, the largest number that is not packed. */
 static uint64_t nodes_of(const struct kd_scene *scene)
 {
     return scene->grid_nodes ? scene->grid_nodes : KD_MATTER_WHOLE;
@@ -249,17 +249,18 @@ static const struct kd_sentence sentences[] = {
     { "plasma.frequency",
       "volume: light of one frequency, without scattering; brightness 1 is a brightness temperature of 1e10 K", NULL },
     { "plasma.unpolarised",
-      "volume: all polarisations of light are absorbed equally, so that the light is not polarised", is_unpolarised },
+      "volume: all polarisations of light are emitted and absorbed equally, so that the light is not polarised",
+      is_unpolarised },
     { "plasma.gold",
       "volume: the analytic model of Gold et al. 2020, made for the comparison of programs; it ends at its edges",
       is_gold },
     { "plasma.powers",
-      "volume: electrons and magnetic field follow power laws of r, not an equation of motion; they end at their "
-      "edges, and 7 scale heights from the plane",
+      "volume: density, temperature and magnetic field are power laws of r, not solutions of an equation of motion; "
+      "the matter ends at its edges, and 7 scale heights from the plane",
       is_powers },
     { "plasma.torus",
-      "volume: the torus of Fishbone & Moncrief 1976, which is in equilibrium without its magnetic field; the "
-      "field follows from a ratio of pressures; the ratio of ion and electron temperature is constant",
+      "volume: the torus of Fishbone & Moncrief 1976, whose equilibrium ignores the magnetic field; the field follows "
+      "from a chosen ratio of pressures; the ratio of ion and electron temperature is constant",
       is_torus },
     { "plasma.grid",
       "volume: matter is interpolated between the nodes of a grid, density and temperature by their logarithms; "

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* A small fraction of the particles may round to none: then there is no grid. */
+/* A small share of the particles may be rounded to 0; then there is no grid. */
 static bool present(const struct kd_scene *scene)
 {
     return scene->disk.plunging_temperature > 0 && kd_plunging_is_on(scene) && kd_particle_grid(scene).plunging > 0;
@@ -68,9 +68,9 @@ static void reach(const struct kd_scene *scene, double radii[2])
 
 static const struct kd_sentence sentences[] = {
     { "plunge.free",
-      "particles: inside the ISCO gas falls freely with the energy and angular momentum of the ISCO; it is grey, with "
-      "one chosen temperature, and its optical depth is the ratio of its surface density to the disk's at the ISCO; no "
-      "stress, no heating",
+      "particles: inside the ISCO gas falls freely with the energy and angular momentum of the ISCO; it is grey and "
+      "has one chosen temperature; its optical depth is the ratio of its surface density to the disk's at the ISCO; "
+      "stress and heating are ignored",
       NULL },
 };
 

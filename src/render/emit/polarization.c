@@ -67,8 +67,8 @@ static bool beside(const struct kd_scene *scene, const struct kd_setting *rays)
 
 static const struct kd_sentence sentences[] = {
     { "polarization.plane",
-      "polarization: all light from the plane is polarised by the field in the frame of the gas; nothing "
-      "changes it on its way: no Faraday rotation",
+      "polarization: all light from the plane is polarised by the field in the frame of the gas; Faraday rotation on "
+      "its way is ignored",
       NULL },
     { "polarization.field",
       "polarization: synchrotron: only direction and fraction depend on the field; brightness and colour are those of "
@@ -80,7 +80,7 @@ static const struct kd_sentence sentences[] = {
       by_electrons },
     { "polarization.darkened",
       "polarization: scattering: brightness and fraction are those of a deep, plane atmosphere of electrons "
-      "(Chandrasekhar 1960); light that returned to the disk is polarised like all other",
+      "(Chandrasekhar 1960); light that returned to the disk is polarised like the disk's own light",
       by_atmosphere },
     { "polarization.none", "polarization: light of volumes, bodies and the sky is unpolarised", beside },
 };

@@ -39,12 +39,12 @@ static bool along(const struct kd_scene *scene, const struct kd_setting *rays)
 
 static const struct kd_sentence sentences[] = {
     { "ringdown.drawn",
-      "ringdown: an illustration: it modulates only the light of image orders 1 and up, at the picture's time; the "
-      "ringing metric of a struck hole is not computed",
+      "ringdown: an illustration, which modulates only the light of image orders 1 and up, at the picture's time; the "
+      "metric of a ringing hole is not computed",
       NULL },
     { "ringdown.order",
-      "ringdown: light of volumes has the image order of the nearest crossing of the plane on its ray, between the "
-      "turning points of cos(theta) before and behind that crossing",
+      "ringdown: light of volumes has the image order of the crossing of the plane nearest to it along its ray; orders "
+      "change at the turning points of cos(theta)",
       along },
 };
 

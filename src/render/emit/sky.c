@@ -120,10 +120,10 @@ static bool noise(const struct kd_scene *scene, const struct kd_setting *rays)
 }
 
 static const struct kd_sentence sentences[] = {
-    { "sky.grid", "sky: a drawn celestial grid; its lensing is exact, its brightness carries no redshift", drawn },
+    { "sky.grid", "sky: a drawn celestial grid; its lensing is exact, but its brightness is not redshifted", drawn },
     { "sky.noise",
-      "sky: noise, because the camera is so close to the horizon: for most pixels, one pixel or the last digit of the "
-      "ray's constants changes the direction by more than 0.1 rad",
+      "sky: noise, because the camera is so close to the horizon; for most pixels a step of one pixel, or of the last "
+      "digit of a ray's constants, changes the direction by more than 0.1 rad",
       noise },
     { "sky.made-up", "sky: stars are generated, with the numbers of the real sky in each magnitude", made_up },
     { "sky.hipparcos",

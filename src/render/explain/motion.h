@@ -34,9 +34,9 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray);
 /* Writes one sentence on why a ray of that fate ends as it does. Returns its length. */
 int kd_ray_motion_why(const struct kd_ray_motion *motion, enum kd_ray_fate fate, char *out, size_t size);
 
-/* Computes crossings inside the horizon, as many as the ray asks for, and the end of a ray that starts there;
- * kd_rays_closed does so outside. phi is Boyer-Lindquist for places outside the horizon, minus the observer's ingoing
- * azimuth; delay is in ingoing time; there is no error estimate. KD_ENOMEM. */
+/* Computes the crossings inside the horizon that the ray requests, and the end of a ray that starts there; outside,
+ * kd_rays_closed does so. phi is Boyer-Lindquist for places outside the horizon, minus the observer's ingoing azimuth.
+ * delay is in ingoing time. There is no error estimate. KD_ENOMEM. */
 enum kd_status kd_ray_within(const struct kd_ray_motion *motion, bool reversed, struct kd_ray_crossing *crossings,
                              struct kd_ray_end *end, struct kd_error *error);
 

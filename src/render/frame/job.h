@@ -126,9 +126,9 @@ enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct
 /* The kernel of footprints. lattice: of listed pixels; NULL: the grid. *out is NULL if no light needs footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
-/* Spreads the light of stars over the pixels of a band: of stars that the band's rays see and, if the whole map is
- * cached, that rays of adjacent rows see. Does nothing if that light is cached. The band's map must be complete.
- * Call for the bands of a frame from first to last. */
+/* Spreads the light of stars over the pixels of a band. The stars are the ones that the band's rays see; if the whole
+ * map is cached, also the ones that rays of adjacent rows see. Does nothing if that light is cached. The band's map
+ * must be complete. Call for the bands of a frame from first to last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
 /* Gets all kernels of kd_frame_stars. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *job);

@@ -5,7 +5,7 @@
 #include "render/frame/job.h"
 #include "render/view/camera.h"
 
-/* What a kernel makes, in this order: the light of rays that continue in pieces; a description of one ray; the lens
+/* Products of a kernel, in this order: the light of rays that continue in pieces; a description of one ray; the lens
  * map; the picture's light. Numbers from 0 on are the plan's layers. */
 enum { KD_MAKES_PIECES = -4, KD_MAKES_TOLD = -3, KD_MAKES_RAYS = -2, KD_MAKES_PICTURE = -1 };
 
@@ -15,7 +15,7 @@ static inline uint32_t kd_frame_slice(const struct kd_frame_job *j, double ns, u
 {
     return kd_slice_items(&j->r->slice_pace, ns, left);
 }
-/* The same, given an upper bound: the time that these items take says nothing about the device. */
+/* As above, for items of which only an upper bound of the time is known: their time says nothing about the device. */
 static inline uint32_t kd_frame_slice_at_most(const struct kd_frame_job *j, double ns, uint32_t left)
 {
     const uint32_t items = kd_frame_slice(j, ns, left);

@@ -2,7 +2,8 @@
  * the last pass, because it overwrites the light of the sample.
  *
  * All kinds of pixels have the same sample size, even a kind with few pixels, and are weighted by their number. At the
- * critical curve the reference may have more than 64 rays; pixels that have as many already count as exact. */
+ * critical curve the reference may have more than 64 rays; pixels that already have this number of rays count as exact.
+ */
 #include "render/frame/residual.h"
 
 #include "render/frame/lens.h"

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#define LIST_GROUPS 128 /* workgroups of kernels whose invocations share a list; an H200 is no faster with 8192 */
+#define LIST_GROUPS 128 /* workgroups of kernels whose invocations share a list; with 8192 an H200 is no faster */
 /* The same number for each core, if the device is a CPU: there a group costs 15 us even if the list is done, and a rim
  * has several grids. */
 #define LIST_GROUPS_CORE 4

@@ -395,7 +395,8 @@ static bool same_ladder(const struct kd_scene *a, const struct kd_scene *b)
            p->steps == q->steps && p->orders == q->orders && kd_emit_along(a) == kd_emit_along(b);
 }
 
-/* What frames of the scene cost, besides their size: what it emits, and how its rays begin. */
+/* Properties of a scene, besides its size, that determine the cost of its frames: its emitters, and the kind of its
+ * rays. */
 static struct kd_work work_of(const struct kd_scene *scene)
 {
     struct kd_work work = kd_emit_work(scene);

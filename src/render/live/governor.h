@@ -139,8 +139,8 @@ struct kd_governor {
     struct kd_ladder ladder;
     uint32_t ladders, revision;
     struct kd_pace paces[2]; /* [0]: for frames that reuse their lens map; [1]: for frames that trace it */
-    /* changed_at: time of the last change; lens_at: of the last change of the lens; hold_ms: how long a change of
-     * the lens counts as recent */
+    /* changed_at: time of the last change; lens_at: time of the last change of the lens; hold_ms: time after which a
+     * change of the lens is no longer recent */
     double changed_at, lens_at, hold_ms;
     struct kd_frame_cost traced; /* latest average of frames that trace */
     struct kd_rung traced_on;    /* the rung of these frames; no rays: none yet */

@@ -9,7 +9,7 @@ void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *a
     *out = *asked;
     out->image.width = (int32_t)quality->width;
     out->image.height = (int32_t)quality->height;
-    out->image.samples = quality->samples; /* 0: as many as each pixel needs */
+    out->image.samples = quality->samples; /* 0: the number that each pixel needs */
     if (quality->critical && out->image.critical_factor > quality->critical)
         out->image.critical_factor = quality->critical;
     out->accuracy.orders = quality->orders;
@@ -37,7 +37,7 @@ static double ray_cost(const struct kd_quality *quality, const struct kd_scene *
     return (named ? profile[p] : 2) * (2 + quality->orders);
 }
 
-#define ADAPTIVE_RAYS 2.5 /* approximate mean number of rays a pixel, if each pixel has as many as it needs */
+#define ADAPTIVE_RAYS 2.5 /* approximate mean number of rays a pixel, if each pixel has the number that it needs */
 
 static struct kd_rung make_rung(const struct kd_scene *asked, double scale, int32_t samples, int32_t orders,
                                 int32_t profile)

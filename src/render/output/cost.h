@@ -19,8 +19,8 @@ struct kd_cost {
     struct kd_cube_shape shape;        /* common to all scenes of a cube */
 };
 
-/* Adds a frame. sweep: the sweep of the frames' scenes; NULL: none. KD_ENOMEM; KD_EINVAL if scenes of a cube differ
- * in shape. */
+/* Adds a frame. sweep: the sweep that the frames' scenes belong to; NULL: none. KD_ENOMEM; KD_EINVAL if the scenes of a
+ * cube differ in shape. */
 enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
                            const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error);
 /* Call after the last frame. KD_ENOMEM. */

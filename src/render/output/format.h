@@ -44,8 +44,8 @@ struct kd_format {
     unsigned carries;
     bool live;  /* the format supports KD_EFFORT_LIVE */
     bool lossy; /* the format takes a quality */
-    /* Adapts a scene so that its frame carries what the format needs; NULL: no change is necessary. KD_EINVAL at a
-     * field if the scene has nothing to write. */
+    /* Adapts a scene so that its frame contains the data that the format needs; NULL: no change is necessary. KD_EINVAL
+     * at a field if the scene has no such data. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
     /* Memory that `encode` takes for a picture of this size besides the frame, counted in the plan's host_bytes; NULL:
      * little. */
@@ -74,9 +74,10 @@ extern const struct kd_format *const kd_formats[];
 extern const size_t kd_n_formats; /* at most KD_FORMATS_MAX */
 enum { KD_FORMATS_MAX = 16 };
 
-const struct kd_format *kd_format_named(const char *name);                 /* NULL: there is none */
-const struct kd_format *kd_format_of_bytes(const void *data, size_t size); /* by a file's first bytes; NULL: none */
-const struct kd_format *kd_format_live(void);                              /* the format of live views */
+const struct kd_format *kd_format_named(const char *name); /* NULL: there is none */
+/* identifies a file by its first bytes; NULL: not possible */
+const struct kd_format *kd_format_of_bytes(const void *data, size_t size);
+const struct kd_format *kd_format_live(void); /* the format of live views */
 
 /* Whether the format can hold the scene's picture; errors of the format as kd_format_plan. */
 enum kd_status kd_format_holds(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error);

@@ -1,4 +1,4 @@
-/* Writes the files of frames into a ZIP; also what all gathered formats share. */
+/* Writes the files of frames into a ZIP, and contains the functions that all gathered formats share. */
 #include "render/output/gather.h"
 
 #include "image/zip.h"

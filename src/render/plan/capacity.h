@@ -13,7 +13,7 @@
 struct kd_capacity {
     uint64_t max_binding_bytes, memory_bytes; /* max_binding_bytes: limit of one storage-buffer binding; memory_bytes:
                                                  limit of all device memory together */
-    const char *memory_by;                    /* what determines memory_bytes, for messages; NULL: the device */
+    const char *memory_by;                    /* the cause of the limit memory_bytes, for messages; NULL: the device */
     bool host_memory;                         /* device memory is host memory, so pixels on the host count as well */
     uint64_t host_bytes;           /* if device memory is not host memory: memory for pixels on the host; 0: unknown */
     uint64_t max_allocation_bytes; /* limit of one buffer; 0: 2^30, the least that Vulkan 1.2 guarantees */

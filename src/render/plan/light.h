@@ -1,5 +1,5 @@
-/* The light of a plan: what emits it, how it is found along rays, and what is measured of it. Plain data and pure
- * functions; any thread. */
+/* The light of a plan: its emitters, the method by which it is found along rays, and the quantities that are measured
+ * of it. Plain data and pure functions; any thread. */
 #ifndef KD_RENDER_PLAN_LIGHT_H
 #define KD_RENDER_PLAN_LIGHT_H
 

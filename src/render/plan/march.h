@@ -34,7 +34,7 @@ struct kd_march {
 #define KD_MARCH_SKETCHED 0.05
 #define KD_MARCH_HOLDS 5e-5  /* an error that is met even in turbulence; smaller tolerances are refused */
 #define KD_MARCH_SAMPLED 256 /* pixels of the sample, at most */
-#define KD_MARCH_FINER 2     /* the reference for measuring the error has this many times as many steps and stretches */
+#define KD_MARCH_FINER 2     /* factor by which the reference for measuring the error has more steps and stretches */
 #define KD_MARCH_DARK 1e-3   /* fraction of the brightest ray: errors of darker rays are relative to this */
 
 /* The march for a scene with volumes or bodies, whose rays are traced with this setting. */
@@ -44,7 +44,7 @@ struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_settin
  * an error measured on a quarter of the rays. */
 struct kd_march kd_march_sketch(struct kd_march march, const struct kd_scene *scene);
 
-/* The given march with KD_MARCH_FINER times as many steps and stretches. */
+/* The given march with the numbers of steps and stretches multiplied by KD_MARCH_FINER. */
 struct kd_march kd_march_finer(struct kd_march march);
 
 #endif

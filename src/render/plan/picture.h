@@ -1,5 +1,5 @@
-/* The picture of a plan: its size, its parts, its layers, and what is done with the light before it is shown. Plain
- * data and pure functions; any thread. */
+/* The picture of a plan: its size, its parts, its layers, and the operations on its light before display. Plain data
+ * and pure functions; any thread. */
 #ifndef KD_RENDER_PLAN_PICTURE_H
 #define KD_RENDER_PLAN_PICTURE_H
 

@@ -69,17 +69,17 @@ static const struct sentence {
     { "disk.orders", "disk: image orders beyond accuracy.orders are left out", crossings },
     { "volumes.march",
       "volumes: light is integrated in 32 bits with three points per step; the number of steps depends on the texture, "
-      "the optical depth and the ray; the requested accuracy is a target, and an error of about 5e-5 always remains; "
-      "the error is measured on a sample of rays with steps half as long",
+      "the optical depth and the ray; the requested accuracy is a target, beside which an error of about 5e-5 remains; "
+      "the error is measured on a sample of rays with half the step length",
       volumes },
     { "volumes.sketch",
-      "volumes: a sketch while the view changes: a measured error of about 5 %, and another 7 %, which is not "
-      "measured, because fine octaves of the turbulence are left out",
+      "volumes: a sketch while the view changes; its measured error is about 5 %, and leaving out fine octaves of the "
+      "turbulence adds about 7 %, which is not measured",
       sketched },
     { "sky.sketch",
-      "sky: while the view changes, images of stars are left out if they would brighten their pixel by less than "
-      "sky.brightness, or if their pixel at the critical curve covers more than 0.15 rad of the sky; the others are "
-      "displaced by up to a fifth of a ray's width",
+      "sky: while the view changes, faint images of stars are left out, which would brighten their pixel by less than "
+      "sky.brightness, and so are images at the critical curve whose pixel covers more than 0.15 rad of the sky; the "
+      "others are displaced by up to a fifth of a ray's spacing",
       bright },
     { "colour.gamut", "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance",
       crossings },
@@ -92,7 +92,7 @@ static const struct sentence {
       "a sample",
       adapted },
     { "image.one-ray",
-      "image: maps, the ring projection and light curves have one ray a pixel if image.samples is \"auto\"",
+      "image: if image.samples is \"auto\", maps, the ring projection and light curves have one ray a pixel",
       not_adapted },
     { "post.film", "post: a tone curve like that of film; pixel values are not proportional to radiance", film },
     { "post.neutral",
@@ -108,7 +108,8 @@ static const struct sentence {
       "light comes from beyond the picture's edge",
       beam },
     { "post.near-beam",
-      "post: for a near observer the beam has the same width at the hole as from spacetime.distance_pc", near_beam },
+      "post: for a near observer the beam is as wide at the hole, in M, as it is from spacetime.distance_pc",
+      near_beam },
     { "flux.near",
       "flux: the flux at a near camera is multiplied by (camera.r / spacetime.distance_pc)^2; if matter surrounds the "
       "camera, no telescope would measure this flux",
@@ -120,14 +121,14 @@ static const struct sentence {
     { "sky.cut", "sky: images of stars are cut at the edges of the bands in which a picture of this size is rendered",
       cut },
     { "volume.normalised",
-      "volume: the density is chosen so that a picture of 128 pixels has the flux volume.normalise_to_jy; smaller "
-      "pictures determine it, whose time the estimate ignores; answers give the factor as density_scale",
+      "volume: the density is chosen so that a picture of 128 pixels has the flux volume.normalise_to_jy; small "
+      "pictures determine it, and the estimate does not include their time; answers give the factor as density_scale",
       normalised },
     { "volume.held",
       "volume: while the view is dragged, the density is the last one found for this matter in another view; the flux "
       "differs from volume.normalise_to_jy until the view rests",
       held },
-    { "layers.one-ray", "layers: maps of places and angles show one ray a pixel, not a mean over the pixel", maps },
+    { "layers.one-ray", "layers: maps of positions and angles show one ray a pixel, not a mean over the pixel", maps },
     { "layers.false-colour", "layers: a picture of a map has false colours; FITS, EXR, NPZ and NPY have its numbers",
       coloured },
     { "projection.ring",
@@ -138,21 +139,21 @@ static const struct sentence {
       "projection: a map of half of the sky or all of it; angles become distances, and areas are not to scale",
       rounded },
     { "camera.stereo",
-      "camera: each eye of a pair is an observer of the same kind at the same time, displaced from the middle "
-      "to first order in camera.eye_distance in the local frame; the axes are parallel as in flat space",
+      "camera: each eye of a pair is an observer of the same kind at the same time; its displacement from the middle "
+      "is computed in the local frame, to first order in camera.eye_distance; the viewing directions are parallel as "
+      "in flat space",
       paired },
     { "lens.interpolated",
-      "lens map: rays are followed where it bends and where image orders or fates change; between them it is "
-      "interpolated to 1e-5, or to 2e-6 with the profile balanced; answers give the number of interpolated "
-      "pixels",
+      "lens map: rays are traced where the map bends and where image orders or fates change; elsewhere the map is "
+      "interpolated to 1e-5, or to 2e-6 with the profile balanced; answers give the number of interpolated pixels",
       interpolated },
     { "arithmetic.f32",
       "arithmetic: 32-bit; rays whose fate or number of crossings is uncertain in 32 bits are followed again in "
       "64 bits",
       single },
     { "arithmetic.f32-listed",
-      "arithmetic: 32-bit, by an engine whose rays are not followed again in 64 bits: within about 1e-5 of the "
-      "critical curve rays may be lost, or their fate may be wrong",
+      "arithmetic: 32-bit, by an engine whose rays are not traced again in 64 bits; within about 1e-5 of the critical "
+      "curve rays may be lost, or their fate may be wrong",
       single_listed },
     { "arithmetic.f64", "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
     { "rays.kerr-schild", "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md gives the cost",

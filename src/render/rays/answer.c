@@ -116,11 +116,12 @@ static const struct {
       is_labelled },
     { { "rays.f32", "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong" },
       is_single },
-    { { "rays.from-1000", "the engine starts rays from infinity at 1000 M, at the exact position given by their "
-                          "constants; the direction of escape is the momentum there, accurate to 1e-6 rad" },
+    { { "rays.from-1000",
+        "the engine starts rays from infinity at 1000 M, at the exact position given by their constants; the direction "
+        "of escape is that of the momentum at 1000 M, accurate to 1e-6 rad" },
       is_compared },
-    { { "rays.again", "rays whose error exceeds the tolerance were followed again in double precision and, if needed, "
-                      "in closed form; the error of each ray shows which still exceed it" },
+    { { "rays.again", "rays whose error exceeds the tolerance were traced again in double precision and, if needed, in "
+                      "closed form; each ray has its error, which may still exceed the tolerance" },
       is_held },
 };
 

@@ -276,9 +276,9 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
     return status;
 }
 
-/* Size of the next slice after one of m rays that took `ms`. least_ms: time of the smallest slices. If even one ray
- * takes longer than TARGET_MS, a GPU takes no longer for several rays: slices double as long as that holds, and may
- * take up to half as long again. */
+/* Number of rays of the next slice, after one of m rays that took `ms`. least_ms: time of the smallest slices. If even
+ * one ray takes longer than TARGET_MS, a GPU needs no more time for several rays: slices are doubled while this holds,
+ * and may take up to 1.5 times as long. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
     double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms),
@@ -317,7 +317,7 @@ static enum kd_status trace(struct work *w, const struct kd_ray_labels *rays, st
         double ms = kd_clock_ms() - begun;
         if (slice.n <= LEAST || ms < least_ms) /* the first slice may have waited for the kernel to be compiled */
             least_ms = ms;
-        if (slice.n == size) { /* the last slice of a list is short and tells nothing */
+        if (slice.n == size) { /* the last slice of a list is short and not representative */
             size = next_size(size, ms, least_ms);
             keep_size(w, size);
         }

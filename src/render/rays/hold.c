@@ -43,7 +43,7 @@ static enum kd_status init(struct batch *b, size_t n, uint32_t orders, struct kd
     return kd_error_set(error, KD_ENOMEM, "out of memory for %zu rays that are followed again", n);
 }
 
-/* Gathers as many rays as fit, starting at *at, and advances *at. */
+/* Gathers the rays from *at on that fit, and advances *at. */
 static void gather(struct batch *b, const struct kd_ray_labels *rays, const struct kd_ray_end *ends, double tolerance,
                    size_t *at)
 {

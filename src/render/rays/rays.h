@@ -31,7 +31,7 @@ struct kd_rays_params {
     enum kd_engine engine;
     enum kd_precision precision; /* closed: F64 only */
     uint32_t steps;              /* per half period, a multiple of 4; 0: the engine's default; closed form: 0 */
-    double tolerance;            /* > 0: rays whose own error exceeds it are traced again more finely; 0: none */
+    double tolerance;            /* > 0: rays whose own error exceeds this are traced again more finely; 0: no ray is */
     double holds; /* the tolerance that the setting meets according to the table, for the answer; 0: no tolerance was
                      requested */
     /* 0: rays are labels, for any observer at this place. Otherwise 1 + enum kd_observer: rays are directions in

@@ -10,7 +10,7 @@
 #include "render/device/renderer.h"
 #include "render/selftest/reference.h"
 
-/* One line of the table. It stands for many comparisons, of which it shows the one closest to its bound, or furthest
+/* One line of the table, which stands for many comparisons. It shows the one closest to its bound, or the one furthest
  * beyond it. */
 struct kd_selftest_row {
     char what[64], by[32]; /* "rays, bulk: r (relative)", "mino-rkn6 f32" */

@@ -1,4 +1,5 @@
-/* The stars of a sky, as points: the stars of the Hipparcos catalogue, or as many random ones. Pure; any thread.
+/* The stars of a sky, as points: the stars of the Hipparcos catalogue, or the same number of random ones. Pure; any
+ * thread.
  *
  * Directions are galactic, J2000: x towards l = 0, b = 0, z towards the galactic pole. Fluxes are in units of the light
  * of one steradian of surface brightness KD_SKY_UNIT_MAG: F = 10^(-0.4 (V - 21)) square arcseconds. Diffuse light and

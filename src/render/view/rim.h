@@ -34,8 +34,8 @@
 
 struct kd_rim {
     bool there;
-    /* relative distances from the curve: beyond `none` images come from the grid alone, within `full` from the rim
-     * alone; between them their light is shared */
+    /* relative distances from the curve: beyond `none`, images come from the picture's grid alone; within `full`, from
+     * the rim alone; between the two they share the light */
     double none, full;
     double last; /* the least relative distance from the curve of the rim's rays */
     /* rough estimate in rad: the largest change, from one point of the curve to the next, of the shift of the sky

@@ -24,8 +24,8 @@ enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_
  * page would start from its first view. */
 enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out);
 void kd_shared_finish(struct kd_shared *shared);
-/* Appends the query, from "?" on, of an address that gives its user the same access as the request had: if the
- * request came by a signed link, the parameters that sign the path, else nothing. path: below the base path;
+/* Appends the query, from "?" on, that gives the user of an address the same access as the request had. For a request
+ * by a signed link it consists of the parameters that sign the path; otherwise it is empty. path: below the base path;
  * decoded. */
 enum kd_status kd_shared_sign(const struct kd_request *request, const char *path, struct kd_buffer *out);
 

@@ -94,7 +94,7 @@ static bool parse_role(const char *text, enum kd_role *out)
     return false;
 }
 
-/* Returns what is wrong with a line, as the end of a sentence without the token; NULL if nothing is. */
+/* Returns the fault of a line, as the end of a sentence and without the token; NULL if there is none. */
 static const char *fault_of(const struct kd_access *access, const char *name, const char *role, const char *token,
                             const char *more, struct entry *entry)
 {
@@ -255,7 +255,7 @@ static unsigned guesses_wait_s(const struct kd_request *request, const struct br
 {
     struct kd_auth_throttle *auth_throttle = request->server->auth_throttle;
     const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer };
-    uint64_t hash = KD_HASH_BEGIN; /* so that the same token has the same hash wherever it stands */
+    uint64_t hash = KD_HASH_BEGIN; /* so that a token has the same hash in every part of a request */
     /* The visitor may be known by a cookie alone. A wrong token in Authorization then counts as a guess, unless it may
      * be a session's token. */
     if (request->visitor) {

@@ -84,8 +84,8 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
     free(guest);
 }
 
-/* Hands a guest to its daemon once its first bytes show which one that is. gone: no more bytes will come. Returns true
- * while it remains a guest. */
+/* Hands a new connection to its daemon once its first bytes show which daemon this is. gone: no more bytes will come.
+ * Returns true while the connection is not handed over. */
 static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
 {
     char begin[KD_BEGINS_BYTES];

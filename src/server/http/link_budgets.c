@@ -103,8 +103,8 @@ enum kd_status kd_link_budgets_open(struct kd_link_budgets *all, const char *sta
                         KD_LINK_BUDGETS_FILE, why == EILSEQ ? "; remove it, or use another folder" : strerror(why));
 }
 
-/* Returns the link's place. If it has none, returns an unused place, or one whose link has expired; NULL: there is
- * no such place. */
+/* Returns the link's place. If it has none, returns an unused place, or the place of an expired link; NULL if there is
+ * neither. */
 static struct place *place_of(struct kd_link_budgets *all, const struct kd_link *link, uint64_t now_s)
 {
     struct place *unused = NULL;

@@ -126,7 +126,7 @@ static enum MHD_Result beyond(struct kd_request *request, const struct kd_repres
                             &(struct kd_problem) { .type = KD_PROBLEM_RANGE, .content_range = size, .detail = detail });
 }
 
-/* Adds digests (RFC 9530), whatever Want-Content-Digest and Want-Repr-Digest say. Repr-Digest is that of all bytes;
+/* Adds digests (RFC 9530), independent of Want-Content-Digest and Want-Repr-Digest. Repr-Digest covers all bytes;
  * Content-Digest is added if all bytes are sent. */
 static void add_digests(struct MHD_Response *response, const struct kd_request *request,
                         const struct kd_representation *r, struct part part)

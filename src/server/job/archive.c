@@ -132,7 +132,7 @@ static bool go_on(struct kd_job_whole *w)
     return false;
 }
 
-/* Returns 0 while there are no bytes yet: libmicrohttpd calls again after serving others. */
+/* Returns 0 if no bytes are available yet: libmicrohttpd calls again after serving other connections. */
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct kd_job_whole *w = cls;

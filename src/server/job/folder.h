@@ -31,7 +31,7 @@ void kd_job_folder_new_film(const char *format, unsigned rate, char name[KD_JOB_
 int kd_job_folder_open(int jobs, const char *name);
 
 /* Removes at most `most` of a job's files; job.json goes last, because it identifies the job. Then removes the folder,
- * unless it holds other files. Returns true when nothing removable is left. */
+ * unless it holds other files. Returns true when no removable file is left. */
 bool kd_job_folder_remove(int jobs, const char *name, unsigned most);
 
 /* Removes files of a job that a killed server has left half written. Removes no others, even if their names begin

@@ -99,7 +99,7 @@ struct kd_jobs {
     struct kd_job *first;            /* oldest first */
     struct kd_job *gone;             /* jobs whose files are to be removed */
     struct kd_job_render *rendering; /* frame that is in the render queue, or being planned */
-    struct kd_job *filming;          /* job whose playground is being moved; NULL: none */
+    struct kd_job *filming;          /* the job whose playground is advancing now; NULL: none */
     unsigned behind;
     uint64_t bytes;
     uint64_t frames; /* frames of all jobs that this server has finished */

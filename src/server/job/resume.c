@@ -74,7 +74,8 @@ static void wait_after_strikes(struct kd_job *job)
     job->due_ms =
         kd_clock_ms() +
         fmin(ldexp(KD_JOB_WAIT_MS, (int)(n - KD_JOB_ATTEMPTS > 20 ? 20 : n - KD_JOB_ATTEMPTS)), KD_JOB_WAIT_MAX_MS);
-    snprintf(job->delayed, sizeof job->delayed, "the server has ended %u times without a new frame", n);
+    snprintf(job->delayed, sizeof job->delayed, "the server ended %u times before a new frame of this job was finished",
+             n);
     kd_log(KD_LOG_WARN, "job %.4s... waits: %s", job->record.id, job->delayed);
 }
 

@@ -83,7 +83,7 @@ void kd_job_store_tidy(void)
         if (lock >= 0) { /* the lock was free: the server that made the folder is dead */
             kd_job_folder_empty(folder);
             if (!unlinkat(parent, entry->d_name, AT_REMOVEDIR))
-                kd_log(KD_LOG_INFO, "%s is removed; it was left by a server that has ended", entry->d_name);
+                kd_log(KD_LOG_INFO, "%s is removed; a server that has ended left it", entry->d_name);
             close(lock);
         }
         if (folder >= 0)
@@ -282,8 +282,8 @@ static bool parse_record(const struct kd_buffer *text, const char *id, struct kd
     return good;
 }
 
-/* Finds out what a job's folder holds. An unreadable job may be readable later, or by another version; only a deleted
- * job is GONE. */
+/* Examines a job's folder. An unreadable job may be readable later, or by another version; only a deleted job is GONE.
+ */
 static enum fate look(int folder, const char *id, struct found *out, const char **why)
 {
     struct kd_buffer text = { 0 };

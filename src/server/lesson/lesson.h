@@ -1,7 +1,7 @@
-/* A lesson: pupils follow the session of a teacher, answer the teacher's questions, and are counted. A lesson holds the
- * id of the session, and not the session itself, so that it continues when the teacher opens another session. It is
- * kept in memory only, and ends with the teacher's request or after a while without one. A caller holds the lock of the
- * table as long as it uses a lesson; kd_lessons_sweep takes it by itself. */
+/* A lesson: pupils follow the session of a teacher and answer the teacher's questions; the server counts pupils and
+ * answers. A lesson holds the id of the session, and not the session itself, so that it continues when the teacher
+ * opens another session. It is kept in memory only, and ends with the teacher's request or after a while without one. A
+ * caller holds the lock of the table as long as it uses a lesson; kd_lessons_sweep takes it by itself. */
 #ifndef KD_SERVER_LESSON_LESSON_H
 #define KD_SERVER_LESSON_LESSON_H
 

@@ -9,7 +9,7 @@
 #include <string.h>
 
 #define EXPOSURE_MS 2000.0 /* time constant of auto exposure: within this time it follows 63 % of a change */
-#define IDLE_MS 5e3        /* when the user has changed nothing for this long, other work of the client goes first */
+#define IDLE_MS 5e3        /* after this time without a change by the user, other work of the client goes first */
 #define SURE 0.02          /* fraction of a picture that must be done before the remaining time is estimated */
 /* Limit of a session's frames that are rendered but not encoded. One can be traced while another is encoded. */
 #define ENCODING_MAX 2

@@ -41,8 +41,7 @@ struct kd_session_pace { double min_scale, max_frame_ms; };
 
 /* Opens a session of a valid scene with its plan. Its frames count towards the client's share. The caller gets a
  * reference. crowded: it also shows bodies of a playground; then there is no frame before kd_session_show. pace: see
- * kd_session_keep; NULL: the default. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one
- * client. */
+ * kd_session_keep; NULL: the default. Returns KD_EBUSY at a limit; *quota is true if it is the limit of one client. */
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
                                 const char *client, bool crowded, const struct kd_session_pace *pace, bool *quota,
                                 struct kd_session **out, struct kd_error *error);
@@ -93,9 +92,9 @@ struct kd_session_state {
     } progress;
 };
 void kd_session_state(struct kd_session *session, struct kd_session_state *out);
-/* Changes the scene by `edit`, which receives what the caller gives as `to`. On failure nothing changes. order: among
- * changes that are sent at the same time the one with the highest order wins. A change with a lower order than an
- * earlier one is ignored, which is not a failure. 0: the change has no order and is made. */
+/* Changes the scene by `edit`, whose argument is `to`. On failure nothing changes. order: among changes that are sent
+ * at the same time, the one with the highest order wins. A change with a lower order than an earlier one is ignored,
+ * which is not a failure. 0: the change has no order and is made. */
 typedef enum kd_status kd_scene_edit(struct kd_scene *scene, const void *to, struct kd_error *error);
 enum kd_status kd_session_edit(struct kd_session *session, kd_scene_edit *edit, const void *to, uint64_t order,
                                struct kd_session_state *out, struct kd_error *error);

@@ -538,7 +538,7 @@ class AsyncSession:
         self.token: str = opened["token"]
         self.scene: dict[str, Any] = opened["scene"]
         self.revision: int = opened["revision"]
-        self._scenes = {self.revision: self.scene}  # by revision; only those that a coming frame may show
+        self._scenes = {self.revision: self.scene}  # by revision; contains only revisions that a later frame may show
         self.quality = quality
         self.frame_wait = FRAME_WAIT_MS / 1000  # seconds for which an iteration waits for a frame before it asks again
         self._seen = 0

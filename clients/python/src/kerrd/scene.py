@@ -72,10 +72,10 @@ class Camera:
     stereo: pair: two pictures side by side, the left eye's on the left, each image.width wide and in pinhole projection; none: one eye;
         default "none".
     eye_distance: distance between the eyes, perpendicular to the viewing direction (stereo: pair); in M; 1e-06 to 1000000; default 0.5.
-    ring_decades_max: log10 of the distance to the critical curve, in units of its radius, at the upper and the lower edge (ring); in
-        decades; -12 to 0; default 0.
-    ring_decades_min: log10 of that distance at the middle line; rays above the line pass outside the curve, rays below it inside
-        (ring); in decades; -13 to -1; default -10.
+    ring_decades_max: log10 of the distance between the critical curve and the picture's upper and lower edges, in units of the curve's
+        radius (ring); in decades; -12 to 0; default 0.
+    ring_decades_min: log10 of the distance to the critical curve at the picture's middle line; rays above the line pass outside the
+        curve, rays below it inside (ring); in decades; -13 to -1; default -10.
     """
 
     r: Literal['infinity'] | float | None = None
@@ -111,9 +111,9 @@ class Gas:
         0.8.
     octaves: number of scales of the turbulence; each scale is about half the one before; 1 to 8; default 6.
     scale: size of the largest eddies over r, before shear stretches them; 0.02 to 2; default 0.4.
-    shear: azimuth by which streaks trail, in radians for each unit of ln r; streaks are 1 + shear^2 times as long as wide; below 0 they
-        lead; -20 to 20; default 5.
-    seed: seed of the random numbers: another seed gives other gas; 0 to 2147483647; default 1.
+    shear: azimuth by which streaks trail, in radians for each unit of ln r; below 0 they lead. Streaks are 1 + shear^2 times as long as
+        they are wide; -20 to 20; default 5.
+    seed: seed of the random numbers of the turbulence; 0 to 2147483647; default 1.
     """
 
     amplitude: float | None = None
@@ -148,9 +148,9 @@ class Disk:
     atmosphere: how the light of the thin disk's surface depends on mu, the cosine of the angle to its normal in the gas's frame.
         isotropic; laor: as 1 + 2.06 mu; scattering: as from a deep atmosphere of free electrons, which polarization.model "scattering"
         polarises. Each law has the disk's flux; default "isotropic".
-    returning: light of the disk that the hole bends back to it: none; thermalised, absorbed with its angular momentum and radiated
-        again as by a black body; reflected, the share disk.albedo of it with the spectrum with which it came, the rest thermalised; any
-        number of returns; default "none".
+    returning: light that the hole bends back to the disk. none: it is ignored; thermalised: the disk absorbs it with its angular
+        momentum, and radiates it again as a black body; reflected: the disk reflects the share disk.albedo with the spectrum of the
+        arriving light, and thermalises the rest. Light may return any number of times; default "none".
     albedo: share of the returning light that is reflected; 0 to 1; default 0.5.
     band: brightness: bolometric, g^4 F; visible, the luminance that the eye perceives of the Planck spectrum; or frequency, the
         specific intensity at disk.frequency_ghz, in physical units; default "bolometric".
@@ -158,15 +158,15 @@ class Disk:
     doppler: include the Doppler shift and beaming of the orbiting gas; default true.
     redshift: include the gravitational redshift and time dilation of the orbiting gas; default true.
     particles: number of particles (model: particles); 1000 to 10000000; default 300000.
-    seed: seed of the random numbers: another seed gives other particles (model: particles); 0 to 2147483647; default 1.
+    seed: seed of the random numbers that place the particles (model: particles); 0 to 2147483647; default 1.
     density_index: p: the number of particles per area is proportional to r^-p; for p = 2 every octave of r has the same number (model:
         particles); 0 to 4; default 2.
     plunging: share of the particles that fall from the ISCO, with its energy and angular momentum; none fall unless disk.inner is
         "isco" (model: particles); 0 to 0.5; default 0.02.
     plunging_temperature: temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: particles); 0
         to 1; default 0.7.
-    epicycles: largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the ISCO, also that
-        of the relative oscillations in r (model: particles); 0 to 0.2; default 0.02.
+    epicycles: largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes at the ISCO, it
+        is also the largest relative amplitude of oscillations in r (model: particles); 0 to 0.2; default 0.02.
     slow_light: show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate time;
         default false.
     gas: turbulence in the gas of the smooth disk models.
@@ -232,11 +232,11 @@ class Body:
     inclination_deg: polar angle of the body's centre: 0 over the pole of the disk's rotation, 90 in its plane; in degrees; 0 to 180;
         default 90.
     phase_deg: azimuth of the body's centre at time 0; 0 is that of camera.azimuth_deg 0; in degrees; -360 to 360; default 0.
-    motion: state of motion, which shifts its light; static, zamo, keplerian and retrograde move it round with time, the last two only
-        in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular momentum; keplerian: on a circular orbit
-        towards +phi like the disk, at its highest latitude; retrograde: on a circular orbit towards -phi, against the disk, at its
-        highest latitude; infall: in free fall, by default from rest at infinity; velocity: with any velocity relative to the observer
-        of zero angular momentum; default "keplerian".
+    motion: state of motion, which shifts the body's light; static, zamo, keplerian and retrograde move it round with time, the last two
+        only in the disk's plane; static: at rest with respect to infinity; zamo: with zero angular momentum; keplerian: on a circular
+        orbit towards +phi like the disk, at its highest latitude; retrograde: on a circular orbit towards -phi, against the disk, at
+        its highest latitude; infall: in free fall, by default from rest at infinity; velocity: with any velocity relative to the
+        observer of zero angular momentum; default "keplerian".
     velocity_r: outward velocity in the frame of the local observer of zero angular momentum (motion: velocity); in c; -1 to 1; default
         0.
     velocity_theta: velocity away from the north pole, in the frame of the local observer of zero angular momentum (motion: velocity);
@@ -302,8 +302,8 @@ class Volume:
     magnetisation_index: p: magnetisation is proportional to r^-p (model: riaf); -10 to 10; default 1.
     field: direction of the magnetic field: round the axis, along it, or radial; its part along the motion is removed (models: riaf,
         torus); default "toroidal".
-    flow: motion: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at rest for observers
-        of zero angular momentum (model: riaf); default "orbits".
+    flow: motion of the matter: with the angular velocity of the circular orbit at each r, and in free fall inside the ISCO; or at rest
+        relative to observers of zero angular momentum (model: riaf); default "orbits".
     electrons: energy distribution of the electrons (models: riaf, torus, grid); kappa: thermal with a power-law tail; default
         "thermal".
     electrons_index: p: the number of electrons is proportional to gamma^-p (electrons: power-law); 1.1 to 10; default 3.5.
@@ -315,9 +315,9 @@ class Volume:
     beta: gas pressure over magnetic pressure (model: torus); 1e-06 to 1e+12; default 10.
     gamma_min: smallest Lorentz factor of the electrons (electrons: power-law); 1 to 1000000000; default 30.
     gamma_max: largest Lorentz factor of the electrons; above gamma_min (electrons: power-law); 1 to 1e+12; default 100000.
-    normalise_to_jy: flux of the picture: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a number that it
-        determines with small pictures, and reports this number; 0: no change (models: gold, riaf, torus, grid); in Jy; 0 to 1e+12;
-        default 0.
+    normalise_to_jy: flux to which the picture is normalised: kerrd multiplies the density (gold: the emissivity; grid: the factor) by a
+        number that small pictures determine, and reports this number; 0: no change (models: gold, riaf, torus, grid); in Jy; 0 to
+        1e+12; default 0.
     normalise_ghz: frequency of that flux; observed: volume.frequency_ghz; in GHz; 1e-06 to 1e+12; default "observed".
     """
 
@@ -362,14 +362,15 @@ class Volume:
 class Jets:
     """Stylised jets along the spin axis.
 
-    brightness: light emitted along 1 M in the jet's frame, in units of the disk's brightest: the power law's value at the inner edge,
-        from which the light rises smoothly; 0: no jets; in 1/M; 0 to 1000000000; default 0.
+    brightness: light that the jet emits along 1 M in its own frame, in units of the disk's brightest surface brightness. It is the
+        value of the power law at the inner edge; the actual light is 0 there and rises smoothly to the power law. 0: no jets; in 1/M; 0
+        to 1000000000; default 0.
     opening_deg: half of the cone's opening angle; in degrees; 1 to 60; default 8.
     lorentz: Lorentz factor of the outflow; 1 to 100; default 2.
     inner: radius at which the light begins, at least 1.05 times that of the horizon; in M; 1 to 1000000; default 4.
     outer: radius at which the light ends; larger than the inner edge; in M; 1 to 1000000; default 60.
-    falloff: p: light along the jet is proportional to r^-p; -10 to 10; default 1.5.
-    sheath: brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5.
+    falloff: p: the jet's light is proportional to r^-p; -10 to 10; default 1.5.
+    sheath: distribution of brightness across the jet: 0, a bright spine; 1, bright edges; 0 to 1; default 0.5.
     spectral_index: index: brightness is proportional to g^(2 + index); -10 to 10; default 0.7.
     temperature_k: colour of a black body of this temperature, not shifted; in K; 300 to 1000000000; default 14000.
     counterjet: include the jet below the disk; default true.
@@ -398,7 +399,7 @@ class Polarization:
         "toroidal".
     electron_index: p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + 1)/(p + 7/3)
         (model: synchrotron); 1 to 10; default 3.
-    order: factor on that polarisation for a field that is disordered within a pixel; 0 to 1; default 1.
+    order: factor on the polarisation, below 1 for a field that is disordered within a pixel; 0 to 1; default 1.
     faraday: include Faraday rotation, and conversion between linear and circular polarisation, by the electrons (model: transfer);
         default true.
     rotation: fit of the Faraday rotation by thermal electrons: Shcherbakov 2008, or Dexter 2016 in the form of Huang and Shcherbakov
@@ -419,16 +420,16 @@ class Sky:
 
     model: sky at infinity: none; a celestial grid that shows the lensing; generated stars and a generated Milky Way; the stars of the
         Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
-    brightness: brightness in units of the disk's brightest surface brightness at g = 1: of the grid, or, for stars and the Milky Way in
-        their real ratio, of 21 magnitudes per square arcsecond; auto: 0.2, or 0.01 for stars and the Milky Way behind something that
-        shines; 0 to 100; default "auto".
+    brightness: brightness, in units of the disk's brightest surface brightness at g = 1, of the grid, or of a sky of 21 magnitudes per
+        square arcsecond; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for stars and the Milky Way behind other
+        light; 0 to 100; default "auto".
     grid_deg: spacing of the celestial grid; in degrees; 1 to 90; default 15.
     milky_way: factor on the natural brightness of the Milky Way or of sky.image; 0: only stars; 0 to 100; default 1.
     image: picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as wide as high, with
         galactic longitude 0 in the middle and rising to the left, latitude rising upwards; its white is 21 magnitudes per square
         arcsecond; default null.
     limit_mag: magnitude of the faintest stars; in magnitudes; -2 to 14; default 14.
-    seed: seed of the random numbers: another seed gives another generated sky; 0 to 2147483647; default 1.
+    seed: seed of the random numbers of the generated sky; 0 to 2147483647; default 1.
     orientation: galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, m87: an
         observer at azimuth 0 sees the hole where the Earth sees that source, with the galactic pole (sgra) or the celestial pole (m87)
         above; default "galactic".
@@ -474,8 +475,8 @@ class Image:
         neighbours; 1 to 8; default 1.
     pixel_error: apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays (samples: auto); 0.001 to
         0.5; default 0.003.
-    critical_factor: factor on the rays along each side of pixels at the critical curve, where the photon ring is thinner than a pixel;
-        at most 16 rays a side in all; 1 to 16; default 4.
+    critical_factor: factor on the number of rays along each side of pixels at the critical curve, where the photon ring is thinner than
+        a pixel; the product is at most 16; 1 to 16; default 4.
     bit_depth: bits a channel: 8 or 16; in bits; 8 to 16; default 8.
     layers: contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the disk, or with the
         suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and NPY have several as numbers; default
@@ -505,17 +506,17 @@ class Image:
 class Style:
     """From brightness to the colours of the file.
 
-    name: style that sets all fields of the look, except those in the document; none: no style; default "film".
-    exposure: exposure as a power of two, relative to the disk's brightest surface brightness at g = 1; auto: from the light in the
-        picture, limited for stars alone so that empty space is black; in stops; -40 to 40; default "auto".
-    tone_map: aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours and compresses what is near white;
+    name: style, which sets all fields of the look except those that the document sets; none: no style; default "film".
+    exposure: exponent of 2 of the exposure, relative to the disk's brightest surface brightness at g = 1; auto: by the light in the
+        picture, with a limit for pictures of stars alone so that empty space is black; in stops; -40 to 40; default "auto".
+    tone_map: aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours, and compresses light near white;
         default "aces".
     bloom: share of bright light that the lens spreads around its place: all light over 0.6 of white, with a smooth transition from 0.2
         on; 0: none; 0 to 1; default 0.4.
     beam_uas: full width at half maximum of a round Gaussian telescope beam, seen from spacetime.distance_pc; 0: none; in
         microarcseconds; 0 to 1e+12; default 0.
-    palette: colour: that of the light; heat: brightness in false colour (black, red, orange, white), with lightness proportional to it;
-        default "colour".
+    palette: colour: the colour of the light; heat: brightness in false colour (black, red, orange, white), with lightness proportional
+        to it; default "colour".
     colour_bar: draw a brightness bar in the lower left corner (palette: heat; tone_map: srgb), and in the upper right corner an angular
         scale and the shape of the beam; default false.
     dither: add half a step of ordered noise before rounding, against banding; default true.

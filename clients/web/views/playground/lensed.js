@@ -6,7 +6,7 @@ import { ask } from '../../base/server.js';
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const even = x => Math.max(16, 2 * Math.round(x / 2));
-const slow_ms = 600; // if a picture takes longer, the page says that one is being drawn
+const slow_ms = 600; // if a picture takes longer than this, the page announces that one is being drawn
 const widest = 960; // largest width, device pixels
 
 // box: the element for the pictures; running: see running.js. Returns { show(yes) }.

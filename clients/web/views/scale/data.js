@@ -1,5 +1,5 @@
-// What the Event Horizon Telescope measured of M87* on 5 April 2017 beside the model: amplitudes and closure phases by
-// the length of the baseline. The server compares the two (POST /v1/compare) and computes the model's curves
+// The measurements of M87* by the Event Horizon Telescope on 5 April 2017 beside the model: amplitudes and closure
+// phases by the length of the baseline. The server compares the two (POST /v1/compare) and computes the model's curves
 // (POST /v1/visibility), both of one map.
 import { persistent } from '../../base/again.js';
 import { el } from '../../base/dom.js';

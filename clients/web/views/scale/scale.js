@@ -1,4 +1,5 @@
-// A hole in kilometres, seconds and microarcseconds, beside what the Event Horizon Telescope measured.
+// The scales of a hole in kilometres, seconds and microarcseconds, beside the measurements of the Event Horizon
+// Telescope.
 import { persistent } from '../../base/again.js';
 import { entitle } from '../../words/describe.js';
 import { byId, el } from '../../base/dom.js';

@@ -195,7 +195,7 @@ export function buildTour(stage, scene) {
   scene.addEventListener('move', () => (ring.hidden = true));
   scene.addEventListener('change', () => before && box.dataset.arrived && point());
   new ResizeObserver(() => before && box.dataset.arrived && point()).observe(stage);
-  // Works wherever the focus is; but Esc first closes what lies over the tour.
+  // The keys work wherever the focus is, but Esc first closes any element over the tour.
   document.addEventListener(
     'keydown',
     event =>
