@@ -16,12 +16,10 @@
 #define WIDTH 160
 #define HEIGHT 90
 #define ORDERS 3
-#define NUDGE
-/* in steps; the error of the oracle's differences is this number's square, and their rounding 1e-12 divided by it
- */
-1e-3
+/* In steps. The error of the oracle's differences is this number's square, and their rounding 1e-12 divided by it. */
+#define NUDGE 1e-3
 
-    struct view {
+struct view {
     const char *name;
     double a, inclination, r; /* r: INFINITY, or a pinhole camera at r */
     double field;             /* M, or degrees */
