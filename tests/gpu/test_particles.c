@@ -319,7 +319,7 @@ static void test_slow_light(void **state)
         scene.disk.slow_light = false;
         double off_then = 0, off_now = 0;
         int n = 0;
-        for (uint32_t at = 1000; at < 160 * 90 && n < PIXELS; at += 97) {
+        for (uint32_t at = 1000; at < 160 * 90 && n < PIXELS; at += 31) {
             float w = planes[at];
             if (!(w > 1 / views[v].far && w < 1 / 5.0))
                 continue;
