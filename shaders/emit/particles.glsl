@@ -24,7 +24,7 @@ struct kd_density_place {
 float kd_particles_ahead(uint row, float ago)
 {
     float r = emission.disk.r_in * exp2(float(row) / emission.particles.rows_octave);
-    return ago * (0.5 / KD_PI) / (r * sqrt(r) + cam.spin);
+    return ago * (0.5 / KD_PI) / kd_circle_time(r);
 }
 
 kd_density_place kd_particles_place(kd_sample s, float turn)

@@ -5,7 +5,8 @@
  * times the ratio of the number of particles to the expected number. With W = (r^2 + a^2 - aL/E) E/r^2 of the gas and
  * of the light, D = Delta/r^2, J = L - aE,
  *
- *   u^r = -sqrt(2/(3 r0)) (r0/r - 1)^(3/2),   r0 the ISCO's radius     (Mummery & Balbus 2022, arXiv:2209.03579)
+ *   (u^r)^2 = 2/(3 r0) gap^3 (stretch - bend gap),   gap = r0/r - 1,   r0 the ISCO's radius
+ *                                                (Mummery & Balbus 2022, arXiv:2209.03579; physics/orbit/plunge.c)
  *   1/g = -p.u = (W W' - w' u^r)/D - J J'/r^2 ,                         (Carter 1968)
  *
  * where primed quantities are those of the light. w' is positive where a ray traced back goes inwards, so that the
@@ -16,6 +17,7 @@
 #define KD_BLOCK_plunge(F, U, A) \
     F(first) F(last)       /* w at the start and at the end of the plunge */ \
     F(energy) F(j)         /* constants of the gas: E, and L - aE */ \
+    F(stretch) F(bend)     /* numbers of u^r; without charge 1 and 0 */ \
     F(temperature)         /* temperature, relative to the disk's largest */ \
     F(depth)               /* optical depth where r |u^r| is 1, for the expected number of particles */ \
     F(log_first) F(step_)  /* the table's first argument, and its entries per unit */ \
@@ -52,7 +54,7 @@ kd_density_place kd_plunge_place(kd_sample s, float turn)
 float kd_plunge_speed(float w)
 {
     float r0 = emission.frame.r_isco, gap = max(r0 * w - 1.0, 1e-12);
-    return -sqrt(gap * (2.0 / 3.0) / r0) * gap;
+    return -sqrt(gap * (2.0 / 3.0) / r0 * (emission.plunge.stretch - emission.plunge.bend * gap)) * gap;
 }
 
 /* g from Doppler shift and gravity together, or from only one of the two. */

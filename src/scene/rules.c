@@ -83,7 +83,6 @@ static enum kd_status uncharged(const struct kd_scene *scene, struct kd_error *e
         const char *section, *name, *wanted;
         int refused; /* value of an enumeration; 0: all but 0 */
     } parts[] = {
-        { "disk", "model", "\"novikov-thorne\"", KD_DISK_PARTICLES },
         { "volume", "model", "\"riaf\"", KD_VOLUME_GRID },
         { "style", "ringdown", "0", 0 },
     };
@@ -626,9 +625,7 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
 
 const struct kd_rule kd_rules[] = {
     { "`spacetime.charge` is at most sqrt(1 - a^2 - 1e-12) with the spin a.", charge },
-    { "Unless `spacetime.charge` is 0, `disk.model` is not \"particles\", `volume.model` is not \"grid\", and "
-      "`style.ringdown` is 0.",
-      uncharged },
+    { "Unless `spacetime.charge` is 0, `volume.model` is not \"grid\", and `style.ringdown` is 0.", uncharged },
     { "`image.bit_depth` is 8 or 16.", bit_depth, "image", "bit_depth", BITS },
     { "`camera.projection` \"pinhole\", \"equirectangular\" and \"fulldome\" need a finite `camera.r`, \"plane\" and "
       "\"ring\" need `camera.r` \"infinity\".",

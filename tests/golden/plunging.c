@@ -36,7 +36,7 @@ static struct ray ray_of(const struct kd_scene *scene, uint32_t x, uint32_t y)
     ray.lambda = -alpha * sin(i);
     ray.eta = (alpha - a) * (alpha + a) * c * c + beta * beta;
     const struct kd_null_ray null = {
-        .hole = kd_hole_of(a),
+        .hole = kd_hole_charged(a, scene->spacetime.charge),
         .radius = scene->camera.r,
         .cos_theta = c,
         .sin_theta = sin(i),
@@ -78,6 +78,8 @@ static void redshift_of_light(void **state)
         { "from afar", "\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":60,\"field_m\":14}", "" },
         { "from afar, fast", "\"spacetime\":{\"spin\":0.95},\"camera\":{\"inclination_deg\":40,\"field_m\":8}", "" },
         { "retrograde", "\"spacetime\":{\"spin\":-0.7},\"camera\":{\"inclination_deg\":75,\"field_m\":20}", "" },
+        { "charged", "\"spacetime\":{\"spin\":0.2,\"charge\":0.95},\"camera\":{\"inclination_deg\":60,\"field_m\":10}",
+          "" },
         { "closed", "\"spacetime\":{\"spin\":-0.7},\"camera\":{\"inclination_deg\":75,\"field_m\":20}",
           ",\"engine\":\"closed\",\"precision\":\"f64\"" },
         { "near",
@@ -102,10 +104,10 @@ static void redshift_of_light(void **state)
             "\"style\":{\"exposure\":-2,\"tone_map\":\"srgb\",\"dither\":false}}",
             views[v].json, views[v].accuracy);
         struct kd_scene scene = studio_scene(NULL, json);
-        double a = scene.spacetime.spin;
+        const struct kd_hole hole = kd_hole_charged(scene.spacetime.spin, scene.spacetime.charge);
         struct kd_frame plain = shot(&scene, false, false), slowed = shot(&scene, false, true),
                         full = shot(&scene, true, true), moved = shot(&scene, true, false);
-        const struct kd_plunge plunge = kd_plunge_of(kd_hole(a));
+        const struct kd_plunge plunge = kd_plunge_of(&hole);
         for (uint32_t y = 0; y < 120; y++)
             for (uint32_t x = 0; x < 160; x++) {
                 struct ray ray = ray_of(&scene, x, y);
@@ -116,7 +118,8 @@ static void redshift_of_light(void **state)
                     continue;
                 double r = ray.path.crossing[0].r; /* every picture contains the near observer's own redshift */
                 int sense = ray.path.crossing[0].sense;
-                double ut = kd_plunge_velocity(&plunge, r).ut, g = redshift_of_plunge(a, r, ray.lambda, ray.eta, sense);
+                double ut = kd_plunge_velocity(&plunge, r).ut,
+                       g = redshift_of_plunge(&hole, r, ray.lambda, ray.eta, sense);
                 const double want[] = { 1 / ut, g, g * ut };
                 for (int k = 0; k < 3; k++) {
                     if (light[k] < 0.01)

@@ -89,6 +89,14 @@ static const struct picture pictures[] = {
       "{\"spacetime\":{\"spin\":0.999999999999,\"charge\":1e-6},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
     { "spin 0.8, charge 0.6-1e-12",
       "{\"spacetime\":{\"spin\":0.8,\"charge\":0.599999999999},\"sky\":{\"model\":\"grid\"}," SMALL "}", true, 0 },
+    { "charge 1-1e-12, particles that plunge",
+      "{\"spacetime\":{\"spin\":0,\"charge\":0.999999999999},\"disk\":{\"model\":\"particles\",\"plunging\":0.3,"
+      "\"plunging_temperature\":1}," SMALL "}",
+      true, 0 },
+    { "spin 0.8, charge 0.6-1e-12, particles that plunge",
+      "{\"spacetime\":{\"spin\":0.8,\"charge\":0.599999999999},\"disk\":{\"model\":\"particles\",\"plunging\":0.3,"
+      "\"plunging_temperature\":1}," SMALL "}",
+      true, 0 },
     { "spin 0.8, charge 0.6-1e-12, at 1.000003",
       "{\"spacetime\":{\"spin\":0.8,\"charge\":0.599999999999},\"camera\":{\"r\":1.000003,\"observer\":\"zamo\",\"yaw_"
       "deg\":180,\"inclination_deg\":60},\"sky\":{\"model\":\"grid\"}," SMALL "}",

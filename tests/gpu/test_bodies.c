@@ -145,9 +145,9 @@ static struct metric metric_of(const struct kd_scene *scene)
 {
     const struct kd_body *b = &scene->bodies.at[0];
     const double a = scene->spacetime.spin, r = b->r, u = cos(b->inclination_deg * M_PI / 180), s2 = 1 - u * u,
-                 sigma = r * r + a * a * u * u;
-    return (struct metric) { 1 - 2 * r / sigma, -2 * a * r * s2 / sigma,
-                             (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2 };
+                 sigma = r * r + a * a * u * u, mass = 2 * r - scene->spacetime.charge * scene->spacetime.charge;
+    return (struct metric) { 1 - mass / sigma, -a * mass * s2 / sigma,
+                             (r * r + a * a + a * a * mass * s2 / sigma) * s2 };
 }
 
 /* 1/g of matter that turns with Omega, or that moves along phi relative to zero angular momentum. */
@@ -157,11 +157,12 @@ static double shift_of(const struct kd_scene *scene, const struct ks_photon *p)
     const struct metric g = metric_of(scene);
     const double a = scene->spacetime.spin, dragging = -g.tp / g.pp, lapse = sqrt(g.tt + g.tp * g.tp / g.pp),
                  v = b->velocity_phi;
+    const double root = sqrt(b->r - scene->spacetime.charge * scene->spacetime.charge), r2 = b->r * b->r;
     double omega = 0;
     switch (b->motion) {
     case KD_OBSERVER_ZAMO: omega = dragging; break;
-    case KD_OBSERVER_KEPLERIAN: omega = 1 / (b->r * sqrt(b->r) + a); break;
-    case KD_OBSERVER_RETROGRADE: omega = -1 / (b->r * sqrt(b->r) - a); break;
+    case KD_OBSERVER_KEPLERIAN: omega = root / (r2 + a * root); break;
+    case KD_OBSERVER_RETROGRADE: omega = -root / (r2 - a * root); break;
     case KD_OBSERVER_VELOCITY: omega = dragging + lapse * v / sqrt(g.pp); break;
     default: break;
     }
@@ -179,12 +180,14 @@ static void test_light(void **state)
         "{\"motion\":\"zamo\",\"inclination_deg\":60}",
         "{\"motion\":\"velocity\",\"velocity_phi\":-0.7,\"limb_darkening\":0,\"brightness\":3}",
     };
-    for (size_t k = 0; k < sizeof motions / sizeof *motions; k++) {
+    const size_t n = sizeof motions / sizeof *motions;
+    for (size_t view = 0; view < 2 * n; view++) { /* the second half about a charged hole */
+        const size_t k = view % n;
         char json[512];
         snprintf(json, sizeof json,
-                 "{\"camera\":{\"inclination_deg\":70,\"field_m\":26},\"spacetime\":{\"spin\":0.9},\"bodies\":[{"
+                 "{\"camera\":{\"inclination_deg\":70,\"field_m\":26},\"spacetime\":{%s},\"bodies\":[{"
                  "\"radius\":1.2,\"r\":8,\"phase_deg\":40,%s]}",
-                 motions[k] + 1);
+                 view < n ? "\"spin\":0.9" : "\"spin\":0.4,\"charge\":0.9", motions[k] + 1);
         const struct kd_scene scene = scene_of(json);
         const struct kd_body *b = &scene.bodies.at[0];
         struct kd_frame frame = rendered(&scene);
@@ -202,7 +205,7 @@ static void test_light(void **state)
             worst = fmax(worst, fabs(intensity(&frame)[i] / (b->brightness * limb * t * t * t * t) - 1));
             lit++;
         }
-        printf("%s: %d pixels, worst %.2g\n", motions[k], lit, worst);
+        printf("%s, charge %g: %d pixels, worst %.2g\n", motions[k], scene.spacetime.charge, lit, worst);
         assert_true(lit >= 6 && worst < 3e-3);
         kd_frame_finish(&frame);
     }

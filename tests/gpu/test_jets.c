@@ -219,7 +219,9 @@ static void jet_below(void *user, const struct ks_photon *p, double r, double u,
 }
 
 /* Jets from next to the horizon, on rays that fall in. No ray turns, at any latitude. There the charge's term in -k.U
- * across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to matter. */
+ * across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to matter. Light as g^10 changes by large factors within
+ * a stretch of the march, most of all where a ray crosses the axis. The march's error is then 7.5e-3 by the profile
+ * "balanced" and 3e-4 by "high". */
 static void test_beside_the_horizon(void **state)
 {
     /* rows of spin, charge, i */
@@ -236,6 +238,7 @@ static void test_beside_the_horizon(void **state)
                  "\"spectral_index\":8,\"sheath\":0,\"falloff\":4}}",
                  v[0], v[1], v[2], 1.1 * outer);
         struct kd_scene scene = scene_of(json);
+        OK(kd_scene_set(&scene, "accuracy.profile", "high", &error));
         struct kd_frame frame = rendered(&scene);
         for (int y = 0; y < HEIGHT; y++)
             for (int x = 0; x < WIDTH; x++) {
@@ -243,7 +246,7 @@ static void test_beside_the_horizon(void **state)
                              beta = -step * (y - 0.5 * (HEIGHT - 1)), got = (double)intensity(&frame)[y * WIDTH + x];
                 const struct ks_photon photon =
                     ks_from_infinity_charged(v[0], v[1], cos(v[2] * M_PI / 180), alpha, beta);
-                if (alpha == 0 || ks_trace(photon, 1).fate != KS_CAPTURED) /* L = 0 has no such term */
+                if (ks_trace(photon, 1).fate != KS_CAPTURED)
                     continue;
                 const struct ks_light want = ks_along(photon, scene.jets.inner, 4, false, jet_below, &scene);
                 if (!(want.light > 1e-5))
@@ -251,7 +254,7 @@ static void test_beside_the_horizon(void **state)
                 const double off = fabs(got / want.light - 1);
                 lit++;
                 worst = fmax(worst, off);
-                if (!(off < 4e-3))
+                if (!(off < 1e-3))
                     fail_msg("view %zu, alpha %g, beta %g: %g, not %g: off by %.2g", n, alpha, beta, got, want.light,
                              off);
             }

@@ -84,14 +84,15 @@ static void test_phase(void **state)
     assert_true(worst < 1e-6);
 }
 
-/* E, L and the norm in the Kerr metric, from a place in or off the equatorial plane and the rates of change there. */
+/* E, L and the norm in the metric of a hole (spin, charge), from a place in or off the equatorial plane and the rates
+ * of change there. */
 struct constants { double energy, momentum, norm; };
-static struct constants constants_of(double a, const struct row *p)
+static struct constants constants_of(const double hole[2], const struct row *p)
 {
-    double r = p->r, u = sin(p->latitude), sin2 = 1 - u * u, sigma = r * r + a * a * u * u,
-           delta = r * r - 2 * r + a * a;
-    double gtt = -(1 - 2 * r / sigma), gtp = -2 * a * r * sin2 / sigma;
-    double gpp = (r * r + a * a + 2 * a * a * r * sin2 / sigma) * sin2;
+    double a = hole[0], r = p->r, u = sin(p->latitude), sin2 = 1 - u * u, sigma = r * r + a * a * u * u,
+           mass = 2 * r - hole[1] * hole[1], delta = r * r - mass + a * a;
+    double gtt = -(1 - mass / sigma), gtp = -a * mass * sin2 / sigma;
+    double gpp = (r * r + a * a + a * a * mass * sin2 / sigma) * sin2;
     double across = p->dr * p->dr / delta + (double)p->dlatitude * p->dlatitude;
     double norm = gtt + 2 * gtp * p->dphi + gpp * p->dphi * p->dphi + sigma * across;
     double ut = 1 / sqrt(-norm);
@@ -103,12 +104,14 @@ static struct constants constants_of(double a, const struct row *p)
 static void test_falling(void **state)
 {
     (void)state;
-    static const double spins[] = { -0.9, 0, 0.95 };
-    for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
-        struct kd_scene scene = scene_of(spins[s], 0);
+    static const double holes[][2] = { { -0.9, 0 }, { 0, 0 }, { 0.95, 0 }, { 0, 0.99 }, { 0.6, 0.7 } };
+    for (size_t s = 0; s < sizeof holes / sizeof *holes; s++) {
+        struct kd_scene scene = scene_of(holes[s][0], 0);
+        scene.spacetime.charge = holes[s][1];
         scene.disk.plunging = 0.2;
-        double isco = kd_kerr_isco(kd_hole(spins[s])), energy = kd_kerr_energy(kd_hole(spins[s]), isco), worst = 0;
-        double momentum = kd_kerr_momentum(kd_hole(spins[s]), isco);
+        const struct kd_hole hole = kd_hole_charged(holes[s][0], holes[s][1]);
+        double isco = kd_kerr_isco(&hole), energy = kd_kerr_energy(&hole, isco), worst = 0;
+        double momentum = kd_kerr_momentum(&hole, isco);
         size_t n, fell = 0;
         struct row *rows = all_at(&scene, "777.5", &n);
         for (size_t i = 0; i < n; i++) {
@@ -116,13 +119,14 @@ static void test_falling(void **state)
             assert_true(falls == (rows[i].r < isco * (1 - 1e-6)));
             if (!falls)
                 continue;
-            const struct constants c = constants_of(spins[s], &rows[i]);
+            const struct constants c = constants_of(holes[s], &rows[i]);
             fell++;
             assert_true(rows[i].dr < 0 && rows[i].latitude == 0 && rows[i].dlatitude == 0);
             assert_true(fabs(rows[i].energy / energy - 1) < 1e-6 && fabs(rows[i].momentum / momentum - 1) < 1e-6);
             worst = fmax(worst, -c.norm * fmax(fabs(c.energy / energy - 1), fabs(c.momentum / momentum - 1)));
         }
-        printf("a = %g: E and L of %zu that fall, from rates, within %.1e over the norm\n", spins[s], fell, worst);
+        printf("a = %g, q = %g: E and L of %zu that fall, from rates, within %.1e over the norm\n", hole.a, hole.q,
+               fell, worst);
         assert_true(fell == 207 && worst < 1e-6);
         test_free(rows);
     }
@@ -133,10 +137,13 @@ static void test_falling(void **state)
 static void test_constants(void **state)
 {
     (void)state;
-    static const double spins[] = { -0.9, 0, 0.95 }, epicycles[] = { 0, 0.002, 0.02 };
-    for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
+    static const double holes[][2] = { { -0.9, 0 }, { 0, 0 }, { 0.95, 0 }, { 0, 0.99 }, { 0.6, 0.7 } },
+                        epicycles[] = { 0, 0.002, 0.02 };
+    for (size_t s = 0; s < sizeof holes / sizeof *holes; s++) {
+        const struct kd_hole hole = kd_hole_charged(holes[s][0], holes[s][1]);
         for (size_t k = 0; k < 3; k++) {
-            const struct kd_scene scene = scene_of(spins[s], epicycles[k]);
+            struct kd_scene scene = scene_of(hole.a, epicycles[k]);
+            scene.spacetime.charge = hole.q;
             const struct kd_particle_grid grid = kd_particle_grid(&scene);
             double worst = 0, fastest = 0, bound = 1e-6 + 3 * epicycles[k] * epicycles[k];
             size_t n;
@@ -144,17 +151,18 @@ static void test_constants(void **state)
             for (size_t i = 0; i < n; i++) {
                 const struct kd_particle_orbit o = orbit_of(&scene, &grid, i);
                 struct kd_orbit orbit;
-                if (o.r > kd_orbit_separatrix(kd_hole(spins[s]), 0, 1) * (1 + 1e-9)) {
-                    OK(kd_orbit_from_shape(kd_hole(spins[s]), o.r, 0, 1, &orbit, &error));
+                if (o.r > kd_orbit_separatrix(&hole, 0, 1) * (1 + 1e-9)) {
+                    OK(kd_orbit_from_shape(&hole, o.r, 0, 1, &orbit, &error));
                     assert_true(fabs(rows[i].energy / orbit.energy - 1) < 1e-6);
                     assert_true(fabs(rows[i].momentum / orbit.momentum - 1) < 1e-6);
                 }
-                const struct constants c = constants_of(spins[s], &rows[i]);
+                const struct constants c = constants_of(holes[s], &rows[i]);
                 assert_true(c.norm < 0);
                 worst = fmax(worst, fmax(fabs(c.energy / rows[i].energy - 1), fabs(c.momentum / rows[i].momentum - 1)));
                 fastest = fmax(fastest, fabs(rows[i].dr));
             }
-            printf("a = %g, epicycles %g: E and L from rates within %.1e\n", spins[s], epicycles[k], worst);
+            printf("a = %g, q = %g, epicycles %g: E and L from rates within %.1e\n", hole.a, hole.q, epicycles[k],
+                   worst);
             assert_true(worst < bound && (fastest > 0.05 * epicycles[k] || !epicycles[k]));
             test_free(rows);
         }

@@ -14,13 +14,14 @@
 #define COUNT 20000
 #define FALLING 4000
 
-static struct kd_scene plunging_scene(double spin)
+static struct kd_scene plunging_scene(double spin, double charge)
 {
     struct kd_scene scene;
     kd_scene_smooth(&scene);
     scene.image.width = 160;
     scene.image.height = 90;
     scene.spacetime.spin = spin;
+    scene.spacetime.charge = charge;
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = COUNT;
     scene.disk.plunging = (double)FALLING / COUNT;
@@ -36,26 +37,26 @@ static void places_at(struct kd_scene *scene, double time, struct kd_particle_pl
 }
 
 /* dr/dt and dphi/dt of a falling body with the ISCO's E and L: raised by the inverse metric, u.u = -1 gives u^r. */
-static void slopes(double a, double r, double *dr, double *dphi)
+static void slopes(const struct kd_hole *hole, double r, double *dr, double *dphi)
 {
-    double isco = kd_kerr_isco(kd_hole(a)), e = kd_kerr_energy(kd_hole(a), isco),
-           l = kd_kerr_momentum(kd_hole(a), isco), delta = r * r - 2 * r + a * a;
-    double pp = r * r + a * a + 2 * a * a / r;
-    double ut = (pp * e - 2 * a * l / r) / delta, up = (2 * a * e / r + (1 - 2 / r) * l) / delta;
+    double a = hole->a, q = hole->q, isco = kd_kerr_isco(hole), e = kd_kerr_energy(hole, isco),
+           l = kd_kerr_momentum(hole, isco), f = 2 / r - q * q / (r * r), delta = r * r * (1 - f) + a * a;
+    double pp = r * r + a * a + a * a * f;
+    double ut = (pp * e - a * f * l) / delta, up = (a * f * e + (1 - f) * l) / delta;
     *dr = -sqrt(fmax(e * ut - l * up - 1, 0) * delta) / r / ut;
     *dphi = up / ut;
 }
 
 /* Runge-Kutta of fourth order. */
-static void integrate(double a, double time, double *r, double *phi)
+static void integrate(const struct kd_hole *hole, double time, double *r, double *phi)
 {
     enum { STEPS = 400 };
     double h = time / STEPS, k[4], w[4];
     for (int i = 0; i < STEPS; i++) {
-        slopes(a, *r, &k[0], &w[0]);
-        slopes(a, *r + h / 2 * k[0], &k[1], &w[1]);
-        slopes(a, *r + h / 2 * k[1], &k[2], &w[2]);
-        slopes(a, *r + h * k[2], &k[3], &w[3]);
+        slopes(hole, *r, &k[0], &w[0]);
+        slopes(hole, *r + h / 2 * k[0], &k[1], &w[1]);
+        slopes(hole, *r + h / 2 * k[1], &k[2], &w[2]);
+        slopes(hole, *r + h * k[2], &k[3], &w[3]);
         *r += h / 6 * (k[0] + 2 * k[1] + 2 * k[2] + k[3]);
         *phi += h / 6 * (w[0] + 2 * w[1] + 2 * w[2] + w[3]);
     }
@@ -68,12 +69,15 @@ static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); 
 static void test_geodesics(void **state)
 {
     (void)state;
-    static const double spins[] = { -0.9, 0, 0.5, 0.9, 0.998 }, times[] = { 0, 1e4, -1e4, 1e9 };
+    static const double holes[][2] = { { -0.9, 0 },  { 0, 0 },    { 0.5, 0 },   { 0.9, 0 },
+                                       { 0.998, 0 }, { 0, 0.99 }, { 0.5, 0.8 }, { -0.8, 0.5 } },
+                        times[] = { 0, 1e4, -1e4, 1e9 };
     static struct kd_particle_place start[FALLING], then[FALLING];
     const double step = 12.5;
     double worst[2] = { 0 };
-    for (size_t s = 0; s < sizeof spins / sizeof *spins; s++) {
-        struct kd_scene scene = plunging_scene(spins[s]);
+    for (size_t s = 0; s < sizeof holes / sizeof *holes; s++) {
+        const struct kd_hole hole = kd_hole_charged(holes[s][0], holes[s][1]);
+        struct kd_scene scene = plunging_scene(hole.a, hole.q);
         const struct kd_plunging p = kd_plunging_of(&scene);
         for (size_t k = 0; k < sizeof times / sizeof *times; k++) {
             int fell = 0, anew = 0;
@@ -90,18 +94,19 @@ static void test_geodesics(void **state)
                 if (i % 40)
                     continue;
                 double r = start[i].r, phi = 0;
-                integrate(spins[s], step, &r, &phi);
+                integrate(&hole, step, &r, &phi);
                 double off_r = fabs(then[i].r / r - 1);
                 double off_phi = fabs(remainder(angle(then[i].phi - start[i].phi) - phi, 2 * M_PI));
                 if (!(off_r < 1e-6 && off_phi < 2e-6))
-                    fail_msg("a = %g, t = %g, from r = %g: r %g, not %g; phi off by %.2g", spins[s], times[k],
-                             start[i].r, then[i].r, r, off_phi);
+                    fail_msg("a = %g, q = %g, t = %g, from r = %g: r %g, not %g; phi off by %.2g", hole.a, hole.q,
+                             times[k], start[i].r, then[i].r, r, off_phi);
                 worst[0] = fmax(worst[0], off_r);
                 worst[1] = fmax(worst[1], off_phi);
             }
             double share = step / p.time, sigma = sqrt(FALLING * share * (1 - share));
             if (!(fabs(anew - FALLING * share) < 4 * sigma && fell + anew == FALLING))
-                fail_msg("a = %g, t = %g: %d begin anew, not %g", spins[s], times[k], anew, FALLING * share);
+                fail_msg("a = %g, q = %g, t = %g: %d begin anew, not %g", hole.a, hole.q, times[k], anew,
+                         FALLING * share);
         }
     }
     printf("plunges over %g M: r within %.2g, phi within %.2g rad\n", step, worst[0], worst[1]);
@@ -114,7 +119,7 @@ static void test_stream(void **state)
     (void)state;
     enum { BINS = 8 };
     static struct kd_particle_place at[FALLING], later[FALLING], again[FALLING];
-    struct kd_scene scene = plunging_scene(0.7);
+    struct kd_scene scene = plunging_scene(0.7, 0);
     const struct kd_plunging p = kd_plunging_of(&scene);
     static const double times[] = { 0, -777, 123456.789 };
     for (size_t k = 0; k < sizeof times / sizeof *times; k++) {
@@ -145,7 +150,7 @@ static void test_slopes(void **state)
         skip();
     static const double cameras[] = { INFINITY, 20, 3 };
     for (size_t v = 0; v < 3; v++) {
-        struct kd_scene scene = plunging_scene(0.3);
+        struct kd_scene scene = plunging_scene(0.3, 0);
         scene.camera.inclination_deg = 70;
         scene.camera.r = cameras[v];
         scene.camera.observer = KD_OBSERVER_ZAMO;
@@ -196,7 +201,7 @@ static void test_off(void **state)
     struct kd_capacity c;
     kd_renderer_capacity(renderer, &c);
     for (int k = 0; k < 4; k++)
-        scenes[k] = plunging_scene(0.5);
+        scenes[k] = plunging_scene(0.5, 0);
     scenes[1].disk.plunging = 0;
     scenes[2].disk.inner = 6;
     scenes[3].disk.plunging_temperature = 0;

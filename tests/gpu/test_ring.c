@@ -253,6 +253,54 @@ static void light_is_that_of_a_plane_picture(void **state)
         same_light(cases + k);
 }
 
+/* Rays beside the critical curve are not on the camera's grid, so the kernel of layers gets Carter's Q from the slope
+ * of their crossings. The angle of emission then has the cosine g sqrt(Q)/r, with Q = beta^2 + (alpha^2 - a^2) cos^2 i
+ * of the labels. */
+static void angles_are_those_of_the_labels(void **state)
+{
+    static const double holes[][2] = { { 0.9, 0 }, { 0, 0.95 }, { 0.6, 0.75 } }; /* spin, charge */
+    static const char *const names[][3] = { { "emission_angle_0", "g_0", "r_0" },
+                                            { "emission_angle_1", "g_1", "r_1" },
+                                            { "emission_angle_2", "g_2", "r_2" } };
+    (void)state;
+    for (size_t k = 0; k < sizeof holes / sizeof *holes; k++) {
+        struct kd_scene scene = scene_of(holes[k][0], 60);
+        scene.spacetime.charge = holes[k][1];
+        scene.image.width = 12, scene.image.height = 120;
+        scene.image.samples = 1;
+        scene.accuracy.orders = 3;
+        scene.camera.ring_decades_min = -4;
+        OK(kd_scene_set(&scene, "image.layers",
+                        "rgb,emission_angle_0,emission_angle_1,emission_angle_2,g_0,g_1,g_2,r_0,r_1,r_2", &error));
+        const struct kd_ring ring = kd_ring_of(&scene);
+        const double a = scene.spacetime.spin, u = cos(60 * M_PI / 180);
+        struct kd_frame frame = rendered(&scene);
+        double worst = 0;
+        int compared = 0;
+        for (uint32_t i = 0; i < 12 * 120; i++) {
+            const struct kd_critical_point column = kd_ring_column(&ring, i % 12);
+            const struct kd_camera_label label = kd_ring_label(&ring, &column, i / 12);
+            const double carter = label.beta * label.beta + (label.alpha * label.alpha - a * a) * u * u;
+            for (int n = 0; n < 3; n++) {
+                double at[3];
+                for (int q = 0; q < 3; q++)
+                    at[q] = (double)((const float *)kd_frame_layer(&frame, names[n][q])->data)[i];
+                if (isnan(at[0]))
+                    continue;
+                const double got = cos(at[0]), want = at[1] * sqrt(carter) / at[2];
+                compared++;
+                worst = fmax(worst, fabs(got - want));
+                if (!(fabs(got - want) < 3e-6))
+                    fail_msg("a = %g, q = %g, pixel %u, order %d, r = %g: the cosine is %.7f, not %.7f", a,
+                             scene.spacetime.charge, i, n, at[2], got, want);
+            }
+        }
+        kd_frame_finish(&frame);
+        print_message("a = %g, q = %g: cosines of %d angles within %.1e\n", a, scene.spacetime.charge, compared, worst);
+        assert_true(compared > 500);
+    }
+}
+
 static void needs_double_precision(void **state)
 {
     (void)state;
@@ -296,6 +344,7 @@ int main(void)
         cmocka_unit_test(each_order_is_a_gamma_further_in),
         cmocka_unit_test(integrators_see_the_rings_too),
         cmocka_unit_test(light_is_that_of_a_plane_picture),
+        cmocka_unit_test(angles_are_those_of_the_labels),
         cmocka_unit_test(needs_double_precision),
     };
     int code = open_renderer();

@@ -149,7 +149,7 @@ def text(x):
 def main():
     print("/* Made by tests/oracle/charge_reference.py; do not edit. Orbits and disks about charged holes. */")
     print("#ifndef KD_TESTS_CHARGE_REFERENCE_H\n#define KD_TESTS_CHARGE_REFERENCE_H\n")
-    print("struct charge_place_reference { double a, q, photon, isco, peak; };")
+    print("struct charge_place_reference { double a, q, photon, impact, isco, peak; };")
     print("struct charge_orbit_reference { double a, q, r, omega, energy, momentum, ut, flux; };")
     print("struct charge_advance_reference { double q, p, e, advance; };")
     print("struct charge_bending_reference { double a, q, b, angle; };\n")
@@ -158,7 +158,8 @@ def main():
     for a, q in HOLES:
         x, y = mpf(a), mpf(q)
         photon, isco = places(x, y)
-        print(f"    {{ {a.hex()}, {q.hex()}, {text(photon)}, {text(isco)}, {text(peak(x, y, photon, isco))} }},")
+        numbers = [photon, 1 / omega(x, y, photon), isco, peak(x, y, photon, isco)]
+        print(f"    {{ {a.hex()}, {q.hex()}, {', '.join(text(n) for n in numbers)} }},")
         for k in STRETCH:
             r = float(isco * k)
             w, energy, momentum, ut, _, _ = orbit(x, y, mpf(r))

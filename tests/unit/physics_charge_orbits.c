@@ -246,6 +246,29 @@ static void circles(void **state)
         }
 }
 
+/* Seen from infinity in the plane, the shadow ends on one side at the impact parameter of the photon orbit that turns
+ * with the hole, and on the other side at that of the hole with the opposite spin. */
+static void edges_of_the_shadow(void **state)
+{
+    (void)state;
+    int both = 0;
+    for (size_t i = 0; i < COUNT(charge_place_reference); i++) {
+        const struct charge_place_reference *e = &charge_place_reference[i];
+        const struct kd_critical_observer o = { .hole = kd_hole_charged(e->a, e->q), .radius = INFINITY };
+        const struct kd_critical c = kd_critical_of(&o);
+        near(kd_kerr_critical_impact(&o.hole), e->impact, 2e-15 * e->impact, "impact parameter", e->a, e->q, 0);
+        near(kd_critical_at(&c, M_PI).alpha, -e->impact, 1e-14 * e->impact, "left edge", e->a, e->q, 0);
+        for (size_t j = 0; j < COUNT(charge_place_reference); j++) {
+            const struct charge_place_reference *turned = &charge_place_reference[j];
+            if (turned->a != -e->a || turned->q != e->q)
+                continue;
+            near(kd_critical_at(&c, 0).alpha, turned->impact, 1e-14 * turned->impact, "right edge", e->a, e->q, 0);
+            both++;
+        }
+    }
+    assert_true(both >= 7);
+}
+
 /* The shell's labels by the usual form, in extended precision. */
 static void shell(void **state)
 {
@@ -274,9 +297,12 @@ static void shell(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(places),  cmocka_unit_test(orbits),  cmocka_unit_test(small_charges), cmocka_unit_test(plunge),
-        cmocka_unit_test(frames),  cmocka_unit_test(at_rest), cmocka_unit_test(rain),          cmocka_unit_test(curve),
-        cmocka_unit_test(circles), cmocka_unit_test(shell),
+        cmocka_unit_test(places),        cmocka_unit_test(orbits),
+        cmocka_unit_test(small_charges), cmocka_unit_test(plunge),
+        cmocka_unit_test(frames),        cmocka_unit_test(at_rest),
+        cmocka_unit_test(rain),          cmocka_unit_test(curve),
+        cmocka_unit_test(circles),       cmocka_unit_test(edges_of_the_shadow),
+        cmocka_unit_test(shell),
     };
     return cmocka_run_group_tests_name("matter and observers about charged holes", tests, NULL, NULL);
 }

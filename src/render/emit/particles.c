@@ -232,8 +232,9 @@ static void fill_plunge_expected(float *out, const struct kd_particle_grid *grid
  * r on circles have n/(2 pi r^2 u^t). */
 double kd_particle_plunge_depth(const struct kd_scene *scene)
 {
-    double a = scene->spacetime.spin, isco = kd_kerr_isco(kd_hole(a)), share = scene->disk.plunging;
-    return share / (1 - share) * isco * isco * kd_kerr_ut(kd_hole(a), isco) /
+    const struct kd_hole *hole = kd_scene_hole(scene);
+    double isco = kd_kerr_isco(hole), share = scene->disk.plunging;
+    return share / (1 - share) * isco * isco * kd_kerr_ut(hole, isco) /
            (density(scene, isco) * kd_plunging_of(scene).time);
 }
 

@@ -32,6 +32,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
         .last = (float)(1 / p.end),
         .energy = (float)p.curve.energy,
         .j = (float)(p.curve.momentum - scene->spacetime.spin * p.curve.energy),
+        .stretch = (float)p.curve.stretch,
+        .bend = (float)p.curve.bend,
         .temperature = (float)scene->disk.plunging_temperature,
         .depth = (float)kd_particle_plunge_depth(scene),
         .log_first = (float)range.first,

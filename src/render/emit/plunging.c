@@ -2,6 +2,7 @@
 
 #include "physics/math/root.h"
 #include "physics/spacetime/kerr.h"
+#include "scene/hole.h"
 
 #include <math.h>
 
@@ -13,12 +14,12 @@ bool kd_plunging_is_on(const struct kd_scene *scene)
 
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene)
 {
-    double a = scene->spacetime.spin;
-    struct kd_plunging o = { .curve = kd_plunge_of(kd_hole(a)) };
+    const struct kd_hole *hole = kd_scene_hole(scene);
+    struct kd_plunging o = { .curve = kd_plunge_of(hole) };
     double way = o.curve.isco - o.curve.hole.outer;
     o.start = o.curve.isco - way / 32;
     o.end = o.curve.hole.outer + way / 64;
-    o.omega = kd_kerr_omega(kd_hole(a), o.curve.isco);
+    o.omega = kd_kerr_omega(hole, o.curve.isco);
     o.first = kd_plunge_at(&o.curve, o.start);
     o.time = kd_plunge_at(&o.curve, o.end).t - o.first.t;
     return o;

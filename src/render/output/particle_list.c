@@ -2,6 +2,7 @@
 
 #include "physics/spacetime/kerr.h"
 #include "document/number.h"
+#include "scene/hole.h"
 #include "scene/table.h"
 #include "document/text.h"
 #include "render/device/prepare.h"
@@ -135,7 +136,7 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
                               list->n, row, (unsigned long long)(most / row));
     list->orbits = needs_orbits(list);
     if (list->orbits)
-        list->plunge = kd_plunge_of(kd_hole(list->scene.spacetime.spin));
+        list->plunge = kd_plunge_of(kd_scene_hole(&list->scene));
     return KD_OK;
 }
 
@@ -179,8 +180,8 @@ static void find_guide(struct guide *guide, const struct kd_particle_list *list,
     if (guide->number == number)
         return;
     const struct kd_particle_orbit o = kd_particle_orbit(&list->scene, list->grid.radii, number);
-    double a = list->scene.spacetime.spin;
-    *guide = (struct guide) { number, o, kd_kerr_energy(kd_hole(a), o.r), kd_kerr_momentum(kd_hole(a), o.r) };
+    const struct kd_hole *hole = kd_scene_hole(&list->scene);
+    *guide = (struct guide) { number, o, kd_kerr_energy(hole, o.r), kd_kerr_momentum(hole, o.r) };
 }
 
 static void fill_row(double *row, const struct kd_particle_list *list, uint32_t particle,
