@@ -136,22 +136,6 @@ class Physics(Browser):
         self.axe(page)
         self.shot(page, "integrals-riaf", full_page=True)
 
-    def axe(self, page):
-        try:
-            from axe_playwright_python.sync_playwright import Axe
-        except ImportError:
-            return
-        results = Axe().run(
-            page, options={"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]}
-        )
-        self.assertEqual(
-            [
-                f"{v['id']}: {v['help']}: {[n['html'][:120] for n in v['nodes']][:3]}"
-                for v in results.response["violations"]
-            ],
-            [],
-        )
-
     def test_a_ringdown_is_heard(self):
         page = self.open("lang=en&view=physics&qnm.mass_msun=4e6", "#curve-qnm a[href*=wav]")
         self.there(page, "16 octaves higher", "#curve-qnm")
