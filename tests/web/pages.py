@@ -441,6 +441,14 @@ class Pages(Browser):
                 if view in ("orbits", "physics", "scale", "playground"):
                     self.every_field_speaks(page, view)
 
+    def test_axe_during_a_search(self):
+        page = self.open("lang=en&pause=1")
+        page.click("#all > summary")
+        for words, told in ("spin", "One setting."), ("no such thing", "No setting here"):
+            page.fill("#find", words)
+            self.there(page, told, "#found")
+            self.axe(page)
+
     def every_field_speaks(self, page, view):
         page.wait_for_function(
             "view => [...document.querySelectorAll(`#${view} .badge`)].every(badge => badge.title)", arg=view
