@@ -219,9 +219,9 @@ static void jet_below(void *user, const struct ks_photon *p, double r, double u,
 }
 
 /* Jets from next to the horizon, on rays that fall in. No ray turns, at any latitude. There the charge's term in -k.U
- * across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to matter. Light as g^10 changes by large factors within
- * a stretch of the march, most of all where a ray crosses the axis. The march's error is then 7.5e-3 by the profile
- * "balanced" and 3e-4 by "high". */
+ * across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to matter. Light as g^10 changes by large factors
+ * within a stretch of the march, most of all where a ray crosses the axis. The march's error is then 7.5e-3 by the
+ * profile "balanced" and 3e-4 by "high". */
 static void test_beside_the_horizon(void **state)
 {
     /* rows of spin, charge, i */

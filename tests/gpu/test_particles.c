@@ -279,10 +279,10 @@ static void test_edges(void **state)
 }
 
 /* Light with delay D shows the disk at t - D. So a pixel of a picture with slow light equals that of a picture with
- * fast light at t - D, where D is the delay of its ray. This holds for an observer at infinity and a near one, and about
- * a charged hole. The two are not equal to the last step, because a grid that is rotated by a part of a cell is blurred
- * differently. The charged hole has so many particles that its angular velocity without charge would turn them by
- * several cells. */
+ * fast light at t - D, where D is the delay of its ray. This holds for an observer at infinity and a near one, and
+ * about a charged hole. The two are not equal to the last step, because a grid that is rotated by a part of a cell is
+ * blurred differently. The charged hole has so many particles that its angular velocity without charge would turn them
+ * by several cells. */
 static void test_slow_light(void **state)
 {
     (void)state;

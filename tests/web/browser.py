@@ -20,6 +20,10 @@ try:
     from playwright.sync_api import sync_playwright
 except ImportError:
     sync_playwright = None
+try:
+    from axe_playwright_python.sync_playwright import Axe
+except ImportError:
+    Axe = None
 
 PATIENCE_MS = 240_000  # after which an expected event counts as missing; a busy machine is slow
 AT_REST = "#stage[data-final=true]"
@@ -32,6 +36,7 @@ READY = {
     "physics": "#curves .card:last-child canvas",
     "scale": "#scale-rows tr",
 }
+RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]  # of axe
 KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / "screenshots"
 # KERRD_SLOW="4 400": scripts of every page run at a quarter of their speed, and every answer comes 400 ms late
 # (docs/web.md).
@@ -239,6 +244,23 @@ class Browser(unittest.TestCase):
             return len(self.requests) == before
 
         self.assertTrue(daemon.eventually(still))
+
+    def axe(self, page):
+        """axe finds nothing to complain of; not checked where it is not installed, which test_axe reports."""
+        if Axe:
+            results = Axe().run(page, options={"runOnly": RULES}).response
+            self.assertGreater(len(results["passes"]), 5)
+            self.assertEqual(
+                [f"{v['id']}: {v['help']}: {[n['html'][:120] for n in v['nodes']][:3]}" for v in results["violations"]],
+                [],
+            )
+
+    def no_wider(self, page):
+        """A page is as narrow as its window: it scrolls in one direction only (WCAG 2.2, 1.4.10)."""
+        wide = """() => [...document.querySelectorAll('body *')].filter(node => node.getBoundingClientRect().right > innerWidth + 1)
+            .map(node => node.outerHTML.slice(0, 120)).slice(0, 5)"""
+        scrolls = "document.documentElement.scrollWidth > innerWidth"
+        self.assertTrue(daemon.eventually(lambda: not page.evaluate(scrolls)), page.evaluate(wide))
 
     def open_groups(self, page):
         page.evaluate('() => { for (const d of document.querySelectorAll("details")) d.open = true; }')

@@ -1,19 +1,15 @@
-"""Tests of a picture embedded in a page of another origin: embed.py KERRD FOLDER (browser.py).
-
-The page is at localhost and the server at 127.0.0.1, which are different sites to a browser.
-"""
+"""Tests of a picture embedded in a page of another origin (elsewhere.py): embed.py KERRD FOLDER (browser.py)."""
 
 import base64
 import gzip
-import http.server
 import pathlib
-import threading
 import urllib.request
 import zlib
 
 from browser import Browser, main
 
 import daemon
+from elsewhere import Site
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
@@ -23,31 +19,14 @@ def code_of(text):
     return base64.urlsafe_b64encode(packer.compress(text.encode()) + packer.flush()).rstrip(b"=").decode()
 
 
-class Page(http.server.SimpleHTTPRequestHandler):
-    """Serves the other site. Each page contains what its query says."""
-
-    bodies = {}
-
-    def do_GET(self):
-        self.send_response(200)
-        self.send_header("Content-Type", "text/html; charset=utf-8")
-        self.end_headers()
-        self.wfile.write(b"<!doctype html><html lang=en><title>blog</title>" + self.bodies.get(self.path, "").encode())
-
-    def log_message(self, *_):
-        pass
-
-
 class Embed(Browser):
     listed = True
 
     @classmethod
     def setUpClass(cls):
-        site = http.server.ThreadingHTTPServer(("127.0.0.1", 0), Page)
-        cls.origin = f"http://localhost:{site.server_port}"
-        threading.Thread(target=site.serve_forever, daemon=True).start()
-        cls.addClassCleanup(site.server_close)
-        cls.addClassCleanup(site.shutdown)
+        cls.site = Site()
+        cls.addClassCleanup(cls.site.close)
+        cls.origin = cls.site.origin
         super().setUpClass("--embed-origin", cls.origin if cls.listed else "https://elsewhere.example")
 
     def tearDown(self):  # requests go to the other site as well
@@ -61,7 +40,7 @@ class Embed(Browser):
             self.assertEqual(self.complaints, [])
 
     def show(self, body, **options):
-        Page.bodies["/page"] = body
+        self.site.body = body
         page = self.page(self.context(**options))
         page.add_init_script("""
             window.shift = 0;
@@ -181,14 +160,18 @@ class Listed(Embed):
         page = self.show(self.element('preset="smooth" interactive', 20), viewport={"width": 1000, "height": 640})
         self.assertTrue(daemon.eventually(lambda: self.posters(page) >= 2))
         self.assertEqual(self.sessions(), 0)
+        self.assertEqual(page.evaluate("shift"), 0, "the posters have their place before they come")
         page.evaluate("document.body.style.columns = 3")  # several pictures are visible
         buttons = page.get_by_role("button", name="Move it")
         page.wait_for_timeout(500)
+        page.evaluate("shift = 0")  # columns move what is in them
         for k in range(3):
             buttons.nth(k if k < 2 else 1).click()
             page.wait_for_timeout(1500)
             self.assertLessEqual(self.sessions(), 2)
         self.assertGreaterEqual(self.sessions(), 1)
+        page.wait_for_timeout(500)
+        self.assertEqual(page.evaluate("shift"), 0, "nor does what becomes live move what is beside it")
         page.goto("about:blank")
         self.assertTrue(daemon.eventually(lambda: self.sessions() == 0))
 
@@ -232,6 +215,23 @@ class Listed(Embed):
             )
         )
         self.shot(page, "embed-frame")
+
+    def test_axe(self):
+        """The page for a frame, opened by itself, as a picture and live, and an element in another page."""
+        for viewport in {"width": 640, "height": 360}, {"width": 320, "height": 256}:
+            page = self.page(self.context(viewport=viewport))
+            page.goto(self.base + "embed/" + code_of("preset=smooth"))
+            part = "document.querySelector('kerr-hole').shadowRoot?.querySelector"
+            page.wait_for_function(f"() => {part}('img').naturalWidth")
+            self.axe(page)
+            self.no_wider(page)
+            self.shot(page, f"embed-{viewport['width']}")
+            page.get_by_role("button", name="Move it").click()
+            page.wait_for_function(f"() => !{part}('canvas').hidden")
+            self.axe(page)
+        page = self.show(f"<main><h1>blog</h1>{self.element('interactive')}</main>")
+        self.assertTrue(daemon.eventually(lambda: self.posters(page) == 1))
+        self.axe(page)
 
 
 class Unlisted(Embed):

@@ -367,6 +367,19 @@ class First(Browser):
             page.wait_for_selector("#gallery [aria-pressed=true]")
             self.assertEqual(self.cut(page), [])
 
+    def test_the_order_of_the_strip(self):
+        """What people come for stands first; the plain disk and Gold's tests stand last."""
+        page = self.open("lang=en&preset=smooth", gallery=True)
+        page.wait_for_selector("#gallery [aria-pressed=true]")
+        names = page.evaluate(
+            "[...document.querySelectorAll('#gallery [data-preset]')].map(card => card.dataset.preset)"
+        )
+        first = ["gas-stars", "gargantua-gas", "milky-way", "jet", "infall", "m87", "polarised-ring"]
+        last = ["smooth", "gold-1", "gold-2", "gold-3", "gold-4", "gold-5"]
+        presets = [preset["name"] for preset in self.daemon.get("/v1/presets").json()["presets"]]
+        between = [name for name in presets if name not in first + last]
+        self.assertEqual(names, first + between + last)
+
     def test_the_landing_does_not_shift(self):
         """Sum of the layout shifts, as Lighthouse counts them; 0.05 is half of what it calls good. And the largest
         paint is known."""

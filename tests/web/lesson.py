@@ -427,6 +427,28 @@ class Lesson(Browser):
         for button in pupil.locator("#choices button").all():
             self.assertGreaterEqual(button.bounding_box()["height"], 40)
 
+    def test_four_times_the_size(self):
+        """The page of a pupil in a window of 1280 × 1024 at 400 %, while a question is open."""
+        teacher = self.teach()
+        pupil = self.follow(self.link(teacher), viewport={"width": 320, "height": 256}, device_scale_factor=4)
+        teacher.get_by_role("button", name="Ask the class").click()
+        pupil.wait_for_selector("#choices button")
+        self.no_wider(pupil)
+        self.assertLessEqual(pupil.locator("#stage").bounding_box()["height"], 256)
+        self.shot(pupil, "four-times-lesson")
+
+    def test_colours_of_the_system(self):
+        teacher = self.teach()
+        pupil = self.follow(self.link(teacher), forced_colors="active")
+        teacher.get_by_role("button", name="Ask the class").click()
+        pupil.locator("#choices button").first.click()
+        pupil.wait_for_selector("#choices [aria-pressed=true]")
+        pupil.keyboard.press("Tab")  # the outline of the focus is another one
+        outline = lambda node: node.evaluate("node => getComputedStyle(node).outlineStyle")
+        buttons = pupil.locator("#choices button")
+        self.assertEqual((outline(buttons.first), outline(buttons.last)), ("solid", "none"))
+        self.shot(pupil, "forced-lesson")
+
 
 class Tokens(Browser):
     """Tests of lessons on a server with access tokens."""

@@ -19,6 +19,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "http"))
 import daemon  # noqa: E402
+from elsewhere import Site  # noqa: E402
 
 AT_REST = "#stage[data-final=true]"
 READY = {
@@ -58,6 +59,15 @@ class Firefox:
 
     def js(self, script, *arguments):
         return self.driver.execute_script(script, list(arguments), sandbox=None, new_sandbox=False)
+
+    @contextlib.contextmanager
+    def inside(self, frame):
+        """Scripts run in this frame, also where it is of another origin."""
+        self.driver.switch_to_frame(self.driver.find_element("css selector", frame))
+        try:
+            yield
+        finally:
+            self.driver.switch_to_frame()
 
     def mouse(self, places):
         chain = self.driver.actions.sequence("pointer", "mouse", {"pointerType": "mouse"})
@@ -101,6 +111,14 @@ class WebKit:
 
     def js(self, script, *arguments):
         return self.driver.execute_script(script, *arguments)
+
+    @contextlib.contextmanager
+    def inside(self, frame):
+        self.driver.switch_to.frame(self.driver.find_element("css selector", frame))
+        try:
+            yield
+        finally:
+            self.driver.switch_to.default_content()
 
     def mouse(self, places):
         from selenium.webdriver.common.action_chains import ActionChains
@@ -306,6 +324,53 @@ class Others(unittest.TestCase):
         self.browser.js(f"{inside}.querySelector('button').click()")
         self.wait(f"return !{inside}.querySelector('canvas').hidden")
         self.shot("embed")
+
+    def elsewhere(self, listed):
+        """A page of another origin with the element, and with /embed in a frame."""
+        site = Site()
+        self.addCleanup(site.close)
+        self.daemon.stop()
+        self.daemon = daemon.Daemon("--embed-origin", site.origin if listed else "https://a.example")
+        base = f"http://127.0.0.1:{self.daemon.port}/"
+        code = self.daemon.post("/v1/share", {"spacetime": {"spin": 0.5}}).json()["embed"].rpartition("/")[2]
+        site.body = f"""
+            <script type="module" src="{base}web/kerr-hole.js" onload="window.came = true" onerror="window.came = false">
+            </script>
+            <kerr-hole preset="smooth" interactive style="width: 480px"></kerr-hole>
+            <iframe title="A black hole" width="480" height="270" src="{base}embed/{code}"></iframe>"""
+        self.start((800, 700))
+        self.browser.go(site.origin)
+        self.wait("return window.came !== undefined && document.readyState === 'complete'")
+
+    def comes_alive(self):
+        inside = "document.querySelector('kerr-hole').shadowRoot"
+        self.wait(f"return {inside}?.querySelector('img').naturalWidth > 0")
+        self.assertTrue(self.browser.js(f"return {inside}.querySelector('canvas').hidden"))
+        self.browser.js(f"{inside}.querySelector('button').click()")
+        self.wait(f"return !{inside}.querySelector('canvas').hidden")
+
+    def answered(self, route):
+        """The number of requests of a route that had what they asked for."""
+        name = f'kerrd_request_seconds_count{{route="{route}",status="2xx"}} '
+        lines = self.daemon.get("/metrics").body.decode().splitlines()
+        return sum(int(line.removeprefix(name)) for line in lines if line.startswith(name))
+
+    def test_a_listed_page_shows_the_hole(self):
+        self.elsewhere(listed=True)
+        self.comes_alive()
+        with self.browser.inside("iframe"):
+            self.comes_alive()
+        self.assertGreater(self.answered("/web/{file}"), 1, "the frame asks for its style sheet")
+        self.shot("elsewhere")
+
+    def test_no_other_page_shows_it(self):
+        """The browser refuses the module, by CORS, and the frame, by frame-ancestors."""
+        self.elsewhere(listed=False)
+        self.assertIs(self.browser.js("return window.came"), False)
+        self.assertIs(self.browser.js("return document.querySelector('kerr-hole').shadowRoot === null"), True)
+        # WebKit's driver neither runs a script in a refused frame nor makes a screenshot of it. What the frame would
+        # ask for next is never asked for: the page has asked for the module.
+        self.assertEqual((self.answered("/embed/{code}"), self.answered("/web/{file}")), (1, 1))
 
     def test_the_story(self):
         """Its text is there, each chapter has a picture, and a slider changes the one beside it."""

@@ -21,6 +21,15 @@ CROWDED = """() => {
     return wide;
 }"""
 
+# Finds text, and lines of icons, in the colour of what lies behind them.
+UNSEEN = """() => {
+    const clear = /^rgba\\(.*, 0\\)$/, own = node => [...node.childNodes].some(one => one.nodeType === 3 && one.data.trim());
+    const behind = node => { for (; node; node = node.parentElement) { const of = getComputedStyle(node).backgroundColor; if (!clear.test(of)) return of; } };
+    const wrong = node => { const style = getComputedStyle(node), ground = behind(node);
+        return own(node) ? style.color === ground : node.matches('button svg path') && [style.stroke, style.fill].every(one => one === 'none' || one === ground); };
+    return [...document.querySelectorAll('body *')].filter(node => node.checkVisibility() && (own(node) || node.matches('button svg path')) && wrong(node))
+        .map(node => node.outerHTML.slice(0, 120)).slice(0, 8);
+}"""
 
 LANGUAGES = ("it", "de")  # besides English
 
@@ -274,6 +283,20 @@ class Pages(Browser):
             self.assertNotEqual(ground(chosen), ground(other), chosen)
         self.assertEqual(ground("#play-charts .chart"), "rgb(20, 18, 16)")
         self.shot(page, "forced-playground")
+        for view in VIEWS:
+            with self.subTest(view):
+                page = self.open(f"lang=en&view={view}&pause=1&play.paused=1", READY[view], forced_colors="active")
+                self.assertNotEqual(ground(f"nav [data-view={view}]"), ground("nav button:not([aria-current])"))
+                self.assertEqual(page.evaluate(UNSEEN), [])
+                if view == "scale":
+                    self.assertEqual(ground(".sky-stack"), "rgb(0, 0, 0)", "its lines are light")
+                    chosen = page.locator("#scale .row button[aria-pressed=true]").first
+                    system = "span => (document.body.append(span), getComputedStyle(span).color)"
+                    wanted = page.evaluate(
+                        f"() => {{ const span = document.createElement('span'); span.style = 'color: HighlightText; forced-color-adjust: none'; return ({system})(span); }}"
+                    )
+                    self.assertEqual(chosen.evaluate("node => getComputedStyle(node).color"), wanted)
+                self.shot(page, "forced-" + view)
 
     def test_narrow(self):
         for view in ("lensing", "physics", "orbits"):
@@ -306,6 +329,20 @@ class Pages(Browser):
         }""")
         self.shot(page, "four-times")
         self.assertEqual((covered, beyond), ([], 0))
+
+    def test_four_times_the_size_of_the_other_views(self):
+        """Each view of 1280 × 1024 at 400 %: it scrolls in one direction only, and what it shows has some height."""
+        for view, picture in (("playground", "#play-plane"), ("scale", "#sky-m87"), ("orbits", "#orbit-picture")):
+            with self.subTest(view):
+                page = self.open(
+                    f"lang=it&view={view}&play.paused=1",
+                    READY[view],
+                    viewport={"width": 320, "height": 256},
+                    device_scale_factor=4,
+                )
+                self.no_wider(page)
+                self.assertGreater(page.locator(picture).bounding_box()["height"], 100)
+                self.shot(page, "four-times-" + view)
 
     def test_low(self):
         page = self.open(viewport={"width": 1100, "height": 420})
@@ -403,6 +440,14 @@ class Pages(Browser):
                 self.assertEqual(found, [])
                 if view in ("orbits", "physics", "scale", "playground"):
                     self.every_field_speaks(page, view)
+
+    def test_axe_during_a_search(self):
+        page = self.open("lang=en&pause=1")
+        page.click("#all > summary")
+        for words, told in ("spin", "One setting."), ("no such thing", "No setting here"):
+            page.fill("#find", words)
+            self.there(page, told, "#found")
+            self.axe(page)
 
     def every_field_speaks(self, page, view):
         page.wait_for_function(

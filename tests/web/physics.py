@@ -139,22 +139,6 @@ class Physics(Browser):
         self.axe(page)
         self.shot(page, "integrals-riaf", full_page=True)
 
-    def axe(self, page):
-        try:
-            from axe_playwright_python.sync_playwright import Axe
-        except ImportError:
-            return
-        results = Axe().run(
-            page, options={"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]}
-        )
-        self.assertEqual(
-            [
-                f"{v['id']}: {v['help']}: {[n['html'][:120] for n in v['nodes']][:3]}"
-                for v in results.response["violations"]
-            ],
-            [],
-        )
-
     def cells(self, page, name):
         """The texts of a curve's table, by rows."""
         page.click(f"#curve-{name} figure summary")

@@ -140,6 +140,18 @@ class Share(Browser):
             found = Axe().run(page, options={"runOnly": ["wcag2a", "wcag2aa", "wcag21aa", "wcag22aa", "best-practice"]})
             self.assertEqual([v["id"] for v in found.response["violations"]], [])
 
+    def test_axe_on_what_others_open(self):
+        """The page of a link where no script runs, wide and at 400 %."""
+        made = self.daemon.post("/v1/share", {"spacetime": {"spin": 0.5}}).json()
+        for viewport in {"width": 1280, "height": 800}, {"width": 320, "height": 256}:
+            page = self.page(self.context(viewport=viewport))
+            page.route("**/shared.js", lambda route: route.fulfill(body="", content_type="text/javascript"))
+            page.goto(self.base + made["url"].removeprefix("../"))
+            self.assertTrue(page.get_by_role("link", name="Open it live").is_visible())
+            self.axe(page)
+            self.no_wider(page)
+            self.shot(page, f"shared-{viewport['width']}")
+
     def test_a_poster(self):
         page = self.open("lang=en&preset=smooth&pause=1")
         self.share(page)

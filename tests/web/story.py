@@ -154,6 +154,26 @@ class Story(Browser):
             self.assertFalse(page.evaluate("document.documentElement.scrollWidth > innerWidth"), "nothing is cut off")
             self.shot(page, "story-" + str(width))
 
+    def test_four_times_the_size(self):
+        for path in "story", "storia":
+            page = self.visit(path, viewport={"width": 320, "height": 256}, device_scale_factor=4)
+            self.no_wider(page)
+            for one in page.locator("kerr-hole").all():
+                self.assertLessEqual(one.bounding_box()["height"], 256, "a picture is visible at once")
+            page.locator("input[type=range]").first.scroll_into_view_if_needed()
+            self.shot(page, "four-times-" + path)
+
+    def test_colours_of_the_system(self):
+        """With forced colours a guess that was chosen still looks different from the others."""
+        page = self.visit(forced_colors="active")
+        guess = page.locator(".guess button").first
+        guess.click()
+        outline = lambda node: node.evaluate("node => getComputedStyle(node).outlineStyle")
+        page.keyboard.press("Tab")  # the outline of the focus is another one
+        self.assertEqual(guess.get_attribute("aria-pressed"), "true")
+        self.assertEqual((outline(guess), outline(page.locator(".guess button").last)), ("solid", "none"))
+        self.shot(page, "forced-story")
+
 
 if __name__ == "__main__":
     main()

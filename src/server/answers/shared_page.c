@@ -132,11 +132,11 @@ static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffe
                             "<meta name=\"robots\" content=\"noindex\">\n<title>%s – kerrd</title>\n"
                             "<link rel=\"stylesheet\" href=\"../web/embed.css\">\n"
                             "<script type=\"module\" src=\"../web/kerr-hole.js\"></script>\n</head>\n<body>\n"
-                            "<kerr-hole scene=\"%s\" label=\"%s\" interactive></kerr-hole>\n"
+                            "<main>\n<h1>%s</h1>\n<kerr-hole scene=\"%s\" label=\"%s\" interactive></kerr-hole>\n"
                             "<noscript><img src=\"../v1/share/%s/picture.png\" alt=\"%s\"></noscript>\n"
-                            "</body>\n</html>\n",
-                            (const char *)texts[0].data, (const char *)texts[1].data, (const char *)texts[2].data,
-                            (const char *)shared->code.data, (const char *)texts[2].data));
+                            "</main>\n</body>\n</html>\n",
+                            (const char *)texts[0].data, (const char *)texts[0].data, (const char *)texts[1].data,
+                            (const char *)texts[2].data, (const char *)shared->code.data, (const char *)texts[2].data));
 done:
     for (int i = 0; i < 3; i++)
         kd_buffer_finish(&texts[i]);
