@@ -138,8 +138,13 @@ void kd_scene_link_preview(struct kd_scene *scene, int32_t width, int32_t height
     scene->camera.stereo = KD_STEREO_NONE;
     scene->image.width = width;
     scene->image.height = height;
-    /* Light from a volume varies slowly over a picture, and each of its rays takes a hundred times as long. */
-    scene->image.samples = scene->volume.model == KD_VOLUME_NONE && scene->jets.brightness == 0 ? 2 : 1;
+    scene->image.samples = 2;
+    /* Light from a volume varies slowly over a picture, and each of its rays takes a hundred times as long. Presets
+     * with volumes change by at most 2 of 255 by the profile. */
+    if (scene->volume.model != KD_VOLUME_NONE || scene->jets.brightness > 0) {
+        scene->image.samples = 1;
+        scene->accuracy.profile = KD_PROFILE_DRAFT;
+    }
     scene->image.bit_depth = 8;
     fit(scene, (double)width / height / (16.0 / 9));
 }

@@ -18,8 +18,8 @@ struct kd_scene_changed { const char *path, *value; };
 enum kd_status kd_scene_link_tell(const struct kd_scene_changed *changed, size_t n, struct kd_buffer *out);
 
 /* Turns the scene of a link into that of its preview: one eye, no tile, 8 bits for each channel, and 2 x 2 rays for
- * each pixel, or 1 if a volume or jets shine. width and height are in pixels; width / height must be at least 16 / 9,
- * the aspect of the presets. */
+ * each pixel, or, if a volume or jets shine, 1 ray by the profile "draft". width and height are in pixels; width /
+ * height must be at least 16 / 9, the aspect of the presets. */
 void kd_scene_link_preview(struct kd_scene *scene, int32_t width, int32_t height);
 
 #endif
