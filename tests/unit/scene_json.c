@@ -536,12 +536,13 @@ static double thread_s(void)
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
-static void count_pause(void)
+static bool count_pause(void)
 {
     const double now = thread_s();
     longest_s = fmax(longest_s, now - last_s);
     last_s = now;
     pauses++;
+    return false;
 }
 
 static cJSON *read_large(const char *text, size_t length, struct kd_error *error)
