@@ -1274,7 +1274,7 @@ export interface LineProfile {
      * without a source.
      */
     direct_flux: number | null;
-    /** mean redshift factor of that continuum; null without a source. */
+    /** mean redshift factor of the source's continuum at the observer; null without a source. */
     direct_g: number | null;
   };
   columns: {
@@ -5298,10 +5298,11 @@ export interface Operations {
           /** weak-field bending towards -phi to second order. */
           weak_second_retrograde: number | null | (number | null)[];
           /**
-           * limit of the bending towards +phi close to b_critical, -rate ln(b/b_critical - 1) + offset; null if captured.
+           * strong-field limit of the bending towards +phi near b_critical, -rate ln(b/b_critical - 1) + offset; null if
+           * captured.
            */
           strong: number | null | (number | null)[];
-          /** limit of the bending towards -phi close to its critical b; null if captured. */
+          /** strong-field limit of the bending towards -phi near b_critical_retrograde; null if captured. */
           strong_retrograde: number | null | (number | null)[];
           /** closest approach r of the light towards +phi; null if captured. */
           closest: number | null | (number | null)[];
@@ -5660,7 +5661,8 @@ export interface Operations {
         /** charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1 [M]; -1 to 1; default 0. */
         charge?: number | string;
         /**
-         * polar angle of the observer, who is at infinity; at 90 the plane is a line [degrees]; 0 to 180; default 60.
+         * polar angle of the observer, who is at infinity; at 90 the equatorial plane is seen edge-on [degrees]; 0 to
+         * 180; default 60.
          */
         inclination_deg?: number | string;
         /**

@@ -2,11 +2,12 @@
 // --embed-origin names that page's origin. It begins as a picture. With `interactive`, a button makes it live; then a
 // drag or keys move it. This file imports no other one.
 //
-// preset, spin, inclination   what is shown; scene: more fields, in the form of a link after its # interactive
-// whether it can be moved live                        live as soon as it is in sight; not if the visitor prefers
-// reduced motion poster                      address of the picture that it begins with, instead of one that the server
-// renders label                       its alternative text server                      address of the server, with a
-// slash at its end; by default where this file came from
+//   preset, spin, inclination   what is shown; scene: more fields, in the form of a link after its #
+//   interactive                 whether it can be moved
+//   live                        live as soon as it is in sight; not if the visitor prefers reduced motion
+//   poster                      address of the picture that it begins with, instead of one that the server renders
+//   label                       its alternative text
+//   server                      address of the server, with a slash at its end; by default where this file came from
 const here = new URL('..', import.meta.url);
 const most_live = 2; // limit of live sessions on one page; another one ends the oldest
 const most_posters = 2; // posters that are requested at once

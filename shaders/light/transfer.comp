@@ -393,7 +393,8 @@ void end_piece(kd_beam beam)
     atomicAdd(lost_rays[lost_word(KD_LOST_WAITING)], 1u);
 }
 
-/* Follows the next piece of each listed ray that waits, but of each pixel only of the ray with the number slice.ray. */
+/* Each pixel has several listed rays. For each pixel, this follows the next piece of the ray with the number slice.ray,
+ * if that ray waits. */
 void main()
 {
     kd_camera_read();

@@ -25,7 +25,8 @@ float kd_time_over(float w, float a, float q2, float momentum)
     return 4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * momentum * (1.0 + a2w2) - q2 * (1.0 + 2.0 * w);
 }
 
-/* D of the radial quartic, a^2 Q + q^2 K, and aL + q^2 E of the rate of azimuth (kerr_ray.glsl). */
+/* kd_quartic_of: D = a^2 Q + q^2 K of the radial quartic. kd_drag_of: aL + q^2 E in the rate of azimuth
+ * (kerr_ray.glsl). */
 float kd_quartic_of(float a, float q2, float carter, float k) { return a * a * carter + q2 * k; }
 float kd_drag_of(float a, float q2, float momentum, float energy) { return a * momentum + q2 * energy; }
 

@@ -90,7 +90,7 @@
 #define KD_LOST_STATES 3 /* end of the states */
 #define KD_LOST_STATE 25
 #define KD_LOST_AT_ONCE 2048
-/* the first ray; the next ones precede it */
+/* place of the first ray of the list; each further ray is stored before the last one */
 #define KD_LOST_RAYS (KD_LOST_STATES + KD_LOST_STATE * KD_LOST_AT_ONCE + 1)
 #define KD_LOST_NONE 0xffffffffu /* the ray reached its end */
 #define KD_PIECE_PASSES 6000u

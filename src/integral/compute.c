@@ -166,7 +166,9 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                              { "direct_flux", "1",
                                "ratio of the source's continuum at the observer to that of the same source at rest far "
                                "from the hole; null without a source" },
-                             { "direct_g", "1", "mean redshift factor of that continuum; null without a source" } },
+                             { "direct_g", "1",
+                               "mean redshift factor of the source's continuum at the observer; null without "
+                               "a source" } },
                            { { "energy_low", "unit of rest_energy", "edge of the bin" },
                              { "energy_high", "unit of rest_energy", "edge of the bin" },
                              { "share", "1", "share of the line's photons, or of its energy, in the bin" },

@@ -36,11 +36,11 @@ struct kd_table {
     char name[KD_TABLE_NAME + 1];
 };
 
-/* Makes a table of a request for a line, which need not be checked and which the table takes over in any case. axes:
- * texts FIELD=VALUES; VALUES are numbers and ranges START:STOP/COUNT with commas, with "log:" before them for an axis
- * in the logarithm. Spin and inclination have default axes if they have neither an axis nor a given value. All nodes
- * are checked.
- * KD_EINVAL at the pointer of the field, KD_ENOMEM. Free it with kd_table_finish in any case. */
+/* Makes a table from a request for a line. The request need not be checked. The table becomes its owner, even on
+ * failure. axes: texts FIELD=VALUES; VALUES are numbers and ranges START:STOP/COUNT with commas, with "log:" before
+ * them for an axis in the logarithm. Spin and inclination have default axes if they have neither an axis nor a given
+ * value. All nodes are checked. KD_EINVAL at the pointer of the field, KD_ENOMEM. Free the table with kd_table_finish,
+ * also after a failure. */
 enum kd_status kd_table_init(struct kd_table *table, struct kd_integral_request *request, const char *const *axes,
                              size_t n_axes, const char *name, struct kd_error *error);
 void kd_table_finish(struct kd_table *table);

@@ -224,6 +224,8 @@ static void refine_best(struct search *s, struct kd_align_vertex *grid, int n, c
         dimension[dimensions++] = 0;
     if (s->p->solve & KD_ALIGN_ANGLE)
         dimension[dimensions++] = 1;
+    if (kd_pause()) /* the search was given up, so the grid is incomplete */
+        return;
     qsort(grid, (size_t)n, sizeof *grid, by_value);
     for (int i = 0; i < n && starts < STARTS; i++) {
         bool apart = true;

@@ -18,10 +18,11 @@
       .help = "weak-field bending towards +phi to second order, 4/b + (15 pi/4 - 4a - 3 pi Q^2/4)/b^2") \
     O(weak_second_retrograde, .unit = "radians", .help = "weak-field bending towards -phi to second order") \
     O(strong, .unit = "radians", \
-      .help = "limit of the bending towards +phi close to b_critical, -rate ln(b/b_critical - 1) + offset; null if " \
+      .help = "strong-field limit of the bending towards +phi near b_critical, -rate ln(b/b_critical - 1) + offset; " \
+              "null if " \
               "captured") \
     O(strong_retrograde, .unit = "radians", \
-      .help = "limit of the bending towards -phi close to its critical b; null if captured") \
+      .help = "strong-field limit of the bending towards -phi near b_critical_retrograde; null if captured") \
     O(closest, .unit = "M", .help = "closest approach r of the light towards +phi; null if captured") \
     O(closest_retrograde, .unit = "M", .help = "closest approach r of the light towards -phi; null if captured") \
     O(farthest, .unit = "M", \

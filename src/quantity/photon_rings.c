@@ -9,7 +9,7 @@
     KD_PARAMETER_SPIN(P) \
     KD_PARAMETER_CHARGE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
-      .help = "polar angle of the observer, who is at infinity; at 90 the plane is a line") \
+      .help = "polar angle of the observer, who is at infinity; at 90 the equatorial plane is seen edge-on") \
     P(angle_deg, .unit = "degrees", .typed = "0", .least = -360, .most = 720, \
       .help = "position on the critical curve: angle about its centre, from the right over the top") \
     P(inner, .unit = "M", .typed = "horizon", .least = 1, .most = 1e9, .words = "horizon", .stands = INFINITY, \

@@ -191,7 +191,7 @@ static void a_point(void **state)
 }
 
 /* The light of a point is centred on it. It is displaced by at most half a pixel if two pixels are summed first, by at
- * most a pixel and a half for four. The widest part meets its mirror image. */
+ * most a pixel and a half for four. The widest Gaussian is reflected at the edge of the picture. */
 static void a_point_stays(void **state)
 {
     (void)state;
@@ -312,7 +312,8 @@ static void over_the_seam(void **state)
             uint16_t *out = half ? others : pixels;
             memcpy(others, pixels, sizeof pixels);
             show(w, h, 1, 0, out);
-            for (int i = 0; i < 3 * w * h && !half; i++) /* reference: the same picture with edges */
+            for (int i = 0; i < 3 * w * h && !half;
+                 i++) /* for comparison: the same picture without light across the seam */
                 differ = abs(pixels[i] - others[i]) > differ ? abs(pixels[i] - others[i]) : differ;
         }
         all_round = false;

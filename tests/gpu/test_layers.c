@@ -587,7 +587,8 @@ static void test_too_bright(void **state)
             OK(kd_scene_set(&scene, "image.layers", layers[k], &error));
             const struct kd_plan plan = plan_of(&scene, 0);
             const enum kd_status status = kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &why);
-            const bool too_bright = e == 2 && k < 2; /* light itself is clipped at 1e30 */
+            const bool too_bright =
+                e == 2 && k < 2; /* only the first two layers overflow; light in the others is clipped at 1e30 */
             if (too_bright != (status == KD_EINVAL) || (status && !too_bright))
                 fail_msg("%s of %g: status %d", layers[k], emissions[e], (int)status);
             if (too_bright) {

@@ -25,8 +25,8 @@ struct numbers {
     double a, r[2];
     bool ingoing, packed;
     double phi;
-    /* theta = y + bend sin 2y in the first and in the last row, where y goes evenly from pole to pole; 0: theta is even
-     */
+    /* bend[0] is for the first row of radii, bend[1] for the last: theta = y + bend sin 2y, with y evenly spaced from
+     * pole to pole; 0: theta is evenly spaced */
     double bend[2];
     double of[ARRAYS][MOST];
 };

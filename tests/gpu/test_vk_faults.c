@@ -70,8 +70,8 @@ static VKAPI_ATTR VkBool32 VKAPI_CALL count_message(VkDebugUtilsMessageSeverityF
     return VK_FALSE;
 }
 
-/* Replaces the device's own messenger, which counts on while the device is destroyed and leaked objects are reported.
- */
+/* Replaces the device's own messenger by one that counts messages even while the device is destroyed and leaked objects
+ * are reported. */
 static VKAPI_ATTR VkResult VKAPI_CALL listen(VkInstance instance, const VkDebugUtilsMessengerCreateInfoEXT *info,
                                              const VkAllocationCallbacks *allocator,
                                              VkDebugUtilsMessengerEXT *messenger)

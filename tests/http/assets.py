@@ -443,6 +443,37 @@ class Sky(Case):
         self.assertEqual(server.get(f"{ASSETS}/{told['sky']}").status, 200)
         self.assertEqual(server.stop(), 0)
 
+    def test_a_store_that_is_full(self):
+        """After a restart all assets count as just used. One of them is evicted nevertheless."""
+        with tempfile.TemporaryDirectory() as state:
+            server = daemon.Daemon("--drain-ms", 10, "--assets", 2, "--state", state)
+            self.addCleanup(server.process.kill)
+            kept = [self.made(png(seed=seed), server=server) for seed in range(2)]
+            self.assertEqual(server.stop(), 0)
+            sky = png(64, 32)
+            _, options = self.serve(sky, "--assets", 2, "--state", state)
+            server = daemon.Daemon(*options)
+            self.addCleanup(server.process.kill)
+            self.assertEqual(server.get(ASSETS).json()["sky"], hashlib.sha256(sky).hexdigest())
+            self.assertEqual(sorted(server.get(self.at(asset)).status for asset in kept), [200, 404])
+            self.assertEqual(server.stop(), 0)
+
+    def test_an_asset_of_a_client_stays(self):
+        """A file that is no photograph of the sky, and that a client has stored before, is refused and not removed."""
+        with tempfile.TemporaryDirectory() as state:
+            server = daemon.Daemon("--drain-ms", 10, "--state", state)
+            self.addCleanup(server.process.kill)
+            wrong = png(64, 33)
+            asset = self.made(wrong, server=server)
+            self.assertEqual(server.stop(), 0)
+            _, options = self.serve(wrong, "--state", state)
+            command = [*daemon.COMMAND, "--port", "0", *map(str, options)]
+            self.assertTrue(subprocess.run(command, capture_output=True, timeout=60).returncode)
+            server = daemon.Daemon("--drain-ms", 10, "--state", state)
+            self.addCleanup(server.process.kill)
+            self.assertEqual(server.get(self.at(asset)).body, wrong)
+            self.assertEqual(server.stop(), 0)
+
     def test_what_is_no_photograph_of_the_sky(self):
         for data, words in (
             (None, "which cannot be read: No such file or directory"),

@@ -126,8 +126,8 @@ static void place(real a, real r, real s, real u, real phi, const real p[3], rea
         { (r * c - a * d) * u, (r * d + a * c) * u, -r * s, p[1] },
         { -yy, x, 0, p[2] },
     };
-    if (s == 0) /* on the axis any azimuth is valid: the third row vanishes, and momentum along e_phi is determined
-                 * by `phi` */
+    if (s == 0) /* On the axis any azimuth is valid, and the third row vanishes. Instead, e_phi by the azimuth `phi`
+                 * determines the momentum along it. */
         m[2][0] = -d, m[2][1] = c, m[2][3] = 0;
     for (int i = 0; i < 3; i++) {
         int pivot = i;

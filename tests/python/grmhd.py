@@ -547,8 +547,23 @@ class Dumps(unittest.TestCase):
             for name in ("Locations/x", "Locations/y", "Locations/z"):
                 file[name][1] = file[name][0]
 
+        def shifted(file):
+            """Block 1 moves by half of its width: it overlaps another one, and leaves a gap."""
+            edges = file["Locations/x"][:]
+            step = edges[1, 1] - edges[1, 0]
+            file["Locations/x"][1] = edges[1] + (6 * step if edges[1, 0] < edges[:, 0].max() else -6 * step)
+
+        def many(file):
+            file["Info"].attrs["NumMeshBlocks"] = 1 << 20
+            file["Info"].attrs["MeshBlockSize"] = [65536, 65536, 65536]
+            for name in ("Locations/x", "Locations/y", "Locations/z"):
+                del file[name]
+                file.create_dataset(name, (1 << 20, 65537), chunks=(1, 65537), dtype="f8")
+
         text = "Input/File <"
         for change, words in (
+            (shifted, "that overlap or leave a gap"),
+            (many, "Locations makes 1048576 blocks of"),
             (without("Input"), "Input/File is missing"),
             (text_of(5), "Input/File is 5; it must be a text"),
             (text_of("x" * 2_000_000), "Input/File has 2000000 letters; it must have at most 1048576"),
@@ -620,6 +635,7 @@ class Dumps(unittest.TestCase):
             (put("header/n1", np.int64(1 << 40)), "header/n1 is 1099511627776; it must be a whole number from 2 to"),
             (put("header/bhspin", 1.5), "header/bhspin is 1.5; it must be a number from -1 to 1"),
             (put("header/gam", np.nan), "header/gam is nan; it must be a number from 1.0001 to 3"),
+            (put("header/units/L_unit", 1e200), "header/units/L_unit is 1e+200; it must be a number from 1e-100"),
             (put("header/units/M_bh", -1.0), "header/units/M_bh is -1; it must be a number from 1e-300"),
             (put("t", None), "t is missing"),
             (put("grid_out/th", None), "grid_out/th is missing"),

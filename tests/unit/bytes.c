@@ -56,7 +56,7 @@ static void test_room_for_small_ones(void **state)
     assert_int_equal(take(b, "a", 5), FULL);
     kd_bytes_give(b, "b", 50);
     for (int i = 0; i < 4; i++)
-        assert_int_equal(take(b, "a", 5), TAKEN); /* 8 are within its share, and 12 beyond it */
+        assert_int_equal(take(b, "a", 5), TAKEN); /* of these 20 bytes, 8 fit its share, and 12 exceed it */
     assert_int_equal(take(b, "a", 5), OVER_SHARE);
     kd_bytes_destroy(b);
 }

@@ -57,7 +57,7 @@ static double pixel_turns(double u, double v)
 /* x = 2 pi q a for a baseline of q wavelengths and a radius of a uas. */
 static double argument(double u, double v, double a) { return 2 * M_PI * hypot(u, v) * 1e9 * a * UAS; }
 
-/* A thin ring has the J0 of each of its circles, weighted by its light. */
+/* Transform of a thin ring: the mean of the J0 of its circles, weighted by their light. */
 static double ring_transform(double u, double v)
 {
     double sum = 0, all = 0;

@@ -228,6 +228,13 @@ static void a_preview_is_as_high(void **state)
     scene.jets.brightness = 1;
     kd_scene_link_preview(&scene, 1200, 630);
     assert_int_equal(scene.image.samples, 1);
+    assert_int_equal(scene.accuracy.profile, KD_PROFILE_DRAFT);
+    scene.jets.brightness = 0;
+    scene.volume.model = KD_VOLUME_RIAF;
+    scene.accuracy.profile = KD_PROFILE_BALANCED;
+    kd_scene_link_preview(&scene, 1200, 630);
+    assert_int_equal(scene.image.samples, 1);
+    assert_int_equal(scene.accuracy.profile, KD_PROFILE_DRAFT);
 }
 
 int main(void)

@@ -39,7 +39,7 @@ static void bars_are_round_and_fit(void **state)
     }
 }
 
-/* The topmost line of ink is the bar, between its ends; the beam's disk is as wide and high as its diameter, to a
+/* The topmost row of changed pixels is the bar and has its length. The disk of the beam has the beam's diameter, to a
  * pixel. No other pixels change. */
 static void lengths_are_to_scale(void **state)
 {

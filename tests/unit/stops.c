@@ -1,7 +1,7 @@
-/* Integrals that nobody waits for any more end at once, wherever their computation is, and leave nothing incomplete
- * behind: kd_pause returns true from its Nth call on, for many N, each of a hole whose spin differs by 1e-9, because
- * images and tables of a hole are kept. Afterwards some of these integrals are computed whole, and have the values of
- * the one that was not interrupted. */
+/* Tests that an integral that nobody waits for any more ends at once, at any point of its computation, and leaves
+ * nothing incomplete in a cache. kd_pause returns true from its Nth call on, for many N. Images and tables of a hole
+ * are cached, so each N has a hole whose spin differs by 1e-9. Afterwards some of these integrals are computed without
+ * interruption. Their values must be those of an integral that was never interrupted. */
 #include "base/pause.h"
 #include "integral/request.h"
 #include "integral/run.h"

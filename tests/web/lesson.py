@@ -63,6 +63,23 @@ class Lesson(Browser):
         self.assertEqual(pupil.get_attribute("#picture", "alt"), pupil.inner_text("#about"))
         self.shot(pupil, "lesson-pupil")
 
+    def test_pupils_see_the_scales(self):
+        """The page draws the scales of a picture in false colour. During a lesson they are in the picture."""
+        page = self.open("lang=en&preset=m87&pause=1")
+        page.wait_for_selector(".scales:not([hidden])")
+        patches = []
+        page.on("request", lambda r: patches.append(r.post_data_json) if r.method == "PATCH" else None)
+        page.click("#send")
+        page.get_by_role("button", name="Show it to a class").click()
+        page.wait_for_selector("#lesson-invite input")
+        page.wait_for_selector(".scales[hidden]", state="attached")
+        bar = lambda: [p["style"]["colour_bar"] for p in patches if "colour_bar" in p.get("style", {})]
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or bar()))
+        self.assertNotEqual(bar()[-1], False)
+        page.get_by_role("button", name="End", exact=True).click()
+        page.wait_for_selector(".scales:not([hidden])")
+        self.assertIs(bar()[-1], False)
+
     def test_a_prediction(self):
         teacher = self.teach()
         pupils = [self.follow(self.link(teacher)) for _ in range(2)]

@@ -61,7 +61,8 @@ function sheet(spec) {
   return URL.createObjectURL(new Blob([rows.map(row => row.join(',') + '\n').join('')], { type: 'text/csv' }));
 }
 
-// The numbers of a chart under a heading. The table is made when it is opened; that of a live chart is then updated.
+// Shows the numbers of a chart under a heading. The table is made when a user opens it. From then on the table of a
+// live chart is updated.
 export function numbers(id) {
   const box = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
     links = el('p', {});

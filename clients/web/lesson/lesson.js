@@ -129,6 +129,7 @@ function panel(scene, session) {
     if (ended) return void (opened && deleteLesson());
     if (opened) {
       memory.set(lesson);
+      scene.dispatchEvent(new Event('change')); // the scales over a picture are then drawn into it
       showInvitation();
     }
     Object.assign(sent, Object.fromEntries(news));
@@ -181,6 +182,7 @@ function panel(scene, session) {
     ended = true;
     clearTimeout(timer);
     memory.set(null);
+    scene.dispatchEvent(new Event('change'));
     if (lesson) deleteLesson();
     byId('lesson-large')?.close();
     box.remove();

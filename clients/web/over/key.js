@@ -3,6 +3,7 @@
 import { el } from '../base/dom.js';
 import { number, t } from '../words/i18n.js';
 import { m_uas } from '../picture/scene.js';
+import { goesOn } from '../share/share.js';
 
 document.head.append(el('link', { rel: 'stylesheet', href: new URL('key.css', import.meta.url) }));
 
@@ -35,7 +36,8 @@ export function buildKey(root, scene) {
   root.append(key);
 
   return function shown({ exposure, flux }) {
-    key.hidden = !scene.get('style.colour_bar') || scene.get('image.layers').split(',')[0] !== 'rgb';
+    key.hidden =
+      !scene.get('style.colour_bar') || goesOn('lesson') || scene.get('image.layers').split(',')[0] !== 'rgb';
     if (key.hidden) return;
     const kelvin = scene.get('disk.model') === 'none' && flux.kelvin,
       most = 2 ** -exposure * (kelvin ? kelvin / 1e9 : 1), // the brightness of white

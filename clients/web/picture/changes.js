@@ -1,4 +1,5 @@
 // Compares a scene with its session: what is sent to the session, and what the scene takes over from it.
+import { goesOn } from '../share/share.js';
 import { mergePatch } from './merge.js';
 
 const least_samples = 2;
@@ -7,9 +8,13 @@ const least_samples = 2;
 export const samples = scene =>
   scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
-// Whether the page draws the scales of a scene (over/key.js). Where the server refuses them, it is asked for them.
+// Whether the page draws the scales of a scene (over/key.js). Where the server refuses them, it is asked for them. During
+// a lesson they are in the picture, which the pupils' pages show as it is.
 const keyed = scene =>
-  scene.get('style.colour_bar') && scene.get('style.palette') === 'heat' && scene.get('style.tone_map') === 'srgb';
+  !goesOn('lesson') &&
+  scene.get('style.colour_bar') &&
+  scene.get('style.palette') === 'heat' &&
+  scene.get('style.tone_map') === 'srgb';
 
 // The document of a scene for a window of this size. part: the share of its width for which the server accepts a
 // picture.

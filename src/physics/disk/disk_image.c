@@ -11,8 +11,8 @@
 
 enum { POINTS = 6 }; /* number of nodes that an interpolation uses */
 #define NEAREST \
-    0.1 /* M, minimum distance of the origin of u from the ISCO; otherwise, above a = 0.9995, all nodes would lie at \
-           the horizon, where the image no longer changes */
+    0.1 /* M, minimum distance of the origin of the coordinate u (radius_of_node) from the ISCO. If it were smaller, \
+           all nodes above a = 0.9995 would lie at the horizon, where the image no longer changes. */
 #define NODES 1e-7  /* error of ln r at the nodes */
 #define PLACE 1e-12 /* error of ln r at a single requested place */
 #define BENDS 10.   /* maximum relative change of a slope per unit of ln r */

@@ -75,6 +75,7 @@ static enum kd_status make(void *owner, const struct kd_asset_request *request, 
     struct kd_panoramas *all = owner;
     struct kd_panorama *out = &all->made;
     *out = (struct kd_panorama) { 0 };
+    all->fresh = NULL;
     all->recalled = recall(all->file, request, out);
     return all->recalled ? KD_OK
            : all->blank  ? make_blank(out, error)

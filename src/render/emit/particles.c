@@ -203,8 +203,8 @@ static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, cons
     }
 }
 
-/* Fills in the reciprocal of the weight that a node of each row is expected to have. Particles within one row of the
- * node count, weighted by distance. */
+/* Fills in the reciprocal of the weight that a node of each row is expected to have. A particle contributes to a
+ * node if it is within one row of it, with a weight that depends on the distance. */
 static void fill_expected(float *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
 {
     enum { PARTS = 8 }; /* parts into which the triangular weight is divided on each side */

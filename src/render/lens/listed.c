@@ -103,7 +103,7 @@ static void fill_delays(const struct work *w, uint32_t order, float *to)
         to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->lens.orders + order].delay : 0;
 }
 
-/* Fills a plane with slopes, which the light of falling gas and emission angles depend on. */
+/* Fills a plane with slopes. The light of falling gas depends on them, and so do emission angles. */
 static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
 {
     const struct kd_rays_params params = params_of(scene, &w->plan->lens, &w->plan->lens.setting);

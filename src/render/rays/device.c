@@ -277,8 +277,8 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
 }
 
 /* Number of rays of the next slice, after one of m rays that took `ms`. least_ms: time of the smallest slices. If even
- * one ray takes longer than TARGET_MS, a GPU needs no more time for several rays: slices are doubled while this holds,
- * and may take up to 1.5 times as long. */
+ * one ray takes longer than TARGET_MS, a GPU takes the same time for several rays. Then slices are doubled while their
+ * time stays near least_ms, and may take up to 1.5 times least_ms. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
     double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms),

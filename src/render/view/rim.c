@@ -15,8 +15,8 @@ static void scale(double a[3], double by)
         a[i] *= by;
 }
 
-/* fraction of half the curve: nearer than this to the curve's ends, where `up` loses digits, the curve is taken as a
- * parabola */
+/* fraction of half the curve: within this distance of the curve's ends, `up` loses digits, and the curve is replaced by
+ * a parabola */
 #define ENDS 3e-4
 #define MIDST \
     1e-9 /* Fraction of ENDS: no point is nearer to an end, because light there stays in the observer's plane, which \

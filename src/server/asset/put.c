@@ -8,6 +8,7 @@
 #include "scene/sha256.h"
 #include "server/asset/folder.h"
 
+#include <math.h>
 #include <nettle/sha2.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,10 +31,10 @@ struct kd_asset_putting {
 };
 
 /* Finds the least recently used asset, if it may be evicted; NULL: none. Called with the lock. */
-static struct kd_asset *oldest(const struct kd_asset_store *store)
+static struct kd_asset *oldest(const struct kd_asset_store *store, bool any_age)
 {
     struct kd_asset *best = NULL;
-    double before = kd_clock_ms() - 1e3 * store->limits.keep_s;
+    double before = any_age ? INFINITY : kd_clock_ms() - 1e3 * store->limits.keep_s;
     for (struct kd_asset *asset = store->first; asset; asset = asset->next)
         if (asset->state == KD_ASSET_READY && asset->references == 1 && asset->used_ms < before &&
             (!best || asset->used_ms < best->used_ms))
@@ -54,11 +55,11 @@ enum room { ROOM, ROOM_LATER, ROOM_NONE };
 
 /* Looks for room for an asset. *leaves: an asset that the caller must remove first, without the lock. Called with the
  * lock. */
-static enum room find_room(struct kd_asset_store *store, uint64_t bytes, struct kd_asset **leaves)
+static enum room find_room(struct kd_asset_store *store, uint64_t bytes, bool any_age, struct kd_asset **leaves)
 {
     if (store->count < store->limits.most && store->bytes + bytes <= store->limits.bytes)
         return ROOM;
-    *leaves = oldest(store);
+    *leaves = oldest(store, any_age);
     if (*leaves)
         (*leaves)->state = KD_ASSET_LEAVING;
     return *leaves || is_anyone_leaving(store) ? ROOM_LATER : ROOM_NONE;
@@ -146,7 +147,7 @@ static enum room take_place(struct kd_asset_put *put, struct kd_asset *fresh, st
     put->quota = !*here && has_share(p->store, p->size, p->client);
     if (*here || put->quota)
         return ROOM_NONE;
-    const enum room room = find_room(p->store, p->size, leaves);
+    const enum room room = find_room(p->store, p->size, put->any_age, leaves);
     if (room == ROOM && fresh) {
         fresh->references = 2;
         kd_asset_insert(p->store, fresh);

@@ -7,18 +7,21 @@
 #include <math.h>
 #include <string.h>
 
-/* Runs all steps of storing a file. Nobody else uses the store yet, so no step has to wait. */
+/* Runs all steps of storing a file. Nobody else uses the store yet, so no step has to wait. *created: the store did not
+ * have the file. */
 static enum kd_status put(struct kd_asset_store *store, const struct kd_buffer *file, struct kd_asset **out,
-                          struct kd_error *error)
+                          bool *created, struct kd_error *error)
 {
     struct kd_asset_put put;
     enum kd_asset_progress how = KD_ASSET_MORE;
     enum kd_status status =
         kd_asset_put_begin(&put, store, file->data ? file->data : (const uint8_t *)"", file->size, "--sky", error);
+    put.any_age = true; /* after a restart all assets count as just used */
     while (!status && how != KD_ASSET_OVER)
         status = kd_asset_put_go_on(&put, INFINITY, &how, error);
     kd_asset_put_finish(&put);
     *out = put.asset;
+    *created = put.created;
     return status;
 }
 
@@ -28,9 +31,10 @@ enum kd_status kd_asset_sky_open(struct kd_asset_store *store, const char *path,
     struct kd_buffer file = { 0 };
     struct kd_error why = { 0 };
     struct kd_asset *asset = NULL;
+    bool created = false;
     if (!kd_read_file(AT_FDCWD, path, 0, KD_ASSET_BYTES, &file))
         return kd_error_set(error, KD_EINVAL, "--sky is %.300s, which cannot be read: %s", path, strerror(errno));
-    const enum kd_status status = put(store, &file, &asset, &why);
+    const enum kd_status status = put(store, &file, &asset, &created, &why);
     kd_buffer_finish(&file);
     if (status)
         return kd_error_set(error, status, "--sky is %.300s: %.500s", path, why.message);
@@ -39,7 +43,8 @@ enum kd_status kd_asset_sky_open(struct kd_asset_store *store, const char *path,
         *out = asset;
         return KD_OK;
     }
-    kd_asset_store_remove(store, asset);
+    if (created)
+        kd_asset_store_remove(store, asset);
     kd_asset_release(store, asset);
     return kd_error_set(error, KD_EINVAL,
                         "--sky is %.300s; it must be a PNG picture of the whole sky, twice as wide as high, with %d to "

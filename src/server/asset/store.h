@@ -53,6 +53,7 @@ const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store 
 struct kd_asset_put {
     struct kd_asset *asset;
     bool created, quota, full;
+    bool any_age; /* set by the caller after the beginning: may evict assets however recently they were used */
     struct kd_asset_putting *own; /* internal state until it is finished */
 };
 enum kd_asset_progress {

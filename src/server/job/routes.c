@@ -133,7 +133,11 @@ static enum kd_slice_result work(struct kd_task *task, double until_ms)
         KD_TRY(kd_job_spec_parse(text, body->size, &(struct kd_job_base) { .preset = d->draft.preset }, assets,
                                  &d->draft.spec, &error));
     d->read = true;
+    if (task->status) /* the client has left, or waits too long, since the turn began */
+        return KD_SLICE_LAST;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
+    if (task->status)
+        return KD_SLICE_LAST;
     if (d->draft.cost.frames < d->draft.spec.frames)
         return KD_SLICE_MORE;
     KD_TRY(kd_jobs_open(jobs, &d->draft, text, body->size, task->request->client, &task->quota, &d->job, &error));
@@ -145,13 +149,11 @@ done:
 static enum MHD_Result deliver(struct kd_request *request)
 {
     const struct draft *d = (const struct draft *)request->task;
-    if (d->task.status == KD_ECANCELLED)
-        return kd_reply_cancelled(request);
-    if (d->task.status)
-        return refuse(request, &d->task.error, d->task.quota);
-    enum MHD_Result result = answer(request, d->job, true);
+    enum MHD_Result result = d->task.status == KD_ECANCELLED ? kd_reply_cancelled(request)
+                             : d->task.status                ? refuse(request, &d->task.error, d->task.quota)
+                                                             : answer(request, d->job, true);
     /* The client does not know the job, and without a key cannot request it again. */
-    if (request->status != MHD_HTTP_ACCEPTED && !*request->once.key)
+    if (d->job && request->status != MHD_HTTP_ACCEPTED && !*request->once.key)
         kd_job_drop(d->job);
     return result;
 }

@@ -78,6 +78,8 @@ static struct kd_planned *outcome(struct kd_request *request, struct kd_planned 
         request->format = p->format;
         return p;
     }
+    if (!p->problem.detail) /* the request was given up between the steps */
+        p->problem = kd_problem_from(&p->task.error);
     *result = p->task.status == KD_ECANCELLED ? kd_reply_cancelled(request) : kd_reply_problem(request, &p->problem);
     return NULL;
 }

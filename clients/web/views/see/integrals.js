@@ -314,7 +314,9 @@ export function buildIntegrals(root, scene) {
       if (!asked) return;
       root.dataset.state = 'asks';
       if (asked === 'data') {
-        data ??= (await import('../scale/data.js')).measurements(root, 'lensing');
+        const { measurements } = await import('../scale/data.js');
+        if (asked !== kind) return;
+        data ??= measurements(root, 'lensing');
         await data({ scene: scene.document() });
         return void (root.dataset.state = asked);
       }

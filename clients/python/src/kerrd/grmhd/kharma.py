@@ -24,6 +24,7 @@ TRANSFORMS = {"exponential": "eks", "exp": "eks", "modified": "mks", "funky": "f
 DECK = "Input/File"
 DECK_MOST = 1 << 20  # bytes of the input file
 BLOCKS_MOST = 1 << 20
+EDGES_MOST = 1 << 24  # edges of zones along an axis, of all blocks
 GHOSTS_MOST = 16
 NEAR = 1e-3  # fraction of a zone
 
@@ -91,6 +92,14 @@ class Mesh:
         return three, two, one
 
 
+def uneven(file: DumpFile, count: int, size: list[int], whole: tuple[int, int, int]) -> DumpProblem:
+    return file.problem(
+        "Locations",
+        f"makes {count} blocks of {size[0]} x {size[1]} x {size[2]} zones that overlap or leave a gap; they must "
+        f"cover the mesh of {whole[0]} x {whole[1]} x {whole[2]} zones",
+    )
+
+
 def _mesh(file: DumpFile, whole: tuple[int, int, int], bounds: list[tuple[float, float]]) -> Mesh:
     (count,) = file.attribute_wholes("Info/NumMeshBlocks", 1, 1, BLOCKS_MOST)
     stored = file.attribute_wholes("Info/MeshBlockSize", 3, 1, SIDE_MOST)
@@ -100,6 +109,8 @@ def _mesh(file: DumpFile, whole: tuple[int, int, int], bounds: list[tuple[float,
     size = [n - 2 * g for n, g in zip(stored, ghosts)]
     if min(size) < 1:
         raise file.must("Info/MeshBlockSize", ", ".join(map(str, stored)), f"more than {2 * around} along each axis")
+    if count * (max(stored) + 1) > EDGES_MOST:
+        raise uneven(file, count, size, whole)
     places = np.empty((count, 3), np.int64)
     for axis, name in enumerate(("Locations/x", "Locations/y", "Locations/z")):
         edges = file.part(name, file.array(name, (count, stored[axis] + 1)), slice(None))
@@ -117,12 +128,9 @@ def _mesh(file: DumpFile, whole: tuple[int, int, int], bounds: list[tuple[float,
                 f"{whole[axis]} from {low:.6g} to {high:.6g}, because refined meshes are not read",
             )
         places[:, axis] = first
-    if len(np.unique(places, axis=0)) < count or count * math.prod(size) != math.prod(whole):
-        raise file.problem(
-            "Locations",
-            f"makes {count} blocks of {size[0]} x {size[1]} x {size[2]} zones that overlap or leave a gap; they must "
-            f"cover the mesh of {whole[0]} x {whole[1]} x {whole[2]} zones",
-        )
+    evenly = count * math.prod(size) == math.prod(whole) and not (places % size).any()
+    if not evenly or len(np.unique(places, axis=0)) < count:
+        raise uneven(file, count, size, whole)
     return Mesh(file, whole, (size[0], size[1], size[2]), (ghosts[0], ghosts[1], ghosts[2]), places)
 
 

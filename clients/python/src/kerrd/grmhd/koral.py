@@ -95,7 +95,7 @@ def read(file: DumpFile, outer: float | None = None) -> Dump:
     notes = [f"{n1 - keep} rows beyond r = {outer:g} are left out"] if keep < n1 else []
     units = "header/units/"
     if all(units + name in file for name in ("M_bh", "L_unit", "M_unit")):
-        density, length = (file.number(units + name, 1e-300, 1e300) for name in ("M_unit", "L_unit"))
+        density, length = (file.number(units + name, 1e-100, 1e100) for name in ("M_unit", "L_unit"))
         mass = file.number(units + "M_bh", 1e-300, 1e300)
         notes.append(f"the file's own units are mass_msun={mass:.6g} and m_unit={density * length**3:.6g}")
     return Dump(

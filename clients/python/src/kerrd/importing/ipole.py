@@ -318,7 +318,8 @@ def _camera(sheet: Sheet, model: str) -> None:
 
 
 def _field(sheet: Sheet, mass: float, distance: float) -> None:
-    """The width on the sky, as par.c and main.c of ipole read it: in microarcseconds, else in M, else 160."""
+    """The width on the sky, as par.c and main.c of ipole read it: in microarcseconds, or in M, or by default 160
+    microarcseconds."""
 
     def given(*names: str) -> tuple[str | None, float]:
         keys = [key for key in names if key in sheet]
