@@ -314,6 +314,7 @@ class Files(Case):
             [
                 "Where it listens:",
                 "Who may use it:",
+                "The page:",
                 "Limits:",
                 "State and shutdown:",
                 "The device:",

@@ -1002,7 +1002,7 @@ class Integrals(daemon.Case):
                 "line",
                 {"emissivity": "ring", "height": 0.5, "corona_radius": 1},
                 "/height",
-                "at least 2.1 M away, 1.05 times the ergosphere",
+                "at least 2.1 M away, 1.05 times the radius of the ergosphere",
             ),
             ("line", {"emissivity": "disk", "corona_inner": 10}, "/corona_inner", "corona_radius must be larger"),
             ("line", {"emissivity": "slab", "corona_top": 3}, "/corona_top", "larger than height"),
