@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .dump import Dump, Row, check_count, rows_within
-from .file import SIDE_MOST, DumpFile
+from .file import SIDE_MOST, DumpFile, DumpProblem
 from .iharm import R_LEAST, R_MOST, Coordinates, embed
 
 Numbers = NDArray[np.float64]
@@ -92,7 +92,7 @@ class Mesh:
         return three, two, one
 
 
-def uneven(file: DumpFile, count: int, size: list[int], whole: tuple[int, int, int]) -> DumpProblem:
+def _uneven(file: DumpFile, count: int, size: list[int], whole: tuple[int, int, int]) -> DumpProblem:
     return file.problem(
         "Locations",
         f"makes {count} blocks of {size[0]} x {size[1]} x {size[2]} zones that overlap or leave a gap; they must "
@@ -110,7 +110,7 @@ def _mesh(file: DumpFile, whole: tuple[int, int, int], bounds: list[tuple[float,
     if min(size) < 1:
         raise file.must("Info/MeshBlockSize", ", ".join(map(str, stored)), f"more than {2 * around} along each axis")
     if count * (max(stored) + 1) > EDGES_MOST:
-        raise uneven(file, count, size, whole)
+        raise _uneven(file, count, size, whole)
     places = np.empty((count, 3), np.int64)
     for axis, name in enumerate(("Locations/x", "Locations/y", "Locations/z")):
         edges = file.part(name, file.array(name, (count, stored[axis] + 1)), slice(None))
@@ -130,7 +130,7 @@ def _mesh(file: DumpFile, whole: tuple[int, int, int], bounds: list[tuple[float,
         places[:, axis] = first
     evenly = count * math.prod(size) == math.prod(whole) and not (places % size).any()
     if not evenly or len(np.unique(places, axis=0)) < count:
-        raise uneven(file, count, size, whole)
+        raise _uneven(file, count, size, whole)
     return Mesh(file, whole, (size[0], size[1], size[2]), (ghosts[0], ghosts[1], ghosts[2]), places)
 
 
