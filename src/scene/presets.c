@@ -59,7 +59,7 @@ const struct kd_preset kd_presets[] = {
       "{\"spacetime\":{\"spin\":0,\"charge\":0.999},"
       "\"camera\":{\"inclination_deg\":80,\"field_m\":36},"
       "\"image\":{\"samples\":2}}" },
-    { "gargantua", "Gargantua as it would look",
+    { "gargantua", "Gargantua, unaltered",
       "The hole and camera of James et al. 2015: nearly extremal spin, seen from 74 M, a disk from 9.26 to 18.7 M at "
       "about 4500 K; with the Doppler shift and the redshift that the film left out",
       true,

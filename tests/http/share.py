@@ -133,7 +133,7 @@ class Share(Case):
         path = self.path_of({"spacetime": {"spin": 0.5}}, "?preset=gargantua")
         page, address = self.page(path), self.origin + path
         picture = f"{self.origin}/v1/share/{path.removeprefix('/s/')}/picture.png"
-        self.assertEqual(page.title, "Gargantua as it would look – kerrd")
+        self.assertEqual(page.title, "Gargantua, unaltered – kerrd")
         self.assertEqual(page.links["canonical"], address)
         expected = {
             "og:type": "website",

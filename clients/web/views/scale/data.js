@@ -9,7 +9,7 @@ import { postJson } from '../../base/server.js';
 
 const observation = 'm87-2017-04-05-lo', // the server has it (data/eht)
   longest_gl = 9,
-  steps = 45,
+  steps = 24,
   average_s = 600,
   map = { pixels: 64, check: 'none', digits: 4 },
   view = { camera: { field_uas: 200, centre_alpha: 0, centre_beta: 0 }, image: { width: 64, height: 64 } },
@@ -79,6 +79,7 @@ async function curves(document, formed, flux) {
     { columns, values } = await postJson('v1/visibility', {
       ...document,
       ...map,
+      digits: 3, // of curves; the request for the measurements has more
       u: at.map(([u]) => u),
       v: at.map(([, v]) => v),
     }),
