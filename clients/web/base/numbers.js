@@ -6,10 +6,13 @@ const live_ms = 1000; // least time between two updates of a table
 
 export const shared = spec => spec.series.every(s => s.x === spec.series[0].x);
 
-// The curves, those with the same x together.
+// The curves, those with equal x together.
 function groups({ series }) {
-  const by = new Map(series.map(s => [s.x, []]));
-  for (const s of series) by.get(s.x).push(s);
+  const by = new Map();
+  for (const s of series) {
+    const key = String(s.x);
+    by.set(key, [...(by.get(key) ?? []), s]);
+  }
   return [...by.values()];
 }
 

@@ -167,7 +167,7 @@ function key(style) {
 export function plot(first) {
   const id = 'plot-' + ++count,
     caption = el('figcaption', { id });
-  const chart = el('div', { class: 'chart', role: 'slider', tabindex: 0, 'aria-labelledby': id });
+  const chart = el('div', { class: 'chart' });
   const legend = el('ul', {
     class: 'legend',
     'aria-label': t('plot.curves-press-to-hide', 'Curves: press to hide or show'),
@@ -285,6 +285,9 @@ export function plot(first) {
   function draw(next) {
     spec = next;
     caption.textContent = spec.title;
+    chart.setAttribute('role', 'slider'); // with its first values
+    chart.setAttribute('aria-labelledby', id);
+    chart.tabIndex = 0;
     note.textContent = spec.note ?? '';
     limits = {
       x: extent(

@@ -68,7 +68,7 @@ function card(chart, known) {
     chart.inputs.map(input => ({ ...parameter[input.name], ...input })),
     () => draw(),
   );
-  figure.querySelector('figcaption').textContent = chart.title; // the chart's name until it is drawn
+  figure.querySelector('figcaption').textContent = chart.title; // the name of its parts until it is drawn
   formula.innerHTML = `<math display="block">${chart.equation}</math>`; // constant text of this page, so it is safe
   inputs.addEventListener('submit', event => event.preventDefault());
 
