@@ -39,7 +39,8 @@ const sentences = {
     'spin parameter a; closer to 1, damped and undamped modes crowd together and l, n no longer label them uniquely',
   'said.spin-parameter-a': 'spin parameter a',
   'said.impact-parameter-of-light-in': 'impact parameter of light in the equatorial plane, |L|/E',
-  'said.polar-angle-of-the-observer': 'polar angle of the observer, who is at infinity; at 90 the plane is a line',
+  'said.polar-angle-of-the-observer':
+    'polar angle of the observer, who is at infinity; at 90 the equatorial plane is seen edge-on',
   'said.polar-angle-of-the-observer-at': 'polar angle of the observer, at infinity; not within 0.1 of 90',
   'said.where-on-the-critical-curve':
     'position on the critical curve: angle about its centre, from the right over the top',
