@@ -45,7 +45,7 @@ def tree(root):
         if "build.ninja" in names or "pyvenv.cfg" in names:
             folders.clear()
             continue
-        folders[:] = [name for name in folders if name == ".ci" or not name.startswith((".", "__", "build"))]
+        folders[:] = [name for name in folders if name == ".ci" or not name.startswith((".", "__", "build", "venv"))]
         yield from ((pathlib.Path(folder) / name).relative_to(root).as_posix() for name in (*folders, *names))
 
 
