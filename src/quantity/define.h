@@ -53,6 +53,16 @@
       .help = "charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1")
 /* The hole given by the parameters spin and charge, for use as an argument: kd_kerr_isco(KD_QUANTITY_HOLE(p)). */
 #define KD_QUANTITY_HOLE(p) ((const struct kd_hole[]) { kd_hole_charged((p)->spin, (p)->charge) })
+/* Results right, up and inwards: where an observer at a finite radius sees light. */
+#define KD_RESULTS_DIRECTION(O) \
+    O(right, .unit = "1", \
+      .help = "unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity") \
+    O(up, .unit = "1", \
+      .help = \
+          "unit vector of the viewing direction at a finite radius: component up, towards -theta; null at infinity") \
+    O(inwards, .unit = "1", \
+      .help = \
+          "unit vector of the viewing direction at a finite radius: component inwards, towards -r; null at infinity")
 #define KD_PARAMETER_MASS(P) \
     P(mass_msun, .unit = "solar masses", .typed = "1e8", .least = 1e-3, .most = 1e12, .help = "mass of the hole")
 #define KD_PARAMETER_OBSERVER(P) \

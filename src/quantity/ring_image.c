@@ -25,14 +25,7 @@
               "where light has no energy at infinity") \
     O(beta, .unit = "M", \
       .help = "coordinate on the image plane, along the projected spin; null where light has no energy at infinity") \
-    O(right, .unit = "1", \
-      .help = "unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity") \
-    O(up, .unit = "1", \
-      .help = \
-          "unit vector of the viewing direction at a finite radius: component up, towards -theta; null at infinity") \
-    O(inwards, .unit = "1", \
-      .help = \
-          "unit vector of the viewing direction at a finite radius: component inwards, towards -r; null at infinity") \
+    KD_RESULTS_DIRECTION(O) \
     O(phi_deg, .unit = "degrees", \
       .help = "azimuth of the visible point of the ring relative to the observer's, with whole turns; null for an " \
               "observer inside the horizon, and for light whose energy at infinity is not positive") \

@@ -20,14 +20,7 @@
               "constants of motion") \
     O(rho, .unit = "M or radians", \
       .help = "distance from the centre, in M for an observer at infinity, otherwise an angle on the sky") \
-    O(right, .unit = "1", \
-      .help = "unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity") \
-    O(up, .unit = "1", \
-      .help = \
-          "unit vector of the viewing direction at a finite radius: component up, towards -theta; null at infinity") \
-    O(inwards, .unit = "1", \
-      .help = \
-          "unit vector of the viewing direction at a finite radius: component inwards, towards -r; null at infinity") \
+    KD_RESULTS_DIRECTION(O) \
     O(orbit_r, .unit = "M", .help = "radius of the photon orbit seen at this point of the curve") \
     O(lyapunov, .unit = "1", \
       .help = \

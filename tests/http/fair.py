@@ -51,7 +51,11 @@ class Fair(unittest.TestCase):
 
     def test_beside_all_loads(self):
         alone = fairness.run_one(daemon.COMMAND[0], "nothing", 1)
+        bound = lambda solo: max(2000, SLOWER * solo)
         beside = fairness.run_one(daemon.COMMAND[0], "all of these", 3)
+        if max(beside["picture_ms"]) >= bound(statistics.median(alone["picture_ms"])):
+            # Work that holds the device delays a picture each time. Other processes of the machine do so now and then.
+            beside = fairness.run_one(daemon.COMMAND[0], "all of these", 3)
         solo = statistics.median(alone["picture_ms"])
         print(
             "alone",
@@ -64,7 +68,7 @@ class Fair(unittest.TestCase):
             max(beside["healthz_ms"]),
             beside["load"],
         )
-        self.assertLess(statistics.median(beside["picture_ms"]), max(2000, SLOWER * solo))
+        self.assertLess(max(beside["picture_ms"]), bound(solo))
         self.assertLess(statistics.median(beside["healthz_ms"]), max(100, solo))
         self.assertGreater(beside["fps"], 0, "frames of his session go on")
         self.assertGreater(

@@ -133,10 +133,8 @@ static enum kd_slice_result work(struct kd_task *task, double until_ms)
         KD_TRY(kd_job_spec_parse(text, body->size, &(struct kd_job_base) { .preset = d->draft.preset }, assets,
                                  &d->draft.spec, &error));
     d->read = true;
-    if (task->status) /* the client has left, or waits too long, since the turn began */
-        return KD_SLICE_LAST;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
-    if (task->status)
+    if (task->status) /* the client has left, or waits too long, since the turn began */
         return KD_SLICE_LAST;
     if (d->draft.cost.frames < d->draft.spec.frames)
         return KD_SLICE_MORE;

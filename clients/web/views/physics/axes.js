@@ -4,6 +4,17 @@ import { physics } from '../../base/server.js';
 
 export const degrees = radians => (radians == null ? null : (radians * 180) / Math.PI);
 export const spin = value => ({ name: 'spin', value, min: -0.998, max: 0.998, step: 0.002 });
+// The power with which a disk's line falls off.
+export const falloff = {
+  name: 'index',
+  label: t('integrals.light-falls-off-as', 'Light falls off as r to minus'),
+  value: 3,
+  min: 0,
+  max: 10,
+  step: 0.1,
+  nature: 'model',
+  about: t('integrals.3-as-far-from', '3: as far from a lamp or from a disk that heats itself'),
+};
 export const axis = (label, more) => ({ label, ...more });
 // A range of radii from the horizon outwards.
 export const outside =

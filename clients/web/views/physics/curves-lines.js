@@ -1,7 +1,7 @@
 // The curves of a disk's X-rays: light that returns, by spin; the iron line as a sum of rings; the echo of a flash.
 // Each takes the server long or has many numbers, so that it is drawn when it comes into sight. Two of them ask another
 // route than /v1/physics; words names the quantity whose parameters describe theirs.
-import { axis, spin } from './axes.js';
+import { axis, falloff, spin } from './axes.js';
 import { number, t } from '../../words/i18n.js';
 import { charted, physics, postJson } from '../../base/server.js';
 
@@ -103,20 +103,7 @@ export const lines = [
     id: 'line-of-rings',
     late: true,
     title: t('curves-lines.the-iron-line-of', 'The iron line, ring by ring'),
-    inputs: [
-      spin(0.9),
-      inclination(40),
-      {
-        name: 'index',
-        label: t('integrals.light-falls-off-as', 'Light falls off as r to minus'),
-        value: 3,
-        min: 0,
-        max: 10,
-        step: 0.1,
-        nature: 'model',
-        about: t('integrals.3-as-far-from', '3: as far from a lamp or from a disk that heats itself'),
-      },
-    ],
+    inputs: [spin(0.9), inclination(40), falloff],
     ask: ringLines,
     words: 'redshift',
     equation:

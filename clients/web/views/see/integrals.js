@@ -1,5 +1,6 @@
 // Integrals over a picture of the scene as plots: a line profile, a spectrum, visibilities by baseline. The server
 // computes one when it is chosen, and again when the scene has changed and come to rest.
+import { falloff } from '../physics/axes.js';
 import { persistent } from '../../base/again.js';
 import { el } from '../../base/dom.js';
 import { buildForm } from '../../base/form.js';
@@ -43,16 +44,7 @@ const kinds = {
   line: {
     path: 'line',
     inputs: () => [
-      {
-        name: 'index',
-        label: t('integrals.light-falls-off-as', 'Light falls off as r to minus'),
-        value: 3,
-        min: 0,
-        max: 10,
-        step: 0.1,
-        nature: 'model',
-        about: t('integrals.3-as-far-from', '3: as far from a lamp or from a disk that heats itself'),
-      },
+      falloff,
       {
         name: 'rest_energy',
         label: t('integrals.line-at-rest', 'Line at rest'),
