@@ -2,6 +2,7 @@
  * rays and of layers. Explaining it does not change the picture. */
 #include "physics/spacetime/kerr.h"
 #include "render/emit/emitter.h"
+#include "render/explain/ahead.h"
 #include "render/explain/explain.h"
 #include "render/lens/label.h"
 #include "render/rays/rays.h"
@@ -712,9 +713,53 @@ static void alone(void **state)
     }
 }
 
+static bool until_done(void *user, double fraction)
+{
+    (void)user, (void)fraction;
+    return true;
+}
+
+/* What is compiled ahead for a picture is all that its pixels need, at the critical curve and elsewhere. */
+static void kernels_ahead(void **state)
+{
+    (void)state;
+    static const char *const presets[] = { "gas", "gas-stars", "jet" };
+    for (size_t i = 0; i < sizeof presets / sizeof *presets; i++) {
+        struct kd_scene scene = scene_of(presets[i], (const char *const[]) { "image.samples", "2", NULL });
+        struct kd_compilation *ahead = kd_explain_ahead(renderer, &scene);
+        if (ahead) {
+            OK(kd_compilation_run(ahead, until_done, NULL, &error));
+            kd_compilation_end(ahead);
+        }
+        OK(kd_scene_set(&scene, "image.samples", "1", &error));
+        OK(kd_scene_set(&scene, "style.exposure", "0", &error));
+        OK(kd_scene_set(&scene, "style.bloom", "0", &error));
+        struct kd_capacity c;
+        kd_renderer_capacity(renderer, &c);
+        size_t at_curve = 0, elsewhere = 0;
+        for (uint32_t y = 1; y < (uint32_t)scene.image.height; y += 3) {
+            for (uint32_t x = 1; x < (uint32_t)scene.image.width; x += 3) {
+                struct kd_scene narrow = scene;
+                struct kd_plan plan;
+                char at[40];
+                snprintf(at, sizeof at, "%u,%u", x, y);
+                OK(kd_plan_make(&narrow, &c, &plan, &error));
+                OK(kd_explain_at(at, &plan, &error));
+                OK(kd_explain_narrow(&c, &narrow, &plan, &error));
+                *(plan.lens.critical ? &at_curve : &elsewhere) += 1;
+                struct kd_compilation *lacks = kd_compilation_begin(renderer, &narrow, &plan);
+                if (lacks)
+                    fail_msg("%s: the pixel %s lacks a kernel", presets[i], at);
+            }
+        }
+        assert_true(at_curve && elsewhere);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(sums),
+    const struct CMUnitTest tests[] = { cmocka_unit_test(kernels_ahead), /* before others have made the kernels */
+                                        cmocka_unit_test(sums),
                                         cmocka_unit_test(many_rays),
                                         cmocka_unit_test(volumes),
                                         cmocka_unit_test(layers),

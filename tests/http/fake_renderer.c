@@ -36,7 +36,15 @@ struct kd_renderer {
     _Atomic bool read; /* the picture of the sky of seed 4711 has been decoded */
     bool compiled;     /* the kernels of the other skies have been compiled */
 };
-enum { UNREAD = 4711, UNCOMPILED = 4712, LACKING = 4713, STEPS_UNCOMPILED = 20, MEANWHILE = 5, PATIENCE_MS = 60000 };
+enum {
+    UNREAD = 4711,
+    UNCOMPILED = 4712,
+    LACKING = 4713,
+    AHEAD = 4714,
+    STEPS_UNCOMPILED = 20,
+    MEANWHILE = 5,
+    PATIENCE_MS = 60000
+};
 static _Atomic unsigned drawn; /* pictures rendered, by all renderers */
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
@@ -228,8 +236,8 @@ static struct kd_compilation *lacked(struct kd_renderer *renderer)
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
                                             const struct kd_plan *plan)
 {
-    (void)plan;
-    return scene->sky.seed == UNCOMPILED ? lacked(renderer) : NULL;
+    return scene->sky.seed == UNCOMPILED || (scene->sky.seed == AHEAD && plan->report.probe.on) ? lacked(renderer)
+                                                                                                : NULL;
 }
 
 struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernels_ask_fn ask, const void *user)

@@ -217,6 +217,26 @@ class Kernels(Case):
             self.assertEqual(own.get(RENDER).status, 200)
         self.assertTrue(daemon.eventually(lambda: own.metrics()["kerrd_renders_unfinished"] == 0))
 
+    def test_the_kernels_of_a_views_pixels_are_compiled_ahead(self):
+        """As soon as the view has its last frame, before anyone asks for a pixel. A picture that waits for kernels of
+        its own gets them next."""
+        own = daemon.Daemon()
+        self.addCleanup(own.stop)
+        kernels = 'kerrd_kept_bytes{kind="kernels"}'
+        scene = {"sky": {"seed": 4714}, "image": {"width": 64, "height": 36}, "time": 0.01}
+        session = own.post("/v1/sessions", scene).json()["id"]
+        number, quality = 0, ""
+        while "final=1" not in quality:
+            frame = own.get(f"/v1/sessions/{session}/frame?after={number}&wait_ms=20000")
+            number, quality = int(frame.header("Kerrd-Frame")), frame.header("Kerrd-Quality")
+        self.assertTrue(daemon.eventually(lambda: own.metrics()[kernels] >= 1024))
+        s = own.connect()
+        self.addCleanup(s.close)
+        s.sendall(f"GET {self.NEW} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        self.assertTrue(daemon.eventually(lambda: own.metrics()[kernels] >= 2048))
+        self.assertEqual(own.get(RENDER).status, 200)  # the kernels are compiled until this picture is rendered
+        self.assertEqual(daemon.read_answer(s).status, 200)
+
     def test_a_plan_counts_the_kernels_that_have_to_be_compiled(self):
         own = daemon.Daemon()
         self.addCleanup(own.stop)

@@ -55,6 +55,14 @@ void kd_render_ask_kernels(struct kd_render_queue *queue)
             ask(queue, job);
 }
 
+void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilation *compilation)
+{
+    if (!compilation)
+        return;
+    queue->ahead = compilation;
+    pthread_cond_broadcast(&queue->changed);
+}
+
 bool kd_render_has_kernels(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     return !queue->compiles || job->kernels == KD_KERNELS_THERE;
@@ -198,24 +206,28 @@ double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd
     return ms;
 }
 
-/* Compiles the kernels of a job. Called with the lock, which it releases while it works. */
-static void compile(struct kd_render_queue *queue, struct kd_render_job *job)
+/* Compiles kernels. Called with the lock, which it releases while it works. */
+static void compile(struct kd_render_queue *queue, struct kd_compilation *c)
 {
-    struct kd_compilation *c = queue->compiling = job->compilation;
     struct kd_error error = { 0 };
     const double begun = kd_clock_ms();
+    queue->compiling = c;
+    queue->compiling_ahead = c == queue->ahead;
+    if (queue->compiling_ahead)
+        queue->ahead = NULL;
     atomic_store(&queue->uncompiled, atomic_load(&queue->cancel));
     pthread_mutex_unlock(&queue->lock);
     kd_pulse_beat(&queue->compiler_pulse);
     const enum kd_status status = kd_compilation_run(c, is_wanted, queue, &error);
     kd_pulse_rest(&queue->compiler_pulse);
     pthread_mutex_lock(&queue->lock);
-    if (!status && !atomic_load(&queue->uncompiled))
+    if (!status && !queue->compiling_ahead && !atomic_load(&queue->uncompiled))
         learn(queue, kd_clock_ms() - begun);
     while (queue->compiled && !queue->closing)
         pthread_cond_wait(&queue->changed, &queue->lock);
     share_out(queue, c, kd_clock_ms() - begun);
     queue->compiling = NULL;
+    queue->compiling_ahead = false;
     queue->compiled = c;
     queue->worked_ms = kd_clock_ms();
     if (status == KD_EDEVICE)
@@ -233,9 +245,10 @@ void *kd_render_compile_main(void *user)
     while (!queue->closing) {
         const bool waits = queue->failed || queue->lost || queue->reopening || queue->compiled ||
                            queue->holder == &queue->rest; /* the device may be closed while this runs */
-        struct kd_render_job *job = waits ? NULL : job_of(kd_shares_next(&queue->missing, is_any, NULL));
-        if (job)
-            compile(queue, job);
+        struct kd_render_job *job = job_of(kd_shares_next(&queue->missing, is_any, NULL));
+        struct kd_compilation *next = waits ? NULL : job ? job->compilation : queue->ahead;
+        if (next)
+            compile(queue, next);
         else
             pthread_cond_wait(&queue->changed, &queue->lock);
     }

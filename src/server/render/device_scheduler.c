@@ -1,5 +1,6 @@
 /* Schedules work on the device and runs it. */
 #include "base/clock.h"
+#include "render/explain/ahead.h"
 #include "server/render/internal.h"
 
 /* limit of the bytes of all frames that are rendered and not yet encoded; a single frame may exceed it */
@@ -7,6 +8,7 @@
 #define SHORT_BYTES ((size_t)64 << 20) /* room beyond FRAME_BYTES for frames that are encoded soon */
 #define BRIEF_MS 3000.0                /* estimated time of a picture that counts as brief */
 #define BRIEF_LANES 2                  /* number of lanes reserved for brief pictures; one client may have that many */
+#define AHEAD_MS 1000.0                /* between two looks for kernels of pixels; a look takes about a millisecond */
 #define LARGE 32                       /* a picture that needs less than one LARGE-th of the memory is not counted */
 
 /* The functions below access the queue's members. They are called with the lock unless a comment says otherwise. */
@@ -239,6 +241,8 @@ static void render(struct kd_render_queue *queue, struct kd_render_job *job)
         kd_render_measures_frame(&queue->measures, &job->frame);
     if (!job->status && !job->run && job->rendered)
         job->rendered(job);
+    if (!job->status && job->settled)
+        job->ahead = kd_explain_ahead(queue->renderer, job->settled);
 }
 
 static void leave_lane(struct kd_render_queue *queue, struct kd_render_job *job)
@@ -252,10 +256,22 @@ static void leave_lane(struct kd_render_queue *queue, struct kd_render_job *job)
     }
 }
 
+/* Whether kernels of a view's pixels may be looked for now. */
+static bool looks_ahead(struct kd_render_queue *queue)
+{
+    const double now = kd_clock_ms();
+    if (!queue->compiles || queue->ahead || queue->compiling_ahead || now - queue->ahead_ms < AHEAD_MS)
+        return false;
+    queue->ahead_ms = now;
+    return true;
+}
+
 /* Runs one turn of the job, which owns the device. Releases the lock while it works. */
 static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     job->inside = true;
+    if (job->settled && !looks_ahead(queue))
+        job->settled = NULL;
     queue->inside++;
     pthread_mutex_unlock(&queue->lock);
     render(queue, job);
@@ -265,6 +281,8 @@ static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
     charge(queue, job);
     queue->worked_ms = job->turn_ms;
     queue->holder = NULL;
+    kd_render_compile_ahead(queue, job->ahead);
+    job->ahead = NULL;
     const bool again = kd_render_begins_with_kernels(queue, job) || kd_render_once_more(queue, job),
                more = again || (!job->status && job->more), encode = !more && !job->status && !job->run;
     if (!again)

@@ -57,6 +57,11 @@ struct kd_render_queue {
     struct kd_shares missing;      /* fair queueing of compilations */
     /* compiling: kernels being compiled; compiled: kernels that are compiled but not yet passed to the renderer */
     struct kd_compilation *compiling, *compiled;
+    /* Kernels that no job waits for; they are compiled while no other compilation waits. compiling_ahead: they are
+     * being compiled. */
+    struct kd_compilation *ahead;
+    bool compiling_ahead;
+    double ahead_ms;                       /* when such kernels were last looked for */
     _Atomic bool uncompiled;               /* the kernels being compiled are not needed any more */
     double compile_ms;                     /* running mean of the time of a compilation; 0: none yet */
     struct kd_pulse pulse, compiler_pulse; /* watchdogs of the device's owner and of the compiler */
@@ -117,6 +122,8 @@ bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool backg
 bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
 /* called when the job leaves the queue */
 void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
+/* The kernels will be compiled as soon as no job waits for others. NULL changes nothing. */
+void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilation *compilation);
 /* Main function of the compiler thread; the argument is the queue. Returns when the queue is closing. */
 void *kd_render_compile_main(void *queue);
 

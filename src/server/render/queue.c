@@ -148,6 +148,8 @@ void kd_render_queue_destroy(struct kd_render_queue *queue)
         pthread_join(queue->compiler, NULL);
     if (queue->compiled && !queue->lost)
         kd_render_take_kernels(queue);
+    if (queue->ahead)
+        kd_compilation_drop(queue->ahead);
     if (queue->renderer)
         kd_renderer_assets_stop(queue->renderer);
     if (!queue->lost)

@@ -73,6 +73,9 @@ struct kd_render_job {
     /* requests the kernels of `run`; its user is the job. NULL: `run` has none that take long to compile */
     kd_kernels_ask_fn ask;
     bool more;
+    /* The scene of a view that nobody is moving: afterwards the kernels that explain its pixels are compiled. NULL: no
+     * such view */
+    const struct kd_scene *settled;
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; called by the owner of the device */
     /* Preview of a picture that is rendered in slices; may be NULL. Its user is the job. Called by the owner of the
      * device. */
@@ -98,8 +101,9 @@ struct kd_render_job {
     struct kd_compilation *compilation; /* kernels that the job lacks; they are being compiled, or wait to be */
     /* Kernels that the job found missing after it had begun. It starts again when they are compiled. */
     struct kd_compilation *lacked;
-    unsigned lacks;          /* how often the job has found kernels missing */
-    struct kd_claim missing; /* its claim in the fair queueing of compilations, while it lacks kernels */
+    struct kd_compilation *ahead; /* kernels that explain the pixels of `settled` */
+    unsigned lacks;               /* how often the job has found kernels missing */
+    struct kd_claim missing;      /* its claim in the fair queueing of compilations, while it lacks kernels */
     /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
     double kernels_ms, missing_ms;
     bool reads;                            /* an asset of its scene was not read yet when the job was submitted */

@@ -17,6 +17,7 @@
 struct kd_session_frame {
     struct kd_render_job job; /* must be the first member: the queue stores a pointer to it */
     struct kd_session *session;
+    struct kd_scene whole; /* the scene at full quality */
     uint64_t number;
     unsigned revision;
     double begun_ms;
@@ -72,6 +73,7 @@ static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd
         .done = done,
     };
     memcpy(live->job.claim.client, s->demand.client, sizeof s->demand.client);
+    live->whole = *scene;
     kd_quality_apply(&decision->quality, scene, &live->job.scene);
     if (s->dynamic) {
         kd_scene_show(&live->job.scene, s->dynamic);
@@ -122,6 +124,8 @@ void kd_session_pump(struct kd_session *s)
     live->number = ++s->begun;
     live->last = decision.quality.final && !moves;
     live->job.keeps = !s->crowded;
+    if (!s->dynamic && (live->last || live->job.claim.class == KD_CLASS_IDLE))
+        live->job.settled = &live->whole;
     live->dynamic = s->dynamic;
     kd_dynamic_bodies_keep(live->dynamic);
     s->dynamic_moved = false;

@@ -1,0 +1,12 @@
+/* Kernels for the explanations of a picture's pixels, before anyone asks for one. */
+#ifndef KD_RENDER_EXPLAIN_AHEAD_H
+#define KD_RENDER_EXPLAIN_AHEAD_H
+
+#include "render/frame/compilation.h"
+
+/* Makes a compilation of the kernels that the device lacks for explaining any pixel of the scene's picture, on or off
+ * the critical curve, as POST /v1/pixel does for the page: with one ray a pixel, a numeric exposure, no bloom and no
+ * beam. NULL: it lacks none, or such a pixel has no plan. Only the thread that has the device. */
+struct kd_compilation *kd_explain_ahead(struct kd_renderer *renderer, const struct kd_scene *scene);
+
+#endif
