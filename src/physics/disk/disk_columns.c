@@ -27,7 +27,10 @@ enum {
 enum { WITHIN = -1, BEYOND = -2 };
 
 /* A place on a column: what is seen, and the radius of the first crossing; 0: captured before, INFINITY: none. */
-struct place { struct kd_disk_end seen; double first; };
+struct place {
+    struct kd_disk_end seen;
+    double first;
+};
 
 static struct place look(const struct kd_disk_image *image, const struct kd_disk_columns *c, double alpha, double beta)
 {
@@ -157,7 +160,8 @@ static void add_column(const struct column *column)
 
 /* Between the ends of the inner and of the outer ring, columns are evenly spaced in asinh(alpha/HOLE), but denser
  * towards both ends: there light grows as the square root of the distance from the end. */
-static void add_columns(const struct kd_disk_image *image, const struct kd_disk_columns *c, double from, double to, int n)
+static void add_columns(const struct kd_disk_image *image, const struct kd_disk_columns *c, double from, double to,
+                        int n)
 {
     const double low = asinh(from / HOLE), all = asinh(to / HOLE) - low, wide = log(c->outer / c->inner);
     struct column column = { image, c, .step = fmin(c->step, wide / NARROW), .deepest = DEEPEST };

@@ -11,10 +11,13 @@
 #include "physics/disk/disk_image.h"
 
 /* A place of a column. order: 0 for the upper face, 1 for the lower one. */
-struct kd_disk_end { double beta, r; int order; };
+struct kd_disk_end {
+    double beta, r;
+    int order;
+};
 
-/* A cell of a column about `alpha`, `width` times `length` large. end: one end, the middle and the other end, all on one
- * face; at an edge of the disk they are the same place. slope: dr/dalpha at one beta, in the middle. */
+/* A cell of a column about `alpha`, `width` times `length` large. end: one end, the middle and the other end, all on
+ * one face; at an edge of the disk they are the same place. slope: dr/dalpha at one beta, in the middle. */
 struct kd_disk_cell {
     double alpha, width, length, slope;
     struct kd_disk_end end[3];
@@ -29,8 +32,8 @@ struct kd_disk_columns {
     void *user;
 };
 
-/* Calls `add` for each cell. Ends early if the thread's pause (base/pause.h) asks for it. Returns false if an end of the
- * inner or of the outer ring is not found. */
+/* Calls `add` for each cell. Ends early if the thread's pause (base/pause.h) asks for it. Returns false if an end of
+ * the inner or of the outer ring is not found. */
 bool kd_disk_columns(const struct kd_disk_image *image, const struct kd_disk_columns *columns);
 
 #endif
