@@ -84,7 +84,7 @@ def line_beside(o, folder, spin, inclination, ours, theirs):
     return min(max(abs(share - up_to(e + shift)) for share, e in pairs) for shift in (-half, 0, half))
 
 
-def lags_beside(o, folder, spin, inclination, ours, theirs):
+def lags_beside(o, folder, spin, inclination, ours, theirs, wide=0.25):
     told = kerrd(
         o.kerrd,
         "lags",
@@ -101,7 +101,7 @@ def lags_beside(o, folder, spin, inclination, ours, theirs):
     light, path = folder / "light.fits", folder / "impulse.csv"
     kerrz(o.kerrz, "emissivity", "--spin", spin, *theirs, "--thin-disc", f"rin:{inner},rout:{OUTER}", "-o", light)
     disk = ["--spin", spin, "--incl", inclination, "--rin", inner + 1e-6, "--rout", OUTER, "--ngstar", 4000]
-    times = ["--squash", "--tgrid", "linear", "--tmin", 0, "--tmax", 1500, "--nt", 6001, "--ng", 200]
+    times = ["--squash", "--tgrid", "linear", "--tmin", 0, "--tmax", 1500, "--nt", round(1500 / wide) + 1, "--ng", 200]
     kerrz(
         o.kerrz,
         "impulse",
@@ -117,9 +117,9 @@ def lags_beside(o, folder, spin, inclination, ours, theirs):
         path,
     )
     rows = table(path)
-    half = (rows[1][0] - rows[0][0]) / 2
+    back = wide / 2  # a row has the later end of its bin: so lags do not depend on the width
     for frequency, lag in zip(told["columns"]["frequency"], told["columns"]["lag"]):
-        whole = sum(flux * cmath.exp(2j * math.pi * frequency * (time + half)) for time, flux in rows)
+        whole = sum(flux * cmath.exp(2j * math.pi * frequency * (time - back)) for time, flux in rows)
         yield frequency, lag, cmath.phase(whole) / (2 * math.pi * frequency)
 
 

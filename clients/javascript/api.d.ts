@@ -1166,7 +1166,7 @@ export interface LineRequest {
   spin?: number;
   /** charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
   charge?: number;
-  /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
+  /** angle between the axis and the observer, who is at infinity [deg]; 0 to 180. */
   inclination_deg?: number;
   /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
   inner?: 'isco' | number;
@@ -1297,7 +1297,10 @@ export interface TransferFunctionRequest {
   spin?: number;
   /** charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
   charge?: number;
-  /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0.1 to 87; 93 to 179.9. */
+  /**
+   * angle between the axis and the observer, who is at infinity; not 89.99 to 90.01 [deg]; 0.1 to 89.99; 90.01 to
+   * 179.9.
+   */
   inclination_deg?: number;
   /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
   inner?: 'isco' | number;

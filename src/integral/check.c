@@ -25,7 +25,8 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
     const enum kd_status status = kd_hole_check(hole, error);
     if (status)
         return status;
-    if (fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
+    if (r->what != KD_INTEGRAL_LINE && r->what != KD_INTEGRAL_TRANSFER &&
+        fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
         return kd_error_field(
             error, "/inclination_deg",
             "inclination_deg is %.9g, too close to edge on, where the lower face of a thin disk adds to its "
@@ -230,7 +231,12 @@ static enum kd_status check_transfer(struct kd_integral_request *r, struct kd_er
     if (r->inclination_deg < KD_INTEGRAL_FACE_ON || r->inclination_deg > 180 - KD_INTEGRAL_FACE_ON)
         return kd_error_field(error, "/inclination_deg",
                               "inclination_deg is %.9g, too close to face on, where each ring has a single redshift "
-                              "and no transfer function; it must be 0.1 to 87 or 93 to 179.9",
+                              "and no transfer function; it must be 0.1 to 89.99 or 90.01 to 179.9",
+                              r->inclination_deg);
+    if (fabs(r->inclination_deg - 90) < KD_INTEGRAL_EDGE_ON)
+        return kd_error_field(error, "/inclination_deg",
+                              "inclination_deg is %.9g, so close to edge on that the near side of a ring has no "
+                              "width; it must be 0.1 to 89.99 or 90.01 to 179.9",
                               r->inclination_deg);
     if (r->radii.n) {
         KD_TRY(kd_integral_check_beside(r, "radii", (const char *const[]) { "rings" }, 1, error));

@@ -69,6 +69,12 @@ static const char *const disk_approximations[] = {
     NULL,
 };
 
+static const char lower_face[] =
+    "next to edge on, the lower face of the disk is seen past its outer edge; its light is "
+    "included, but not that which crosses the plane within the inner edge";
+static const char upper_face[] = "the upper face alone: past the outer edge of a disk seen next to edge on, its lower "
+                                 "face is seen too";
+
 static const char *const visibility_sources[] = {
     "A. R. Thompson, J. M. Moran & G. W. Swenson 2017, Interferometry and Synthesis in Radio Astronomy, 3rd ed., eq. "
     "3.7",
@@ -390,6 +396,10 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
                                      .energy = r->energy };
 }
 
+/* cos i below which rays from a source to the observer are not found: they pass the plane where the observer is. From
+ * here to edge-on the flux changes by 3e-5. */
+#define FLATTEST 1.7e-4
+
 /* The light that reaches the observer from the source itself; not numbers without a source. */
 static enum kd_status continuum_of(const struct kd_integral_request *r, const struct kd_disk_image *image,
                                    struct kd_corona_continuum *out, struct kd_error *error)
@@ -400,7 +410,7 @@ static enum kd_status continuum_of(const struct kd_integral_request *r, const st
         return KD_OK;
     if (r->emissivity == KD_LINE_LAMPPOST)
         shape = (struct kd_corona_shape) { .height = r->height, .top = r->height };
-    if (!kd_corona_continuum_of(&image->hole, &shape, r->photon_index, image->cos_i, out))
+    if (!kd_corona_continuum_of(&image->hole, &shape, r->photon_index, fmax(image->cos_i, FLATTEST), out))
         return kd_error_field(error, "/height",
                               "height and corona_radius place the source where no light that reaches the observer "
                               "directly was found; one of them, or inclination_deg, must be different");
@@ -434,6 +444,8 @@ static enum kd_status compute_line(const struct kd_integral_request *r, const st
                               r->energy ? NAN : one, 4 * M_PI * direct.flux, direct.g };
     for (size_t i = 0; !status && i < sizeof values / sizeof *values; i++)
         answer->values[i] = values[i];
+    if (!image->angles)
+        answer->told[answer->n_told++] = lower_face;
 done:
     return status;
 }
@@ -473,6 +485,8 @@ static enum kd_status compute_transfer(const struct kd_integral_request *r, cons
     for (size_t i = 0; !status && i < r->rings; i++)
         status = one_ring(r, image, i, answer, error);
     answer->values[0] = image->isco;
+    if (!image->angles)
+        answer->told[answer->n_told++] = upper_face;
     return status;
 }
 

@@ -63,18 +63,19 @@
       .of = kinds, \
       .help = h, \
       __VA_ARGS__ }
-/* Inclinations are off the axis and not too near edge-on; for a transfer function also not face-on. check.c refuses the
- * same. */
-#define INCLINATION(kinds, low, high) \
+#define INCLINATION(kinds, ...) \
     { .name = "inclination_deg", \
       .kind = KD_KIND_REAL, \
       .offset = AT(inclination_deg), \
       .most = 180, \
       .unit = "deg", \
       .of = kinds, \
-      .help = "angle between the axis and the observer, who is at infinity; not 87 to 93", \
-      .schema = "\"anyOf\":[{\"type\":\"number\",\"minimum\":" low ",\"maximum\":87},{\"type\":\"number\"," \
-                "\"minimum\":93,\"maximum\":" high "}]" }
+      __VA_ARGS__ }
+/* Inclinations on either side of edge-on. check.c refuses the others. */
+#define BESIDE(low, below, above, high) \
+    .help = "angle between the axis and the observer, who is at infinity; not " below " to " above, \
+    .schema = "\"anyOf\":[{\"type\":\"number\",\"minimum\":" low ",\"maximum\":" below "},{\"type\":\"number\"," \
+              "\"minimum\":" above ",\"maximum\":" high "}]"
 _Static_assert((int)KD_DISK_IMAGE_EDGE_ON == 3, "the schemas say so");
 
 const struct kd_row kd_integral_fields[] = {
@@ -96,8 +97,9 @@ const struct kd_row kd_integral_fields[] = {
       .unit = "M",
       .of = ALL,
       .help = "charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1" },
-    INCLINATION(LINE | SPECTRUM | ECHO, "0", "180"),
-    INCLINATION(TRANSFER, "0.1", "179.9"),
+    INCLINATION(LINE, .help = "angle between the axis and the observer, who is at infinity"),
+    INCLINATION(SPECTRUM | ECHO, BESIDE("0", "87", "93", "180")),
+    INCLINATION(TRANSFER, BESIDE("0.1", "89.99", "90.01", "179.9")),
     OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "inner edge of the disk, the ISCO or beyond"),
     REAL(outer, "M", 1, 1e6, ALL, "outer edge of the disk"),
     WORD(emissivity, emissivity, "power|broken|lamppost|ring|disk|slab", LINE,

@@ -26,7 +26,8 @@
 #define KD_INTEGRAL_MOST_HZ 1e21         /* highest, as for volume.frequency_ghz */
 #define KD_INTEGRAL_FACE_ON \
     0.1 /* degrees from the axis within which no ring has a transfer function; INCLINATION of fields.c says so too */
-#define KD_INTEGRAL_ORDERS 8u /* image orders that are distinguished */
+#define KD_INTEGRAL_EDGE_ON 0.01 /* degrees from edge-on within which there is no transfer function; as above */
+#define KD_INTEGRAL_ORDERS 8u    /* image orders that are distinguished */
 
 void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what);
 void kd_integral_request_finish(struct kd_integral_request *request);

@@ -193,12 +193,31 @@ class Table(support.Case):
             (2, "belongs to emissivity lamppost", ["-x", "height=3,4", *out]),
             (2, "counts is energy", ["-s", "counts=energy", *out]),
             (2, "the first edge is 0", ["-s", "energy_min=0", *out]),
-            (2, "too close to edge on", ["-x", "inclination_deg=80,88", *out]),
+            (2, "inclination_deg", ["-x", "inclination_deg=80,181", *out]),
             (2, "each field has one value", ["-s", "spin=0", "-s", "inclination_deg=30", *out]),
             (2, "--name is", ["-n", "a-name-that-is-too-long", *out]),
         ):
             self.bad(code, words, "table", *options)
         self.assertEqual(os.listdir(self.folder), [])
+
+    def test_edge_on(self):
+        """Rows next to edge on, and edge on, are the profiles of kerrd line, which tells of the lower face."""
+        some = ["spin=0.9", "bins=50", "energy_min=1", "energy_max=10"]
+        self.good(
+            "table", "-x", "inclination_deg=86,89,90", *[w for v in some for w in ("-s", v)], "-o", self.path("a.fits")
+        )
+        data = self.opened("a.fits")["SPECTRA"].data
+        degrees = [float(numpy.ravel(value)[0]) for value in data["PARAMVAL"]]
+        self.assertEqual(degrees, [86, 89, 90])
+        for i, spectrum in zip(degrees, data["INTPSPEC"]):
+            line = json.loads(
+                self.good(
+                    *("line", "--spin", "0.9", "--inclination-deg", str(i), "--bins", "50"),
+                    *("--energy-min", "1", "--energy-max", "10", "--rest-energy", "6.4", "-f", "json", "-o", "-"),
+                )
+            )
+            numpy.testing.assert_allclose(spectrum, line["columns"]["share"], atol=2e-3)
+            self.assertEqual(any("lower face" in text for text in line["approximations"]), i > 87)
 
     def test_between_nodes(self):
         """Profiles interpolated in the default table, at a few places: bench/table.py has a thousand."""

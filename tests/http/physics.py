@@ -965,10 +965,27 @@ class Integrals(daemon.Case):
         missing = self.post("compare", {"preset": "m87"}).json()
         self.assertEqual((missing["status"], missing["pointer"]), (422, "/observation"))
 
+    def test_edge_on(self):
+        """Lines next to edge on go on from those of the table, and those of lamps and rings have a continuum."""
+        for more in ({}, {"emissivity": "lamppost", "height": 4}, {"emissivity": "ring", "height": 4}):
+            lines = [
+                self.post("line", {**more, "spin": 0.9, "inclination_deg": i}).json()
+                for i in (87, 87.001, 89.99, 90, 93)
+            ]
+            before, after, near, at, beyond = [line["values"] for line in lines]
+            for value in ("total", "direct_flux") if more else ("total",):
+                self.assertLess(abs(after[value] / before[value] - 1), 1e-3, (more, value))
+                self.assertLess(abs(at[value] / near[value] - 1), 0.05, (more, value))
+                self.assertEqual(beyond[value], before[value])
+            self.assertEqual(
+                [any("lower face" in text for text in line["approximations"]) for line in lines],
+                [False, True, True, True, False],
+            )
+
     def test_refused(self):
         for document, pointer, words in (
             ({"spin": 1}, "/spin", "spin is 1; it must be a number above -1 and below 1"),
-            ({"inclination_deg": 90}, "/inclination_deg", "edge on, where the lower face of a thin disk adds"),
+            ({"inclination_deg": 181}, "/inclination_deg", "0 to 180"),
             ({"inner": 3}, "/inner", "within the ISCO"),
             ({"inner": "horizon"}, "/inner", '"isco"'),
             ({"outer": 2}, "/outer", "larger than inner"),
@@ -992,6 +1009,9 @@ class Integrals(daemon.Case):
                 self.assertIn(words, problem["detail"])
         for name, document, pointer, words in (
             ("transfer-function", {"inclination_deg": 0}, "/inclination_deg", "face on"),
+            ("transfer-function", {"inclination_deg": 90}, "/inclination_deg", "near side of a ring has no width"),
+            ("spectrum", {"inclination_deg": 90}, "/inclination_deg", "the lower face of a thin disk adds"),
+            ("lags", {"inclination_deg": 88}, "/inclination_deg", "the lower face of a thin disk adds"),
             ("transfer-function", {"radii": [3]}, "/radii/0", "from inner to outer"),
             ("transfer-function", {"radii": [9], "rings": 3}, "/radii", "cannot be used with rings"),
             ("transfer-function", {"g_star": [1]}, "/g_star/0", "above 0 and below 1"),

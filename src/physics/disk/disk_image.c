@@ -210,14 +210,16 @@ static bool make_ring(struct kd_disk_image *image, int k)
 
 bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole, double inclination)
 {
-    double c = fabs(cos(inclination));
+    const double cosine = fabs(cos(inclination)), c = cosine < 1e-15 ? 0 : cosine; /* pi/2 is rounded */
     memset(image, 0, sizeof *image);
     image->hole = *hole, image->cos_i = c, image->sin_i = sin(inclination);
     image->isco = kd_kerr_isco(hole), image->horizon = hole->outer;
     image->origin = fmin(image->horizon, image->isco - NEAREST);
     image->angles = c > 0.3 ? 64 : c > 0.15 ? 128 : c > 0.08 ? 256 : KD_DISK_IMAGE_ANGLES;
-    if (!(c > sin(KD_DISK_IMAGE_EDGE_ON * M_PI / 180)))
-        return false;
+    if (!(c > sin(KD_DISK_IMAGE_EDGE_ON * M_PI / 180))) {
+        image->angles = 0;
+        return true;
+    }
     for (int j = 0; j < KD_DISK_IMAGE_ANGLES; j++) {
         image->cosine[j] = cos(2 * M_PI * j / KD_DISK_IMAGE_ANGLES),
         image->sine[j] = sin(2 * M_PI * j / KD_DISK_IMAGE_ANGLES);

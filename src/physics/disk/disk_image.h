@@ -24,20 +24,21 @@ enum {
 };
 
 #define KD_DISK_IMAGE_EDGE_ON \
-    3 /* degrees from edge-on within which there is no table, because the image of the far side is not resolved */
+    3 /* degrees from edge-on within which there is no table, because the image of the far side is not resolved; \
+         disk_columns.h has that image */
 
 struct kd_disk_image {
     struct kd_hole hole;
-    double cos_i, sin_i; /* cos_i > 0, because the disk looks the same from below as from above */
+    double cos_i, sin_i; /* cos_i >= 0, because the disk looks the same from below as from above */
     double isco, horizon, origin;
-    int angles;                                                      /* 64 to 512: more towards edge-on */
+    int angles;                                                      /* 64 to 512: more towards edge-on; 0: no table */
     double cosine[KD_DISK_IMAGE_ANGLES], sine[KD_DISK_IMAGE_ANGLES]; /* of directions */
     double stretch[KD_DISK_IMAGE_RINGS + 1][KD_DISK_IMAGE_ANGLES];   /* R; row 0: infinity; the last row: the ISCO */
 };
 
-/* inclination in radians, 0 to pi. Returns false next to edge-on. It would also return false if a ring were not found,
- * which has not been observed. Takes 1 600 to 19 000 rays: most nodes take one, since preceding rings and angles
- * predict their places and slopes. */
+/* inclination in radians, 0 to pi. Next to edge-on there is no table: only the functions below that trace one ray and
+ * do not interpolate may be used. Returns false if a ring was not found, which has not been observed. Takes 1 600 to 19
+ * 000 rays: most nodes take one, since preceding rings and angles predict their places and slopes. */
 bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole, double inclination);
 
 /* A ring's image in `n` directions, evenly spaced in chi; n is a power of 2, from 32 to KD_DISK_IMAGE_ANGLES. With

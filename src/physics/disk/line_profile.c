@@ -1,6 +1,7 @@
 #include "physics/disk/line_profile.h"
 
 #include "base/pause.h"
+#include "physics/disk/disk_columns.h"
 #include "physics/disk/lamppost.h"
 #include "physics/spacetime/hole.h"
 
@@ -10,6 +11,7 @@
 
 #define STEP 0.03   /* mean spacing of rings in ln r */
 #define EDGE_ON 0.1 /* cos i below which the error of coarse sums does not yet fall as the square of their cells */
+#define WIDEST 0.1  /* change of ln r in a cell of the finest columns */
 /* spacing of rings at the brighter edge, relative to the mean spacing; at the other edge it is 2 minus this */
 #define BRIGHT 0.5
 enum {
@@ -18,7 +20,8 @@ enum {
     COARSEST = 16,
     /* FEWEST, MOST: numbers of rings. COARSEST: factor by which the coarsest sum has fewer rings and angles. LOOKED:
      * number of parts of a line at whose edges sums are compared. */
-    LOOKED = 128
+    LOOKED = 128,
+    COLUMNS = 256 /* the finest columns, in each part of the image */
 };
 
 /* The light that the disk receives, of the emissivities that depend on it. */
@@ -208,12 +211,70 @@ static void add_rings(const struct kd_disk_image *image, const struct kd_line_pa
     }
 }
 
+struct range { double low, high; };
+
+struct by_columns {
+    const struct kd_disk_image *image;
+    const struct kd_line_params *p;
+    const struct received *received;
+    union {
+        struct sum *sum;
+        struct range *range;
+    };
+};
+
+/* g at the middle of a cell, `part` of its width aside; the disk ends at its edges. */
+static double beside(const struct by_columns *u, const struct kd_disk_cell *cell, double part)
+{
+    const double aside = part * cell->width,
+                 r = fmin(fmax(cell->end[1].r + cell->slope * aside, u->p->inner), u->p->outer);
+    const struct kd_disk_ring gas = kd_disk_image_gas(u->image, r);
+    return kd_disk_image_redshift(u->image, &gas, cell->alpha + aside);
+}
+
+/* The light of a cell is integrated by Simpson's rule. g is taken as linear in alpha, and in beta in each half. */
+static void add_column_cell(void *user, const struct kd_disk_cell *cell)
+{
+    const struct by_columns *u = user;
+    double g[3], light[3];
+    for (int k = 0; k < 3; k++) {
+        const struct kd_disk_ring gas = kd_disk_image_gas(u->image, cell->end[k].r);
+        const struct kd_disk_light seen = kd_disk_image_light(u->image, &gas, cell->alpha, cell->end[k].beta);
+        g[k] = seen.g;
+        light[k] = emissivity(u->p, u->received, cell->end[k].r) * kd_limb_at(u->p->limb, seen.mu) * seen.g * seen.g *
+                   seen.g * (u->p->energy ? seen.g : 1);
+    }
+    const double all = cell->length * cell->width * (light[0] + 4 * light[1] + light[2]) / 6,
+                 both = light[0] + 2 * light[1] + light[2];
+    const double wide = fabs(beside(u, cell, 0.5) - beside(u, cell, -0.5));
+    for (int k = 0; k < 2; k++) {
+        const double half = light[k] + light[k + 1], along = g[k + 1] - g[k],
+                     centre = 0.5 * (g[k] + g[k + 1]) + along * (light[k + 1] - light[k]) / (6 * half);
+        if (half > 0)
+            add_cell(u->sum, all * half / both, centre, fmin(fabs(along), wide), fmax(fabs(along), wide));
+    }
+}
+
+/* The light of an image without a table. */
+static void add_columns(const struct kd_disk_image *image, const struct kd_line_params *p,
+                        const struct received *received, int coarse, struct sum *s)
+{
+    struct by_columns user = { image, p, received, { .sum = s } };
+    kd_disk_columns(image,
+                    &(struct kd_disk_columns) { p->inner, p->outer, p->emissivity == KD_LINE_BROKEN ? p->break_r : 0,
+                                                COLUMNS / coarse, WIDEST * sqrt(coarse), add_column_cell, &user });
+}
+
 /* Integrates with a ring at the break of the emissivity; otherwise the error would depend on the position of the break
  * within a cell. */
 static void integrate(const struct kd_disk_image *image, const struct kd_line_params *p,
                       const struct received *received, struct looks looks, struct work *work, struct sum *s)
 {
     struct kd_line_params inside = *p, outside = *p;
+    if (!image->angles) {
+        add_columns(image, p, received, looks.coarse, s);
+        return;
+    }
     if (p->emissivity != KD_LINE_BROKEN || p->break_r <= p->inner || p->break_r >= p->outer) {
         add_rings(image, p, received, looks, work, s);
         return;
@@ -232,10 +293,8 @@ struct edges {
     int first;         /* own[0] is at[first] */
 };
 
-struct range { double low, high; };
-
 /* Approximate range of energies of the line, from a few rings in a few directions. */
-static struct range energies(const struct kd_disk_image *image, const struct kd_line_params *p)
+static struct range energies_of_rings(const struct kd_disk_image *image, const struct kd_line_params *p)
 {
     enum { RINGS = 8, AROUND = 32 };
     double alpha[AROUND], beta[AROUND];
@@ -249,6 +308,27 @@ static struct range energies(const struct kd_disk_image *image, const struct kd_
             range.low = fmin(range.low, g), range.high = fmax(range.high, g);
         }
     }
+    return range;
+}
+
+static void widen(void *user, const struct kd_disk_cell *cell)
+{
+    const struct by_columns *u = user;
+    struct range *range = u->range;
+    for (int k = 0; k < 3; k++) {
+        const struct kd_disk_ring gas = kd_disk_image_gas(u->image, cell->end[k].r);
+        const double g = kd_disk_image_redshift(u->image, &gas, cell->alpha);
+        range->low = fmin(range->low, g), range->high = fmax(range->high, g);
+    }
+}
+
+static struct range energies(const struct kd_disk_image *image, const struct kd_line_params *p)
+{
+    struct range range = { INFINITY, 0 };
+    const struct by_columns user = { .image = image, .range = &range };
+    if (image->angles)
+        return energies_of_rings(image, p);
+    kd_disk_columns(image, &(struct kd_disk_columns) { p->inner, p->outer, 0, 64, 0.5, widen, (void *)&user });
     return range;
 }
 
@@ -316,11 +396,14 @@ static double approach(const struct kd_disk_image *image, const struct kd_line_p
                        struct sum sums[LEVELS + 1], int *n)
 {
     const bool edge_on = image->cos_i < EDGE_ON;
+    double table = 0;
     integrate(image, p, received, (struct looks) { COARSEST, 1 }, work, &sums[0]);
     integrate(image, p, received, (struct looks) { COARSEST / 2, 1 }, work, &sums[1]);
-    integrate(image, p, received, (struct looks) { COARSEST / 2, 2 }, work, &sums[LEVELS]);
-    double table = (edge_on ? 0.25 : 0.125) * apart(edges, &sums[1], &sums[LEVELS]),
-           before = apart(edges, &sums[1], &sums[0]), error = INFINITY;
+    if (image->angles) {
+        integrate(image, p, received, (struct looks) { COARSEST / 2, 2 }, work, &sums[LEVELS]);
+        table = (edge_on ? 0.25 : 0.125) * apart(edges, &sums[1], &sums[LEVELS]);
+    }
+    double before = apart(edges, &sums[1], &sums[0]), error = INFINITY;
     for (*n = 1; *n < LEVELS - 1 && (*n < (edge_on ? 3 : 2) || !(error <= p->tolerance));) {
         ++*n;
         integrate(image, p, received, (struct looks) { COARSEST >> *n, 1 }, work, &sums[*n]);

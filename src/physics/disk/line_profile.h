@@ -11,7 +11,8 @@
  * photons, and g times as much energy. The disk's image (disk_image.h) is divided into cells between two rings and
  * two directions. Within a cell g is taken as linear, with the cell's light-weighted mean and differences of g. The
  * fraction of a cell's light below an energy is then quadratic at both ends and linear between, so that each bin is
- * exact, however narrow. */
+ * exact, however narrow. Next to edge-on, where the image has no table, the cells are those of its columns
+ * (disk_columns.h), and both faces of the disk count. */
 #ifndef KD_PHYSICS_DISK_LINE_PROFILE_H
 #define KD_PHYSICS_DISK_LINE_PROFILE_H
 

@@ -11,8 +11,8 @@
 
 #define SHORTER 0.61803398874989485 /* ratio of the golden section: (sqrt(5) - 1)/2 */
 #define LEAST_WIDTH 1e-8 /* relative width of the bracket of the minimum, whose error is the square of that */
-/* step of central differences, as a fraction of the distance of the two places; their error is proportional to its
- * square */
+/* step of central differences, as a fraction of the distance of the two places, or of the depth of the minimum below
+ * the ring; their error is proportional to its square */
 #define APART 1e-4
 
 struct line {
@@ -76,6 +76,16 @@ bool kd_transfer_ring_of(const struct kd_disk_image *image, double r, struct kd_
     return ring.g_max > ring.g_min;
 }
 
+/* |dr/d beta| at one alpha next to edge-on, where the near side of a ring is a strip of width r cos i: from the places
+ * of two rings beside this one. */
+static double steepness(const struct line *s, double lowest, int k)
+{
+    const double depth = fmin(1, -off(s, lowest) / s->r), apart = APART * depth, end = k ? reach(s) : -reach(s);
+    struct line in = *s, out = *s;
+    in.r *= 1 - apart, out.r *= 1 + apart;
+    return 2 * apart * s->r / fabs(kd_root(off, &out, lowest, end) - kd_root(off, &in, lowest, end));
+}
+
 bool kd_transfer_at(const struct kd_disk_image *image, const struct kd_transfer_ring *ring, double g_star,
                     struct kd_transfer out[2])
 {
@@ -84,13 +94,15 @@ bool kd_transfer_at(const struct kd_disk_image *image, const struct kd_transfer_
     /* 1/g is linear in alpha. */
     const double part = (1 / g - 1 / ring->g_min) / (1 / ring->g_max - 1 / ring->g_min);
     const struct line s = { image, ring->r, ring->alpha[0] + part * (ring->alpha[1] - ring->alpha[0]), 0 };
-    const double middle = least(&s, true),
+    const bool edge_on = !image->angles;
+    const double middle = least(&s, !edge_on),
                  slope = g * g * gas.ut * fabs(gas.omega) * image->sin_i; /* |dg/d alpha| at one r */
     const double beta[2] = { kd_root(off, &s, -reach(&s), middle), kd_root(off, &s, middle, reach(&s)) },
                  apart = APART * (beta[1] - beta[0]);
     for (int k = 0; k < 2; k++) {
         const double steep =
-            fabs(off(&s, beta[k] + apart) - off(&s, beta[k] - apart)) / (2 * apart); /* |dr/d beta| at one alpha */
+            edge_on ? steepness(&s, middle, k)
+                    : fabs(off(&s, beta[k] + apart) - off(&s, beta[k] - apart)) / (2 * apart); /* |dr/d beta| */
         out[k] = (struct kd_transfer) { g * sqrt(g_star * (1 - g_star)) * span / (M_PI * ring->r * slope * steep),
                                         kd_disk_image_light(image, &gas, s.alpha, beta[k]).mu, s.alpha, beta[k] };
         if (!isfinite(out[k].f) || !(fabs(off(&s, beta[k])) < 1e-6 * ring->r))

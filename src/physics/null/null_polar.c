@@ -123,6 +123,13 @@ double kd_null_polar_first(const struct kd_null_motion *m)
     return (quarter_of(n / disc) + start) / sqrt(disc);
 }
 
+double kd_null_polar_half(const struct kd_null_motion *m)
+{
+    double disc, gap, weight;
+    kd_null_polar_gap(m, &disc, &gap, &weight);
+    return 2 * quarter_of(m->eta / ((m->c * m->c + gap) * disc)) / sqrt(disc);
+}
+
 struct kd_null_polar_sum kd_null_polar_crossing(const struct kd_null_polar *p, int n)
 {
     return (struct kd_null_polar_sum) {

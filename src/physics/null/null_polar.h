@@ -49,6 +49,9 @@ void kd_null_polar_gap(const struct kd_null_motion *m, double *s, double *gap, d
 /* Only the Mino time from the observer to the first crossing; INFINITY if there is no crossing. */
 double kd_null_polar_first(const struct kd_null_motion *m);
 
+/* Only the Mino time from one crossing to the next; eta > 0. */
+double kd_null_polar_half(const struct kd_null_motion *m);
+
 /* Integrals from the observer to crossing n = 0, 1, ...; only if p->crosses. */
 struct kd_null_polar_sum kd_null_polar_crossing(const struct kd_null_polar *p, int n);
 
