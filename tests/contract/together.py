@@ -34,7 +34,7 @@ SCENE = (
     "camera.%s is %s; in the %s projection it must be 0, because %s aim the camera",
     "camera.ring_decades_min is %s; it must be less than camera.ring_decades_max, %s",
     "spacetime.charge is %s M; with spacetime.spin %s it must be at most %s M",
-    "%s.%s is %s%.*s%s; with spacetime.charge %s it must be %s, because it is known for an uncharged hole only",
+    "style.ringdown is %s; with spacetime.charge %s it must be 0, because it is known for an uncharged hole only",
     "camera.r is %s M; it must be more than %s M, the horizon of %s",
     *OBSERVER,
     'camera.%s is %s; it must be %s unless camera.observer is "%s" at a finite camera.r',
@@ -80,7 +80,7 @@ SCENE = (
     'volume.kappa is %s; with polarization.model "transfer" it must be 3.5 to 5, for which Faraday rotation is known',
     'polarization.model is "transfer", which needs a scene where only the volume shines: disk.model and sky.model "none", no jets, spots or bodies',
     'polarization.model is "transfer"; with camera.projection "ring", whose picture has no upward direction, it must be "none"',
-    "volume.grid has matter for a hole of spin %s; spacetime.spin is %s and must be the same",
+    "volume.grid has matter for a hole of %s %s; spacetime.%s is %s and must be the same",
     # the plan of a scene refuses this
     "image.layers has %s; its image orders must be below accuracy.orders, %d",
     "image.layers has %s; with volumes or bodies, whose light is between the crossings, it must be %.*s",

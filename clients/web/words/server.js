@@ -319,6 +319,10 @@ const patterns = [
     'refusal.volume-grid-has-matter-for-a-hole',
     'volume.grid has matter for a hole of spin {}; spacetime.spin is {} and must be the same',
   ],
+  [
+    'refusal.volume-grid-has-matter-for-a-charged-hole',
+    'volume.grid has matter for a hole of charge {}; spacetime.charge is {} and must be the same',
+  ],
   ['refusal.is-a-picture-of-x-it-must', '{} is a picture of {} x {}; it must be a grid of matter, an NPZ file'],
   [
     'refusal.is-a-grid-of-matter-of-x',
