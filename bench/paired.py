@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 """Compare the passes of two builds by processor time, on a machine where other programs run.
 
-    bench/paired.py OLD NEW [--pairs 8] [--frames 3] PRESET ...
+    bench/paired.py OLD NEW [--pairs 8] [--frames 3] [--size 640x360] [--scenes-of old] PRESET ...
 
-OLD and NEW are build folders; the presets are those of NEW's kerrd. Both builds render each scene in turn, many times, on
+OLD and NEW are build folders; the presets are those of NEW's kerrd, or of OLD's if OLD does not know all fields of
+NEW's scenes. Both builds render each scene in turn, many times, on
 one lavapipe thread; NEW's clock of processor time (cpu_clock.c) is loaded into both. The ratio of a pass is that of the
-least times, and its spread that of the medians. Frames are 640 x 360.
+least times, and its spread that of the medians.
 """
 
 import argparse
@@ -17,8 +18,9 @@ import subprocess
 import tempfile
 
 
-def frames(build, clock, scene, count):
-    command = [build / "bench/kd_bench_frame", "-s", scene, "-x", "640", "-y", "360", "-r", str(count)]
+def frames(build, clock, scene, size, count):
+    width, height = size.split("x")
+    command = [build / "bench/kd_bench_frame", "-s", scene, "-x", width, "-y", height, "-r", str(count)]
     env = {**os.environ, "LD_PRELOAD": str(clock), "LP_NUM_THREADS": "1"}
     out = subprocess.run(list(map(str, command)), env=env, stdout=subprocess.PIPE, check=True).stdout
     return json.loads(out)["cold"]
@@ -31,20 +33,25 @@ def main():
     parser.add_argument("presets", nargs="+", metavar="PRESET")
     parser.add_argument("--pairs", type=int, default=8)
     parser.add_argument("--frames", type=int, default=3)
+    parser.add_argument("--size", default="640x360", metavar="WxH")
+    parser.add_argument("--scenes-of", choices=("old", "new"), default="new", help="whose presets are rendered")
     given = parser.parse_args()
+    kerrd = (given.old if given.scenes_of == "old" else given.new) / "src/kerrd"
     clock = given.new.resolve() / "bench/libkd_bench_cpu_clock.so"
     print("| scene | pass | old, ms | new, ms | ratio of the least | of the medians |\n|---|---|---|---|---|---|")
     for preset in given.presets:
         with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
             scene = subprocess.run(
-                [given.new / "src/kerrd", "scene", "--preset", preset], stdout=subprocess.PIPE, check=True
+                [kerrd, "scene", "--preset", preset], stdout=subprocess.PIPE, check=True
             ).stdout.decode()
             file.write(scene)
             file.flush()
             times = {}
             for pair in range(given.pairs):
                 for side in (0, 1) if pair % 2 else (1, 0):
-                    for run in frames((given.old, given.new)[side].resolve(), clock, file.name, given.frames):
+                    for run in frames(
+                        (given.old, given.new)[side].resolve(), clock, file.name, given.size, given.frames
+                    ):
                         for name, ms in run.items():
                             if not isinstance(ms, bool) and not name.startswith("encode"):
                                 times.setdefault(name, ([], []))[side].append(ms)

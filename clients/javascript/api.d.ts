@@ -2673,6 +2673,8 @@ export interface Asset {
   nodes?: number[];
   /** spin of the hole that the grid is for. */
   spin?: number;
+  /** charge of the hole that the grid is for, in M. */
+  charge?: number;
   /** at least 0. */
   visibilities?: number;
   /** at least 0. */

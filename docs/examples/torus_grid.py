@@ -1,14 +1,20 @@
 #!/usr/bin/env python3
-"""Samples the torus of Fishbone & Moncrief 1976 onto a grid for volume.model "grid": torus_grid.py OUT.npz [ROWS COLUMNS [LAYERS]]. A converter of a simulation's dump is dump_grid.py."""
+"""Samples the torus of Fishbone & Moncrief 1976 onto a grid for volume.model "grid". A converter of a simulation's
+dump is dump_grid.py."""
 
+import argparse
 import json
-import sys
 
 import numpy as np
 
-shape = [int(n) for n in sys.argv[2:]] or [192, 96]
-a, inner, middle, gamma, beta, ratio, peak = (
-    0.9375,
+parser = argparse.ArgumentParser(description=__doc__)
+parser.add_argument("out", metavar="OUT.npz")
+parser.add_argument("shape", nargs="*", type=int, metavar="N", help="rows, columns and layers")
+parser.add_argument("--spin", type=float, default=0.9375)
+parser.add_argument("--charge", type=float, default=0.0, help="of the hole, in M")
+given = parser.parse_args()
+shape, a, q2 = given.shape or [192, 96], given.spin, given.charge**2
+inner, middle, gamma, beta, ratio, peak = (
     6.0,
     12.0,
     13 / 9,
@@ -23,9 +29,9 @@ phi = {"phi": np.arange(shape[2]) * 2 * np.pi / shape[2]} if len(shape) > 2 else
 def metric(
     r, s2
 ):  # lapse^2, angular velocity of observers of zero angular momentum, g_phiphi (Bardeen, Press & Teukolsky 1972)
-    sigma, delta, b = r**2 + a**2 * (1 - s2), r**2 - 2 * r + a**2, r**2 + a**2
+    sigma, delta, b = r**2 + a**2 * (1 - s2), r**2 - 2 * r + a**2 + q2, r**2 + a**2
     area = b**2 - a**2 * delta * s2
-    return sigma * delta / area, 2 * a * r / area, np.maximum(area * s2 / sigma, 1e-12)
+    return sigma * delta / area, a * (2 * r - q2) / area, np.maximum(area * s2 / sigma, 1e-12)
 
 
 def log_h(r, s2):  # equation 3.6 with u^t u_phi = l everywhere: ln h but for a constant, and u_phi
@@ -34,8 +40,11 @@ def log_h(r, s2):  # equation 3.6 with u^t u_phi = l everywhere: ln h but for a 
     return 0.5 * np.log((1 + root) / lapse2) - 0.5 * root - omega * l, np.sqrt(g * (root - 1) / 2)
 
 
-x = np.sqrt(middle)  # l of the circular orbit at the largest pressure, equation 3.8
-l = (middle**2 - 2 * a * x + a**2) * (x**3 + a) / (x**3 * (middle * x - 3 * x + 2 * a))
+# l of the circular orbit at the largest pressure; its angular velocity is x/(r^2 + a x)
+x = np.sqrt(middle - q2)
+lapse2, omega, g = metric(middle, 1.0)
+past = x / (middle**2 + a * x) - omega
+l = g * past / (lapse2 - g * past**2)
 ln_h, u_phi = log_h(r[:, None], np.sin(theta) ** 2)
 h1, most = (
     np.maximum(np.expm1(ln_h - log_h(inner, 1.0)[0]), 0) * (r >= inner)[:, None],
@@ -73,5 +82,5 @@ units = dict(
     b_con_theta="G/M",
     b_cov_phi="G M",
 )
-header = dict(format="kerrd-grid", version=1, spin=a, azimuth="boyer-lindquist", units=units)
-np.savez_compressed(sys.argv[1], header=json.dumps(header), r=r, theta=theta, **phi, **arrays)
+header = dict(format="kerrd-grid", version=1, spin=a, charge=given.charge, azimuth="boyer-lindquist", units=units)
+np.savez_compressed(given.out, header=json.dumps(header), r=r, theta=theta, **phi, **arrays)

@@ -60,7 +60,7 @@ static enum kd_status look(const void *data, size_t size, struct kd_asset_found 
 {
     struct kd_png_about about;
     if (kd_matter_grid_is(data, size))
-        return kd_matter_grid_look(data, size, out->nodes, &out->spin, error);
+        return kd_matter_grid_look(data, size, &out->grid, error);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (size >= others[i].size && !memcmp(data, others[i].begin, others[i].size))
             return kd_error_set(error, KD_EINVAL,

@@ -17,7 +17,9 @@ static enum kd_status check_hole(const struct kd_playground_params *params, stru
     if (params->gravity == KD_GRAVITY_KERR)
         return kd_hole_check(kd_playground_hole(params), error);
     if (params->charge != 0)
-        return kd_error_field(error, "/charge", "charge is %.9g; without gravity \"kerr\" it must be 0",
+        return kd_error_field(error, "/charge",
+                              "charge is %.9g; without gravity \"kerr\" it must be 0: the potential, in which stars "
+                              "are torn apart, is that of an uncharged hole",
                               params->charge);
     return KD_OK;
 }

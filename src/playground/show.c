@@ -240,6 +240,11 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
 {
     const bool kerr = p->params.gravity == KD_GRAVITY_KERR;
     const double charge = kerr ? p->params.charge : 0;
+    if (!kerr && scene->spacetime.charge != 0)
+        return kd_error_field(error, "/spacetime/charge",
+                              "spacetime.charge is %.9g; it must be 0: the playground's bodies and debris move in the "
+                              "potential of an uncharged hole",
+                              scene->spacetime.charge);
     if (scene->spacetime.charge != charge)
         return kd_error_field(
             error, "/spacetime/charge",

@@ -9,18 +9,18 @@ static enum kd_status suits(const struct kd_scene *scene, const char *path, cons
                             const struct kd_asset_found *found, struct kd_error *error)
 {
     if (!strcmp(path, "volume.grid")) {
-        if (!found->nodes[0])
+        if (!found->grid.nodes[0])
             return kd_error_field(error, pointer,
                                   "%s is a picture of %u x %u pixels; it must be a grid of matter, an NPZ file", path,
                                   found->width, found->height);
-        return kd_asset_check_grid(found->spin, scene, error);
+        return kd_asset_check_grid(&found->grid, scene, error);
     }
     if (strcmp(path, "sky.image"))
         return KD_OK;
-    if (found->nodes[0])
+    if (found->grid.nodes[0])
         return kd_error_field(error, pointer,
                               "%s is a grid of matter of %u x %u x %u nodes; it must be a picture of the whole sky",
-                              path, found->nodes[0], found->nodes[1], found->nodes[2]);
+                              path, found->grid.nodes[0], found->grid.nodes[1], found->grid.nodes[2]);
     if (!kd_asset_is_panorama(found->width, found->height))
         return kd_error_field(error, pointer,
                               "%s is a picture of %u x %u pixels; it must be one of the whole sky: twice as wide as it "
@@ -47,8 +47,9 @@ static enum kd_status resolve(struct kd_scene *scene, const struct kd_row *field
     const struct kd_value hash = { KD_VALUE_STRING, 0, found.hash };
     if (!status)
         status = kd_field_store(scene, field, index, &hash, error);
-    if (!status && found.nodes[0])
-        scene->grid_nodes = (uint64_t)found.nodes[0] * found.nodes[1] * found.nodes[2];
+    const uint32_t *nodes = found.grid.nodes;
+    if (!status && *nodes)
+        scene->grid_nodes = (uint64_t)nodes[0] * nodes[1] * nodes[2];
     return status;
 }
 

@@ -9,12 +9,16 @@
 
 #include <stddef.h>
 
-/* What is known about an asset. It is a picture, or a grid of matter (render/emit/matter_grid.h). */
+/* What is known about a grid of matter (render/emit/matter_grid.h). */
+struct kd_asset_grid {
+    uint32_t nodes[3];   /* nodes in r, theta and phi; 0: the asset is not a grid */
+    double spin, charge; /* of the hole for which it was made */
+};
+/* What is known about an asset. It is a picture or a grid of matter. */
 struct kd_asset_found {
     char hash[KD_ASSET_NAME];
     uint32_t width, height; /* size of a picture; 0: the asset is not a picture */
-    uint32_t nodes[3];      /* nodes of a grid in r, theta and phi; 0: the asset is not a grid */
-    double spin;            /* spin for which a grid was made */
+    struct kd_asset_grid grid;
 };
 /* Bytes of an asset. They stay unchanged until they are given back. */
 struct kd_asset_bytes {
@@ -37,14 +41,15 @@ struct kd_assets {
 /* kd_scene_resolve replaces each name by the hash, checks that each hash exists, and sets the scene's grid_nodes. If an
  * asset is missing or of the wrong kind it returns KD_EINVAL with the field's pointer, and *scene stays unchanged.
  * sky.image must be a picture that is twice as wide as high and has KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows.
- * volume.grid must be a grid of matter around a hole of the scene's spin. */
+ * volume.grid must be a grid of matter around a hole of the scene's spin and charge. */
 enum { KD_PANORAMA_LEAST = 16, KD_PANORAMA_MOST = 4096 };
 static inline bool kd_asset_is_panorama(uint32_t width, uint32_t height)
 {
     return width == 2 * (uint64_t)height && height >= KD_PANORAMA_LEAST && height <= KD_PANORAMA_MOST;
 }
-/* Returns KD_EINVAL at /volume/grid if a grid that was made for this spin does not fit the scene's spin. */
-enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error);
+/* Returns KD_EINVAL at /volume/grid if the grid was made for another hole than the scene's. */
+enum kd_status kd_asset_check_grid(const struct kd_asset_grid *grid, const struct kd_scene *scene,
+                                   struct kd_error *error);
 enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *assets, struct kd_error *error);
 
 #endif

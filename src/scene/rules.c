@@ -76,36 +76,15 @@ static enum kd_status charge(const struct kd_scene *scene, struct kd_error *erro
                           show(floor(sqrt(fmax(0, (1 - a) * (1 + a) - least)) * 1e9) / 1e9).text);
 }
 
-/* Refuses models that are known for an uncharged hole only. */
+/* The modes of a ringdown are known for an uncharged hole only. */
 static enum kd_status uncharged(const struct kd_scene *scene, struct kd_error *error)
 {
-    static const struct {
-        const char *section, *name, *wanted;
-        int refused; /* value of an enumeration; 0: all but 0 */
-    } parts[] = {
-        { "volume", "model", "\"riaf\"", KD_VOLUME_GRID },
-        { "style", "ringdown", "0", 0 },
-    };
-    if (scene->spacetime.charge == 0)
+    if (scene->spacetime.charge == 0 || scene->style.ringdown == 0)
         return KD_OK;
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-        const struct kd_row *field = kd_field_find(parts[i].section, parts[i].name);
-        const double value = kd_field_get(scene, field, 0);
-        if (parts[i].refused ? value != parts[i].refused : value == 0)
-            continue;
-        const struct kd_word word = kd_word(field->words, (int)value);
-        const char *quote = field->words ? "\"" : "";
-        const struct shown number = show(value);
-        char pointer[40];
-        snprintf(pointer, sizeof pointer, "/%s/%s", parts[i].section, parts[i].name);
-        return kd_error_field(error, pointer,
-                              "%s.%s is %s%.*s%s; with spacetime.charge %s it must be %s, because it is known for an "
-                              "uncharged hole only",
-                              parts[i].section, parts[i].name, quote, field->words ? word.length : KD_NUMBER_SIZE,
-                              field->words ? word.text : number.text, quote, show(scene->spacetime.charge).text,
-                              parts[i].wanted);
-    }
-    return KD_OK;
+    return kd_error_field(error, "/style/ringdown",
+                          "style.ringdown is %s; with spacetime.charge %s it must be 0, because it is known for an "
+                          "uncharged hole only",
+                          show(scene->style.ringdown).text, show(scene->spacetime.charge).text);
 }
 
 static enum kd_status projection(const struct kd_scene *scene, struct kd_error *error)
@@ -625,7 +604,7 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
 
 const struct kd_rule kd_rules[] = {
     { "`spacetime.charge` is at most sqrt(1 - a^2 - 1e-12) with the spin a.", charge },
-    { "Unless `spacetime.charge` is 0, `volume.model` is not \"grid\", and `style.ringdown` is 0.", uncharged },
+    { "Unless `spacetime.charge` is 0, `style.ringdown` is 0.", uncharged },
     { "`image.bit_depth` is 8 or 16.", bit_depth, "image", "bit_depth", BITS },
     { "`camera.projection` \"pinhole\", \"equirectangular\" and \"fulldome\" need a finite `camera.r`, \"plane\" and "
       "\"ring\" need `camera.r` \"infinity\".",

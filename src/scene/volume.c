@@ -28,16 +28,25 @@ double kd_scene_volume_inner(const struct kd_scene *scene)
     return isinf(scene->volume.inner) ? least : fmax(scene->volume.inner, least);
 }
 
-#define SAME_SPIN 1e-6
+#define SAME_HOLE 1e-6
 
-enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error)
+static enum kd_status check_same(const char *name, double made, double here, struct kd_error *error)
 {
-    char made[KD_NUMBER_SIZE], here[KD_NUMBER_SIZE];
-    if (scene->volume.model != KD_VOLUME_GRID || fabs(spin - scene->spacetime.spin) <= SAME_SPIN)
+    char of[KD_NUMBER_SIZE], is[KD_NUMBER_SIZE];
+    if (fabs(made - here) <= SAME_HOLE)
         return KD_OK;
-    kd_number_format(made, spin);
-    kd_number_format(here, scene->spacetime.spin);
+    kd_number_format(of, made);
+    kd_number_format(is, here);
     return kd_error_field(error, "/volume/grid",
-                          "volume.grid has matter for a hole of spin %s; spacetime.spin is %s and must be the same",
-                          made, here);
+                          "volume.grid has matter for a hole of %s %s; spacetime.%s is %s and must be the same", name,
+                          of, name, is);
+}
+
+enum kd_status kd_asset_check_grid(const struct kd_asset_grid *grid, const struct kd_scene *scene,
+                                   struct kd_error *error)
+{
+    if (scene->volume.model != KD_VOLUME_GRID)
+        return KD_OK;
+    const enum kd_status status = check_same("spin", grid->spin, scene->spacetime.spin, error);
+    return status ? status : check_same("charge", grid->charge, scene->spacetime.charge, error);
 }

@@ -35,9 +35,9 @@ GRID = ["--set", "volume.model=grid", "--set", "volume.grid=g"]
 
 
 class Grid(Case):
-    def sampled(self, *shape):
-        path = self.path("torus-%s.npz" % "-".join(map(str, shape)))
-        subprocess.run([sys.executable, EXAMPLE, path, *map(str, shape)], check=True, env=os.environ)
+    def sampled(self, *shape, hole=()):
+        path = self.path("torus-%s.npz" % "-".join(map(str, (*shape, *hole))))
+        subprocess.run([sys.executable, EXAMPLE, path, *map(str, (*shape, *hole))], check=True, env=os.environ)
         return ["--asset", "g=" + path, *GRID]
 
     def maps(self, *args):
@@ -62,6 +62,19 @@ class Grid(Case):
         self.assertAlmostEqual(
             turned.sum() / want.sum() - 1, -off[0][0], delta=1e-4, msg="layers that are all the same"
         )
+
+    def test_it_becomes_the_torus_of_a_charged_hole(self):
+        self.layers = "brightness_temperature"
+        hole = "--set", "spacetime.spin=0.2", "--set", "spacetime.charge=0.9"
+        want, off = self.maps(*hole)[self.layers], []
+        for shape in ((48, 24), (96, 48), (192, 96)):
+            got = self.maps(*hole, *self.sampled(*shape, hole=("--spin", 0.2, "--charge", 0.9)))[self.layers]
+            off.append((abs(got.sum() / want.sum() - 1), abs(got - want).max() / want.max()))
+        print("flux and worst pixel of 48, 96 and 192 rows:", *(f"{flux:.2e} {pixel:.2e}" for flux, pixel in off))
+        self.assertLess(max(off[2]), 0.015)
+        for coarse, fine in zip(off, off[1:]):
+            for before, now in zip(coarse, fine):
+                self.assertTrue(3 < before / now < 5.5, off)
 
     def test_a_dump(self):
         """Converts B and u of a simulation's dump. The result is the field b in the frame of the matter from which B
@@ -316,6 +329,12 @@ class Grid(Case):
             ({"header": 1.0}, "it is not a text"),
             (header(format="other"), 'is not of the format "kerrd-grid"'),
             (header(spin=None), "header.spin is not a number from -1 to 1"),
+            (header(charge="1"), "header.charge is not a number from 0 to below 0.866025404, as spin 0.5 requires"),
+            (header(charge=None), "header.charge is not a number from 0 to below"),
+            (header(charge=-1e-9), "header.charge is not a number from 0 to below"),
+            (header(charge=0.8661), "header.charge is not a number from 0 to below"),
+            (header(charge=1e300), "header.charge is not a number from 0 to below"),
+            (header(spin=1, charge=0.1), "header.charge is not a number from 0 to below 0, as spin 1 requires"),
             (header(azimuth="?"), "header.azimuth is neither"),
             (header(packed=1), "header.packed is neither true nor false"),
             (header(units={**UNITS, "density": "g/cm^3"}), 'header.units.density is "g/cm^3"; it must be "cm^-3"'),
@@ -399,6 +418,30 @@ class Grid(Case):
             "--set",
             "sky.image=g",
         )
+        self.bad(
+            2,
+            "volume.grid has matter for a hole of charge 0; spacetime.charge is 0.25 and must be the same (at /volume/grid)",
+            "scene",
+            "--set",
+            "spacetime.spin=0.5",
+            "--set",
+            "spacetime.charge=0.25",
+            "--asset",
+            "g=" + path,
+            *GRID,
+        )
+        # matter at rest for observers of zero angular momentum about a charged hole, whose u^t is 1/lapse
+        a, q2, s2 = 0.5, 0.64, numpy.sin(theta) ** 2
+        rows = r[:, None]
+        delta, sigma = rows**2 - 2 * rows + a * a + q2, rows**2 + a * a * (1 - s2)
+        still = ((rows**2 + a * a) ** 2 - a * a * delta * s2) / (sigma * delta)
+        at_rest = {name: numpy.zeros((6, 4)) for name in UNITS if name.startswith("u_")}
+        for charge, code in ((0.8, 0), (0, 2), (0.7, 2)):
+            numpy.savez(self.path("still.npz"), **{**good, **at_rest, "u_con_t": still**0.5, **header(charge=charge)})
+            scene = "--set", "spacetime.spin=0.5", "--set", f"spacetime.charge={charge}"
+            done = run("scene", *scene, "--asset", "g=" + self.path("still.npz"), *GRID)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertEqual("the velocity's u.u at u_con_t" in done.stderr.decode(), code == 2)
         for cut in (4, 100, len(self.read("good.npz")) - 30):
             self.write("cut.npz", self.read("good.npz")[:cut])
             self.assertEqual(

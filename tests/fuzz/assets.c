@@ -91,9 +91,12 @@ static void check_grid(const void *data, size_t size, const struct kd_asset_abou
         kd_fuzz_refused(status, &error);
         return;
     }
-    CHECK(grid.rows == about->nodes[0] && grid.columns == about->nodes[1] && grid.layers == about->nodes[2] &&
-              grid.spin == about->spin,
+    const struct kd_asset_grid told = kd_matter_grid_told(&grid);
+    CHECK(!memcmp(told.nodes, about->grid.nodes, sizeof told.nodes) && told.spin == about->grid.spin &&
+              told.charge == about->grid.charge,
           "a grid is another one than it was looked at");
+    CHECK(fabs(told.spin) <= 1 && told.charge >= 0 && told.spin * told.spin + told.charge * told.charge <= 1,
+          "a grid is for a hole of spin %g and charge %g", told.spin, told.charge);
     for (int k = 0; grid.packed && k < 2; k++)
         CHECK(isfinite(grid.least[k]) && grid.range[k] >= 0, "range %d is %g from %g", k, grid.range[k], grid.least[k]);
     for (size_t i = 0; !grid.packed && i < (size_t)grid.rows * grid.columns * grid.layers * KD_MATTER_FLOATS; i++)

@@ -193,8 +193,8 @@ static void write_other_dictionaries(void)
 
     dict = open_file("assets", "");
     WORDS(dict, "IHDR", "IDAT", "IEND", "tEXt", "iTXt", "zTXt", "PLTE", "tRNS", "\x89PNG\r\n\x1a\n",
-          "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":", "boyer-lindquist", "kerr-schild", "units", "'<f4'",
-          "'shape': (2, 3)");
+          "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":", "\"charge\":", "boyer-lindquist", "kerr-schild",
+          "units", "'<f4'", "'shape': (2, 3)");
     fclose(dict);
 
     dict = open_file("access", "");
@@ -290,10 +290,11 @@ static void add_array(struct kd_zip *zip, struct kd_buffer *records, unsigned nu
 /* The smallest grid of matter, as a file and as records of the target. */
 static void write_grid(void)
 {
-    static const char header[] = "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":0.5,\"azimuth\":\"kerr-schild\","
-                                 "\"units\":{\"r\":\"M\",\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\","
-                                 "\"u_con_r\":\"c\",\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c "
-                                 "M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}";
+    static const char header[] =
+        "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":0.5,\"charge\":0.25,\"azimuth\":\"kerr-schild\","
+        "\"units\":{\"r\":\"M\",\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\","
+        "\"u_con_r\":\"c\",\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c "
+        "M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}";
     static const char *const kinds[] = { "density", "temperature", "u_con_r",     "u_con_theta", "u_cov_phi",
                                          "",        "b_con_r",     "b_con_theta", "b_cov_phi" };
     const double r[2] = { 6, 20 }, theta[3] = { M_PI / 6, M_PI / 2, 5 * M_PI / 6 }, none[6] = { 0 },

@@ -295,13 +295,14 @@ static void test_dark(void **state)
 
 /* 1/g of matter moving with (v_r, v_phi) relative to the observer of zero angular momentum, from the photon's own
  * components, in the equatorial plane. */
-static double shift_of(double a, double r, const struct ks_photon *p, double p_z, bool falls, const double v[2])
+static double shift_of(double a, double q, double r, const struct ks_photon *p, double p_z, bool falls,
+                       const double v[2])
 {
-    const double delta = r * r - 2 * r + a * a, area = (r * r + a * a) * (r * r + a * a) - a * a * delta,
-                 k = p->momentum - a * p->energy;
+    const double mass = 2 * r - q * q, delta = r * r - mass + a * a,
+                 area = (r * r + a * a) * (r * r + a * a) - a * a * delta, k = p->momentum - a * p->energy;
     const double w = (r * r + a * a) * p->energy - a * p->momentum,
                  radial = sqrt(fmax(w * w - delta * (k * k + r * r * p_z * p_z), 0)) / delta;
-    const double p_r = falls ? -radial : radial, omega = 2 * a * r / area, lapse = r * sqrt(delta / area),
+    const double p_r = falls ? -radial : radial, omega = a * mass / area, lapse = r * sqrt(delta / area),
                  gamma = 1 / sqrt(1 - v[0] * v[0] - v[1] * v[1]);
     return gamma * ((p->energy - omega * p->momentum) / lapse - v[0] * p_r * sqrt(delta) / r -
                     v[1] * p->momentum * r / sqrt(area));
@@ -311,11 +312,13 @@ static void test_debris(void **state)
 {
     (void)state;
     static const double velocities[][2] = { { 0, 0 }, { -0.4, 0.3 }, { 0.5, -0.2 } };
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 6; k++) {
+        const double charge = k < 3 ? 0 : 0.58;
         struct kd_scene scene =
             scene_of("{\"camera\":{\"inclination_deg\":60,\"field_m\":44},\"spacetime\":{\"spin\":0.8},\"accuracy\":{"
                      "\"orders\":1},\"image\":{\"layers\":[\"rgb\",\"intensity\"]}}");
-        const double cell = 2 * M_PI / 512, worth = 3e-5, kelvin = 5000, *v = velocities[k];
+        scene.spacetime.charge = charge;
+        const double cell = 2 * M_PI / 512, worth = 3e-5, kelvin = 5000, *v = velocities[k % 3];
         const int32_t from = (int32_t)floor(log(4) / cell);
         struct kd_dynamic_bodies *dynamic;
         const uint32_t rows = (uint32_t)ceil(log(18) / cell) - (uint32_t)from;
@@ -337,7 +340,7 @@ static void test_debris(void **state)
         for (int i = 0; i < PIXELS; i++) {
             const double step = 44.0 / WIDTH, x = step * (i % WIDTH + 0.5 - 0.5 * WIDTH),
                          y = -step * (i / WIDTH + 0.5 - 0.5 * HEIGHT);
-            const struct ks_photon photon = ks_from_infinity(0.8, 0.5, x, y);
+            const struct ks_photon photon = ks_from_infinity_charged(0.8, charge, 0.5, x, y);
             const struct ks_path path = ks_trace(photon, 1);
             const double inner = exp(from * cell), outer = exp((from + rows - 1.0) * cell),
                          r = path.crossings ? path.r[0] : 0;
@@ -350,12 +353,12 @@ static void test_debris(void **state)
             }
             const double depth = 1000 * worth * (1 + 0.5 * sin(path.phi[0])) / (cell * cell * r * r);
             const double t = kelvin / scene.disk.peak_temperature_k /
-                             shift_of(0.8, r, &photon, path.p_z[0], path.falls[0], v),
+                             shift_of(0.8, charge, r, &photon, path.p_z[0], path.falls[0], v),
                          want = (1 - exp(-depth)) * t * t * t * t;
             worst = fmax(worst, fabs(seen / want - 1));
             lit++;
         }
-        printf("debris of velocity %g, %g: %d pixels, worst %.2g\n", v[0], v[1], lit, worst);
+        printf("charge %g, debris of velocity %g, %g: %d pixels, worst %.2g\n", charge, v[0], v[1], lit, worst);
         assert_true(lit > 60 && worst < 1e-3);
         kd_frame_finish(&frame);
         kd_dynamic_bodies_release(dynamic);

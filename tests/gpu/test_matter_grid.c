@@ -22,7 +22,7 @@ enum { ARRAYS = 8 };
 /* A grid as in its file. */
 struct numbers {
     uint32_t rows, columns, layers;
-    double a, r[2];
+    double a, q, r[2];
     bool ingoing, packed;
     double phi;
     /* bend[0] is for the first row of radii, bend[1] for the last: theta = y + bend sin 2y, with y evenly spaced from
@@ -111,12 +111,13 @@ static void keep(const struct numbers *g)
     snprintf(keeper.hash, sizeof keeper.hash, "%064x", ++n);
     OK(kd_zip_create(&keeper.file, true, &zip));
     snprintf(header, sizeof header,
-             "{\"format\":\"kerrd-grid\",\"version\":1,\"packed\":%s,\"spin\":%.17g,\"azimuth\":\"%s\",\"units\":{"
+             "{\"format\":\"kerrd-grid\",\"version\":1,\"packed\":%s,\"spin\":%.17g,\"charge\":%.17g,\"azimuth\":\"%"
+             "s\",\"units\":{"
              "\"r\":\"M\","
              "\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\",\"u_con_r\":\"c\","
              "\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c "
              "M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}",
-             g->packed ? "true" : "false", g->a, g->ingoing ? "kerr-schild" : "boyer-lindquist");
+             g->packed ? "true" : "false", g->a, g->q, g->ingoing ? "kerr-schild" : "boyer-lindquist");
     add(zip, "header",
         &(struct kd_npy) {
             .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { strlen(header) }, .n_dimensions = 1 },
@@ -233,10 +234,11 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
 {
     const struct view *view = user;
     const struct numbers *n = view->g;
-    const double a = p->a, s2 = 1 - u * u, sigma = r * r + a * a * u * u, delta = r * r - 2 * r + a * a,
-                 root = sqrt(1 - a * a), cm = GM_SUN * view->scene->spacetime.mass_msun / (C * C);
-    const double g[5] = { -(1 - 2 * r / sigma), sigma / delta, sigma, (r * r + a * a + 2 * a * a * r * s2 / sigma) * s2,
-                          -2 * a * r * s2 / sigma };
+    const double a = p->a, q2 = n->q * n->q, mass = 2 * r - q2, s2 = 1 - u * u, sigma = r * r + a * a * u * u,
+                 delta = r * r - mass + a * a, root = sqrt(1 - a * a - q2),
+                 cm = GM_SUN * view->scene->spacetime.mass_msun / (C * C);
+    const double g[5] = { -(1 - mass / sigma), sigma / delta, sigma, (r * r + a * a + mass * a * a * s2 / sigma) * s2,
+                          -mass * a * s2 / sigma };
     double theta = acos(u), phi = p->phi + view->scene->camera.azimuth_deg * M_PI / 180, at[ARRAYS];
     phi += n->ingoing ? a / (2 * root) * log((r - 1 - root) / (r - 1 + root)) : 0;
     for (int i = 0; i < ARRAYS; i++)
@@ -272,7 +274,8 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
 static void compare(const struct numbers *g, const char *json, double allowed)
 {
     keep(g);
-    const struct kd_scene scene = scene_of(g->a, json);
+    struct kd_scene scene = scene_of(g->a, json);
+    scene.spacetime.charge = g->q;
     struct kd_frame frame = rendered(&scene);
     struct view view = { &scene, g };
     double worst = 0, most = 0, nu = scene.volume.frequency_ghz * 1e9, step = scene.camera.field_m / SIDE;
@@ -281,8 +284,8 @@ static void compare(const struct numbers *g, const char *json, double allowed)
     assert_true(most > 1e8);
     for (int i = 0; i < PIXELS; i++) {
         const struct ks_photon photon =
-            ks_from_infinity(g->a, cos(scene.camera.inclination_deg * M_PI / 180), step * (i % SIDE - 0.5 * (SIDE - 1)),
-                             -step * (i / SIDE - 0.5 * (SIDE - 1)));
+            ks_from_infinity_charged(g->a, g->q, cos(scene.camera.inclination_deg * M_PI / 180),
+                                     step * (i % SIDE - 0.5 * (SIDE - 1)), -step * (i / SIDE - 0.5 * (SIDE - 1)));
         const double inner = fmax(g->r[0], isinf(scene.volume.inner) ? 0 : scene.volume.inner),
                      want = ks_along(photon, inner, fmin(g->r[1], scene.volume.outer), false, medium, &view).light * C *
                             C / (2 * K * nu * nu);
@@ -309,6 +312,19 @@ static void test_rays(void **state)
     static struct numbers
         bent = { .rows = 16, .columns = 12, .layers = 1, .a = 0.9, .r = { 2, 20 }, .bend = { 0.3, 0.3 } },
         turning = { .rows = 12, .columns = 10, .layers = 6, .a = 0.5, .r = { 2.5, 18 }, .bend = { 0.4, -0.2 } };
+    static struct numbers charged = { .rows = 16, .columns = 12, .layers = 1, .a = 0.3, .q = 0.9, .r = { 2, 15 } },
+                          whirling = { .rows = 12,
+                                       .columns = 8,
+                                       .layers = 5,
+                                       .a = 0.6,
+                                       .q = 0.7,
+                                       .r = { 2, 15 },
+                                       .phi = 0.7,
+                                       .ingoing = true };
+    fill(&charged, 6, 0.3);
+    compare(&charged, "{" HIGH ",\"volume\":{\"grid_scale\":3}}", 2e-3);
+    fill(&whirling, 8, 0.5);
+    compare(&whirling, "{" HIGH ",\"camera\":{\"inclination_deg\":50,\"azimuth_deg\":-70}}", 2e-3);
     fill(&flat, 1, 0.3);
     fill(&bent, 4, 0.3);
     fill(&turning, 5, 0.3);
@@ -353,7 +369,8 @@ static void test_adversarial(void **state)
     for (size_t i = 0; i < 4 * sizeof extremes / sizeof *extremes; i++) {
         const int of = extremes[i / 4].of, last = of == 5 ? 8 : of == 2 ? 5 : of + 1;
         static struct numbers g = { .rows = 6, .columns = 5, .layers = 4, .a = 0.9 };
-        g.r[0] = 1, g.r[1] = 30; /* the first rows lie inside the horizon */
+        g.r[0] = 1, g.r[1] = 30;         /* the first rows lie inside the horizon */
+        g.q = i % 3 ? 0 : 0.43588989435; /* horizons 4e-6 M apart */
         fill(&g, 7, 0.4);
         for (int k = of; k < last; k++)
             for (uint32_t n = 0; n < g.rows * g.columns * g.layers; n++)
@@ -361,6 +378,7 @@ static void test_adversarial(void **state)
         g.packed = i % 4 > 1;
         keep(&g);
         struct kd_scene scene = scene_of(0.9, extremes[i / 4].json);
+        scene.spacetime.charge = g.q;
         scene.polarization.model = i % 2 ? KD_POLARIZATION_TRANSFER : KD_POLARIZATION_NONE;
         struct kd_frame frame = rendered(&scene);
         for (int p = 0; p < PIXELS; p++)

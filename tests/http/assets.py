@@ -51,7 +51,7 @@ def npy(kind, shape, data):
     return b"\x93NUMPY\1\0" + struct.pack("<H", len(head)) + head + data
 
 
-def grid(spin):
+def grid(spin, **header):
     """A grid of matter of three rows and columns."""
     units = dict(
         r="M",
@@ -65,7 +65,9 @@ def grid(spin):
         b_con_theta="G/M",
         b_cov_phi="G M",
     )
-    header = json.dumps(dict(format="kerrd-grid", version=1, spin=spin, azimuth="boyer-lindquist", units=units))
+    header = json.dumps(
+        dict(format="kerrd-grid", version=1, spin=spin, azimuth="boyer-lindquist", units=units, **header)
+    )
     members = {
         "header": npy(f"<U{len(header)}", (), header.encode("utf-32-le")),
         "r": npy("<f8", (3,), struct.pack("<3d", 2, 4, 8)),
@@ -260,6 +262,7 @@ class Assets(Case):
                 "type": "application/x-npz",
                 "nodes": [3, 3, 1],
                 "spin": 0.5,
+                "charge": 0,
                 "bytes": len(data),
             },
         )
@@ -281,6 +284,21 @@ class Assets(Case):
                 pointer="/sky/image",
             )["detail"],
         )
+        scene["spacetime"] = {"spin": 0.5, "charge": 0.25}
+        self.assertIn(
+            "of charge 0; spacetime.charge is 0.25",
+            self.assertProblem(self.daemon.post("/v1/plan", scene), 422, pointer="/volume/grid")["detail"],
+        )
+        charged = self.put(grid(0.5, charge=0.25), "application/x-npz").json()
+        self.assertEqual((charged["spin"], charged["charge"]), (0.5, 0.25))
+        scene["volume"]["grid"] = charged["sha256"]
+        self.assertEqual(self.daemon.post("/v1/plan", scene).status, 200)
+        scene["spacetime"]["charge"] = 0
+        self.assertIn(
+            "of charge 0.25; spacetime.charge is 0",
+            self.assertProblem(self.daemon.post("/v1/plan", scene), 422, pointer="/volume/grid")["detail"],
+        )
+        self.delete(charged)
         picture = self.made(png(64, 32))
         scene["volume"]["grid"] = picture["sha256"]
         self.assertIn(
@@ -295,6 +313,10 @@ class Assets(Case):
         self.assertIn(
             "its bytes are those of a PNG",
             self.assertProblem(self.put(png(8, 4), "application/x-npz"), 422, "invalid-asset")["detail"],
+        )
+        self.assertIn(
+            "header.charge is not a number from 0 to below 0.866025404, as spin 0.5 requires",
+            self.assertProblem(self.put(grid(0.5, charge=0.87), "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertIn(
             "header.spin is not a number",

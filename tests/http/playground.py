@@ -626,6 +626,12 @@ class Playground(daemon.Owned):
         self.assertProblem(self.patch(play, {"charge": 0.1}), 422, "invalid-playground", "/charge")
         for document in {**hole, "spin": 0.9}, {"charge": 0.5}:
             self.assertProblem(self.daemon.post("/v1/playground", document), 422, "invalid-playground", "/charge")
+        refused = self.daemon.post("/v1/playground", {"charge": 0.5, "scene": {"spacetime": {"charge": 0.5}}})
+        self.assertIn("is that of an uncharged hole", self.assertProblem(refused, 422)["detail"])
+        play = self.open({"bodies": [PLANET]}, paused=True)
+        refused = self.patch(play, {"scene": {"spacetime": {"charge": 0.4}}})
+        problem = self.assertProblem(refused, 422, "invalid-playground", "/scene/spacetime/charge")
+        self.assertIn("bodies and debris move in the potential of an uncharged hole", problem["detail"])
 
     def test_kerr(self):
         play = self.open(

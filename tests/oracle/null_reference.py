@@ -4,6 +4,7 @@
 python3 tests/oracle/null_reference.py rays > tests/oracle/null_reference.h          (needs mpmath; a minute each)
 python3 tests/oracle/null_reference.py extremes > tests/oracle/null_extremes.h       (ten minutes)
 python3 tests/oracle/null_reference.py integrals > tests/oracle/carlson_reference.h
+python3 tests/oracle/null_reference.py close > tests/oracle/null_close.h              (two minutes)
 
 The rays are not found in closed form. These are the equations of motion in Mino time, with w = 1/r and the unit vector
 n of the direction in the spheroidal angles:
@@ -20,7 +21,7 @@ of their definitions.
 import sys
 from multiprocessing import Pool
 
-from mpmath import asinh, atan2, cos, findroot, inf, log, mp, mpf, pi, polyval, quad, sqrt
+from mpmath import asinh, atan2, cos, findroot, inf, log, mp, mpf, pi, polyroots, polyval, quad, sin, sqrt
 
 mp.dps = 38
 ORDER = 38
@@ -370,6 +371,82 @@ def extreme_table():
     print("};\n")
 
 
+def radial(a, q, lam, eta, begin, end):
+    """Differences of Mino time, azimuth and time between two radii, by quadrature in ln(r - r+); if `end` is None, to the
+    root r3, in s with s^2 = r3 - r. None if a root lies between them, or r3 is not beyond `begin`."""
+    k = eta + (lam - a) ** 2
+    lead, last = a * a - eta - lam * lam, -a * a * eta - q * q * k
+    found = polyroots([1, 0, lead, 2 * k, last], 300, extraprec=300)
+    roots = sorted(r.real for r in found if abs(r.imag) < mpf(10) ** -30)
+
+    def rates(r):
+        delta, out = (r - 1) ** 2 - (1 - a * a - q * q), r * r + a * a
+        return 1, a * (2 * r - q * q - a * lam) / delta, out * (out - a * lam) / delta + a * lam - a * a
+
+    if end is not None:
+        if any(begin <= r <= end for r in roots):
+            return None
+        horizon = 1 + sqrt(1 - a * a - q * q)
+        ends = log(begin - horizon), log(end - horizon)
+        pieces = int(ends[1] - ends[0]) + 1
+        bounds = [ends[0] + (ends[1] - ends[0]) * mpf(i) / pieces for i in range(pieces + 1)]
+        speed = lambda r: sqrt(polyval([1, 0, lead, 2 * k, last], r)) / (r - horizon)
+        return [quad(lambda x, i=i: rates(horizon + mp.e**x)[i] / speed(horizon + mp.e**x), bounds) for i in range(3)]
+    if len(roots) < 4 or roots[2] <= begin:
+        return None
+    r1, r2, r3, r4 = roots
+    bounds = [sqrt(r3 - begin) * mpf(i) / 8 for i in range(9)]
+    rest = lambda r: 2 / sqrt((r - r1) * (r - r2) * (r4 - r))
+    return [quad(lambda s, i=i: rates(r3 - s * s)[i] * rest(r3 - s * s), bounds) for i in range(3)]
+
+
+def close_table():
+    """Radial integrals about holes whose horizons are close. Rays: captured ones, ones that turn, one that starts
+    within the photon orbits on the way out and turns back (INNER), and vortical ones without real roots."""
+    print("/* Integrals from r to `end` (0: to r3). */")
+    print("struct null_close { double a, q, cos_theta, alpha, beta, r, end, tau, phi, t; };\n")
+    print("static const struct null_close null_close[] = {")
+    for root in (1e-6, 1e-4, 0.02):
+        for turn in (0, 0.7, -0.6):
+            size = sqrt(mpf(1) - mpf(root) ** 2)
+            a, q = float(size * cos(turn)), float(abs(size * sin(turn)))
+            for u, alpha, beta, r, end in (
+                (0.5, 1.5, 0.5, 1.02 + root, 100.0),
+                (0.5, -2.0, 1.5, 1 + 2 * root, 100.0),
+                (0.2, 7.0, 3.0, 10.0, 100.0),
+                (0.2, -9.0, 1.0, 10.0, 100.0),
+                (0.5, 4.5, 6.5, 1.1, 0.0),
+                (0.5, -9.0, -0.5, 1.5, 0.0),
+                (0.999, 0.01, 0.005, 1.05, 100.0),
+                (0.99, 0.1, 0.05, 1 + 3 * root, 100.0),
+            ):
+                A, Q, U = mpf(a), mpf(q), mpf(u)
+                lam = -mpf(alpha) * sqrt(1 - U * U)
+                eta = (mpf(alpha) ** 2 - A * A) * U * U + mpf(beta) ** 2
+                found = radial(A, Q, lam, eta, mpf(r), mpf(end) if end else None)
+                if not found:
+                    continue
+                tau, phi, t = found
+                print(
+                    f"    {{ {a!r}, {q!r}, {u!r}, {alpha!r}, {beta!r}, {r!r}, {end!r},\n"
+                    f"      {number(tau)}, {number(phi)}, {number(t)} }},",
+                    flush=True,
+                )
+    print("};\n\n/* (f(p) - f(q))/(p - q) for f = R_J(x, y, z, .) and f = R_C(1, .). */")
+    print("struct carlson_slope { double x, y, z, p, q, rj, rc; };\n")
+    print("static const struct carlson_slope carlson_slopes[] = {")
+    for x, y, z in ((1, 2, 3), (0.5, 1, 0), (1e-3, 1e3, 1)):
+        for p in (1e-3, 0.7, 1.0, 5.0, 1e4):
+            for change in (0, -1e-9, 0.4, 40):
+                p_, q_ = mpf(p), mpf(p * (1 + change))
+                slope = -3 * half_line(lambda t: 1 / ((t + p_) * (t + q_) * sqrt((t + x) * (t + y) * (t + z)))) / 2
+                rc = -half_line(lambda t: 1 / ((t + p_) * (t + q_) * sqrt(t + 1))) / 2
+                print(
+                    f"    {{ {float(x)!r}, {float(y)!r}, {float(z)!r}, {p!r}, {float(q_)!r}, {number(slope)}, {number(rc)} }},"
+                )
+    print("};\n")
+
+
 def half_line(f):
     """Int_0^inf of f with t = e^x."""
     return quad(lambda x: f(mp.e**x) * mp.e**x, [-inf, -100, -30, -10, 0, 10, 30, 100, inf])
@@ -465,6 +542,7 @@ def main(what):
         "rays": ("NULL", "Null geodesics of Kerr by Taylor series"),
         "extremes": ("NULL_EXTREMES", "Null geodesics of Kerr at the extremes by Taylor series"),
         "integrals": ("CARLSON", "Elliptic integrals by quadrature"),
+        "close": ("NULL_CLOSE", "Integrals of light about close horizons"),
     }[what]
     print(f"/* Made by tests/oracle/null_reference.py {what}; do not edit. {about}. */")
     print(f"#ifndef KD_TESTS_{guard}_REFERENCE_H\n#define KD_TESTS_{guard}_REFERENCE_H\n\n#include <math.h>\n")
@@ -472,6 +550,8 @@ def main(what):
         cross_table()
     elif what == "extremes":
         extreme_table()
+    elif what == "close":
+        close_table()
     else:
         carlson_table()
         legendre_table()

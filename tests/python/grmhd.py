@@ -3,6 +3,7 @@
 grmhd.py KERRD FOLDER
 """
 
+import dataclasses
 import json
 import os
 import pathlib
@@ -839,6 +840,22 @@ class Dumps(unittest.TestCase):
         return subprocess.run(
             [sys.executable, "-m", "kerrd", "import", *args], capture_output=True, text=True, timeout=60, env=env
         )
+
+    def test_a_charged_hole(self):
+        """Matter of a charged hole is for scenes of that charge."""
+        found = dataclasses.replace(kerrd.matter(self.written(), r_high=10), charge=0.25)
+        found.save(self.path("charged.npz"))
+        for charge, code in (0.25, 0), (0, 2):
+            hole = ["--set", "spacetime.spin=0.9375", "--set", f"spacetime.charge={charge}"]
+            volume = ["--set", "volume.model=grid", "--set", "volume.grid=g"]
+            done = subprocess.run(
+                [KERRD, "scene", *hole, "--asset", "g=" + self.path("charged.npz"), *volume],
+                capture_output=True,
+                text=True,
+                timeout=60,
+            )
+            self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn("of charge 0.25; spacetime.charge is 0 and must be the same", done.stderr)
 
     def test_command(self):
         """`python3 -m kerrd import` writes what kerrd.matter makes; the program takes the file."""

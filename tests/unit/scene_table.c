@@ -15,9 +15,10 @@
 #include <cjson/cJSON.h>
 
 /* This scene has no volumes. */
-enum kd_status kd_asset_check_grid(double spin, const struct kd_scene *scene, struct kd_error *error)
+enum kd_status kd_asset_check_grid(const struct kd_asset_grid *grid, const struct kd_scene *scene,
+                                   struct kd_error *error)
 {
-    return (void)spin, (void)scene, (void)error, KD_OK;
+    return (void)grid, (void)scene, (void)error, KD_OK;
 }
 /* This scene has no widths in two units. */
 void kd_scene_settle(struct kd_scene *scene, const uint64_t *given) { (void)scene, (void)given; }

@@ -60,7 +60,7 @@ static bool find_grid(void *user, const char *name, struct kd_asset_found *out)
 {
     (void)user;
     const bool large = !strcmp(name, "large");
-    *out = (struct kd_asset_found) { .nodes = { 100, 50, large ? 60 : 1 }, .spin = 0.7 };
+    *out = (struct kd_asset_found) { .grid = { { 100, 50, large ? 60 : 1 }, .spin = 0.7 } };
     memset(out->hash, large ? 'b' : 'a', 64);
     return true;
 }

@@ -217,6 +217,14 @@ const patterns = [
     'refusal.spacetime-charge-is-it-must-be-that',
     "spacetime.charge is {}; it must be {}: the playground's bodies move round a hole of that charge",
   ],
+  [
+    'refusal.bodies-and-debris-move-in-the-potential',
+    "spacetime.charge is {}; it must be {}: the playground's bodies and debris move in the potential of an uncharged hole",
+  ],
+  [
+    'refusal.the-potential-is-that-of-an-uncharged',
+    'charge is {}; without gravity "kerr" it must be {}: the potential, in which stars are torn apart, is that of an uncharged hole',
+  ],
   ['refusal.is-it-must-be-at-least-the-isco-of-2', '{} is {}; it must be at least {}, the ISCO of {} {}'],
   ['refusal.is-it-must-be-more-than-the-horizon', '{} is {}; it must be more than {}, the horizon of {} {}'],
   ['refusal.is-it-must-be-more-than-the-inner', '{} is {}; it must be more than the inner edge, {}, which is the ISCO'],
@@ -318,6 +326,10 @@ const patterns = [
   [
     'refusal.volume-grid-has-matter-for-a-hole',
     'volume.grid has matter for a hole of spin {}; spacetime.spin is {} and must be the same',
+  ],
+  [
+    'refusal.volume-grid-has-matter-for-a-charged-hole',
+    'volume.grid has matter for a hole of charge {}; spacetime.charge is {} and must be the same',
   ],
   ['refusal.is-a-picture-of-x-it-must', '{} is a picture of {} x {}; it must be a grid of matter, an NPZ file'],
   [

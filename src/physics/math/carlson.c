@@ -123,6 +123,94 @@ double kd_carlson_rj_arg(struct kd_carlson_arg s, double p)
     return scale * series_j(e2, e3, e4, e5) / (mean * sqrt(mean)) + 6 * sum;
 }
 
+/* atanh(x)/x, from x and 1 - x^2. */
+static double atanh_over(double x, double rest)
+{
+    double size = fabs(x);
+    return size == 0 ? 1 : size < 0.5 ? atanh(x) / x : log((1 + size) / sqrt(rest)) / size;
+}
+
+/* With s = sqrt(|p - 1|) and t = sqrt(|q - 1|), R_C(1, p) is atan(s)/s for p > 1 and artanh(s)/s for p < 1. The
+ * difference of two arcs is the arc of x = (s - t)/(1 +- s t). */
+double kd_carlson_rc_slope(double p, double q)
+{
+    enum { TERMS = 24 }; /* 0.25^24/49 = 7e-17 */
+    if (!(p > 0 && q > 0))
+        return NAN;
+    double a = p - 1, b = q - 1, s = sqrt(fabs(a)), t = sqrt(fabs(b)), st = s * t;
+    if (fabs(a) < 0.25 && fabs(b) < 0.25) {
+        double sum = 0, slope = 0; /* the series in a, and its divided difference: that of a f is f(a) + b f' */
+        for (int k = TERMS; k >= 0; k--) {
+            slope = sum + b * slope;
+            sum = (k % 2 ? -1.0 : 1.0) / (2 * k + 1) + a * sum;
+        }
+        return slope;
+    }
+    if (a > 0 && b > 0) {
+        double x = (s - t) / (1 + st);
+        return ((x == 0 ? 1 : atan(x) / x) / ((1 + st) * s) - atan(t) / st) / (s + t);
+    }
+    if (a < 0 && b < 0) {
+        double less = (p + q - p * q) / (1 + st) /* 1 - s t */, x = (q - p) / ((s + t) * less);
+        double arc = atanh_over(x, p * q / (less * less)), at_q = atanh_over(t, q);
+        return (at_q / s - arc / (less * s)) / (s + t);
+    }
+    return (kd_carlson_rc(1, p) - kd_carlson_rc(1, q)) / (p - q);
+}
+
+/* R_{-5/2}(1/2, 1/2, 1/2, 1, 1; x, y, z, p, q) mean^(5/2) by DLMF 19.19.7; x, y_z = y + z, yz, p, q: deviations from
+ * the mean. */
+static double series_slope(double x, double y_z, double yz, double p, double q)
+{
+    double c1 = x + y_z, c2 = x * y_z + yz, c3 = x * yz; /* symmetric functions of x, y, z, and of p, p, q, q */
+    double g = p + q, h = p * q, d1 = 2 * g, d2 = g * g + 2 * h, d3 = 2 * g * h, d4 = h * h;
+    double e2 = c2 + c1 * d1 + d2, e3 = c3 + c2 * d1 + c1 * d2 + d3, e4 = c3 * d1 + c2 * d2 + c1 * d3 + d4,
+           e5 = c3 * d2 + c2 * d3 + c1 * d4, e6 = c3 * d3 + c2 * d4, e7 = c3 * d4;
+    return 1 - e2 * (5.0 / 18) + e3 * (5.0 / 22) + (5.0 / 13) * (0.375 * e2 * e2 - 0.5 * e4) +
+           (1.0 / 3) * (0.5 * e5 - 0.75 * e2 * e3) +
+           (5.0 / 17) * (0.375 * e3 * e3 - 0.3125 * e2 * e2 * e2 + 0.75 * e2 * e4 - 0.5 * e6) +
+           (5.0 / 19) * (0.9375 * e2 * e2 * e3 - 0.75 * (e2 * e5 + e3 * e4) + 0.5 * e7);
+}
+
+/* The step of duplication adds 6 scale R_C(1, 1 + e)/d for each of p and q, as in R_J; here it is the divided
+ * difference of this term, by those of d, delta = (p - x)(p - y)(p - z) and e = delta/d^2. */
+double kd_carlson_rj_slope(struct kd_carlson_arg s, double p, double q)
+{
+    if (p < q) /* e would be a difference of large numbers for a far smaller p */
+        return kd_carlson_rj_slope(s, q, p);
+    if (!(s.first >= 0 && s.sum > 0 && s.root >= 0 && p > 0 && q > 0) || (s.first == 0 && s.root == 0))
+        return NAN;
+    struct plain v = plain_of(&s);
+    double at_p = p * (p - v.sum) + v.product, at_q = q * (q - v.sum) + v.product, delta_p = (p - v.x) * at_p,
+           delta_q = (q - v.x) * at_q, delta = at_p + (q - v.x) * (p + q - v.sum);
+    double scale = 1, sum = 0, mean = 1, x = 0, yz = 0, y_z = 0;
+    for (int i = 0; i < STEPS; i++) {
+        mean = (v.x + v.sum + 2 * (p + q)) / 7;
+        x = 1 - v.x / mean;
+        y_z = 2 - v.sum / mean;
+        yz = 1 - v.sum / mean + v.product / (mean * mean);
+        double far_p = 1 - p / mean, far_q = 1 - q / mean;
+        if (converged(x, yz) && y_z * y_z < spread2 && far_p * far_p < spread2 && far_q * far_q < spread2)
+            break;
+        double rp = sqrt(p), rq = sqrt(q), root = 1 / (rp + rq), more_p = p + rp * s.sum + s.root,
+               d_p = (rp + s.first) * more_p, d_q = (rq + s.first) * (q + rq * s.sum + s.root),
+               d = root * more_p + (rq + s.first) * (1 + root * s.sum);
+        double e_p = fmax(delta_p / (d_p * d_p), -1 + 1e-16), e_q = fmax(delta_q / (d_q * d_q), -1 + 1e-16),
+               e = (delta - e_q * d * (d_p + d_q)) / (d_p * d_p);
+        sum += scale * (kd_carlson_rc_slope(1 + e_p, 1 + e_q) * e - rc_unit(e_q) * d / d_q) / d_p;
+        double lambda = s.first * s.sum + s.root;
+        p = 0.25 * (p + lambda);
+        q = 0.25 * (q + lambda);
+        duplicate(&s);
+        v = plain_of(&s);
+        delta_p /= 64;
+        delta_q /= 64;
+        delta /= 16;
+        scale /= 16;
+    }
+    return 6 * sum - 0.6 * scale * series_slope(x, y_z, yz, 1 - p / mean, 1 - q / mean) / (mean * mean * sqrt(mean));
+}
+
 double kd_carlson_rd_arg(struct kd_carlson_arg s)
 {
     if (!(s.first >= 0 && s.sum > 0 && s.root >= 0))

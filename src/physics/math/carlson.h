@@ -43,6 +43,12 @@ double kd_carlson_rf_arg(struct kd_carlson_arg arg);
 double kd_carlson_rj_arg(struct kd_carlson_arg arg, double p); /* p > 0 */
 double kd_carlson_rd_arg(struct kd_carlson_arg arg);           /* R_D(y, z, x): x is the special argument, x > 0 */
 
+/* (f(p) - f(q))/(p - q) for f = R_J(x, y, z, .), p, q > 0, and for f = R_C(1, .), p, q > 0; f'(p) if p = q. Nothing is
+ * subtracted, so that close p and q lose no digits: relative error some 1e-15. The first is -3/2 Int_0^inf
+ * dt / ((t+p)(t+q) sqrt((t+x)(t+y)(t+z))) by duplication; its series is that of DLMF 19.19.7 for seven arguments. */
+double kd_carlson_rj_slope(struct kd_carlson_arg arg, double p, double q);
+double kd_carlson_rc_slope(double p, double q);
+
 /* R_J for Re(p) > 0 and R_C(s^2, q2) for Re(s) > 0 and q2 not negative real. */
 double complex kd_carlson_rj_complex(struct kd_carlson_arg arg, double complex p);
 double complex kd_carlson_rc_complex(double complex s, double complex q2);

@@ -147,11 +147,11 @@ static void principal(const struct kd_null_ray *ray, const struct kd_null_motion
 {
     if (!ray->outward)
         return;
-    double plus = k->hole.outer, minus = k->hole.inner;
+    double plus = k->hole.outer, gap = plus - k->hole.inner;
     path->fate = KD_NULL_ESCAPED;
     path->sky_u = k->c;
     /* lambda dtau and frame dragging add up to a dr/Delta */
-    path->sky_phi = -k->hole.a / (plus - minus) * log((ray->radius - minus) / (ray->radius - plus));
+    path->sky_phi = -k->hole.a / gap * log1p(gap / (ray->radius - plus));
 }
 
 static struct kd_null_path follow(const struct kd_null_ray *ray)

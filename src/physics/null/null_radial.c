@@ -2,6 +2,7 @@
 
 #include "physics/math/carlson.h"
 #include "physics/math/elliptic.h"
+#include "physics/math/quadrature.h"
 #include "physics/spacetime/kerr.h"
 
 #include <math.h>
@@ -10,10 +11,23 @@
  * DLMF 19.29.8. */
 struct pole { double u2, s, q2; };
 
+/* Whether the horizons are close. By the difference of the integrals at both, the azimuth is off by 1e-16/(r+ - r-),
+ * hence by less than 2e-15 elsewhere. */
+static bool is_close(const struct kd_hole *hole) { return hole->root < 0.03; }
+
+/* r - r5 for a horizon r5; next to close horizons r - 1 is exact. */
+static double past(const struct kd_hole *hole, double r, double r5)
+{
+    if (!is_close(hole))
+        return r - r5;
+    return r - 1 - (r5 > 1 ? hole->root : -hole->root);
+}
+
 /* The arguments of DLMF 19.29 for the path from r to the reference. */
 struct span {
     struct kd_carlson_arg arg; /* U12; U13 + U14; U13 U14                                                */
     struct pole plus, minus;   /* at the horizons                                                        */
+    struct pole slope;         /* divided differences of their numbers over r+ - r-, if that is close    */
     double far;                /* U25^2 with the pole at infinity                                        */
     double log;                /* elementary part of Int (r - r2) dr/sqrt(R) */
     double ratio;              /* X1 Y1/(X2 Y2 U12)                                                      */
@@ -49,14 +63,21 @@ struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r
     return at;
 }
 
-static struct pole pole_outer(const struct kd_null_roots *o, const struct kd_null_radius *at, double r5)
+static struct pole pole_outer(const struct kd_null_radial *q, const struct kd_null_radius *at, double r5)
 {
-    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), e = r5 - o->r1, d5 = at->r - r5;
+    const struct kd_null_roots *o = &q->roots;
+    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), e = r5 - o->r1, d5 = past(&q->motion.hole, at->r, r5);
     struct pole p;
     p.u2 = 2 * at->d1 * (at->r + o->r1) + 2 * y1 * y2 * at->pair + o->p1 * o->r21 / e;
     p.s = d5 + y2 * at->pair / y1;
     p.q2 = d5 * p.u2 / at->d1;
     return p;
+}
+
+static double slope_u2(const struct kd_null_radial *q)
+{
+    const struct kd_null_roots *o = &q->roots;
+    return -o->p1 * o->r21 / ((q->r_plus - o->r1) * (q->r_minus - o->r1));
 }
 
 static struct span span_outer(const struct kd_null_radial *q, const struct kd_null_radius *at)
@@ -67,8 +88,13 @@ static struct span span_outer(const struct kd_null_radial *q, const struct kd_nu
     s.arg.first = y1 * y2 + p;
     s.arg.sum = (y1 + y2) * at->both;
     s.arg.root = p * (at->d1 + at->d2) + y1 * y2 * (at->both * at->both - 2 * p);
-    s.plus = pole_outer(o, at, q->r_plus);
-    s.minus = pole_outer(o, at, q->r_minus);
+    s.plus = pole_outer(q, at, q->r_plus);
+    s.minus = pole_outer(q, at, q->r_minus);
+    if (is_close(&q->motion.hole)) {
+        s.slope.u2 = slope_u2(q);
+        s.slope.s = -1;
+        s.slope.q2 = ((at->r - q->r_minus) * s.slope.u2 - s.plus.u2) / at->d1;
+    }
     s.far = 2 * y2 * (y2 * (at->r + o->r2) + y1 * p);
     s.log = log(4 * at->d2 / s.far);
     s.ratio = y1 / (y2 * s.arg.first);
@@ -76,13 +102,15 @@ static struct span span_outer(const struct kd_null_radial *q, const struct kd_nu
     return s;
 }
 
-static struct pole pole_inner(const struct kd_null_roots *o, const struct kd_null_radius *at, double r5)
+static struct pole pole_inner(const struct kd_null_radial *q, const struct kd_null_radius *at, double r5)
 {
-    double e = r5 - o->r1, x1 = o->r3 - o->r1, x2 = o->r3 - o->r2, x5 = o->r3 - r5, steep = at->d4 / at->d3;
+    const struct kd_null_roots *o = &q->roots;
+    double e = r5 - o->r1, x1 = o->r3 - o->r1, x2 = o->r3 - o->r2, x5 = past(&q->motion.hole, o->r3, r5),
+           steep = at->d4 / at->d3;
     struct pole p;
     p.u2 = x1 * (x2 * steep - (o->r4 - o->r1) * (r5 - o->r2) / e);
     p.s = sqrt(at->d2 / at->d1 * steep) * x5;
-    p.q2 = x5 * (at->r - r5) * p.u2 / (x1 * at->d1);
+    p.q2 = x5 * past(&q->motion.hole, at->r, r5) * p.u2 / (x1 * at->d1);
     return p;
 }
 
@@ -95,8 +123,15 @@ static struct span span_inner(const struct kd_null_radial *q, const struct kd_nu
     s.arg.first = sqrt(x1 * x2 * steep);
     s.arg.sum = (sqrt(x1 * at->d2) + sqrt(x2 * at->d1)) * sqrt(r43 / at->d3);
     s.arg.root = sqrt(x1 * x2 * at->d1 * at->d2) * r43 / at->d3;
-    s.plus = pole_inner(o, at, q->r_plus);
-    s.minus = pole_inner(o, at, q->r_minus);
+    s.plus = pole_inner(q, at, q->r_plus);
+    s.minus = pole_inner(q, at, q->r_minus);
+    if (is_close(&q->motion.hole)) {
+        s.slope.u2 = slope_u2(q);
+        s.slope.s = -sqrt(at->d2 / at->d1 * steep);
+        s.slope.q2 = ((o->r3 - q->r_minus) * ((at->r - q->r_minus) * s.slope.u2 - s.plus.u2) -
+                      past(&q->motion.hole, at->r, q->r_plus) * s.plus.u2) /
+                     (x1 * at->d1);
+    }
     s.far = x2 * (x1 * steep - r42);
     s.log = 2 * kd_carlson_rc(at->d1 / at->d2 * steep, s.far / (x2 * at->d2));
     s.ratio = sqrt(x1 * at->d1 / (x2 * at->d2)) / s.arg.first;
@@ -110,6 +145,20 @@ static double at_pole(const struct kd_null_roots *o, const struct span *s, const
     double e = r5 - o->r1;
     double j = kd_carlson_rj_arg(s->arg, p->u2), c = kd_carlson_rc(p->s * p->s, p->q2);
     return ((2.0 / 3) * o->r21 * o->p1 / e * j + 2 * c - tau) / e;
+}
+
+/* Int dr/(Delta sqrt(R)), from `minus`, the integral at r-: the divided difference of at_pole over r+ - r-. A product f
+ * g has f(r+) that of g + g(r-) that of f. */
+static double between_poles(const struct kd_null_radial *q, const struct span *s, double minus)
+{
+    const struct kd_null_roots *o = &q->roots;
+    const struct pole *p = &s->plus, *m = &s->minus, *slope = &s->slope;
+    double e_plus = q->r_plus - o->r1, e_minus = q->r_minus - o->r1;
+    double j = kd_carlson_rj_slope(s->arg, p->u2, m->u2) * slope->u2 - kd_carlson_rj_arg(s->arg, m->u2) / e_minus;
+    double y_plus = p->q2 / (p->s * p->s), y_minus = m->q2 / (m->s * m->s),
+           y = (slope->q2 - y_minus * slope->s * (p->s + m->s)) / (p->s * p->s);
+    double c = (kd_carlson_rc_slope(y_plus, y_minus) * y - kd_carlson_rc(1, y_minus) * slope->s / m->s) / p->s;
+    return ((2.0 / 3) * o->r21 * o->p1 / e_plus * j + 2 * c - minus) / e_plus;
 }
 
 /* Int (r^2 + 2r + 4 - q^2) dr/sqrt(R). The square from d(sqrt(R)/(r - r2)) = (r^2 - r2^2 - r21 p2/(2(r - r2)))
@@ -150,6 +199,14 @@ struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *
     const struct numerators n = numerators_of(&q->motion);
     double a = q->motion.hole.a, gap = q->r_plus - q->r_minus;
     double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
+    if (is_close(&q->motion.hole)) { /* the numerators are divided by r - 1, which is the mean of both poles and a
+                                        remainder */
+        double both = between_poles(q, &s, minus), mean = 0.5 * (plus + minus);
+        sum.phi = a * (2 * mean + (2 + n.twist) * both);
+        if (time)
+            sum.t = powers(o, &s, n.four, sum.tau) + n.slope * mean + (n.slope + n.rest) * both;
+        return sum;
+    }
     sum.phi = a * ((2 * q->r_plus + n.twist) * plus - (2 * q->r_minus + n.twist) * minus) / gap;
     if (time)
         sum.t = powers(o, &s, n.four, sum.tau) +
@@ -332,6 +389,21 @@ static double complex_pole(const struct kd_null_roots *o, struct kd_carlson_arg 
     return creal((all - tau) / e);
 }
 
+/* a (2r + twist) dr/(Delta sqrt(R)) with r - 1 = from/x, from the start at x = 1 to infinity at x = 0. */
+struct azimuth {
+    const struct kd_null_roots *roots;
+    double from, beyond, root, twist; /* from: r - 1 at the start; beyond: r - r+ there */
+};
+
+static double azimuth_at(double x, double y, const void *context)
+{
+    const struct azimuth *z = context;
+    double out = z->from + x * (1 - z->roots->mean), out_left = z->from + x * (1 + z->roots->mean), x2 = x * x,
+           potential = (out * out - z->roots->pair * x2) * (out_left * out_left - z->roots->pair_left * x2),
+           delta = (z->beyond + z->root * y) * (z->from + z->root * x);
+    return z->from * x * (2 * (x + z->from) + z->twist * x) / (delta * sqrt(potential));
+}
+
 struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m, const struct kd_null_roots *o,
                                                  double r)
 {
@@ -344,6 +416,11 @@ struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m,
     const struct numerators n = numerators_of(m);
     double plus = m->hole.outer, minus = m->hole.inner;
     struct kd_null_radial_sum total = { .tau = 2 * kd_carlson_rf_arg(arg) };
+    if (is_close(&m->hole)) { /* R has no root outside the horizon: the integrand is smooth */
+        const struct azimuth z = { o, r - 1, past(&m->hole, r, plus), m->hole.root, n.twist };
+        total.phi = m->hole.a * kd_quadrature(azimuth_at, &z);
+        return total;
+    }
     double i_plus = complex_pole(o, arg, r, plus, total.tau), i_minus = complex_pole(o, arg, r, minus, total.tau);
     total.phi = m->hole.a * ((2 * plus + n.twist) * i_plus - (2 * minus + n.twist) * i_minus) / (plus - minus);
     return total;

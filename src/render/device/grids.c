@@ -136,7 +136,8 @@ static enum kd_status take_grid(struct kd_grids *all, const struct kd_scene *sce
             out->nodes = out->places = NULL;
     }
     pthread_mutex_unlock(&all->reader.lock);
-    if (!status && !all->blank && (status = kd_asset_check_grid(out->spin, scene, error)))
+    const struct kd_asset_grid made = kd_matter_grid_told(out);
+    if (!status && !all->blank && (status = kd_asset_check_grid(&made, scene, error)))
         kd_matter_grid_finish(out);
     return status;
 }

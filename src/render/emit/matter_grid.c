@@ -78,6 +78,22 @@ static enum kd_status check_units(const cJSON *units, struct kd_error *error)
     return KD_OK;
 }
 
+/* Reads "charge", which may be missing: then it is 0. */
+static enum kd_status take_charge(struct kd_matter_grid *grid, const cJSON *charge, struct kd_error *error)
+{
+    char what[120];
+    if (!charge)
+        return KD_OK;
+    const struct kd_hole hole = kd_hole_charged(grid->spin, cJSON_GetNumberValue(charge));
+    if (hole.q >= 0 && (hole.q == 0 || kd_hole_exists(&hole))) {
+        grid->charge = hole.q;
+        return KD_OK;
+    }
+    snprintf(what, sizeof what, "is not a number from 0 to below %.9g, as spin %.9g requires",
+             sqrt((1 - grid->spin) * (1 + grid->spin)), grid->spin);
+    return kd_matter_refuse("header.charge", what, error);
+}
+
 static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *header, struct kd_error *error)
 {
     const cJSON *spin = cJSON_GetObjectItemCaseSensitive(header, "spin"),
@@ -88,6 +104,9 @@ static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *hea
     if (!cJSON_IsNumber(spin) || !(fabs(spin->valuedouble) <= 1))
         return kd_matter_refuse("header.spin", "is not a number from -1 to 1", error);
     grid->spin = spin->valuedouble;
+    const enum kd_status status = take_charge(grid, cJSON_GetObjectItemCaseSensitive(header, "charge"), error);
+    if (status)
+        return status;
     grid->ingoing = !strcmp(azimuth, "kerr-schild");
     if (!grid->ingoing && strcmp(azimuth, "boyer-lindquist"))
         return kd_matter_refuse("header.azimuth", "is neither \"boyer-lindquist\" nor \"kerr-schild\"", error);
@@ -374,7 +393,7 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
 static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     const struct kd_matter_grid *g = &r->grid;
-    const struct kd_hole hole = kd_hole_of(g->spin);
+    const struct kd_hole hole = kd_hole_charged(g->spin, g->charge);
     const double edge = 1.001 * hole.outer, t = kd_matter_array_at(&r->array, i);
     const size_t row = i / g->layers / g->columns;
     const double radius = r->r[row], theta = theta_at(r, row, i / g->layers % g->columns), s2 = sin(theta) * sin(theta);
@@ -643,32 +662,33 @@ enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matt
     return status;
 }
 
-enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin,
-                                   struct kd_error *error)
+enum kd_status kd_matter_grid_look(const void *data, size_t size, struct kd_asset_grid *out, struct kd_error *error)
 {
     struct kd_matter_reader *r;
     enum kd_status status = read_all(data, size, true, &r, error);
     if (!status)
-        kd_matter_grid_told(&r->grid, nodes, spin);
+        *out = kd_matter_grid_told(&r->grid);
     kd_matter_reader_close(r);
     return status;
 }
 
 size_t kd_matter_grid_places(const struct kd_matter_grid *grid) { return (size_t)4 * grid->place_rows * grid->steps; }
 
-void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], double *spin)
+struct kd_asset_grid kd_matter_grid_told(const struct kd_matter_grid *grid)
 {
-    nodes[0] = grid->rows;
-    nodes[1] = grid->columns;
-    nodes[2] = grid->layers;
-    *spin = grid->spin;
+    return (struct kd_asset_grid) { { grid->rows, grid->columns, grid->layers }, grid->spin, grid->charge };
 }
 
 enum kd_status kd_matter_grid_none(const struct kd_hole *hole, struct kd_matter_grid *out, struct kd_error *error)
 {
-    *out = (struct kd_matter_grid) {
-        .rows = 2, .columns = 2, .layers = 1, .spin = hole->a, .r = { 0.1, 1e6 }, .theta = { 0, M_PI }, .turn = 2 * M_PI
-    };
+    *out = (struct kd_matter_grid) { .rows = 2,
+                                     .columns = 2,
+                                     .layers = 1,
+                                     .spin = hole->a,
+                                     .charge = hole->q,
+                                     .r = { 0.1, 1e6 },
+                                     .theta = { 0, M_PI },
+                                     .turn = 2 * M_PI };
     out->nodes = calloc(4 * KD_MATTER_FLOATS, sizeof *out->nodes);
     if (!out->nodes)
         return kd_error_set(error, KD_ENOMEM, "out of memory for a grid of matter");

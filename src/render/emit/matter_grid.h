@@ -2,8 +2,8 @@
  * describes the file. Pure, any thread.
  *
  *   header        JSON: {"format": "kerrd-grid", "version": 1, "spin": a, "azimuth": "boyer-lindquist" or
- *                 "kerr-schild", "units": {array: unit}, and optionally "packed": true or false; it is true in a grid
- *                 of more than 2^21 nodes}
+ *                 "kerr-schild", "units": {array: unit}, and optionally "charge": Q of the hole in M, 0 if missing, and
+ *                 "packed": true or false; it is true in a grid of more than 2^21 nodes}
  *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta has an
  *                 angle for each column, or, with the shape (rows, columns), for each node. phi covers a turn or 1/k
  *                 of a turn with a whole k, and may be missing
@@ -18,6 +18,7 @@
 
 #include "base/error.h"
 #include "physics/spacetime/hole.h"
+#include "scene/asset.h"
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -34,7 +35,7 @@ enum {
 
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
-    double spin;
+    double spin, charge;
     double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns
                               are evenly spaced */
     /* phi: of the first layer; turn: the angle covered by all layers, in radians: a turn, or 1/k of it with a whole
@@ -64,12 +65,11 @@ struct kd_matter_grid {
 bool kd_matter_grid_is(const void *data, size_t size);
 /* Reads and checks a whole file. KD_EINVAL with what is wrong and what is valid; KD_ENOMEM. */
 enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error);
-/* As kd_matter_grid_read, but returns only the numbers of nodes in r, theta and phi, and the spin. */
-enum kd_status kd_matter_grid_look(const void *data, size_t size, uint32_t nodes[3], double *spin,
-                                   struct kd_error *error);
+/* As kd_matter_grid_read, but returns only the numbers of nodes, and the hole. */
+enum kd_status kd_matter_grid_look(const void *data, size_t size, struct kd_asset_grid *out, struct kd_error *error);
 /* Bytes of the nodes on the device. */
 size_t kd_matter_grid_bytes(const struct kd_matter_grid *grid);
-void kd_matter_grid_told(const struct kd_matter_grid *grid, uint32_t nodes[3], double *spin);
+struct kd_asset_grid kd_matter_grid_told(const struct kd_matter_grid *grid);
 /* floats of `places`; 0: the columns are evenly spaced */
 size_t kd_matter_grid_places(const struct kd_matter_grid *grid);
 void kd_matter_grid_finish(struct kd_matter_grid *grid);

@@ -17,7 +17,7 @@ static const char *type_of(const struct kd_asset_about *about)
 {
     return about->observation == KD_OBSERVATION_UVFITS ? KD_UVFITS_TYPE
            : about->observation == KD_OBSERVATION_CSV  ? KD_CSV_TYPE
-           : about->nodes[0]                           ? KD_NPZ_TYPE
+           : about->grid.nodes[0]                      ? KD_NPZ_TYPE
                                                        : KD_PNG_TYPE;
 }
 
@@ -25,7 +25,7 @@ static const char *end_of(const struct kd_asset_about *about)
 {
     return about->observation == KD_OBSERVATION_UVFITS ? "uvfits"
            : about->observation == KD_OBSERVATION_CSV  ? "csv"
-           : about->nodes[0]                           ? "npz"
+           : about->grid.nodes[0]                      ? "npz"
                                                        : "png";
 }
 
@@ -39,9 +39,10 @@ static void write_grid(struct kd_json *json, const struct kd_asset_about *about)
 {
     kd_json_array(json, "nodes");
     for (int i = 0; i < 3; i++)
-        kd_json_number(json, NULL, about->nodes[i]);
+        kd_json_number(json, NULL, about->grid.nodes[i]);
     kd_json_end(json);
-    kd_json_number(json, "spin", about->spin);
+    kd_json_number(json, "spin", about->grid.spin);
+    kd_json_number(json, "charge", about->grid.charge);
 }
 
 static void write_picture(struct kd_json *json, const struct kd_asset_about *about)
@@ -53,8 +54,8 @@ static void write_picture(struct kd_json *json, const struct kd_asset_about *abo
 }
 
 /* Writes {"sha256", "type", "bytes", "created"}. Further members: of a picture "width", "height", "bit_depth" and
- * "channels"; of a grid "nodes" and "spin"; of an observation "visibilities" and "stations". The client that has
- * uploaded the asset also gets its token. */
+ * "channels"; of a grid "nodes", "spin" and "charge"; of an observation "visibilities" and "stations". The client that
+ * has uploaded the asset also gets its token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -63,7 +64,7 @@ static enum kd_status to_json(const struct kd_asset_about *about, bool token, st
     if (token)
         kd_json_string(&json, "token", about->token);
     kd_json_string(&json, "type", type_of(about));
-    (about->observation ? write_observation : about->nodes[0] ? write_grid : write_picture)(&json, about);
+    (about->observation ? write_observation : about->grid.nodes[0] ? write_grid : write_picture)(&json, about);
     kd_json_number(&json, "bytes", (double)about->size);
     kd_json_number(&json, "created", about->created);
     kd_json_end(&json);

@@ -41,7 +41,7 @@ enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_abou
         return kd_error_set(error, KD_EINVAL, "an asset must have at most %zu bytes; this one has %zu", KD_ASSET_BYTES,
                             size);
     if (kd_matter_grid_is(data, size))
-        return kd_matter_grid_look(data, size, out->nodes, &out->spin, error);
+        return kd_matter_grid_look(data, size, &out->grid, error);
     if (kd_observation_kind_of(data, size))
         return look_at_observation(data, size, out, error);
     enum kd_status status = kd_png_look(data, size, &png, error);
@@ -113,7 +113,7 @@ static const char *end_of(const struct kd_asset_about *about)
 {
     return ends[about->observation == KD_OBSERVATION_CSV      ? 3
                 : about->observation == KD_OBSERVATION_UVFITS ? 2
-                                                              : about->nodes[0] > 0];
+                                                              : about->grid.nodes[0] > 0];
 }
 
 /* Reads and checks the bytes of an asset. Returns why they are not accepted, or NULL. */

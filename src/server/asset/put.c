@@ -205,7 +205,7 @@ static enum kd_status check_grid(struct kd_asset_put *put, double until_ms, enum
     enum kd_status status = kd_matter_reader_go_on(p->grid, until_ms, &over, error);
     if (status || !over)
         return status;
-    kd_matter_grid_told(kd_matter_reader_grid(p->grid), p->about.nodes, &p->about.spin);
+    p->about.grid = kd_matter_grid_told(kd_matter_reader_grid(p->grid));
     end_check(p);
     p->step = place;
     return KD_OK;

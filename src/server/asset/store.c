@@ -84,8 +84,7 @@ static bool find_for_scene(void *user, const char *name, struct kd_asset_found *
     memcpy(out->hash, asset->about.hash, sizeof out->hash);
     out->width = asset->about.width;
     out->height = asset->about.height;
-    memcpy(out->nodes, asset->about.nodes, sizeof out->nodes);
-    out->spin = asset->about.spin;
+    out->grid = asset->about.grid;
     kd_asset_release(user, asset);
     return true;
 }

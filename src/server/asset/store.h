@@ -86,8 +86,7 @@ struct kd_asset_about {
     int bit_depth, channels;
     enum kd_observation_kind observation; /* NONE: not an observation */
     uint32_t visibilities, stations;      /* numbers of both, for an observation */
-    uint32_t nodes[3];                    /* nodes of a grid in r, theta and phi; 0: not a grid */
-    double spin;
+    struct kd_asset_grid grid;
     double created; /* seconds since 1970 */
     size_t size;
     const uint8_t *data;

@@ -15,8 +15,8 @@ static const char *type(size_t i)
     return i < sizeof types / sizeof *types ? types[i] : NULL;
 }
 
-/* Writes the schema Asset. Pictures have size and depth, grids of matter nodes and spin, observations visibilities and
- * stations. The token is sent only to the client that was the first to upload the asset. */
+/* Writes the schema Asset. Pictures have size and depth, grids of matter nodes, spin and charge, observations
+ * visibilities and stations. The token is sent only to the client that was the first to upload the asset. */
 void kd_openapi_asset_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member asset[] = {
@@ -34,6 +34,7 @@ void kd_openapi_asset_schema(struct kd_json *json)
           ",\"minItems\":3,\"maxItems\":3,\"description\":\"numbers of nodes in r, theta and phi\"}",
           true },
         { "spin", "{\"type\":\"number\",\"description\":\"spin of the hole that the grid is for\"}", true },
+        { "charge", "{\"type\":\"number\",\"description\":\"charge of the hole that the grid is for, in M\"}", true },
         { "visibilities", KD_SCHEMA_COUNT, true },
         { "stations", KD_SCHEMA_COUNT, true },
     };

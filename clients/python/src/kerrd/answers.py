@@ -956,6 +956,7 @@ class Asset(TypedDict):
     created: float
     nodes: NotRequired[list[int]]
     spin: NotRequired[float]
+    charge: NotRequired[float]
     visibilities: NotRequired[int]
     stations: NotRequired[int]
 

@@ -36,9 +36,9 @@ NODES_MOST, SIDE_MOST = 1 << 25, 4096  # of a grid, as in src/render/emit/matter
 
 @dataclass(frozen=True)
 class Matter:
-    """A grid of matter. spin: the hole's spin, which the scene's spacetime.spin must equal. r, theta, phi: of the
-    nodes. arrays: each of the shape (rows, columns) or (rows, columns, layers). notes: what was chosen, cut and left
-    out."""
+    """A grid of matter. spin, charge: of the hole; the scene's spacetime.spin and spacetime.charge must equal them.
+    r, theta, phi: of the nodes. arrays: each of the shape (rows, columns) or (rows, columns, layers). notes: what was
+    chosen, cut and left out."""
 
     spin: float
     r: NDArray[np.float64]
@@ -46,6 +46,7 @@ class Matter:
     phi: NDArray[np.float64] | None
     arrays: dict[str, NDArray[np.float32]] = field(repr=False)
     notes: tuple[str, ...] = ()
+    charge: float = 0.0
 
     @staticmethod
     def of(dump: Dump, plasma: Plasma) -> Matter:
@@ -94,6 +95,8 @@ class Matter:
 
     def _write(self, file: Any) -> None:
         header = {"format": "kerrd-grid", "version": 1, "spin": self.spin, "azimuth": "kerr-schild", "units": UNITS}
+        if self.charge:
+            header["charge"] = self.charge
         places = {"r": self.r, "theta": self.theta}
         if self.phi is not None:
             places["phi"] = self.phi
