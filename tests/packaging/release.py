@@ -76,6 +76,27 @@ class Release(unittest.TestCase):
         verify = ["gpg", "--homedir", home, "--verify", self.to / "SHA256SUMS.asc", self.to / "SHA256SUMS"]
         self.assertEqual(subprocess.run(verify, capture_output=True, timeout=60).returncode, 0)
 
+    def test_a_second_build_that_differs(self):
+        """By an xz that writes other bytes each time."""
+        tools = self.folder / "tools"
+        tools.mkdir()
+        (tools / "xz").write_text("#!/bin/sh\ncat > /dev/null\ncat /proc/sys/kernel/random/uuid\n")
+        (tools / "xz").chmod(0o755)
+        path = f"{tools}{os.pathsep}{os.environ['PATH']}"
+        self.assertEqual(self.run_it("--only", "source", PATH=path).returncode, 0)
+        done = self.run_it("--only", "source", "--twice", PATH=path)
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stderr, r"kerrd-[0-9.]+\.tar\.xz is not the same when it is made again")
+
+    def test_packages_of_another_architecture(self):
+        for words, said in (
+            (["--arch", "sparc"], "--arch is sparc; it must be one of arm64"),
+            (["--arch", "arm64", "--check"], "--check is for this machine's packages"),
+        ):
+            done = subprocess.run([self.tree / "scripts/package", *words], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(said, done.stderr)
+
     def test_what_it_refuses(self):
         done = self.run_it("--only", "wheels")
         self.assertEqual(done.returncode, 1)
