@@ -17,7 +17,7 @@
 
 struct kd_bloom {
     uint32_t columns, rows;      /* size of the finest grid, multiples of 2^(levels - 1) */
-    uint32_t levels;             /* number of grids; 0: nothing is spread */
+    uint32_t levels;             /* number of grids; 0: no light is spread */
     bool around;                 /* the picture shows all directions, so its left and right edges adjoin */
     double strength;             /* fraction of the light above white that is spread */
     double share;                /* fraction of the spread light on each grid: equal for each octave of the angle */
