@@ -47,7 +47,7 @@ IPOLE_CAMERA = {
     "camera__observer": "velocity",
     "camera__velocity_r": -0.002,
 }
-# the same with polarised transfer, which lowers I
+# the same flux with polarised transfer, which lowers I
 IPOLE_POLARISED_DEG = {5: 1.864400335340764, 30: 2.1902815688664155, 60: 2.6534246703175217, 75: 2.6304077917851245}
 IPOLE_GHZ = {
     26.1016: 0.21402505951085055,

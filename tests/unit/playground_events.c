@@ -259,10 +259,13 @@ static void scenes_that_mean_harm_stay_finite(void **state)
             params.amplification = 1e9;
             struct kd_playground *p = playground_make(params);
             const double m = masses[i];
-            playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 } }); /* on top of each other */
+            /* two bodies at the same place */
+            playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 } });
             playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 }, .v = { 1, 0, 0 } });
-            playground_put(p, (struct kd_playground_body) {
-                                  .mass = m, .x = { 8, 0, 0 }, .v = { -1, 0, 0 } }); /* at the horizon, with speed c */
+            playground_put(p, (struct kd_playground_body) { /* a body at the horizon with speed c */
+                                                            .mass = m,
+                                                            .x = { 8, 0, 0 },
+                                                            .v = { -1, 0, 0 } });
             playground_put(p, (struct kd_playground_body) {
                                   .mass = m, .radius = 3, .x = { 2.06, 0, 0 } }); /* next to the hole, at rest */
             playground_put(p, (struct kd_playground_body) { .mass = 1e12, .x = { 0, 0, -1e6 } });
@@ -374,7 +377,7 @@ static void far_debris_moves(void **state)
             assert_true(fabs(one->x[i] - other->x[i]) < 1e-7 * out[k] &&
                         fabs(one->v[i] - other->v[i]) < 1e-7 / sqrt(out[k]));
             assert_true(fabs(one->v[i] - (i ? 0.8 : -0.3) / sqrt(out[k])) >
-                        300 / (out[k] * out[k])); /* the hole has pulled it */
+                        300 / (out[k] * out[k])); /* velocity that the hole's attraction has caused */
         }
     for (int i = 0; i < 2; i++)
         kd_debris_finish(&debris[i]);
