@@ -171,7 +171,7 @@ static enum kd_status run(struct kd_renderer *renderer, const struct kd_rays_par
                              error);
     struct kd_ray_labels labels = { list->alpha_beta, list->outward, list->n };
     enum kd_status status = kd_rays_device(renderer, params, &labels, list->crossings, list->ends, NULL, NULL, error);
-    for (size_t i = 0; i < list->n * ORDERS; i++) /* set to NaN, because only kd_rays_trace fills it in */
+    for (size_t i = 0; i < list->n * ORDERS; i++) /* set here, because only kd_rays_trace fills it in */
         list->crossings[i].g = 1;
     return status;
 }

@@ -335,7 +335,7 @@ static void test_plunge(void **state)
         double x = path.r[0], l = path.momentum[0];
         double u_r = -sqrt(fmax(-1 - product(a, x, u_t, u_phi, u_t, u_phi), 0)),
                p_r = sqrt(fmax(-product(a, x, p_t, l, p_t, l) - path.p_z[0] * path.p_z[0], 0));
-        /* the remainder is the length of both radial parts, which are along one unit vector */
+        /* both radial parts are along one unit vector, so u_r p_r adds to the rest of the product */
         double rest = product(a, x, u_t, u_phi, p_t, l);
         double want = -1 / (rest + u_r * (path.falls[0] ? -p_r : p_r));
         inside++;

@@ -592,7 +592,7 @@ static void kept_and_made_anew(void **state)
         own = scene;
         own.image.critical_factor = 5 + (int)i;
         struct kd_frame first = seen(&base), again = seen(&scene), fresh = seen(&own);
-        /* the last changes affect nothing on which a star depends */
+        /* the last change affects nothing on which a star depends */
         bool idle = i + 1 == sizeof changes / sizeof *changes;
         assert_true(again.lens_reused && !fresh.lens_reused && was_run(&fresh, "stars"));
         assert_true(was_run(&again, "stars") == !idle);

@@ -377,7 +377,7 @@ static void far_debris_moves(void **state)
             assert_true(fabs(one->x[i] - other->x[i]) < 1e-7 * out[k] &&
                         fabs(one->v[i] - other->v[i]) < 1e-7 / sqrt(out[k]));
             assert_true(fabs(one->v[i] - (i ? 0.8 : -0.3) / sqrt(out[k])) >
-                        300 / (out[k] * out[k])); /* velocity that the hole's attraction has caused */
+                        300 / (out[k] * out[k])); /* the hole's attraction has changed the velocity */
         }
     for (int i = 0; i < 2; i++)
         kd_debris_finish(&debris[i]);
