@@ -174,7 +174,7 @@ kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
     o.c = o.ab = o.aaa = o.aab = o.abb = o.bbb = o.aaab = o.abbb = vec2(0.0);
     one_sided(kd_neighbour(f[3], (there & 8u) != 0u), kd_neighbour(f[5], (there & 32u) != 0u), o.a, o.aa, o.there);
     one_sided(kd_neighbour(f[1], (there & 2u) != 0u), kd_neighbour(f[7], (there & 128u) != 0u), o.b, o.bb, o.there);
-    if ((there | 16u) == 511u) { /* all except the ray itself */
+    if ((there | 16u) == 511u) { /* all eight neighbours exist */
         o.a = ((f[2] - f[0]) + (f[5] - f[3]) + (f[8] - f[6])) * (1.0 / 6.0);
         o.b = ((f[6] - f[0]) + (f[7] - f[1]) + (f[8] - f[2])) * (1.0 / 6.0);
         o.ab = 0.25 * (f[8] - f[6] - f[2] + f[0]);

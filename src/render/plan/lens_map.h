@@ -54,8 +54,8 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan_lens *lens)
 
 /* If image.samples is "auto", a pixel may have KD_PLAN_ADAPTIVE_SIDE^2 rays. */
 #define KD_PLAN_ADAPTIVE_SIDE 4
-#define KD_PLAN_TRUTH_SIDE 8       /* side of the grid of rays that measure the remaining error of a pixel, */
-#define KD_PLAN_SAMPLED_OF_EACH 48 /* on this many pixels of each of four kinds */
+#define KD_PLAN_TRUTH_SIDE 8       /* side of the grid of rays that measure the remaining error of a pixel */
+#define KD_PLAN_SAMPLED_OF_EACH 48 /* number of pixels, of each of four kinds, whose remaining error is measured */
 #define KD_PLAN_SAMPLED (4 * KD_PLAN_SAMPLED_OF_EACH * KD_PLAN_TRUTH_SIDE * KD_PLAN_TRUTH_SIDE)
 #define KD_PLAN_ROUNDS 6                            /* rounds of choosing pixels, at most */
 #define KD_PLAN_REFINING_LOOKS (1 + KD_PLAN_ROUNDS) /* number of times that the displayed picture is examined */

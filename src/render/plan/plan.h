@@ -89,13 +89,13 @@ static inline uint64_t kd_plan_star_ray_bytes(const struct kd_plan *plan)
 
 /* Requirements on the plan. kd_plan_make derives them from the scene; benchmarks and tests set further ones. */
 struct kd_needs {
-    uint32_t quantities;      /* KD_LENS_... quantities of the lens map */
-    bool light;               /* measure flux and centroid; always on if some luminance is kept separate */
-    bool no_image;            /* make no pixels and no layers, whatever image.layers says */
-    bool radiance;            /* make linear light a layer, if the picture is requested */
-    bool followed;            /* trace every ray, even if the profile would interpolate */
-    bool sketch;              /* march through volumes as coarsely as kd_march_sketch */
-    bool bright;              /* search stars as kd_plan_light.bright says */
+    uint32_t quantities; /* KD_LENS_... quantities of the lens map */
+    bool light;          /* measure flux and centroid; they are always measured if some luminance is kept separate */
+    bool no_image;       /* make no pixels and no layers, whatever image.layers says */
+    bool radiance;       /* make linear light a layer, if the picture is requested */
+    bool followed;       /* trace every ray, even if the profile would interpolate */
+    bool sketch;         /* march through volumes as coarsely as kd_march_sketch */
+    bool bright;         /* search stars as kd_plan_light.bright says */
     bool reuse_normalisation; /* for volume.normalise_to_jy, reuse the density found for the same matter from any
                                  viewpoint */
 };
