@@ -186,7 +186,7 @@ static void with_share(struct simulation *s, double share, enum pattern pattern,
     run(s, pattern, ms);
 }
 
-/* Slowness with an eighth of the device does not limit the quality on the whole device. */
+/* Frames that were slow with an eighth of the device do not limit the quality once the session has the whole device. */
 static void a_ceiling_of_less_is_none(void **state)
 {
     (void)state;

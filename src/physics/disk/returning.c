@@ -341,8 +341,8 @@ static double at_nodes(const double *nodes, const double *values, double s)
     return sum;
 }
 
-/* What rings receive, times r^3. flux, deficit, energy: of the light that the gas emits without returning light.
- * flux_of, deficit_of: matrices that give F_ret and L F_ret - l of the light that `more` adds. */
+/* Light that rings receive, times r^3. flux, deficit and energy describe the light that the gas emits without returning
+ * light. flux_of, deficit_of: matrices that give F_ret and L F_ret - l of the light that `more` adds. */
 struct kernel {
     double flux[N], deficit[N], energy[N]; /* F_ret; L F_ret - l; energy at infinity */
     double flux_of[N][N], deficit_of[N][N];
