@@ -38,8 +38,8 @@ IPOLE_DEG = {
     60: 3.0402553586023138,
     75: 3.021039735088821,
 }
-# ipole's observer at 1000 M is Kerr-Schild's normal observer, who moves inwards at 2/r: docs/physics/volume.md has what
-# is left then
+# Largest relative difference from ipole's own observer: Kerr-Schild's normal observer at 1000 M, who moves inwards at
+# 2/r. docs/physics/volume.md explains the difference.
 OF_IPOLE_THERE = 0.004
 IPOLE_CAMERA = {
     "camera__r": 1000,

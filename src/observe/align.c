@@ -254,7 +254,7 @@ void kd_align(const struct kd_comparison *c, const struct kd_align_params *param
     struct search s = { .c = c,
                         .p = params,
                         .given_scale = out->scale,
-                        .longest = 1, /* one wavelength at least, so that a cell is finite */
+                        .longest = 1, /* at least one wavelength, so that the size of a cell is finite */
                         .model = model,
                         .cell = room->shift,
                         .best = KD_ALIGNMENT_NONE,

@@ -161,7 +161,7 @@ static void mergers_keep_mass_and_momentum(void **state)
     const struct kd_playground_totals after = kd_playground_totals(p);
     assert_int_equal(p->n, 2);
     assert_true(fabs(after.mass / before.mass - 1) < 4e-16);
-    /* Meanwhile the hole attracts them with 1e-10 per M; this effect is known to its own rounding. */
+    /* The hole attracts the bodies with 1e-10 per M. The change of momentum that this causes is subtracted. */
     for (int k = 0; k < 3; k++) {
         const double pulled = k ? 0 : -p->t * 1e-10 * (4e-4 - 3e-5);
         assert_true(fabs(after.momentum[k] - before.momentum[k] - pulled) < 2e-15);

@@ -13,7 +13,7 @@ struct kd_compilation {
     bool picture; /* the kernels are those of a whole picture, so the scene is rendered by its plan */
     struct kd_scene scene;
     struct kd_dynamic_bodies *dynamic; /* the scene's bodies of a playground; a counted reference, because the
-                                        * requester may end before this */
+                                        * requester may end before the compilation */
     struct kd_plan plan;
     struct kd_kernel_requests wishes;
     kd_progress_fn progress;

@@ -76,6 +76,6 @@ enum kd_status kd_gather_open(const struct kd_gather_format *format, const struc
 /* Appends more bytes, sometimes none. *over: everything was produced. KD_ENOMEM; KD_EIO if a frame's file has
  * changed. */
 enum kd_status kd_gather_next(struct kd_gather *gather, struct kd_buffer *out, bool *over, struct kd_error *error);
-void kd_gather_close(struct kd_gather *gather); /* also accepts a gather that was never opened */
+void kd_gather_close(struct kd_gather *gather); /* may be called for a gather that was never opened */
 
 #endif

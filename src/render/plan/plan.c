@@ -445,7 +445,7 @@ enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *
         KD_TRY(kd_plan_bands(&plan, scene, capacity, error));
     plan.lens.audit = plan.lens.cacheable && plan.lens.orders && !within_horizon(scene)
                           ? KD_AUDIT_RAYS
-                          : 0; /* outside the horizon, as the test for the closed form requires */
+                          : 0; /* the audit's closed form requires an observer outside the horizon */
     passes(&plan, scene, capacity);
     kd_plan_say(&plan, scene);
     if (kd_plan_lens_key(&plan, scene))
