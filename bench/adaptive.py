@@ -216,7 +216,7 @@ def least(server, scenes, rounds):
         for name, scene in scenes.items():
             tilt = scene.get("camera", {}).get("inclination_deg", 80) + 1e-3 * n
             ms = server.ms(merged(scene, camera={"inclination_deg": tilt}))
-            if n:  # the first one compiles kernels
+            if n:  # leaves out the first one, because it compiles kernels
                 found[name].append(ms)
     return {name: min(ms) for name, ms in found.items()}
 

@@ -33,7 +33,7 @@ enum { MARKS = sizeof marks / sizeof *marks };
 struct orbit {
     const char *name;
     double a, mass2, energy, momentum, carter, k;
-    double r;             /* at the start: pericentre, in the equatorial plane */
+    double r;             /* place at the start: pericentre, in the equatorial plane */
     double mino, regular; /* length of a loop, from pericentre to pericentre: in Mino time, and in s with d(affine) =
                            * r ds */
 };

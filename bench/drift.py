@@ -14,7 +14,8 @@ ORBITS = {
     "matter": "Matter: a = 0.9, p = 8, e = 0.5, inclined by 60°",
     "light": "Light: a = 0.9, bound about r = 0.3 M, below the inner horizon",
 }
-COLOURS = {"Yoshida 6": "#0072b2", "RK4": "#d55e00", "RKN6": "#009e73", "Tao, Yoshida 6": "#cc79a7"}  # by Okabe and Ito
+# colours by Okabe and Ito
+COLOURS = {"Yoshida 6": "#0072b2", "RK4": "#d55e00", "RKN6": "#009e73", "Tao, Yoshida 6": "#cc79a7"}
 
 
 def at(figures, row, what, loops):
@@ -50,7 +51,7 @@ def plot(figures, path):
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
 
-    plt.rcParams["svg.hashsalt"] = "kerrd"  # the same picture each time
+    plt.rcParams["svg.hashsalt"] = "kerrd"  # fixed, so that the picture is the same each time
     figure, all_axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True)
     most = max(r["evaluations"] for r in figures["rows"])
     for axes, (orbit, title) in zip(all_axes, ORBITS.items()):

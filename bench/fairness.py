@@ -26,7 +26,7 @@ import time
 
 import measure
 
-SIZE = (320, 180)  # of the measured picture
+SIZE = (320, 180)  # size of the measured picture
 LIVING = {"image": {"width": 640, "height": 360}, "disk": {"model": "particles"}, "motion": {"time_rate": 10}}
 FRAME = {"image": {"width": 640, "height": 360}}
 

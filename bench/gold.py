@@ -38,8 +38,8 @@ IPOLE_DEG = {
     60: 3.0402553586023138,
     75: 3.021039735088821,
 }
-# ipole's observer at 1000 M is Kerr-Schild's normal observer, who moves inwards at 2/r: docs/physics/volume.md has what
-# is left then
+# Largest relative difference from ipole's own observer: Kerr-Schild's normal observer at 1000 M, who moves inwards at
+# 2/r. docs/physics/volume.md explains the difference.
 OF_IPOLE_THERE = 0.004
 IPOLE_CAMERA = {
     "camera__r": 1000,
@@ -47,7 +47,7 @@ IPOLE_CAMERA = {
     "camera__observer": "velocity",
     "camera__velocity_r": -0.002,
 }
-# the same with polarised transfer, which lowers I
+# the same flux with polarised transfer, which lowers I
 IPOLE_POLARISED_DEG = {5: 1.864400335340764, 30: 2.1902815688664155, 60: 2.6534246703175217, 75: 2.6304077917851245}
 IPOLE_GHZ = {
     26.1016: 0.21402505951085055,

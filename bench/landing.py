@@ -116,7 +116,8 @@ def main():
             browser = playwright.chromium.launch(
                 executable_path="/usr/bin/chromium", args=["--no-sandbox", "--disable-gpu", "--disable-3d-apis"]
             )
-            film(browser, base, "1400 × 860", arguments.seconds, None)  # not measured: it compiles the kernels
+            # left out of the measurement, because it compiles the kernels
+            film(browser, base, "1400 × 860", arguments.seconds, None)
             busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(arguments.busy)]
             time.sleep(2)
             for name in WINDOWS:

@@ -147,7 +147,7 @@ def rows_of(browser, base, seconds):
             if far:
                 line.send("Network.enable")
                 line.send("Network.emulateNetworkConditions", FAR)
-            page.wait_for_timeout(4000)  # meanwhile the page chooses the size of its picture
+            page.wait_for_timeout(4000)  # waits until the page has chosen the size of its picture
             where = ", 300 ms and 1 Mbit/s" if far else ""
             rows[f"{name}: time runs{where}"] = row(page, waits(page), seconds)
             drag(page, 3)
@@ -194,7 +194,7 @@ def main():
             browser = playwright.chromium.launch(
                 executable_path="/usr/bin/chromium", args=["--no-sandbox", "--disable-gpu", "--disable-3d-apis"]
             )
-            first_picture(browser, base)  # not measured: it compiles the kernels
+            first_picture(browser, base)  # left out of the measurement, because it compiles the kernels
             first, rows = first_picture(browser, base), rows_of(browser, base, arguments.seconds)
             browser.close()
     finally:

@@ -368,7 +368,7 @@ def main():
     KERRD = arguments.kerrd
     plt.rcParams.update(
         {"svg.hashsalt": "kerrd", "svg.fonttype": "none", "path.simplify": True}
-    )  # the same file each time
+    )  # fixed, so that the file is the same each time
     for name in arguments.chapters or (*PANELS, *PICTURES):
         if name in PANELS:
             draw(PANELS[name], arguments.output / f"{name}.svg")

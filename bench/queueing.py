@@ -34,7 +34,7 @@ class Refused(Exception):
 class Work:
     seconds: float  # of device time
     estimate: float  # seconds of device time by its plan's estimate
-    encode: float = 0.0  # seconds of an encoder, afterwards
+    encode: float = 0.0  # seconds that an encoder takes after the device
     kind: str = "picture"
     client: str = "proxy"
     paid: float = 0.0  # state of the scheduler, from here on
@@ -254,7 +254,7 @@ class Balancer:
     def release(self, server):
         self._move(server, -1)
         while self.waiting:
-            if self.waiting[0].triggered:  # its patience has ended
+            if self.waiting[0].triggered:  # gives up, because its patience has ended
                 self.waiting.popleft()
                 continue
             server = self._least()

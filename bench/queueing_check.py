@@ -336,7 +336,7 @@ def sleeping(path, n, load, rng, count):
 
 
 def calmest(rounds):
-    """The round in which this script was woken least late, and so the machine least disturbed."""
+    """The round in which this script woke up with the least delay, because the machine was least disturbed."""
     return min(rounds, key=lambda one: one["late_ms"])
 
 

@@ -159,7 +159,7 @@ def visitors(n, each, habits, seconds, stay=120.0, seed=7):
         held[server] -= 1
 
     def come():
-        for k in range(n * each):  # those present at the start
+        for k in range(n * each):  # clients that are present at the start
             env.process(visit(servers[k % n]))
         while True:
             yield env.timeout(rng.expovariate(n * each / stay))

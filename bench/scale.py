@@ -59,7 +59,8 @@ def together(kerrd, distributed, binary, scenes, killed=False):
     ):
         for core, worker in enumerate(dask.run(os.getpid)):
             dask.run(pin, core % os.cpu_count(), workers=[worker])
-        kerrd.sweep(scenes[:2] * 4, dask, binary=binary, env=ONE_THREAD)  # servers start, and make kernels
+        # the first scenes start the servers and make their kernels
+        kerrd.sweep(scenes[:2] * 4, dask, binary=binary, env=ONE_THREAD)
 
         def kill():
             while len(list(pathlib.Path(folder).glob("*.png"))) < len(scenes) // 2:

@@ -557,7 +557,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+b") as log:
         state = str(pathlib.Path(folder) / "state")
         if a.faults:
-            import soak_faults  # it is built with the tests
+            import soak_faults  # can be imported only here, because it is built with the tests
 
             harm = soak_faults.Faults(a.build, random.Random(a.seed))
             server = Server(harm.command(), state, log, "--device-reopenings", "100000", env=harm.environment())

@@ -109,8 +109,8 @@ async function watch(scene) {
     };
   const carry = buildCarry(stage, scene);
   let told_ms = -Infinity,
-    any = false, // a picture has been shown
-    drift = () => {}, // called with each picture
+    any = false, // whether a picture has been shown
+    drift = () => {}, // is called with each picture
     key = null, // the scales over a picture in false colour
     built,
     seen;
@@ -155,7 +155,7 @@ async function watch(scene) {
   async function rests(whether) {
     resting = whether;
     if (whether && stage.dataset.final !== 'true') (await parts).drawOverlays();
-    stage.dataset.final = resting; // the scene may have changed meanwhile
+    stage.dataset.final = resting; // the scene may have changed while the picture was on its way
     if (resting) followFiner(false), followMeasured();
     else if (!scene.goesOn()) followFiner(true);
   }
@@ -260,7 +260,7 @@ async function watch(scene) {
 
   const source = openSource(scene, size, show, refuse, rests);
   const followFiner = buildRefining(source.address, words => status.dataset.wrong || (status.textContent = words));
-  followFiner(true); // when the view is visible
+  followFiner(true); // follows refinement only while the view is visible
   if (!byId('lensing').hidden) {
     source.refresh();
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);

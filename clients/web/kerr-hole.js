@@ -13,10 +13,10 @@ const most_live = 2; // limit of live sessions on one page; another one ends the
 const most_posters = 2; // posters that are requested at once
 const idle_ms = 60000; // a live hole becomes a picture again after this time without input
 const retry_ms = 3000;
-const degrees_per_width = 180; // by which a drag across the element turns the camera
+const degrees_per_width = 180; // degrees by which a drag across the whole element turns the camera
 const key_deg = 5;
 const key_zoom = 1.1;
-// fraction of the width: before the first touch, smaller live pictures do not replace the still one
+// fraction of the width: before the first touch, live pictures that are smaller than this do not replace the still one
 const least_part = 0.5;
 const widest = 960; // largest width of a live picture, pixels
 
@@ -330,7 +330,7 @@ class KerrHole extends HTMLElement {
     query.delete('preset');
     Object.assign(change, documentOf(query));
     const now = change.camera?.inclination_deg ?? before;
-    if (now !== before) camera.inclination_deg = now; // otherwise the view stays where it was dragged to
+    if (now !== before) camera.inclination_deg = now; // an unchanged attribute leaves the view where it was dragged to
     this.#send(this.#session);
   }
 

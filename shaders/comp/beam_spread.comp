@@ -1,4 +1,4 @@
-/* Kernel: converts rows of cells back to rows of light, the inverse of beam_gather.comp. An invocation makes four
+/* Kernel: converts rows of cells back to rows of light, as the inverse of beam_gather.comp. An invocation makes four
  * pixels of a band, which are three vectors of four floats. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -21,8 +21,8 @@ vec3 cell(int i) { return lines[i].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Light { vec4 light[]; };
 
-/* Light of the band's pixel n; beyond the band's end, of its last pixel. The quotient as a float is wrong by at most
- * one (post.comp). */
+/* Light of the band's pixel n; if n is beyond the band's end, light of the band's last pixel. The quotient as a
+ * float is wrong by at most one (post.comp). */
 vec3 pixel(int n)
 {
     int width = int(push.pixels_x);
@@ -33,8 +33,8 @@ vec3 pixel(int n)
     if (!COARSE)
         return cell(row + x);
     float u = (float(x) + 0.5) * push.cells, left = floor(u), t = u - left - 0.5;
-    int i =
-        row + int(left); /* the cell before the pixel's own: the grid has one more cell to the left of the picture */
+    int i = row + int(left); /* the cell before the pixel's own cell; the grid has one more cell to the left of the
+                              * picture */
     return beam_spline(t + 1) * cell(i) + beam_spline(t) * cell(i + 1) + beam_spline(t - 1) * cell(i + 2);
 }
 

@@ -7,11 +7,11 @@
  * crossing. For directions in the sky it interpolates the unit vector. At (x, y) sides of a pixel from the middle its
  * error is x(x^2 - 1)/6 of the third difference along x, at most 1/17 of it, and likewise along y.
  *
- * MARK: the kernel interpolates nothing, and writes 1 for each listed pixel where interpolation is accurate, otherwise
- * 0, in the pixel's word after the list. All nine rays must have crossings of the same orders and the same fate. In the
- * metric of the source the second differences must be less than BENT of the first. For crossings the third differences
- * must be less than TWISTED of the first: the error is then below 0.004 of a pixel. The word is 0 at the edges of the
- * picture, and of the band in the buffer. */
+ * MARK: the kernel interpolates nothing, and writes 1 for each listed pixel where interpolation is accurate,
+ * otherwise 0, in the pixel's word after the list. All nine rays must have crossings of the same orders and the same
+ * fate. In the metric of the source, the second differences must be less than BENT times the first. For crossings
+ * the third differences must be less than TWISTED times the first, so that the error is below 0.004 of a pixel. The
+ * word is 0 at the edges of the picture, and of the band in the buffer. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"
@@ -92,9 +92,9 @@ bool straight(kd_biquadratic p, vec3 m)
 }
 
 /* Whether the error of the polynomial of crossing n is small relative to the polynomial's slopes. The error is the
- * third difference along x and y, which needs a ray two pixels away; each of the four such rays that has the crossing
- * gives one. The second difference alone would not be enough: it is 0 at a pixel where the map bends in opposite
- * directions on both sides. */
+ * third difference along x and y, which needs a ray two pixels away. There are four such rays; each that has the
+ * crossing gives one difference. The second difference alone is not enough, because it is 0 at a pixel where the map
+ * bends in opposite directions on both sides. */
 bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint y)
 {
     vec3 own = crossing(n, quantity, at), i = m * p.slope_x, j = m * p.slope_y;

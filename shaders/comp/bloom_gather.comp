@@ -24,7 +24,7 @@ vec3 light(int at) { return blocks[at].rgb; }
 #endif
 layout(set = 0, binding = 1) writeonly buffer Cells { vec4 cells[]; };
 
-/* Numbers along an axis: of pixels, of pixels a block, of blocks, of cells. */
+/* Numbers along an axis: pixels, pixels in a block, blocks, cells. */
 struct kd_bloom_axis { uint pixels, block, blocks, cells; };
 /* A block, and its weights for two adjacent cells along an axis. */
 struct kd_tap {
@@ -38,7 +38,7 @@ int first_tap(kd_bloom_axis axis, int i, bool around)
 {
     float step_ = float(axis.cells * axis.block) / float(axis.pixels);
     return int(ceil((float(i) - 1) / step_ - 0.5)) -
-           (around && RAGGED ? 1 : 0); /* beyond the left edge the next block is the right edge's narrow one */
+           (around && RAGGED ? 1 : 0); /* beyond the left edge, the next block is the narrow block at the right edge */
 }
 
 /* A block, and its weights by the distance of its centre from that of cell i, in cells. */

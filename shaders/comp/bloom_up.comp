@@ -1,10 +1,10 @@
-/* Kernel: for the cells of one grid, adds the light spread by this grid to the light spread by all coarser ones. The
- * latter is the sum that the next coarser grid holds.
+/* Kernel: for the cells of one grid, adds the light spread by this grid to the sum of the light spread by all coarser
+ * grids, which the next coarser grid holds.
  *
  * With the weights 3 and 1 over 4 (G. Chaikin 1974) a quadratic B-spline becomes one of half the spacing. All grids
- * together are therefore a sum of such splines, whichever grid they are evaluated on. This grid's light is smoothed by
- * 1, 2, 1 over 4 along each side. That filter is zero at the frequency that a grid aliases, so a point of light spreads
- * in the same way wherever it is in its cell. */
+ * together are therefore a sum of such splines, whichever grid they are evaluated on. This grid's light is smoothed
+ * by 1, 2, 1 over 4 along each side. That filter is zero at the frequency that a grid aliases, so a point of light
+ * spreads in the same way wherever it is in its cell. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

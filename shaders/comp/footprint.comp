@@ -132,8 +132,8 @@ kd_oval on_grid(kd_which which, uint at, kd_grid grid)
     return KD_NO_OVAL;
 }
 
-/* Sums for the least-squares linear map: of v v^T, of d v^T, and of d.d; and the number of neighbours that lack the
- * crossing or end that the ray has. */
+/* Sums for a least-squares linear map: those of v v^T, of d v^T, and of d.d; and the number of neighbours that lack
+ * the crossing or end that the ray has. */
 struct kd_fit {
     float xx, xy, yy;
     vec3 dx, dy;
@@ -195,8 +195,8 @@ kd_oval on_lattice(kd_which which, uint at)
         o.shape = kd_oval_of(area * (i.x * i.x + j.x * j.x) + left, area * (i.y * i.y + j.y * j.y) + left,
                              area * (i.x * i.y + j.x * j.y))
                       .shape;
-    /* The four rays of a pixel without adjacent pixels are collinear. The change along their line is then taken for all
-     * directions. */
+    /* The four rays of a pixel without adjacent pixels lie on a line. The change along that line is then used for
+     * all directions. */
     if (det < 0.5 * area * area)
         o = kd_oval(fit.lacks > 0.0 || fit.count == 0.0 ? KD_FOOTPRINT_EDGE
                                                         : kd_longest(area * fit.dd / (fit.xx + fit.yy), 0.0, 0.0),

@@ -34,7 +34,7 @@ uint queue_of(uint level) { return KD_SAMPLE_QUEUES + blocks() * (((1u << (2u * 
 uint places_of_nodes() { return units_of(2u); }
 uint places_alone() { return places_of_nodes() + push.room; }
 
-/* Reserves n entries of the list whose counts are at `counts`, and requests workgroups of `each` entries. */
+/* Reserves n entries of the list whose counts are at `counts`. Each workgroup processes `each` entries. */
 uint take(uint counts, uint n, uint each)
 {
     uint first = atomicAdd(words[counts + 3u], n);
@@ -127,8 +127,8 @@ void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
     } while (++k < 2u * cells * cells);
 }
 
-/* A node that is compared with a cell's check. Such nodes are along the cell's middle row or middle column. The
- * checking ray is next to the first of them and follows them. */
+/* A node that is compared with the check of a cell. Such nodes lie along the cell's middle row or middle column.
+ * i = 5 is the checking ray, which lies next to the first of them. */
 uint node_along(uvec2 corner, uint side, uint axis, uint i)
 {
     uint word = i < 5u       ? index_of_node(corner, side, axis == 0u ? i : 2u, axis == 0u ? 2u : i)
@@ -145,7 +145,7 @@ struct kd_line_told {
 };
 const kd_line_told KD_NOTHING_TOLD = kd_line_told(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
 
-/* Replaces NaN and infinity by a value that is outside every tolerance. */
+/* Replaces NaN and infinity by a value that exceeds every tolerance. */
 float or_far(float x) { return kd_is_finite(x) ? x : 1e18; }
 
 void tell(inout kd_line_told t, vec3 v[6])
@@ -213,8 +213,8 @@ bool curve_is_far(uvec2 corner, uint side, float least)
     return least > max(0.5 * t.bend.x, 2.0 * t.off.x);
 }
 
-/* Whether the polynomials predict both rays: w relative to w, an angle, and a slope relative to the steepest one. far:
- * in quarters of the side. */
+/* Whether the polynomials predict both rays: w relative to w itself, an angle, and a slope relative to the steepest
+ * slope. far: in quarters of the side. */
 bool crossing_is_smooth(uvec2 corner, uint side, uint n, float far)
 {
     kd_line_told t = KD_NOTHING_TOLD;

@@ -32,8 +32,8 @@ layout(set = 0, binding = 0) buffer LensMap { float lens[]; };
 #include "ray/open.glsl"
 #include "ray/node.glsl"
 
-const uint MORE =
-    12; /* half periods followed after the last order; rays that circle longer are within 1e-13 of the curve */
+const uint MORE = 12; /* half periods followed after the last order; rays that circle longer are within a relative
+                       * distance of 1e-13 of the critical curve */
 
 /* A ray between two crossings. */
 struct kd_leg {
@@ -59,16 +59,16 @@ float time_limit(kd_turning_point b, kd_state start, float e, bool falls)
     return start.dw < 0.0 ? 1.01 * start.w / sqrt(max(least, 1e-12 * e2)) : 1e30;
 }
 
-/* The closed form continues beyond the horizon, turns inside and comes back out. So a ray that falls must still be
- * falling at the crossing, and within its largest possible time. A ray that escapes comes back from infinity on the
- * other side, where w < 0. */
+/* Whether the ray still exists at the crossing. The closed form continues beyond the horizon, turns inside and comes
+ * back out. So a ray that falls must still be falling at the crossing, and within its largest possible time. A ray
+ * that escapes comes back from infinity on the other side, where w < 0. */
 bool goes_on(kd_leg leg, bool falls, float limit)
 {
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
 }
 
-/* Whether rounding may have created, or removed, the leg's next crossing. The drag is needed for that only if something
- * else needs it, because it takes half of the kernel's time. */
+/* Whether rounding may have created or removed the leg's next crossing. The drag is computed only if something else
+ * needs it, because it takes half of the kernel's time. */
 bool is_open(kd_leg leg, kd_polar polar, kd_margins margins)
 {
     return (polar.crosses && kd_crossing_is_open(leg.next.w, margins)) || ((PHI || SKY) && !kd_is_finite(leg.drag));
@@ -153,7 +153,7 @@ void main()
     kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.charge2, cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_arcs a = kd_arcs_of(m, ray.e);
-    kd_ray tilted = ray; /* in the plane the azimuth has no start, so a nearby ray is used instead */
+    kd_ray tilted = ray; /* a nearby ray is used, because in the plane the azimuth has no start */
     tilted.p = cam.u == 0.0 && ray.p == 0.0 ? 1e-15 : ray.p;
     kd_azimuth azimuth = kd_azimuth_of(m, tilted, polar, cam.u, cam.s);
     kd_state start;
@@ -183,8 +183,8 @@ void main()
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
-    /* Far out, the scale of w is E over the larger of E and |(l, p)|. The larger one is at least a.scale / sqrt(3), and
-     * at least 1. The scale is at most that of the horizon. */
+    /* Far out, the scale of w is E divided by the larger of E and |(l, p)|. That divisor is at least a.scale /
+     * sqrt(3), and at least 1. The scale is at most that of the horizon. */
     const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
     bool open = !kd_is_decided(barrier, start, kd_start_noise(m, start, rounding)) || is_open(leg, polar, margins);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);
@@ -200,7 +200,8 @@ void main()
             keep(at, n, leg.alive && polar.crosses, leg, drag);
         }
     }
-    /* These loops test at their ends: if a loop tests at its head, lavapipe executes its body once more than needed. */
+    /* These loops test at their ends, because with a test at the head lavapipe executes the body once more than
+     * needed. */
     if ((PHI || SKY) && leg.alive && n < legs) {
         do {
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);

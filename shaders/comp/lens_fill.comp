@@ -89,7 +89,7 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
     return l;
 }
 
-/* Stores through max because of lavapipe. If a value is only stored, lavapipe computes it lane by lane, in the loop
+/* Stores through max because of lavapipe. lavapipe computes a value that is only stored lane by lane, in the loop
  * that stores it. It computes the result of max for all lanes at once. */
 void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = max(value, -KD_FOOTPRINT_EDGE); }
 
@@ -103,7 +103,7 @@ void put_crossing(uint at, uint n, kd_patch_at s, bool falls)
         put(at, kd_plane(KD_LENS_PHI) + n, falls ? s.v.y - cam.spin * kd_fall(s.v.x, cam.root) : s.v.y);
     if (SLOPE)
         put(at, kd_plane(KD_LENS_SLOPE) + n, s.v.z);
-    if (FOOTPRINT) { /* in the metric of the disk, including the azimuths' logarithm */
+    if (FOOTPRINT) { /* in the metric of the disk; the azimuth's logarithm is included */
         float r = 1.0 / s.v.x, drag = falls ? cam.spin / kd_horizons(s.v.x, cam.root) : 0.0;
         vec2 i = vec2(r * r * s.i.x, r * (s.i.y - drag * s.i.x)), j = vec2(r * r * s.j.x, r * (s.j.y - drag * s.j.x));
         kd_oval o = kd_oval_of(i.x * i.x + j.x * j.x, i.y * i.y + j.y * j.y, i.x * i.y + j.x * j.y);

@@ -39,8 +39,8 @@ float kd_boole(uint k) { return k == 0 || k == 4 ? 7.0 : k == 2 ? 12.0 : 32.0; }
 /* A group of four steps in which a ray turns back to the horizon. */
 struct kd_turning {
     kd_state start;
-    float part, drag; /* part: the steps before the turn, 0 to 4. drag: the group's result by Boole's rule, which is
-                       * replaced */
+    float part, drag; /* part: the steps before the turn, 0 to 4. drag: the group's result by Boole's rule, which the
+                       * result of kd_drag_about_turn replaces */
     float w;          /* w where the ray turns */
     bool any, last;   /* last: the last group of its half period */
 };

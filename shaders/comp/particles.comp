@@ -36,7 +36,7 @@ kd_phasor swing(uint random, uint phase)
 /* Adds a particle to the grid that starts at word `first`. */
 void share_out(float row, uint phi, uint first, uint rows, uint columns_log2)
 {
-    if (row < 0.0 || row > float(rows)) /* beyond the edge at present */
+    if (row < 0.0 || row > float(rows)) /* skipped, because the particle is beyond the edge at present */
         return;
     uint i = min(uint(row), rows - 1), j = phi >> (32 - columns_log2);
     uint upper = uint((row - float(i)) * float(push.unit) + 0.5), lower = push.unit - upper;

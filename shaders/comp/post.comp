@@ -185,7 +185,7 @@ ivec3 pixel(vec3 c, place at, vec3 arrives)
     c = srgb(clamp(c, 0.0, 1.0));
 #endif
     float spread = 0.998 * push.dither;
-    /* the value is positive, so truncation rounds down */
+    /* truncation rounds down, because the value is positive */
     return min(ivec3(c + (spread * threshold(at) + (0.5 - 0.5 * spread))), LEVELS);
 }
 

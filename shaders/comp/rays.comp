@@ -170,8 +170,8 @@ void main()
         for (; j <= STEPS; j++) {
             p = kd_full_step(m, p, h);
             KD_TRACE_STEP(float(n), h, vec4(0.0, 0.0, p.y.yx), vec4(0.0, 0.0, p.dy.yx), 0.0);
-            p.y.z = clamp(p.y.z, -1e12, 1e12); /* keep it finite; a ray whose error is amplified that much is lost
-                                                * anyway */
+            p.y.z = clamp(p.y.z, -1e12, 1e12); /* kept finite; a ray whose error is amplified that much counts as
+                                                * undecided anyway */
             if (p.y.x < 0.0 || p.y.x >= cam.horizon)
                 break;
             r = rates(m, p, polar.b, way);
@@ -189,10 +189,10 @@ void main()
         tau += h * float(min(j, STEPS));
         float left = h * float(STEPS - min(j, STEPS)), ahead = left * abs(y.dw);
         /* The error of w comes from the steps and from rounding. The error of the steps is the difference of the two
-         * integrations, if that is small. It is at least the error at the last crossing times the growth of the
-         * variation since, because two wrong paths may meet by chance. Rounding adds about ten operations of a unit
-         * roundoff each, amplified by the variation. It adds the same amount again through the time of the crossing,
-         * and the drift of the first integral. */
+         * integrations, if that is small. As two wrong paths may meet by chance, it is taken to be at least the
+         * error at the last crossing times the growth of the variation since then. Rounding adds about ten
+         * operations of a unit roundoff each, amplified by the variation. It adds the same amount again through the
+         * time of the crossing, and the drift of the first integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
         float off = lost + drifted(m, y, h * float(STEPS)) +
@@ -224,7 +224,7 @@ void main()
     }
 
     kd_escape end = kd_path_escape(m, ray, last);
-    if (error == 0.0) /* no crossing: nothing amplifies errors */
+    if (error == 0.0) /* without a crossing nothing amplifies errors */
         error = 1e3 * cam.epsilon + lost_in_a_turn(KD_PI / float(STEPS));
     if (!kd_is_decided(barrier, start, kd_start_noise(m, start, rounding)) ||
         kd_escapes(barrier, start) != (end.fate == KD_FATE_ESCAPED))

@@ -177,10 +177,10 @@ void main()
     for (uint n = 0; n < 3 * ORDERS + 4; n++)
         ends[o + n] = 0.0;
 
-    /* lavapipe leaves all loops of an invocation after 65535 rounds, including inner ones; the variables then hold
-     * intermediate values. This limit is below that, and a ray that needs more stays undecided. With the most steps
-     * that src/render/rays/check.c accepts, these rounds are 16 half turns (Tao's method) or 60; a ray that passes the
-     * hole takes 8 to 13. */
+    /* lavapipe leaves all loops of an invocation after 65535 rounds, including rounds of inner loops; the variables
+     * then hold intermediate values. This limit is lower, and a ray that needs more rounds stays undecided. With the
+     * most steps that src/render/rays/check.c accepts, these rounds are 16 half turns (Tao's method) or 60; a ray
+     * that passes the hole takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;
@@ -191,7 +191,7 @@ void main()
         n = 1;
     }
     float far = max(rays.far, 10.0 * radius(y.a.x));
-    /* Computed here and not in each step, because the series has ten rounds. */
+    /* computed here instead of in each step, because the series has ten rounds */
     kd_phasor turns[4];
     for (int k = 0; k < 4; k++)
         turns[k] = kd_cos_sin(2.0 * KD_BIND * h * YOSHIDA[k]);

@@ -36,7 +36,7 @@ layout(set = 0, binding = 4) readonly buffer Stars { float stars[]; };
 #define KD_STAR_LIGHT_BINDING 6
 #include "ray/star_light.glsl"
 
-#define KD_STAR_THIN 0.02 /* least area of a patch over the square of its size */
+#define KD_STAR_THIN 0.02 /* least area of a patch divided by the square of its size */
 
 /* f(x, y) = c + a x + b y + aa x^2 + ab x y + bb y^2 + aaa x^3 + aab x^2 y + abb x y^2 + bbb y^3, and on the rim +
  * aaab x^3 y + abbb x y^3; in radians. */
@@ -58,7 +58,7 @@ kd_neighbour neighbour(kd_chart c, uint at, uint x, uint y, int dx, int dy)
     bool inside = place.x >= 0;
     uint there = inside ? uint(place.y) * push.width + uint(place.x) : at;
     vec3 n = kd_sky_from(there);
-    n -= c.n; /* so that small differences keep all their digits */
+    n -= c.n; /* subtracted first, so that small differences keep all their digits */
     return kd_neighbour(vec2(dot(c.e1, n), dot(c.e2, n)), inside && kd_sky_escapes(there));
 }
 
@@ -174,7 +174,7 @@ kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
     o.c = o.ab = o.aaa = o.aab = o.abb = o.bbb = o.aaab = o.abbb = vec2(0.0);
     one_sided(kd_neighbour(f[3], (there & 8u) != 0u), kd_neighbour(f[5], (there & 32u) != 0u), o.a, o.aa, o.there);
     one_sided(kd_neighbour(f[1], (there & 2u) != 0u), kd_neighbour(f[7], (there & 128u) != 0u), o.b, o.bb, o.there);
-    if ((there | 16u) == 511u) { /* all except the ray itself */
+    if ((there | 16u) == 511u) { /* all eight neighbours exist */
         o.a = ((f[2] - f[0]) + (f[5] - f[3]) + (f[8] - f[6])) * (1.0 / 6.0);
         o.b = ((f[6] - f[0]) + (f[7] - f[1]) + (f[8] - f[2])) * (1.0 / 6.0);
         o.ab = 0.25 * (f[8] - f[6] - f[2] + f[0]);
@@ -216,7 +216,7 @@ vec2 root(kd_patch m, vec2 q, vec2 p)
         vec2 f = q - value(m, p), step_ = vec2(j[1].y * f.x - j[1].x * f.y, j[0].x * f.y - j[0].y * f.x) / det;
         far = max(abs(step_.x), abs(step_.y));
         p += far < 0.5 ? step_ : far < 1e9 ? step_ * (0.5 / far) : vec2(0.0);
-    } while (++k < 6 && far > 1e-4); /* the next step would only be about 1e-8 */
+    } while (++k < 6 && far > 1e-4); /* stops here, because the next step would only be about 1e-8 */
     return far < 1e-3 ? p : vec2(1e9);
 }
 

@@ -79,7 +79,8 @@ kd_tile tile_about(uint at, bool whole)
         int row = k / 3, i = k - 3 * row - 1, j = row - 1;
         uint there = whole ? at + uint(HALF * (j * int(push.width) + i)) : at;
         vec3 other = kd_sky_from(there);
-        vec2 q = vec2(dot(e1, other - n), dot(e2, other - n)); /* so that small differences keep all their digits */
+        /* subtracted first, so that small differences keep all their digits */
+        vec2 q = vec2(dot(e1, other - n), dot(e2, other - n));
         float u = float(i), v = float(j);
         escape = escape && kd_sky_escapes(there) && dot(n, other) > 0.5;
         vec2 place = kd_face_place(face, kd_sky_galactic(other));
@@ -222,8 +223,8 @@ void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
     kd_star_spread((vec2(x, y) + place + 0.5) / float(SIDE) - 0.5, emission.sky.brightness * magnified * own * colour);
 }
 
-/* Lists the pairs of star k, whose place is this many rays from the middle one; lists nothing if the star is too
- * faint. */
+/* Lists the pairs of star k, unless the star is too faint. place: distance of the star's image from the middle ray,
+ * in rays. */
 void note(uint at, vec2 place, float near, uint k, bool bright)
 {
     ivec2 low = max(ivec2(ceil(place - near)), ivec2(-HALF)), high = min(ivec2(floor(place + near)), ivec2(HALF));
@@ -282,9 +283,9 @@ void seek(uint x, uint y)
     kd_tile t = tile_about(at, whole);
     /* Vectors whose products with a star are u and v. */
     vec3 to_u = (t.b.y * t.e1 - t.b.x * t.e2) / t.det, to_v = (t.a.x * t.e2 - t.a.y * t.e1) / t.det;
-    float unit =
-        push.least * float(SIDE * SIDE) /
-        (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* the last of the rim's rays stand for a little less */
+    float unit = push.least * float(SIDE * SIDE) /
+                 (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* the last of the rim's rays stand for a slightly
+                                                                      * smaller area */
     kd_bounds bounds = bounds_of(t);
     float least = bounds.sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* the faintest star that shows */
     bool left_out = is_left_out(x, y), spreads = BRIGHT || t.is_smooth;

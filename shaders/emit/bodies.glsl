@@ -17,7 +17,7 @@
 #ifndef KD_BLOCK_bodies
 /* clang-format off */
 #define KD_BLOCK_bodies(F, U, A) \
-    F(least)                  /* 1/r of the outermost place at which a body may be */ \
+    F(least)                  /* 1/r of the outermost place at which there may be a body */ \
     /* a ball round all bodies, M: x and y by mirrored azimuths, 0 at the observer */ \
     F(x) F(y) F(z) F(reach) \
     U(leaves)                   /* leaves of the tree, a power of two */
@@ -58,12 +58,12 @@ float kd_bodies_shift(kd_met met)
                1e-6);
 }
 
-/* Temperature in the body's frame. */
+/* Temperature in the body's frame, K. */
 float kd_bodies_kelvin(kd_met met) { return emission.disk.peak * kd_body_row(met.body, 6u).x; }
 
 /* Irradiance of a surface of normal y from light with these moments of its direction n, to second order (R.
  * Ramamoorthi & P. Hanrahan 2001, "On the relationship between radiance and irradiance", J. Opt. Soc. Am. A 18,
- * 2448): a cosine clamped at 0 is 1/4 + c/2 + 5 (3 c^2 - 1)/32. */
+ * 2448): to that order a cosine c clamped at 0 is 1/4 + c/2 + 5 (3 c^2 - 1)/32. */
 vec3 kd_bodies_reflected(kd_met met)
 {
     vec4 a = kd_body_row(met.body, 7u), b = kd_body_row(met.body, 8u), c = kd_body_row(met.body, 9u);

@@ -16,12 +16,12 @@
     F(quanta_mean)         /* (1 - exp(-x))/x */
 /* clang-format on */
 #define KD_ATMOSPHERE_ROWS 64
-/* disk: (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next row; of reflected
- * light T_c/T_peak, and r^3 times its flux over that of a black body of T_c. atmosphere:
- * emitted intensity over that of an isotropic surface of the same flux, against the square root of the cosine to the
- * normal; in each row the coefficients of a cubic of the place in its cell. */
+/* disk: (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next row; for
+ * reflected light T_c/T_peak, and r^3 times its flux divided by that of a black body of T_c. atmosphere: emitted
+ * intensity over that of an isotropic surface of the same flux, against the square root of the cosine to the normal;
+ * in each row the coefficients of a cubic of the place in its cell. */
 #define KD_TABLES_disk(T) T(disk, KD_DISK_TABLE) T(atmosphere, KD_ATMOSPHERE_ROWS)
-#define KD_TRAIT_VISIBLE 8u      /* brightness weighted as by the eye instead of bolometric */
+#define KD_TRAIT_VISIBLE 8u      /* brightness is weighted by the eye's sensitivity instead of bolometric */
 #define KD_TRAIT_LIMB 128u       /* the light depends on the angle of emission: the table `atmosphere` */
 #define KD_TRAIT_FREQUENCY 4096u /* brightness is the intensity at one frequency */
 #define KD_TRAIT_REFLECTED 8192u /* the disk reflects light that returns to it */
@@ -116,8 +116,8 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
     /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);
     bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
-    /* Elsewhere t may be NaN: inside the photon orbit u^t does not exist, and the divisor of g, E (r^(3/2) + a) - L,
-     * vanishes. */
+    /* Elsewhere t may be NaN: inside the photon orbit u^t does not exist, and E (r^(3/2) + a) - L, the divisor of g,
+     * may vanish. */
     return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * (f * f * (3.0 - 2.0 * f)) : 0.0);
 }
 

@@ -10,10 +10,10 @@
     F(along_least) F(along_most) /* range of 1/r of all volumes together */ \
     F(along_hollow) F(along_u)   /* least and largest |cos(theta)| of all volumes together */ \
     F(along_knot)          /* 1/r of a sphere at which the light of a volume has an edge; 0: none */ \
-    F(kelvin) F(jansky)    /* for light 1 of one frequency: brightness temperature, K; Jy a steradian */ \
+    F(kelvin) F(jansky)    /* light 1 at one frequency: as brightness temperature in K, and as Jy per steradian */ \
     F(jansky_pixel)        /* Jy from one pixel of light 1 of one frequency; 0: pixels differ in size */ \
     F(r_isco) \
-    F(one_minus_a)         /* 1 - spin, which a float of the spin loses near 1 */ \
+    F(one_minus_a)         /* 1 - spin, which would lose digits if it were computed from a float near 1 */ \
     F(inner) F(outer)      /* edges of the disk, M; set whether anything emits light between them or not */
 /* clang-format on */
 #endif

@@ -17,7 +17,7 @@
 #define KD_GAS_RING 0.2 /* ln of the ratio of neighbouring rings' radii */
 #define KD_GAS_RINGS 80 /* radii from 1 to 1e6 M, and one beyond */
 #define KD_GAS_OCTAVES 8
-#define KD_GAS_DRIFT 0.15 /* cells by which the first octave's lattice drifts while its ring turns by a radian */
+#define KD_GAS_DRIFT 0.15 /* cells by which the first octave's lattice drifts while its ring turns by one radian */
 #define KD_GAS_HASTE 1.6  /* ratio of the drift of successive octaves */
 #define KD_GAS_FINER 1.9  /* ratio of the numbers of cells per length of successive octaves */
 #define KD_GAS_TURN 0.9   /* rotation of each octave's lattice against that of the octave before, radians */
@@ -71,7 +71,7 @@ vec2 kd_gas_noise(vec2 p, vec4 at)
                    vec2(b.x * e.x + b.y * d.y, b.x * d.y - b.y * e.x), t.x);
     vec2 high = mix(vec2(c.x * d.x + c.y * e.y, c.x * e.y - c.y * d.x),
                     vec2(f.x * e.x + f.y * e.y, f.x * e.y - f.y * e.x), t.x);
-    /* so that the mean of n^2 over the square's gradients and over places in a cell is 1 */
+    /* the factor makes the mean of n^2 equal 1, over the square's gradients and over places in a cell */
     return mix(low, high, t.y) * (5.677716904867669 / 32768.0);
 }
 
@@ -143,7 +143,7 @@ float kd_gas_excess(kd_sample s)
     do {
         float part = loud * left;
         vec2 a = kd_gas_noise(one.p, kd_gas_lattice(one, octave)), b = kd_gas_noise(two.p, kd_gas_lattice(two, octave));
-        if (left > 0.0) /* false also for NaN, from an infinite footprint */
+        if (left > 0.0) /* also false for NaN, which comes from an infinite footprint */
             sum += part * (w1 * a.x + w2 * b.x) - 0.5 * part * part;
         loud *= emission.gas.persistence;
         steps = kd_gas_steps(steps.sum * emission.gas.finer, steps.product * emission.gas.finer * emission.gas.finer);
@@ -160,12 +160,13 @@ kd_glow kd_gas_glow(kd_sample s)
     float more = KD_GAS_TAKEN > 0u ? exp(kd_gas_excess(s)) : 1.0;
     if ((TRAITS_gas & KD_TRAIT_GAS_DEEP) != 0u) {
         float t = gas.t / kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_gas), t2 = t * t, flux = t2 * t2;
-        if ((TRAITS_gas & KD_TRAIT_REFLECTED) != 0u) { /* the depth goes with all of the flux */
+        if ((TRAITS_gas & KD_TRAIT_REFLECTED) != 0u) { /* the depth follows the whole flux */
             vec2 light = kd_disk_dilute(s.w), square = light * light;
             flux += light.y * square.x * square.x;
         }
         float taken = 1.0 - exp(-emission.gas.depth * flux * more / max(s.cosine, 1e-6));
-        gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0; /* elsewhere g may be NaN: inside the photon orbit */
+        /* elsewhere g may be NaN, because there is no u^t inside the photon orbit */
+        gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0;
     }
     gas.t *= sqrt(sqrt(more));
     return kd_glow(gas.alpha * kd_disk_surface(gas.t, s, TRAITS_gas), gas.alpha, 0.0);

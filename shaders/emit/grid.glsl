@@ -90,7 +90,7 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
-    /* loops as above, one of which has no rounds */
+    /* loops as above; one of the two has no rounds */
     KD_GRID_SUM(kd_grid_whole, emission.plasma.grid_packed == 0u ? rounds : 0u)
     KD_GRID_SUM(kd_grid_packed, emission.plasma.grid_packed == 0u ? 0u : rounds)
     return sum;

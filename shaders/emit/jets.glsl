@@ -37,9 +37,9 @@
 
 #ifdef KD_EMIT_CODE
 /* -k.U of the matter, without a difference of nearly equal numbers. For light along the jet, e - k_r is computed as
- * across^2 over the sum e + k_r, with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma. By
- * p_theta^2 = Q + a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no sine in a
- * denominator: Sigma across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2r - q^2)/A. */
+ * across^2/(e + k_r), with across^2 = k_theta^2 + k_phi^2 = (p_theta^2 + L^2 Sigma^2/(A sin^2))/Sigma. By p_theta^2
+ * = Q + a^2 E^2 u^2 - L^2 u^2/sin^2 and A = (r^2 + a^2)^2 - a^2 Delta sin^2 this has no sine in a denominator: Sigma
+ * across^2 = Q + L^2 + a^2 E^2 u^2 - L^2 a^2 (Sigma + 2r - q^2)/A. */
 float kd_jets_energy(kd_midst p)
 {
     kd_place at = kd_place_at(p.w, p.u, 1.0 - p.u * p.u);

@@ -16,7 +16,7 @@
 /* g r^(-3/4) at r = 1/w: the factor for the temperature of a disk whose table holds T r^(3/4). */
 float kd_orbit_cooled(float w, float energy, float momentum, uint traits)
 {
-    /* The x^3 under P^2 (kd_circle_at) and r^(-3/4) cancel. */
+    /* The x^3 under P^2 (kd_circle_at) cancels against r^(-3/4). */
     kd_circle at = kd_circle_at(w, emission.frame.one_minus_a);
     float r = 1.0 / w, x = sqrt(r), x3 = r * x, all = at.all, rest = at.rest;
     bool doppler = (traits & KD_TRAIT_DOPPLER) != 0u, redshift = (traits & KD_TRAIT_REDSHIFT) != 0u;

@@ -53,7 +53,7 @@
         T(AZIMUTH)
 /* clang-format on */
 #define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid) B(6, quad_texels, plasma_texels)
-#define KD_GRID_CELLS 2.0 /* largest number of the grid's cells that a grain covers */
+#define KD_GRID_CELLS 2.0 /* largest number of cells of the matter grid that a grain covers */
 #define KD_PASS_plasma(P)
 #define KD_TORUS_COLD -24.0 /* log2(h - 1) in place of log2 of 0 */
 #define KD_PLASMA_SEEN \
@@ -105,10 +105,11 @@ kd_flow kd_flow_round(kd_metric g, float r)
     return kd_flow(time, g.round_ * past * time, 0.0, 0.0);
 }
 
-/* Inside the ISCO matter keeps the e and l that it has at the ISCO at its latitude, and stays at that latitude (H.-Y.
- * Pu, K. Akiyama & K. Asada 2016, ApJ 831, 4). Then Sigma^2 (u^r)^2 = A e^2 - 2 a m e l - (Sigma - m) l^2/sin^2 - Sigma
- * Delta, with m = 2r - q^2, is a quartic that vanishes at the ISCO. Divided by r - r_isco, it has no difference of
- * nearly equal numbers. Where it is negative, off the plane, matter rotates with the angular velocity of e and l. */
+/* Inside the ISCO matter keeps the e and l that it has at the ISCO at its latitude, and stays at that latitude
+ * (H.-Y. Pu, K. Akiyama & K. Asada 2016, ApJ 831, 4). Then Sigma^2 (u^r)^2 = A e^2 - 2 a m e l - (Sigma - m)
+ * l^2/sin^2 - Sigma Delta, with m = 2r - q^2, is a quartic that vanishes at the ISCO. After division by r - r_isco
+ * it contains no difference of nearly equal numbers. Off the plane it may be negative; there matter rotates with the
+ * angular velocity of e and l. */
 kd_flow kd_flow_plunge(kd_metric g, kd_midst p)
 {
     float r = 1.0 / p.w, edge = emission.frame.r_isco, a2 = cam.spin * cam.spin, u2 = p.u * p.u,
@@ -251,7 +252,7 @@ kd_plasma kd_plasma_at(kd_midst p)
     m.electrons.heat = emission.plasma.heat - emission.plasma.heat_index * log2_r;
     if ((TRAITS_plasma & KD_TRAIT_PLASMA_TORUS) != 0u) {
         m.electrons.density = emission.plasma.density + emission.plasma.torus_index * more;
-        /* at zero temperature no fit is valid, but then there is no matter */
+        /* no fit is valid at zero temperature, but there is no matter then */
         m.electrons.heat = emission.plasma.heat + max(more, KD_TORUS_COLD);
         m.electrons.field = 0.5 * (m.electrons.density + emission.plasma.field + more);
     } else
@@ -260,7 +261,7 @@ kd_plasma kd_plasma_at(kd_midst p)
     return m;
 }
 
-/* log2((2^-sa + 2^-sb)^(-1/s)): a smooth minimum, the sharper the larger s is. */
+/* log2((2^-sa + 2^-sb)^(-1/s)): a smooth minimum of a and b, which is sharper for larger s. */
 float kd_log2_joined(float a, float b, float s)
 {
     return min(a, b) - log2(1.0 + exp2(-min(s * abs(a - b), 120.0))) / s;
@@ -304,9 +305,9 @@ kd_radiates kd_plasma_gives(kd_plasma m)
     return kd_synchrotron_thermal(m.electrons, m.frequency);
 }
 
-/* Makes the medium from logarithms. Where the depth exceeds 2^24 a length, light and depth are both reduced by the same
+/* Makes the medium from logarithms. Where the depth exceeds 2^24 per length, light and depth are reduced by the same
  * factor, because such matter shows only its own light. Light of such matter is correct up to 6e28 K. Light of thin
- * matter is limited to 2^99 a length, beyond the range of layers (src/render/frame/layers.c). */
+ * matter is limited to 2^99 per length, beyond the range of layers (src/render/frame/layers.c). */
 kd_medium kd_plasma_medium(float light, float depth, float grain)
 {
     float over = max(depth - 24.0, 0.0);
@@ -370,7 +371,8 @@ kd_medium kd_plasma_along(kd_midst p)
         r < emission.frame.r_isco)
         medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
     float edge =
-        /* the edges may lie inside the bounds of other volumes, where the march does not look for them */
+        /* the distances to the edges, which may lie inside the bounds of other volumes, where the march does not
+         * search for them */
         min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer));
     medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;
     return medium;

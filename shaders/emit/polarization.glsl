@@ -49,8 +49,8 @@ vec2 kd_polarization_right(uvec2 place)
     vec2 at = vec2(float(place.x) - cam.middle_x, cam.middle_y - float(place.y)), off = at;
     float ahead = kd_camera_ahead(off.x, off.y);
     vec3 look = normalize(ahead * c0 + off.x * cx + off.y * cy), up = cy;
-    if (SIGHT == KD_SIGHT_DOME) { /* transported from the middle along great circles: no place of the dome is a pole of
-                                   * this transport */
+    if (SIGHT == KD_SIGHT_DOME) { /* transported from the middle along great circles, because this transport has no
+                                   * pole at any place of the dome */
         float d = length(at);
         vec2 to = d > 0.0 ? at / d : vec2(0.0, 1.0), angle = kd_quarter_turns(d * cam.turn_x);
         up = to.y * (angle.x * (to.x * cx + to.y * cy) - angle.y * c0) + to.x * (to.x * cy - to.y * cx);

@@ -169,8 +169,8 @@ vec2 kd_stokes_marszewski(uint node, float log2_w, float log2_x)
     vec3 width = widths[node];
     vec4 shape = shapes[node], ratio = ratios[node];
     float w = exp2(clamp(log2_w, -40.0, 40.0)), root = sqrt(w), x = exp2(clamp(log2_x, -40.0, 40.0));
-    float bend =
-        exp(-shape.z * pow(x, shape.w)) * kd_cos_sin(shape.y * min(x, 1e3)).s; /* beyond 1e3 the exponential is 0 */
+    float bend = exp(-shape.z * pow(x, shape.w)) * kd_cos_sin(shape.y * min(x, 1e3)).s; /* skipped, because beyond 1e3
+                                                                                         * the exponential is 0 */
     float q =
         (1.0 - exp(-shape.x * pow(x, 0.84)) - bend) * (width.x * w - width.y * root + width.z * root * exp(-5.0 * w));
     float v = max(1.0 - 0.17 * log(1.0 + slows[node] * inversesqrt(x)), 0.0) * (w + ratio.x + ratio.y / w) /
@@ -314,8 +314,8 @@ kd_jones kd_stokes_order(kd_stokes_trial t)
     vec3 im =
         near * (cross(r1, r2) - cross(a1, a2) + cross(r2, r3) - cross(a2, a3)) - far * (cross(r1, r3) - cross(a1, a3));
     float size = dot(re, re) + dot(im, im), turn = length(r1 + r2 + r3);
-    /* The series is in powers of the rotation angle of the stretch, and the factor does not preserve lengths. If many
-     * stretches had angles of many radians, the factors would amplify light. */
+    /* The series is in powers of the rotation angle of the stretch, and the factor does not preserve lengths. If
+     * many stretches had angles of many radians, their factors would amplify light, so the factor is 1 there. */
     return size < 0.25 && turn < 2.0 ? kd_jones(vec2(1.0, 0.0), -0.5 * re, -0.5 * im) : kd_jones_one();
 }
 

@@ -94,8 +94,8 @@ vec2 kd_thick_noise(vec3 p, vec4 at)
          z0 = uint(int(corner.z)) * 0xcb1ab31fu;
     vec2 low = kd_thick_plane(x0, x1, y0, y1, z0, d, t.xy),
          high = kd_thick_plane(x0, x1, y0, y1, z0 + 0xcb1ab31fu, vec3(d.xy, d.z - 1.0), t.xy);
-    return mix(low, high, t.z) * (KD_THICK_NOISE / 2147483648.0); /* so that the mean of n^2 over the cube's gradients
-                                                                   * and over places in a cell is 1 */
+    return mix(low, high, t.z) * (KD_THICK_NOISE / 2147483648.0); /* with this factor the mean of n^2 over the cube's
+                                                                   * gradients and over places in a cell is 1 */
 }
 
 /* As kd_gas_excess, with a height. finest: cells of the finest octave that matters for the grain, per cell of the first

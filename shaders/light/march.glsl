@@ -263,8 +263,8 @@ kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outw
     float both = sqrt(i * (1.0 - i)), apart = i - 0.5,
           all = size * size / (0.5 + sqrt(apart * apart + j * j * both * both));
     vec3 flat_ = all * vec3(i, j * both, 1.0 - i);
-    /* Direction of the ray as if space were flat, over r: r'^2 = R(w)/w^4, L about the axis, and sqrt(Q) along the
-     * normal. */
+    /* Direction of the ray as if space were flat, divided by r: r'^2 = R(w)/w^4, L about the axis, and sqrt(Q) along
+     * the normal. */
     float w2 = w * w, out2 = max(ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)), 0.0),
           round_ = -m.momentum * w, up2 = max(m.q, 0.0) * w2;
     float plane2 = max(out2 + round_ * round_, 1e-12), c2 = up2 / (up2 + plane2), less = 1.0 - sqrt(c2),
@@ -341,7 +341,8 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
 {
     float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
     vec3 light = vec3(0.0), light_off = vec3(0.0), seen = vec3(0.0), seen_off = vec3(0.0);
-    float wish = stretch / s.h; /* length of the next stretch; 0: unknown, and found from a stretch of no length */
+    /* length of the next stretch; 0: unknown, so that a stretch of length 0 determines it */
+    float wish = stretch / s.h;
     for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE && KD_MARCH_MAY; n++) {
         KD_MARCH_SPEND(KD_MARCH_STRETCH)
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0,

@@ -13,7 +13,7 @@
 #define KD_MEET_GLSL
 
 #define KD_MEET_SLACK \
-    0.02 /* fraction of r; to it 0.1 of the ball's radius is added. A ray this near to the ball is tested closely */
+    0.02 /* A ray is tested closely if its distance from the ball is less than this times r, plus 0.1 of its radius */
 #define KD_MEET_FAR 1e30
 
 /* An end of a step: (n, w), and the change of (n, w) over a step. */

@@ -227,7 +227,7 @@ const bool COLUMNS =
  * afterwards. Most pixels have no points. */
 void point_column(uint x, uint y, uint end)
 {
-    uint has = 0u; /* bit k: whether the pixel in row y + k has any, or its ray has no end */
+    uint has = 0u; /* bit k: whether the pixel in row y + k has points of light, or its ray has no end */
     [[unroll]] for (uint k = 0u; k < KD_TRANSFER_ROWS; k++) {
         uint row = min(y + k, end - 1u);
         float fate = quantity(KD_LENS_FATE, (row - slice.band0) * cam.width + x);
@@ -321,7 +321,7 @@ void store_ray(uint to, kd_beam beam, bool adds)
         if (STOKES && KD_SEPARATE_PHOTOMETRY && KD_HAS(polarization))
             spots += vec2(radiance[from + 3 * pixels], radiance[from + 4 * pixels]);
     }
-    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* whatever light the pixel's other rays have */
+    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* the light of the pixel's other rays makes no difference */
         all.z = KD_STOKES_UNTOLD;
     store(to, sum, apart, all, spots);
 }

@@ -67,7 +67,7 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
     b.dw = -sqrt(max(kd_radial_potential(m, b.w, ray.e, cam.spin, cam.root), 0.0));
     if (INGOING && 1.5 * (c.w - a.w) > 0.25 * h * (a.dw + c.dw)) /* at the midpoint the ray still moves inwards */
         b.dw = -b.dw;
-    if (INGOING) /* ingoing coordinates have no pole here: an outgoing ray is in them from the start */
+    if (INGOING) /* the azimuth of an outgoing ray is ingoing from the start, and has no pole here */
         return h * (1.0 / 6.0) *
                (kd_drag_ingoing(m, a, ray.e, cam.spin, cam.root, -1.0) +
                 4.0 * kd_drag_ingoing(m, b, ray.e, cam.spin, cam.root, -1.0) +

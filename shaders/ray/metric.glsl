@@ -17,7 +17,7 @@ kd_place kd_place_at(float w, float u, float s2)
     return kd_place(aw2, delta, area, 1.0 + aw2 * u * u, drag / area);
 }
 
-/* The mass term of the metric, 2r - q^2; and over r^2. */
+/* The mass term of the metric, 2r - q^2; and this term divided by r^2. */
 float kd_mass(float r)
 {
     float mass = 2.0 * r;

@@ -39,7 +39,7 @@ void kd_star_spread(vec2 place, vec3 light)
         light *= kd_star_level(place.y, rows) / dot(wy, levels);
     }
     int k = 0;
-    [[dont_unroll]] do { /* tests at its end: lens_closed.comp says why */
+    [[dont_unroll]] do { /* the condition is at the loop's end for the reason given in lens_closed.comp */
         int r = k / 3, c = k - 3 * r;
         ivec2 at = ivec2(middle) + ivec2(c, r) - 1;
         if (SIGHT == KD_SIGHT_SPHERE)

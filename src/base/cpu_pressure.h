@@ -10,8 +10,8 @@ struct kd_cpu_pressure {
 
 struct kd_cpu_pressure kd_cpu_pressure_now(void);
 
-/* Returns the fraction of the time since `since` in which the threads ran, of all time in which they ran or waited for
- * a core. 1 if they never waited, or if nothing is known. */
+/* Returns the fraction run / (run + waited) of the threads' time since `since`. It is 1 if they never waited for a
+ * core, or if nothing is known. */
 double kd_cpu_pressure_share(const struct kd_cpu_pressure *since);
 
 #endif

@@ -64,7 +64,7 @@ static void make_powers(void)
         if (k < K_MAX)
             multiply_by_ten(&up);
     }
-    down.word[WORDS - 2] = 1; /* the floor of repeated divisions equals the floor of the whole quotient */
+    down.word[WORDS - 2] = 1; /* the floor of repeated divisions equals the floor of the quotient by their product */
     for (int k = -1; k >= K_MIN; k--) {
         divide_by_ten(&down);
         powers[k - K_MIN] = leading_bits(&down, 0);

@@ -25,7 +25,7 @@ struct kd_json {
     struct kd_buffer *out;
     /* KD_ENOMEM: out of memory. KD_EINVAL: the caller has nested objects and arrays wrongly. */
     enum kd_status status;
-    size_t begun; /* size of *out before the document */
+    size_t begun; /* size of *out before the document began */
     unsigned depth;
     bool lines; /* each member is on a line of its own, for human readers */
     /* Writes a finite number in another form than kd_decimal_print; NULL: in that form. */

@@ -1,4 +1,4 @@
-/* Percent-encoding of text in addresses (RFC 3986 2.1). */
+/* Percent-encodes text for addresses (RFC 3986 2.1). */
 #ifndef KD_BASE_PERCENT_H
 #define KD_BASE_PERCENT_H
 

@@ -95,7 +95,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     return code;
 }
 
-/* Moves a descriptor to 4 or above. The program uses those below. */
+/* Moves a descriptor to 4 or above, because the program uses those below. */
 static bool lift(int *fd)
 {
     int high = fcntl(*fd, F_DUPFD_CLOEXEC, 4);
@@ -168,7 +168,7 @@ static void listen_to(struct kd_program *p)
         memcpy(p->said + p->n_said, part, keep);
         p->n_said += keep;
         p->said[p->n_said] = 0;
-        if (p->n_last + (size_t)n >= sizeof p->last) { /* drops the older half */
+        if (p->n_last + (size_t)n >= sizeof p->last) { /* drops the older half to make room */
             const size_t kept = sizeof p->last / 2;
             memmove(p->last, p->last + p->n_last - kept, kept);
             p->n_last = kept;
@@ -239,7 +239,7 @@ static bool begins_path(const char *at)
     return *at == '/' && (unsigned char)at[1] > ' ';
 }
 
-/* Skips a control character or a whole escape sequence (ECMA-48, 5.4). */
+/* Skips a control character, or a whole escape sequence (ECMA-48, 5.4). */
 static const char *skip_control(const char *at)
 {
     if (at[0] != '\x1b' || at[1] != '[')

@@ -10,7 +10,7 @@
 /* length of the longest extension that is examined; mktemp's names have ten random letters behind a dot */
 enum { LETTERS_MAX = 9 };
 
-/* Other extensions of our formats. */
+/* Further extensions for our formats. */
 static const struct {
     const char *ending, *format;
 } synonyms[] = {
@@ -51,7 +51,7 @@ _Noreturn static void refuse(const struct argp_state *state, const char *option,
                                                 : " or ",
                                  strcmp(known[i], "text") ? known[i] : "txt");
     argp_error(state, "%s is \"%s\": the name must end in %s", option, path, list);
-    exit(argp_err_exit_status); /* not reached, because argp_error exits */
+    exit(argp_err_exit_status); /* not reached, because argp_error does not return */
 }
 
 const char *kd_cli_ending(const struct argp_state *state, const char *option, const char *path,

@@ -21,7 +21,7 @@
 enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER, KEY_ONLY };
 
 struct arguments {
-    struct kd_scene_command base; /* its document is the film's request */
+    struct kd_scene_command base; /* the film's request is the document of these options */
     const char *state;
     const struct kd_gather_format *kind; /* format of the film; NULL: none, only frames are made */
     unsigned rate, samples, first, last; /* first, last: numbers of the first and the last frame to render */

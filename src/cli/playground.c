@@ -200,7 +200,7 @@ static enum kd_status go_on_telling(struct story *story, const struct kd_playgro
 {
     const uint64_t last = p->events.last, first = last > KD_PLAYGROUND_EVENTS
                                                       ? last - KD_PLAYGROUND_EVENTS
-                                                      : 0; /* number of the event before the first one that is stored */
+                                                      : 0; /* number of the event before the first stored one */
     enum kd_status status = KD_OK;
     if (story->told < first) {
         KD_TRY(add_lost(story, first));

@@ -185,7 +185,7 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
     KD_TRY(settle(arguments, &request, &renderer, error));
     if (strcmp(path, "-") || format == KD_RAYS_NPY)
         KD_TRY(kd_file_check(path, error));
-    double *alpha_beta = request.alpha_beta; /* the answer owns it from here on */
+    double *alpha_beta = request.alpha_beta; /* from here on the answer owns the array */
     request.alpha_beta = NULL;
     KD_TRY(kd_rays_answer_init(&answer, &request.params, alpha_beta, request.n, error));
     KD_TRY(trace(renderer, &answer, error));

@@ -26,11 +26,11 @@ static void name_value(const struct kd_row *row, char *out, size_t size)
 static void name_default(const struct kd_row *row, const void *from, char *out, size_t size)
 {
     const void *at = from ? (const char *)from + row->offset : NULL;
-    char text[KD_WORD_ROOM] = ""; /* a number is shorter */
+    char text[KD_WORD_ROOM] = ""; /* enough for a word; a number is shorter */
     int word = 0;
     double number = NAN;
     *out = 0;
-    if (!at || row->needed || strstr(row->help, "default")) /* the help states the default itself */
+    if (!at || row->needed || strstr(row->help, "default")) /* skipped, because the help already states the default */
         return;
     switch (row->kind) {
     case KD_KIND_WORD:
@@ -73,7 +73,7 @@ void kd_row_options_add(struct kd_row_options *to, struct argp_option *table, si
             *c = '-';
         if ((document->of && row->of && !(row->of & document->of)) || has(to, option))
             continue;
-        if (to->n == KD_ROW_OPTIONS) /* a table has outgrown the room; each start of its command shows it */
+        if (to->n == KD_ROW_OPTIONS) /* every start of the command fails here if a table has outgrown the room */
             abort();
         const size_t k = to->n++;
         name_default(row, from, initial, sizeof initial);

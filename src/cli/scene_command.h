@@ -36,7 +36,7 @@ struct kd_scene_command {
     struct kd_plan plan;
     struct kd_frame frame;
     struct kd_buffer file;
-    bool printed; /* a successful run ends with `file` on standard output */
+    bool printed; /* a successful run ends by writing `file` to standard output */
     double ms;    /* render time */
 };
 

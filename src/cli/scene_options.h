@@ -19,15 +19,15 @@ struct kd_scene_options {
     const char **set; /* texts "path=value", from --set, --size and --tile */
     size_t n_set;
     struct kd_asset_options assets;
-    char width[32], height[32]; /* entries of `set` that --size has made */
-    char tile[4][40];           /* entries of `set` that --tile has made */
+    char width[32], height[32]; /* texts of the entries of `set` that --size has made */
+    char tile[4][40];           /* texts of the entries of `set` that --tile has made */
 };
 
 #define KD_SCENE_ARGS_DOC "[SCENE.json|-]"
 
 /* An argp child. Its input is a struct kd_scene_options that is initialised to 0. It takes the positional argument. */
 extern const struct argp kd_scene_options_argp;
-/* The children of these options and the two of cli.h, the scene's first. */
+/* The child parsers of these options: the scene's options first, then the two of cli.h. */
 extern const struct argp_child kd_scene_device_children[];
 
 /* Loads and validates the merged scene. */

@@ -52,7 +52,7 @@ static bool report(void *user, const struct kd_selftest_row *row)
     else
         print_row(row);
     if (fflush(stdout))
-        kd_cli_stdout_failed(errno); /* reported here, because later the reason is lost */
+        kd_cli_stdout_failed(errno); /* reported here, because the reason is no longer known later */
     return true;
 }
 

@@ -70,7 +70,8 @@ static void set_signals(void (*handler)(int))
     struct sigaction hangup;
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGINT, &action, NULL);
-    if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN) /* nohup has set the signal to be ignored */
+    if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN) /* keeps the signal ignored if nohup has
+                                                                            * set it to be ignored */
         sigaction(SIGHUP, &action, NULL);
 }
 
@@ -91,7 +92,7 @@ static void show_code(const char *address, uint16_t port, const char *base_path,
 
 static void announce(const char *address, uint16_t port, const char *base_path, const char *const *own)
 {
-    bool six = strchr(address, ':'); /* in URLs an IPv6 address has brackets */
+    bool six = strchr(address, ':'); /* brackets are added, because URLs need them round an IPv6 address */
     printf("kerrd: listening on http://%s%s%s:%u%s/\n", six ? "[" : "", address, six ? "]" : "", port, base_path);
     for (const char *const *name = own; name && *name; name++)
         printf("kerrd: reachable at http://%s:%u%s/\n", *name, port, base_path);
@@ -127,7 +128,7 @@ static enum kd_status stop_at_eof(struct kd_error *error)
     if (code)
         return kd_error_set(error, KD_EIO, "cannot start the thread that waits for the end of standard input: %s",
                             strerror(code));
-    pthread_detach(thread); /* it ends with the process */
+    pthread_detach(thread); /* not joined, because it ends with the process */
     return KD_OK;
 }
 
@@ -183,7 +184,7 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
     status = kd_server_wait(running, error);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);
-    set_signals(SIG_IGN); /* the server has stopped; another Ctrl-C must not change the exit code */
+    set_signals(SIG_IGN); /* ignored, because the server has stopped and another Ctrl-C must not change the exit code */
     kd_server_destroy(running);
     return status;
 }
@@ -213,7 +214,7 @@ static enum kd_status configure(struct kd_settings *settings, struct kd_error *e
 {
     enum kd_status status;
     KD_TRY(kd_settings_read_environment(settings, environ, error));
-    set_log(settings); /* so that errors in the file are logged as flags and environment require */
+    set_log(settings); /* set first, so that errors in the file are logged as flags and environment require */
     if (kd_settings_text(settings, KD_SERVE_CONFIG))
         KD_TRY(kd_settings_read_file(settings, kd_settings_text(settings, KD_SERVE_CONFIG), error));
     set_log(settings);

@@ -17,8 +17,8 @@
 #define ESC "\033"
 #define KITTY_QUERY ESC "_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA" ESC "\\" /* a picture of one pixel that is not stored */
 #define KITTY_ANSWER ESC "_Gi=31;OK" ESC "\\"
-#define PIXELS_QUERY ESC "[14t"   /* the answer is ESC [ 4 ; HEIGHT ; WIDTH t */
-#define ATTRIBUTES_QUERY ESC "[c" /* the answer is like ESC [ ? 62 ; 4 ; 22 c, where 4 means sixel */
+#define PIXELS_QUERY ESC "[14t"   /* the size of the text area is answered as ESC [ 4 ; HEIGHT ; WIDTH t */
+#define ATTRIBUTES_QUERY ESC "[c" /* the attributes are answered like ESC [ ? 62 ; 4 ; 22 c, where 4 means sixel */
 enum { ANSWER_SIZE = 1024, CTRL_C = 3 };
 
 /* Finds the answer to ATTRIBUTES_QUERY. NULL: it has not arrived yet. */

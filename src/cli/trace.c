@@ -39,7 +39,7 @@ done:
 
 void kd_trace_finish(struct kd_described_steps *trace) { kd_ray_path_finish(&trace->path); }
 
-/* Writes a value: a residual with few digits, any other value with the digits of its precision. */
+/* Writes a value: a residual with few digits, other values with the digits of their precision. */
 static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct kd_steps_column *column, double x,
                                struct kd_buffer *out)
 {

@@ -67,7 +67,8 @@ static enum kd_status look(const struct arguments *arguments, struct kd_buffer *
     struct stat about;
     enum kd_status status;
     if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) ||
-        !S_ISREG(about.st_mode)) /* a pipe can be read only once, so the options of the scene read it */
+        !S_ISREG(about.st_mode)) /* returns, because a pipe can be read only once and the options of the scene read
+                                  * it */
         return KD_OK;
     KD_TRY(kd_file_read(options->document, PICTURE_MAX, picture, error));
     if (!picture->size || kd_format_of_bytes(picture->data, picture->size) != &kd_format_png) {

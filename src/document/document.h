@@ -38,14 +38,15 @@
 #include <stdint.h>
 
 enum kd_kind {
-    KD_KIND_REAL,   /* double: a number or, with `words`, also that one word */
-    KD_KIND_INT,    /* uint32_t */
-    KD_KIND_BOOL,   /* bool */
-    KD_KIND_WORD,   /* int or an enumeration: one of `words`, stored as its index plus `first` */
-    KD_KIND_WORDS,  /* uint32_t: a set of at least `least` of `words`, stored as bits */
+    KD_KIND_REAL, /* double: a number or, with `words`, also that one word */
+    KD_KIND_INT,  /* uint32_t */
+    KD_KIND_BOOL, /* bool */
+    KD_KIND_WORD, /* int or an enumeration: one of `words`, stored as its index plus `first` */
+    /* struct kd_number_list: an array of `fewest` to `room` numbers within the range; `fewest` 0 means one */
+    KD_KIND_WORDS,
     KD_KIND_LIST,   /* struct kd_number_list: an array of `fewest` (0: one) to `room` numbers within the range */
     KD_KIND_VECTOR, /* double[room]: an array of `room` numbers within the range */
-    KD_KIND_TEXT,   /* char[room]: a string shorter than that */
+    KD_KIND_TEXT,   /* char[room]: a string shorter than `room` */
     KD_KIND_ASSET,  /* char[KD_ASSET_NAME]: null, stored as "", or an asset (document/asset_name.h) */
     KD_KIND_SERIES, /* struct kd_words: some of `words` in any order, each once (document/words.h) */
     KD_KIND_JSON,   /* const cJSON *: any value, which the caller reads while the tree exists; NULL: not given */
@@ -64,7 +65,7 @@ struct kd_row {
     enum kd_kind kind;
     bool needed, fixed;          /* needed: must be given; fixed: cannot be changed afterwards */
     size_t offset;               /* offset in the struct that is filled */
-    double initial, least, most; /* for numbers; initial also for a WORD and a BOOL */
+    double initial, least, most; /* for numbers; `initial` is also for a WORD and a BOOL */
     enum kd_open open;
     double above_0;    /* the least value of numbers above 0 */
     const char *words; /* "a|b|c" */
@@ -73,7 +74,7 @@ struct kd_row {
     int first;
     const char *typed; /* default as typed text, for a row that may be a range (kd_row_range) */
     size_t room, fewest;
-    unsigned of;             /* bit mask of the kinds of documents that have the field; 0: all */
+    unsigned of;             /* bit mask of the kinds of documents that have the field; 0: all kinds */
     const char *unit, *help; /* unit NULL, "" or "1": none */
     /* These replace what the engine writes by itself: the allowed values in words, and the members of the JSON Schema
      * without the description, such as "\"type\":\"number\"". They are for limits that the reader cannot check by one
@@ -95,7 +96,7 @@ struct kd_former {
 struct kd_document {
     const struct kd_row *rows;
     size_t n;
-    unsigned of;        /* only rows of these kinds of documents; 0: all rows */
+    unsigned of;        /* only rows of these kinds of documents are renamed; 0: all rows */
     const char *others; /* "a|b": further members, which the caller reads; NULL: none */
     /* Combinations of members that an object cannot have, as JSON Schema; the list ends with a NULL name. May be
      * NULL. */
@@ -152,12 +153,13 @@ enum kd_status kd_row_put(const struct kd_row *row, void *to, const struct kd_va
 bool kd_row_take(const struct kd_row *row, void *to, const struct kd_value *value);
 enum kd_status kd_row_refuse(const struct kd_row *row, const struct kd_value *value, const char *called,
                              const char *pointer, struct kd_error *error);
-/* A value of any kind but TEXT, LIST, WORDS and VECTOR as a double: a BOOL as 0 or 1, a WORD as its index, the word of
- * an INT as INFINITY. An ASSET is 1 if there is one; putting 0 removes it. A SERIES is the index of its word if it has
- * just one without a number, otherwise NAN. */
+/* A value of any kind but TEXT, LIST, WORDS and VECTOR as a double: a BOOL as 0 or 1, a WORD as its index, the word
+ * of an INT as INFINITY. An ASSET is 1 if it is set; putting 0 removes it. A SERIES that has just one word without a
+ * number is the index of that word; otherwise it is NAN. */
 double kd_row_get(const struct kd_row *row, const void *from);
 void kd_row_put_number(const struct kd_row *row, void *to, double value);
-/* Whether the row allows this value: it is in the row's range, whole if the kind is, or stands for the row's word. */
+/* Whether the row allows this value. It does if the value is in the row's range (and whole if the kind requires
+ * that), or stands for the row's word. */
 bool kd_row_holds(const struct kd_row *row, double value);
 /* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow n numbers. */
 enum kd_status kd_row_make_room(const struct kd_row *row, void *to, size_t n, const char *pointer,
@@ -185,7 +187,7 @@ void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE]);
 void kd_document_write(struct kd_json *json, const struct kd_document *document, const void *from);
 /* Writes one row's value as a member. A list is left out. */
 void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from);
-/* The same under another name; NULL within an array. */
+/* Like kd_row_write, under another name; NULL within an array. */
 void kd_row_write_as(struct kd_json *json, const char *name, const struct kd_row *row, const void *from);
 /* Writes what kd_row_get gives, in the form that it has in a document. */
 void kd_row_write_value(struct kd_json *json, const char *name, const struct kd_row *row, double value);
@@ -195,7 +197,7 @@ void kd_document_properties(struct kd_json *json, const struct kd_document *docu
 void kd_row_type_members(struct kd_json *json, const struct kd_row *row);
 /* Writes one row's schema as a member. */
 void kd_row_schema(struct kd_json *json, const char *name, const struct kd_row *row);
-/* The same without the row's description. */
+/* Like kd_row_schema, without the row's description. */
 void kd_row_type(struct kd_json *json, const char *name, const struct kd_row *row);
 /* Writes "required", if a field of the document itself, or of one of its objects, is needed. */
 void kd_document_required(struct kd_json *json, const struct kd_document *document);

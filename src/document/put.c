@@ -64,8 +64,7 @@ void kd_row_put_number(const struct kd_row *row, void *to, double value)
     switch (row->kind) {
     case KD_KIND_REAL:
         *(double *)at = value == 0 ? 0 : value;
-        break; /* no -0, so that equal documents have equal
-                * texts */
+        break; /* 0 instead of -0, so that equal documents have equal texts */
     case KD_KIND_INT: *(uint32_t *)at = isinf(value) ? 0 : (uint32_t)(int64_t)value; break;
     case KD_KIND_BOOL: *(bool *)at = value != 0; break;
     case KD_KIND_WORD: memcpy(at, &(int) { (int)value + row->first }, sizeof(int)); break;
@@ -168,7 +167,7 @@ static double convert(const struct kd_row *row, const struct kd_value *value)
 
 static bool put_text(void *at, size_t room, const char *text)
 {
-    memset(at, 0, room); /* so that equal texts have equal bytes */
+    memset(at, 0, room); /* cleared, so that equal texts have equal bytes */
     memcpy(at, text, strlen(text));
     return true;
 }

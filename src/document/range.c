@@ -105,7 +105,7 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
     return KD_OK;
 }
 
-/* The largest count is KD_RANGE_MOST. */
+/* Pattern of a typed range whose count is at most KD_RANGE_MOST. */
 #define PATTERN "^" KD_SCHEMA_DECIMAL ":" KD_SCHEMA_DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
 _Static_assert(KD_RANGE_MOST == 100000, "the pattern says so");
 

@@ -71,7 +71,7 @@ static enum kd_status read_numbers(const struct kd_row *row, void *to, struct it
         snprintf(place, sizeof place, "%.130s/%zu", pointer, k);
         if (value.kind != KD_VALUE_NUMBER || !kd_row_holds(row, value.number))
             return kd_row_refuse(row, &value, called, place, error);
-        at[k] = value.number == 0 ? 0 : value.number; /* not -0, as in kd_row_put_number */
+        at[k] = value.number == 0 ? 0 : value.number; /* 0 instead of -0, as in kd_row_put_number */
     }
     return KD_OK;
 }

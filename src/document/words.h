@@ -11,14 +11,14 @@ enum { KD_WORD_ROOM = 64, KD_WORD_NUMBER_MAX = 99, KD_WORDS_MOST = 16 };
 
 /* Not NUL-terminated, so print it with %.*s. */
 struct kd_word {
-    const char *text; /* NULL: there are fewer words */
+    const char *text; /* NULL if there are fewer words */
     int length;
 };
 int kd_word_count(const char *words);
 struct kd_word kd_word(const char *words, int i);
 /* Copies word i; false if there are fewer. */
 bool kd_word_at(const char *words, int i, char out[KD_WORD_ROOM]);
-/* Index of a word, -1: none of them. */
+/* Returns the index of a word, or -1 if the list does not have it. */
 int kd_word_index(const char *words, const char *text);
 
 /* A series of words. number: the N of a word "b_N"; -1: the word has none. Entries from count on are 0, so that equal

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Words of a set, or all of them. */
+/* Writes the words that are in a set, or all words. */
 static void write_words(struct kd_json *json, const char *name, const char *words, uint32_t set)
 {
     char word[KD_WORD_ROOM];

@@ -62,7 +62,8 @@ uint32_t kd_font_next(const char **text)
     const unsigned char *c = (const unsigned char *)*text;
     const size_t n = kd_utf8_sequence(*text, strlen(*text));
     *text += n ? n : 1;
-    return n == 1 ? c[0] : n == 2 ? (c[0] & 0x1fu) << 6 | (c[1] & 0x3fu) : NO_LETTER; /* longer ones have no shape */
+    /* sequences of more bytes have no shape */
+    return n == 1 ? c[0] : n == 2 ? (c[0] & 0x1fu) << 6 | (c[1] & 0x3fu) : NO_LETTER;
 }
 
 bool kd_font_has(uint32_t letter)

@@ -11,7 +11,7 @@ struct kd_legend {
     const char *title; /* name and unit; ASCII (image/font.h) */
     enum kd_colour_map map;
     struct kd_map_scale scale;
-    uint32_t classes;         /* for CATEGORICAL: number of boxes in place of a bar */
+    uint32_t classes;         /* for CATEGORICAL: number of boxes that replace the bar */
     const char *const *names; /* names of the classes; NULL: their numbers */
 };
 

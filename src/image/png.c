@@ -97,7 +97,7 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
             return kd_error_set(error, KD_EINVAL, "PNG text \"%s\" is not UTF-8", text->key);
         total += strlen(text->key) + strlen(text->value);
     }
-    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS) /* more could be written, but not read again */
+    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS) /* more text could be written, but not be read again */
         return kd_error_set(error, KD_EINVAL,
                             "%zu bytes of PNG text in %zu chunks; there must be at most %u bytes in %d chunks", total,
                             params->n_text, MAX_TEXT, MAX_CHUNKS - 1);
@@ -264,9 +264,10 @@ static void read_info(struct job *job)
 {
     png_set_read_fn(job->png, job, source_read);
     png_set_user_limits(job->png, MAX_SIDE, MAX_SIDE);
-    png_set_chunk_malloc_max(job->png, MAX_TEXT + 128);                   /* MAX_TEXT and the key */
-    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);                    /* libpng accepts two fewer */
-    png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT); /* damaged text counts as damage, too */
+    png_set_chunk_malloc_max(job->png, MAX_TEXT + 128); /* room for MAX_TEXT and the key */
+    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);  /* libpng accepts two fewer */
+    /* damaged text counts as damage of the file */
+    png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_read_info(job->png, job->info);
 }
 

@@ -13,7 +13,7 @@ void kd_png_filter_sub(uint8_t *restrict to, const uint8_t *restrict row, size_t
         to[1 + i] = (uint8_t)(row[i] - row[i - step]);
 }
 
-/* Of left, above and corner, the value that is closest to left + above - corner. */
+/* Returns whichever of left, above and corner is closest to left + above - corner. */
 static int paeth(int left, int above, int corner)
 {
     const int l = abs(above - corner), a = abs(left - corner), c = abs(left + above - 2 * corner);

@@ -27,7 +27,7 @@ static enum kd_status fault(int code)
     case VP8_ENC_ERROR_PARTITION0_OVERFLOW:
     case VP8_ENC_ERROR_PARTITION_OVERFLOW:
     case VP8_ENC_ERROR_FILE_TOO_BIG: return KD_ETOOBIG;
-    default: return KD_ENOMEM; /* the only other reason that is possible after the checks of kd_webp_encode */
+    default: return KD_ENOMEM; /* after the checks of kd_webp_encode, any other code means a lack of memory */
     }
 }
 

@@ -12,7 +12,7 @@ enum { KD_INTEGRAL_COLUMNS = 12, KD_INTEGRAL_VALUES = 12 };
 /* Contents of an integral's answer, besides its parameters. */
 struct kd_integral_column {
     const char *name, *unit, *help; /* unit NULL: the answer's unit of light */
-    bool words;                     /* its numbers are codes of words: kd_integral_word */
+    bool words;                     /* the column's numbers are codes of words: kd_integral_word */
 };
 struct kd_integral_kind_of {
     const char *title;
@@ -28,8 +28,8 @@ struct kd_integral_answer {
     double map_jy;                     /* flux of the last map, computed from its scene; NaN: the scene's light has no
                                         * frequency */
     struct kd_alignment solved;        /* of a comparison */
-    const struct kd_integral_set *set; /* of a comparison of sets: the current one; otherwise NULL */
-    double chi2[2][KD_PRODUCTS];       /* of a comparison: for the map, and for the finer one */
+    const struct kd_integral_set *set; /* for a comparison of sets: the current set; otherwise NULL */
+    double chi2[2][KD_PRODUCTS];       /* for a comparison: chi^2 for the map, and for the finer map */
     size_t rows;
     double *columns[KD_INTEGRAL_COLUMNS]; /* each of length `rows`; a single allocation, columns[0] */
     const char *light;                    /* unit of columns that are light */

@@ -42,7 +42,7 @@ struct kd_integral_request {
     double rest_energy, energy_min, energy_max; /* energy_max NaN: 1.7 rest_energy */
     uint32_t bins;
     struct kd_number_list edges;
-    enum kd_corona_motion motion; /* of a corona off the axis */
+    enum kd_corona_motion motion; /* motion of a corona off the axis */
     double corona_radius, corona_inner, corona_top;
     double time_min, time_max; /* for an impulse response: bins of time */
     uint32_t times;
@@ -82,7 +82,7 @@ struct kd_integral_request {
     double average_s, snr_cut, uv_min_gl, systematic_visibility, systematic_amplitude, systematic_closure_phase_deg;
     int measured, maximal;
     enum kd_pixel_shape pulse;
-    int scattering;           /* 1: towards Sgr A*, observe/scattering.h */
+    int scattering;           /* 1: the scattering towards Sgr A* is applied, observe/scattering.h */
     double flux_jy;           /* NaN: the scene's own flux, or the best fit if the scene has none */
     uint32_t products, solve; /* bit masks: products of enum kd_product; solve: KD_ALIGN_... */
     uint64_t seen[2];         /* bit mask of the fields that were given */

@@ -592,7 +592,7 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
     KD_TRY(compute[request->what](request, image, answer, error));
 done:
     free(image);
-    if (kd_pause()) /* what was computed is incomplete, whatever its status */
+    if (kd_pause()) /* fails, because a result after a pause that returned true is incomplete */
         status =
             kd_error_set(error, KD_ECANCELLED, "nobody waits for the %s any more", kd_integral_name(request->what));
     if (status)

@@ -26,8 +26,8 @@ struct kd_integral_run {
     double scale; /* factor of a sum */
     size_t baseline;
     size_t set;   /* the current one, of a comparison of sets */
-    bool is_dark; /* its picture has no light */
-    /* for an observation: the model at each of its visibilities, and these as they are simulated */
+    bool is_dark; /* whether the set's picture has no light */
+    /* for an observation: the model at each visibility, and the simulated visibilities */
     double (*model)[2], (*simulated)[2];
     uint8_t *marks; /* for kd_simulate */
     double *scratch;

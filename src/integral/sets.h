@@ -12,7 +12,7 @@
 struct kd_integral_set {
     struct kd_scene scene;
     double flux_jy, size, angle_deg; /* flux_jy NaN: as for the request */
-    uint32_t row;                    /* its place in the request */
+    uint32_t row;                    /* index of the set in the request */
     uint64_t group;                  /* scenes with equal groups share a lens map */
 };
 

@@ -30,7 +30,7 @@
 #include "scene/timeline.h"
 
 #define KD_JOB_BODY_MAX (4u << 20)
-#define KD_JOB_FILM_MAX (16u << 20) /* for a request with a playground: 200 000 pieces of debris */
+#define KD_JOB_FILM_MAX (16u << 20) /* for a request with a playground: enough for 200 000 pieces of debris */
 #define KD_JOB_FRAMES_MAX 10000     /* limit for all jobs but sweeps, whose limit is KD_SWEEP_MOST */
 
 struct kd_job_spec {

@@ -6,7 +6,7 @@
 
 struct kd_embedded_observation {
     const char *name;
-    const unsigned char *data; /* a file that kd_observation_read takes */
+    const unsigned char *data; /* file that kd_observation_read accepts */
     size_t size;
 };
 extern const struct kd_embedded_observation kd_embedded_observations[]; /* ends with a name of NULL */

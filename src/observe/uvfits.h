@@ -16,7 +16,7 @@ struct file {
 };
 
 struct parameter {
-    size_t at; /* index among a group's parameters */
+    size_t at; /* index of the parameter among a group's parameters */
     double scale, zero;
     bool there;
 };

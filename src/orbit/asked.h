@@ -32,8 +32,8 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    double spin;   /* NAN if not given; it is then 0, or that of the named case */
-    double charge; /* NAN if not given; it is then 0 */
+    double spin;   /* NAN if not given; the spin is then 0, or that of the named case */
+    double charge; /* NAN if not given; the charge is then 0 */
     double periods,
         /* Duration: radial periods (turns, if r is constant), or t in M. At most one is given, the other is NAN. */
         time;
@@ -41,12 +41,12 @@ struct kd_orbit_params {
     double r_max; /* radius at which an escaping orbit ends; 100 by default */
     /* Relative error allowed in a radial period, 1e-12 by default. It determines the step if `steps` is 0. */
     double tolerance;
-    double mass_msun; /* for times in seconds; NAN: not given */
+    double mass_msun; /* mass for times in seconds; NAN: not given */
     uint32_t steps;   /* per radial period */
     uint32_t samples; /* 0: no series */
     uint32_t digits;  /* significant digits of the series' numbers in text */
     enum kd_orbit_way way;
-    bool series; /* of many orbits: write their series */
+    bool series; /* for many orbits: whether to write their series */
     struct kd_orbit_observer {
         double r, inclination_deg, azimuth_deg; /* inclination_deg NAN: no observer */
         enum kd_observer motion;

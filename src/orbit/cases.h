@@ -7,6 +7,6 @@
 /* The spec of a case in numbers, for a hole that exists. spin NAN: the case's own spin, which the result contains.
  * charge NAN: 0. */
 struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin, double charge);
-double kd_orbit_case_mass_msun(enum kd_orbit_case which); /* NAN: the case has none */
+double kd_orbit_case_mass_msun(enum kd_orbit_case which); /* returns NAN if the case has none */
 
 #endif

@@ -9,7 +9,7 @@ struct kd_orbit_sample {
     struct kd_orbit_place place; /* t and phi NAN at the horizon */
     double x, y, z;              /* sqrt(r^2 + a^2) sin theta (cos phi, sin phi), r cos theta */
     double energy_error;         /* relative; NAN for the closed form */
-    struct kd_place_image image; /* its image for the observer; NAN if there is none */
+    struct kd_place_image image; /* image of the body for the observer; NAN if there is none */
 };
 
 /* params must outlive the run. Fails with KD_EINVAL like kd_orbit_request_solve. */

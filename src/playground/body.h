@@ -19,7 +19,7 @@ enum { KD_PLAYGROUND_NAME = 32 };
              of doubles */
 
 struct kd_playground_body {
-    uint32_t id; /* from 1; never reused */
+    uint32_t id; /* number of the body, from 1; never reused */
     char name[KD_PLAYGROUND_NAME];
     double mass, radius, temperature_k;
     double x[3], v[3];

@@ -29,9 +29,9 @@ struct kd_debris_piece {
 };
 
 struct kd_debris_source {
-    uint32_t number; /* from 1; 0: free */
+    uint32_t number; /* number of the source, from 1; 0: the place is free */
     char name[KD_PLAYGROUND_NAME];
-    double t;                /* time of its first piece */
+    double t;                /* time of the source's first piece */
     double piece_mass;       /* mass of one of its pieces */
     double worth;            /* weight of a piece for pictures, as a fraction of a whole body */
     double spread;           /* half width of the pieces' energies, R/r_t^2 */

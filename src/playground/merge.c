@@ -61,7 +61,7 @@ static void join(struct kd_playground *p, struct kd_playground_body *a, struct k
     one.radiated = a->radiated + b->radiated;
     one.whole_mass = 0; /* the merged star may begin a new tidal pass */
     *a = one;
-    b->id = 0; /* marks it for removal below */
+    b->id = 0; /* 0 marks the body for removal below */
     kd_playground_event_add(&p->events, event);
 }
 

@@ -77,7 +77,7 @@ struct kd_playground {
     /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. Bodies
      * move when all have reached it. */
     size_t approached;
-    bool forced;                  /* `mutual` is up to date */
+    bool forced;                  /* whether `mutual` is up to date */
     double margin;                /* margin that `mutual` was computed with */
     double last_row[KD_SERIES_N]; /* row of the series before the current step */
 };
@@ -90,7 +90,8 @@ void kd_playground_destroy(struct kd_playground *p); /* accepts NULL */
  * are already KD_PLAYGROUND_BODIES_MAX. body->id is ignored; an empty name becomes "body ID". id may be NULL. */
 enum kd_status kd_playground_add(struct kd_playground *p, const struct kd_playground_body *body, uint32_t *id,
                                  struct kd_error *error);
-struct kd_playground_body *kd_playground_find(struct kd_playground *p, uint32_t id); /* NULL if there is none */
+/* returns NULL if there is no such body */
+struct kd_playground_body *kd_playground_find(struct kd_playground *p, uint32_t id);
 enum kd_status kd_playground_remove(struct kd_playground *p, uint32_t id, struct kd_error *error);
 /* Replaces the body with this id; the id stays. */
 enum kd_status kd_playground_change(struct kd_playground *p, uint32_t id, const struct kd_playground_body *body,

@@ -6,7 +6,7 @@
 
 struct kd_playground_preset {
     const char *name, *title;
-    double rate;             /* M a second: suggested speed */
+    double rate;             /* suggested speed in M a second */
     double centre[3], reach; /* M: centre of a suggested view, and half its width */
     void (*settings)(struct kd_playground_params *params);
     /* Adds its bodies to an empty playground, with its own or other settings. */

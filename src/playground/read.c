@@ -220,7 +220,7 @@ enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground *
     if (preset)
         KD_TRY(preset->fill(p, error));
     KD_TRY(state ? take_bodies(p, bodies, error) : do_list(p, ADD, bodies, "bodies", error));
-    p->disturbed = false; /* the energy balance starts here */
+    p->disturbed = false; /* cleared, because the energy balance starts here */
     if (state)
         KD_TRY(kd_state_read(p, state, error));
 done:

@@ -22,7 +22,7 @@
 enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynamic_bodies **out,
                                   struct kd_error *error);
 
-/* The same, with the hash of the state, which files of pictures contain. */
+/* Like the function above, with the hash of the state, which files of pictures contain. */
 enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
 

@@ -294,7 +294,7 @@ static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
     if (!(p->aim > p->t)) {
         p->aim = fmin(p->t + fmin(run->stride, affordable(p, run->left)), run->end);
         p->approached = 0;
-        run->stuck = !(p->aim > p->t); /* below the resolution of t */
+        run->stuck = !(p->aim > p->t); /* true if the step is below the resolution of t */
     }
     const uint32_t piece = run->left < PIECE ? run->left : PIECE;
     uint32_t left = piece;

@@ -92,7 +92,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->proper_time_to_horizon = within ? NAN : kd_infall_proper_time(&motion, &at, horizon);
     o->proper_time_to_end_s = second * o->proper_time_to_end;
     o->proper_time_to_horizon_s = second * o->proper_time_to_horizon;
-    o->g_behind = 1 / (frame.t.energy - frame.r.energy); /* of light that flies inwards along -e_r */
+    o->g_behind = 1 / (frame.t.energy - frame.r.energy); /* redshift of light that flies inwards along -e_r */
     o->velocity = NAN;
     if (!within) {
         const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);

@@ -64,12 +64,12 @@ struct kd_quantity {
 
 extern const struct kd_quantity *const kd_quantities[];
 extern const size_t kd_quantity_count;
-const struct kd_quantity *kd_quantity_find(const char *name); /* NULL: none of this name */
+const struct kd_quantity *kd_quantity_find(const char *name); /* returns NULL if there is no quantity of this name */
 
 /* Writes "kerr, potential, ..." to out, truncated to size. */
 void kd_quantity_names(char *out, size_t size);
 
-/* Whether parameter i is one of those along a curve. */
+/* Whether parameter i is one of the parameters along a curve. */
 bool kd_quantity_is_along(const struct kd_quantity *quantity, size_t i);
 
 extern const struct kd_row kd_quantity_digits; /* the parameter `digits` of all quantities */
@@ -85,7 +85,7 @@ void kd_quantity_request_init(struct kd_quantity_request *request, const struct 
 enum kd_status kd_quantity_request_set(struct kd_quantity_request *request, const char *name, const char *text,
                                        struct kd_error *error);
 size_t kd_quantity_points(const struct kd_quantity_request *request);  /* saturates at KD_QUANTITY_POINTS + 1 */
-double kd_quantity_cost_ms(const struct kd_quantity_request *request); /* estimated from the table only */
+double kd_quantity_cost_ms(const struct kd_quantity_request *request); /* an estimate from the table alone */
 
 struct kd_quantity_answer {
     struct kd_quantity_request request;

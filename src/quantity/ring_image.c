@@ -43,8 +43,8 @@ static const char *const sources[] = {
 static const char *const approximations[] = { NULL };
 
 struct memory {
-    struct kd_ring_image far; /* for an observer at infinity */
-    struct kd_ring_view near; /* at a finite radius */
+    struct kd_ring_image far; /* used for an observer at infinity */
+    struct kd_ring_view near; /* used for an observer at a finite radius */
 };
 
 static enum kd_status make(const struct parameters *p, double r, struct memory *m, struct kd_error *error)

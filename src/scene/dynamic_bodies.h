@@ -26,9 +26,9 @@ struct kd_seen_body {
     /* Velocity in the frame of the local observer of zero angular momentum: components along e_r, e_theta, e_phi. Its
      * magnitude is less than 1. */
     double velocity[3];
-    double radius;  /* in the body's own frame; the body is not drawn if this is 0 or less */
+    double radius;  /* radius in the body's own frame; 0 or less: the body is not drawn */
     uint32_t which; /* index in the maker's list; it is reported for a pixel that shows the body */
-    /* As in bodies.* of a scene. A body of temperature 0 is dark, and hides what is behind it. */
+    /* as in the bodies of a scene; a body of temperature 0 is dark, and hides what is behind it */
     double temperature_k, brightness, limb_darkening;
     double albedo; /* fraction of the disk's light that it reflects, isotropically; 0: reflection is not computed */
 };

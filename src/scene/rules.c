@@ -202,7 +202,7 @@ static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error 
     return KD_OK;
 }
 
-/* An observer on a path of its own determines azimuth and time, so that neither may advance independently. */
+/* An observer on a path determines both azimuth and time, so neither may advance independently. */
 static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_motion *m = &scene->motion;
@@ -275,7 +275,7 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
                           show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
-#define LEAST_HEIGHT 1e-5 /* at lower heights single precision does not resolve positions within the disk */
+#define LEAST_HEIGHT 1e-5 /* least height at which single precision resolves positions within the disk */
 static enum kd_status height(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->disk.height > 0 && scene->disk.height < LEAST_HEIGHT)

@@ -160,7 +160,7 @@ bool kd_scene_is_magnetic(const struct kd_scene *scene);
 /* Whether all light is of one frequency, so that the picture's flux is physical: only a volume at a radio frequency is
  * visible, or only a disk with disk.band "frequency". */
 bool kd_scene_is_radio_alone(const struct kd_scene *scene);
-/* That frequency, and the path of the field that has it. Undefined for other scenes. */
+/* That frequency, and the path of the field that contains it. Undefined for all other scenes. */
 double kd_scene_frequency_ghz(const struct kd_scene *scene);
 const char *kd_scene_frequency_path(const struct kd_scene *scene);
 void kd_scene_set_frequency(struct kd_scene *scene, double ghz);

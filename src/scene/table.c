@@ -8,7 +8,7 @@
 #define SECTION_NAME(s) \
     (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
-/* These hold, for each section, the type of its rows and their offset in the scene. */
+/* For each section, the type of its rows and their offset in the scene. */
 #define PLACE(name, ROWS, group, help) \
     struct rows_of_##name { KD_M_ROWS(ROWS) }; \
     enum { BASE_##name = offsetof(struct kd_scene, name) };

@@ -24,8 +24,8 @@ struct column {
     const struct kd_row *field;
     size_t index;
     size_t from; /* the key at which t is 0; at other keys whole turns are counted from this one */
-    bool ratios; /* it is interpolated logarithmically */
-    bool turns;  /* it is an angle that takes the shorter way from key to key */
+    bool ratios; /* the member is interpolated logarithmically */
+    bool turns;  /* the member is an angle, which takes the shorter way from key to key */
     enum kd_interpolation by;
 };
 
@@ -56,7 +56,7 @@ static double secant(const struct column *c, size_t key)
 {
     if (key + 1 >= c->timeline->n_keys)
         return NAN;
-    double rise = value_at(c, key + 1) - value_at(c, key); /* this is NAN for inf - inf too */
+    double rise = value_at(c, key + 1) - value_at(c, key); /* also NAN for inf - inf */
     return isfinite(rise) ? rise / apart(c, key) : NAN;
 }
 

@@ -23,7 +23,7 @@
 
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "too many bytes of your request bodies are being received at once (limit for one client)"
-/* size of a body that the basic deadline is enough for: 32 kB/s for the default of 30 s */
+/* largest body that can arrive within the basic deadline at 32 kB/s; the default deadline is 30 s */
 #define PACE ((size_t)960000)
 
 static int socket_of(struct MHD_Connection *mhd)
@@ -48,7 +48,7 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
         if (kd_connection_is_health(*socket_context))
-            kd_sched_short_slices(); /* called here, because no earlier code of ours runs on a daemon's thread */
+            kd_sched_short_slices(); /* called here, because this is the first code of ours on a daemon's thread */
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;
@@ -61,14 +61,14 @@ static void stage(struct kd_request *request, enum kd_stage to)
 }
 
 /* libmicrohttpd 0.9.75 parses the query itself, into memory of the connection. Some hundred parameters exhaust that
- * memory, and the connection then hangs. When this runs, the library has not parsed yet. Without "&" it finds one
- * parameter only; target.c parses the query from our copy. */
+ * memory, and the connection then hangs. This function runs before the library parses. It replaces each "&", so that
+ * the library finds only one parameter; target.c parses the query from our own copy. */
 static void hide_pairs(const char *uri)
 {
     union {
         const char *in;
         char *out;
-    } text = { uri }; /* the library's own copy, in which it decodes escapes in place */
+    } text = { uri }; /* the library's own copy, in which the library decodes escapes in place */
     for (char *p = text.out; *p; p++)
         if (*p == '&')
             *p = '_';
@@ -84,8 +84,9 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->server = server;
     request->mhd = mhd;
     request->connection = connection_of(mhd);
-    request->close = kd_connection_is_health(
-        request->connection); /* only here, because the next request on the connection may belong to the other daemon */
+    /* A connection is used for one request to the health routes, because its next request may belong to the other
+     * daemon. */
+    request->close = kd_connection_is_health(request->connection);
     kd_client_of(mhd, request->client);
     request->raw = strdup(uri);
     if (request->raw && kd_target_origin(request->raw, &request->authority)) {
@@ -201,8 +202,8 @@ static bool body_fault(const struct kd_request *request, struct told *told, stru
 }
 
 /* Whether a page of another site has made the browser send this request (Fetch Metadata, W3C). Such a page could use
- * the visitor's access to this server, so the request is refused. A navigation is allowed, such as a link to a
- * picture, and so is a signed link, which works without the visitor's access. */
+ * the visitor's access to this server, so the request is refused. Two kinds are permitted: navigations, such as a
+ * link to a picture, and signed links, which work without the visitor's access. */
 static bool is_foreign(const struct kd_request *request)
 {
     const char *site = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Site");
@@ -231,8 +232,8 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem, s
     return found;
 }
 
-/* Whether the request creates an object whose address is not known before, so that If-Match cannot hold. If the object
- * has an address already, the handler evaluates If-Match. */
+/* Whether the request creates an object whose address is not known yet, so that If-Match cannot hold. If the object
+ * already has an address, its handler evaluates If-Match. */
 static bool makes_something(const struct kd_request *request)
 {
     return !request->route->question && !strchr(request->route->path, '{') &&
@@ -322,9 +323,8 @@ static void read_trace(struct kd_request *request)
     kd_buffer_finish(&value);
 }
 
-/* Handles the complete header. If the body that the header announces must be refused, it is refused here.
- * libmicrohttpd closes the connection after an answer at this point, so requests without a body are answered in the
- * next call. */
+/* Handles the complete header. If the announced body must be refused, it is refused here, and libmicrohttpd then
+ * closes the connection. A request without a body is answered in the next call, which keeps the connection. */
 static enum MHD_Result begin(struct kd_request *request, const char *version)
 {
     struct kd_server *server = request->server;
@@ -351,8 +351,8 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     return MHD_YES;
 }
 
-/* Refuses a request in the middle of its body. libmicrohttpd cannot answer then, so the answer is written to the socket
- * and the connection closed. */
+/* Refuses a request in the middle of its body. At that point libmicrohttpd cannot answer, so the answer is written
+ * to the socket and the connection is closed. */
 static enum MHD_Result cut_body(struct kd_request *request, enum kd_problem_type type, const char *detail)
 {
     request->status = kd_problem_status(type);
@@ -382,7 +382,7 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
     }
     kd_once_take(request, data, *size);
     *size = 0;
-    if (all - request->body_mark >= PACE) { /* the body arrives fast enough; its next part gets the same time */
+    if (all - request->body_mark >= PACE) { /* the body arrives fast enough, so its next part gets the same time */
         request->body_mark = all;
         stage(request, KD_STAGE_BODY);
     }

@@ -12,13 +12,13 @@
 #include <poll.h>
 #include <unistd.h>
 
-#define TICK_MS 100          /* interval of checks for deadlines and disconnected clients */
+#define TICK_MS 100          /* interval of the checks for deadlines and disconnected clients */
 #define LAST_ANSWERS_MS 10e3 /* time for sending the last answers, and for waiting for a driver that may hang */
 
 static void sleep_a_tick(struct kd_server *server)
 {
     struct pollfd p = { .fd = server->stop_fd, .events = POLLIN };
-    /* The eventfd stays readable, so poll would return at once during the shutdown. */
+    /* not polled during the shutdown, because the eventfd stays readable and poll would return at once */
     if (atomic_load(&server->phase) == KD_SERVING)
         poll(&p, 1, TICK_MS);
     else
@@ -47,7 +47,7 @@ static bool cut_short(struct kd_server *server)
     return atomic_load(&server->abandon) || hangs(server) || kd_render_queue_lost(server->renders, NULL);
 }
 
-/* Counts unfinished work. A request may count several times. */
+/* Counts unfinished work. One request may count several times. */
 static unsigned unfinished(struct kd_server *server)
 {
     return kd_render_queue_unfinished(server->renders) + kd_scheduler_unfinished(server->rays) +
@@ -112,7 +112,7 @@ static bool step_down(struct kd_server *server, double *since)
         enter(server, KD_CLOSING, since);
         return false;
     default:
-        kd_thumbnails_cancel(server->thumbnails); /* requests that arrived in the meantime */
+        kd_thumbnails_cancel(server->thumbnails); /* requests that arrived since the phase began */
         kd_connections_cut_stalled(server->connections);
         return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
     }

@@ -41,8 +41,8 @@ static bool add_host(struct kd_server *server, size_t *n, const char *name)
     return server->hosts[(*n)++];
 }
 
-/* Collects the accepted Host names: loopback by name and number; the listening address, or on a wildcard address the
- * machine's own addresses and name; the host of the public URL; and the names in `more`. */
+/* Collects the accepted Host names: loopback by name and number, the host of the public URL, the names in `more`,
+ * and the listening address. If that is a wildcard address, the machine's own addresses and name take its place. */
 static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *public_host,
                                     const char *const *more, struct kd_error *error)
 {
@@ -90,7 +90,8 @@ static struct MHD_Daemon *start_daemon(struct kd_server *server, unsigned connec
         kd_request_connection, server, MHD_OPTION_END);
 }
 
-/* The daemons' own limits are above ours, because a daemon at its limit closes a connection without an answer. */
+/* The daemons' own limits are above the server's, because a daemon at its limit closes a connection without an
+ * answer. */
 static enum kd_status start_http(struct kd_server *server, int listener, unsigned connections, struct kd_error *error)
 {
     server->daemon = start_daemon(server, 2 * kd_connections_most(connections));
@@ -277,7 +278,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
-    /* opened after the jobs, because they lock the folder; before kd_jobs_begin, because jobs may use assets */
+    /* opened after the jobs, because they lock the folder, and before kd_jobs_begin, because jobs may use assets */
     if (params->state)
         KD_TRY(kd_asset_store_open(server->assets, params->state, error));
     if (params->sky)
@@ -323,7 +324,7 @@ void kd_server_stop(struct kd_server *server)
     uint64_t one = 1;
     atomic_compare_exchange_strong(&server->phase, &serving, KD_DRAINING);
     if (write(server->stop_fd, &one, sizeof one) < 0) {
-        /* The write fails only if the counter is full; then the reaper has been woken already. */
+        /* The write fails only if the counter is full. In that case the reaper has already been woken. */
     }
 }
 

@@ -21,7 +21,7 @@ struct kd_server_params {
     unsigned playgrounds;     /* limit of playground sessions, default 16; session_ms applies to them too */
     unsigned playgrounds_kib; /* limit of the memory of all playgrounds in KiB, default 1 GiB */
     unsigned jobs;            /* limit of unfinished jobs, default 16 */
-    /* percentage of the limits of connections, waiting renders, sessions and jobs that one client may use; default
+    /* percentage of the limits of connections, waiting renders, sessions and jobs that one client may use, default
      * 75 */
     unsigned client_share;
     unsigned client_jobs;     /* limit of unfinished jobs of one client; 0: it follows from client_share */
@@ -31,7 +31,7 @@ struct kd_server_params {
     const char *const *cors_origins;
     /* origins with the same permission whose pages may also show /embed in a frame, NULL-terminated; or NULL */
     const char *const *embed_origins;
-    bool cross_site;   /* whether to accept requests that pages of other sites make */
+    bool cross_site;   /* whether requests are accepted that pages of other sites make */
     unsigned jobs_kib; /* limit of the size of all jobs' frames in KiB, default 16 GiB */
     /* limits of the number of assets, and of their total size in KiB; default 64 and 256 MiB */
     unsigned assets, assets_kib;
@@ -47,9 +47,10 @@ struct kd_server_params {
     unsigned rest_ms;     /* unneeded memory is freed after this time without work; default 60 000 */
     unsigned connections; /* limit of open connections; further ones get 503 except on the health routes; default 512 */
     unsigned header_ms;   /* deadline of a request's header; default 10 000 */
-    unsigned body_ms;     /* deadline of a request's body, counted from the end of its header; default 30 000 */
+    unsigned body_ms;     /* deadline of a request's body after the end of its header; default 30 000 */
     unsigned longest_s;   /* renders estimated to take longer are refused with 422; default 600 */
-    unsigned reopenings;  /* how often a failed device is reopened within ten minutes; default 3; UINT_MAX: never */
+    unsigned reopenings;  /* number of times that a failed device is reopened within ten minutes; default 3;
+                           * UINT_MAX: never */
     struct kd_renderer_params renderer;
 };
 

@@ -1,4 +1,5 @@
-/* With -Dwatch=true the linker redirects calls of locks and disks to this file, which reports them to base/watch.h. */
+/* Compiled with -Dwatch=true. The linker then redirects calls for locks and disks to this file, which reports them
+ * to base/watch.h. */
 #include "base/watch.h"
 
 #ifdef KD_WATCH

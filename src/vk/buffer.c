@@ -82,7 +82,7 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
     buffer->views = (struct kd_vk_views) { .buffer = buffer->handle, .name = buffer->name };
     if (!buffer->slice.block->coherent && kd_vk_buffer_map(buffer))
         kd_vk_mapped_enter(&vk->mapped, &buffer->mapped);
-    if (vk->core.compiles_only && memory == KD_VK_READBACK) /* no kernel will write it */
+    if (vk->core.compiles_only && memory == KD_VK_READBACK) /* zeros, because no kernel will write it */
         memset(kd_vk_buffer_map(buffer), 0, size);
     *out = buffer;
     return KD_OK;

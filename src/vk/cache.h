@@ -8,7 +8,7 @@
 
 struct kd_vk_cache {
     VkPipelineCache handle;
-    char *path;        /* NULL: kept in memory only */
+    char *path;        /* NULL: the cache is kept in memory only */
     uint64_t hash;     /* hash of the data that were last read or written; 0: none */
     atomic_bool grown; /* pipelines have been made since the data were read or written; set by any thread */
 };

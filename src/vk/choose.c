@@ -48,7 +48,7 @@ static enum kd_status by_index(const struct kd_vk_info *infos, size_t count, con
                                struct kd_error *error)
 {
     char names[320];
-    unsigned long n = strtoul(wish, NULL, 10); /* saturates; the result is out of range in any case */
+    unsigned long n = strtoul(wish, NULL, 10); /* saturates for large numbers, which are out of range in any case */
     list_names(infos, count, names, sizeof names);
     if (n >= count)
         return kd_error_set(error, KD_EINVAL, "there is no device %s; there are %s", wish, names);

@@ -85,7 +85,7 @@ bool kd_vk_own_driver(char path[KD_VK_PATH])
     if (is_set("VK_DRIVER_FILES") || is_set("VK_ICD_FILENAMES") || n <= 0 || n == sizeof program)
         return false;
     program[n] = 0;
-    *strrchr(program, '/') = 0; /* the kernel's path is absolute */
+    *strrchr(program, '/') = 0; /* the directory of the program, whose path is absolute */
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         snprintf(path, KD_VK_PATH, "%s/%s/libvulkan_lvp.so", program, places[i]);
         if (!access(path, R_OK))

@@ -118,7 +118,7 @@ enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice devic
  * names the drivers to use. */
 #define KD_VK_PATH 4096
 bool kd_vk_own_driver(char path[KD_VK_PATH]);
-/* As kd_vk_functions_load, but without a loader: all calls go to this driver. */
+/* Like kd_vk_functions_load, but without a loader: all calls go to this driver. */
 enum kd_status kd_vk_functions_load_own(struct kd_vk_functions *fn, const char *path, struct kd_error *error);
 
 /* Every thread holds this lock while it creates or destroys an instance or a device, loads its functions, or names an

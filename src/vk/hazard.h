@@ -16,10 +16,10 @@
 #include <stdint.h>
 
 struct kd_vk_access {
-    uint64_t buffer;            /* identifies the buffer; never reused */
+    uint64_t buffer;            /* number that identifies the buffer; never reused */
     uint64_t begin, end;        /* range in bytes */
     VkPipelineStageFlags stage; /* one bit: compute shader, transfer or indirect dispatch */
-    bool write;                 /* it writes, and may read as well */
+    bool write;                 /* the command writes the buffer, and may also read it */
     bool host;                  /* the memory is mapped by the host */
 };
 

@@ -85,7 +85,7 @@ enum kd_status kd_vk_heap_init(struct kd_vk_heap *heap, const struct kd_vk_core 
 static void block_free(struct kd_vk_heap *heap, const struct kd_vk_core *core, struct kd_vk_block *block)
 {
     heap->used[heap->properties.memoryTypes[block->type].heapIndex] -= block->arena.size;
-    core->fn.FreeMemory(core->device, block->memory, NULL); /* this also unmaps the memory */
+    core->fn.FreeMemory(core->device, block->memory, NULL); /* also unmaps the memory */
     kd_vk_arena_finish(&block->arena);
     free(block);
 }

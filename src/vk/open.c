@@ -136,7 +136,7 @@ static bool is_idle(struct kd_vk *vk)
 {
     if (vk->core.pipelines_only)
         return true;
-    const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* it has a deadline, so closing cannot hang */
+    const enum kd_status waited = kd_vk_wait(vk, 0, NULL); /* cannot hang, because the wait has a deadline */
     if (vk->core.hangs)
         return false;
     VkResult idle = vk->core.fn.DeviceWaitIdle(vk->core.device);

@@ -130,7 +130,7 @@ static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *de
     device->subgroup_extended_types = f12.shaderSubgroupExtendedTypes;
     if (!f12.timelineSemaphore)
         lacks(info, "timeline semaphores");
-    if (!f12.uniformBufferStandardLayout) /* Vulkan 1.2 requires it, as well as the semaphores */
+    if (!f12.uniformBufferStandardLayout) /* required by Vulkan 1.2, like the semaphores */
         lacks(info, "uniform buffers of standard layout");
 }
 

@@ -50,7 +50,7 @@ void kd_vk_submit_finish(struct kd_vk *vk)
         struct kd_vk_slot *slot = &vk->slots[i];
         kd_vk_descriptors_finish(&vk->core, &slot->descriptors);
         kd_vk_timing_finish(&vk->core, &slot->stamps);
-        vk->core.fn.DestroyCommandPool(vk->core.device, slot->pool, NULL); /* this also frees its command buffer */
+        vk->core.fn.DestroyCommandPool(vk->core.device, slot->pool, NULL); /* also frees the pool's command buffer */
     }
     vk->core.fn.DestroySemaphore(vk->core.device, vk->timeline, NULL);
 }
@@ -227,7 +227,7 @@ void kd_vk_discard(struct kd_vk *vk)
     if (!vk->recording)
         return;
     vk->recording = false;
-    vk->hazards = vk->hazards_before; /* the barriers of the discarded commands are dropped as well */
+    vk->hazards = vk->hazards_before; /* undone, because the barriers of the discarded commands are dropped as well */
     kd_vk_mapped_discard(vk->mapped, vk->submitted);
     kd_vk_retired_discard(vk->retired, vk->submitted);
     if (!vk->core.lost[0])

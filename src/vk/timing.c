@@ -93,7 +93,7 @@ void kd_vk_timing_pass(struct kd_vk_timing *timing, const struct kd_vk_core *cor
         stamps->capacity = capacity;
     }
     if (stamps->n_spans)
-        stamp(core, stamps, commands); /* this ends the span before */
+        stamp(core, stamps, commands); /* the new timestamp also ends the previous span */
     stamps->spans[stamps->n_spans++] = (struct kd_vk_stamp_span) { row, 1 };
 }
 

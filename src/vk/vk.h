@@ -36,8 +36,9 @@ struct kd_vk_info {
     uint64_t max_allocation_bytes;
     uint32_t max_push_bytes, subgroup_size, max_groups_x, max_groups_y, max_workgroup;
     bool float64, timestamps;
-    bool own_driver;         /* its driver is the one that is installed with the program; the system has none */
-    uint8_t uuid[16];        /* UUID of the device; the same with every driver and in every process */
+    /* the device's driver is the one that is installed with the program, because the system has none */
+    bool own_driver;
+    uint8_t uuid[16];        /* UUID of the device; it is the same with every driver and in every process */
     uint32_t driver_version; /* version in the driver's own encoding */
     char missing[256];       /* features that kerrd needs and the device lacks; "": the device is usable */
 };
@@ -47,8 +48,8 @@ struct kd_vk_params {
     const char *cache_dir; /* folder of the pipeline cache; NULL: $XDG_CACHE_HOME/kerrd; "": none */
     /* enables the Khronos layer with synchronisation validation; KERRD_VALIDATE=1 does the same */
     bool validate;
-    /* Dispatches have no workgroups, and copies to the host are zeros. So nothing is computed, but a driver that
-     * compiles kernels at their first dispatch does compile them. */
+    /* Dispatches have no workgroups, and copies to the host give zeros. So nothing is computed, but drivers that
+     * compile kernels at their first dispatch still compile them. */
     bool compiles_only;
     /* There are no memory and no submissions, only pipelines. So a driver that lacks its hardware is enough (RADV with
      * RADV_FORCE_FAMILY). */

@@ -30,7 +30,8 @@ class Compare(Case):
         options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "64", "--average-s", "300"]
         told = self.told(*options, "--systematic-amplitude", "0.05")
         options[1] = "m87-2017-04-05-lo"
-        self.assertEqual(self.told(*options, "--systematic-amplitude", "0.05"), told)  # the same file in the program
+        # the same file, which is built into the program
+        self.assertEqual(self.told(*options, "--systematic-amplitude", "0.05"), told)
         columns, seen = told["columns"], told["observation"]
         self.assertEqual((seen["source"], seen["mjd"], seen["visibilities"]), ("M87", 57848, 1507))
         self.assertEqual(seen["averaged"] - seen["too_short"], told["n"]["amplitude"])
@@ -104,7 +105,7 @@ class Compare(Case):
         for one in (0.97, 1.03):
             other = self.told(*options, "-s", f"spacetime.mass_msun={mass * size * one}", "--solve", "position_angle")
             self.assertGreater(self.total(other), self.total(scaled))
-        # a search leaves the values that it does not vary as they were
+        # a value that a search does not vary stays as it was
         plain, flux = self.told(*options), self.told(*options, "--solve", "flux")
         self.assertEqual(plain["values"], flux["values"])
         self.assertEqual(plain["values"]["size"], 1)
@@ -123,7 +124,7 @@ class Compare(Case):
         self.assertNotEqual(found["values"]["shift_east_uas"], 0)
         self.assertLess(found["chi2"]["visibility"], plain["chi2"]["visibility"])
         self.assertAlmostEqual(found["chi2"]["amplitude"] / plain["chi2"]["amplitude"], 1, delta=1e-9)
-        # means over bins in which a baseline is missing at some times do not quite form triangles
+        # means over bins that lack a baseline at some times do not quite form closed triangles
         self.assertAlmostEqual(found["chi2"]["closure_phase"] / plain["chi2"]["closure_phase"], 1, delta=1e-3)
         columns = found["columns"]
         rows = [i for i, product in enumerate(columns["product"]) if product.startswith("visibility")]
@@ -152,7 +153,7 @@ class Compare(Case):
         )
 
     def test_a_dark_set(self):
-        """A set without light has no numbers, not those of the set before it."""
+        """A set without light has no numbers; it must not repeat those of the set before it."""
         sets = [{"spacetime.spin": 0.5}, {"disk.model": "none"}, {"spacetime.spin": 0.7}]
         thin = {"disk": {"model": "novikov-thorne", "outer": 15}, "volume": {"model": "none"}}
         request = {"preset": "m87", "scene": thin, "pixels": 32, "average_s": 600, "solve": ["size"], "sets": sets}

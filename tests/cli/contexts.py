@@ -19,7 +19,7 @@ def told(context):
     "-o": ""}."""
     text = run(
         *context, "--help", env={**os.environ, "ARGP_HELP_FMT": "rmargin=900,opt-doc-col=60"}
-    ).stdout.decode()  # one option a line
+    ).stdout.decode()  # one option on each line
     options = {}
     for line in re.findall(r"^ {2,}(-.*)", text, re.M):
         for option, argument in re.findall(r"(?:^|, )(--?[a-zA-Z?][a-z0-9-]*)(\[?=[^\s\]]+)?", line.split("   ")[0]):

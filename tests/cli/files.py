@@ -252,8 +252,8 @@ class Files(support.Case):
         )
 
     def test_a_disk_at_one_frequency_in_janskys(self):
-        """A disk alone at one frequency is written as a source of radio waves is, with its polarisation; light of
-        all frequencies, or beside a sky, is not."""
+        """A disk alone at one frequency is written like a source of radio waves, with its polarisation. Light of all
+        frequencies is not, nor is light in front of a sky."""
         band = ["--set", "disk.band=frequency", "--set", "disk.frequency_ghz=3e5"]
         self.good(
             "render", *band, "--set", "polarization.model=scattering", "--size", "48x40", "-o", self.path("a.fits")

@@ -70,7 +70,7 @@ def as_shown(light):
 
 class Case(support.Case):
     def film(self, name, request, *options, code=0):
-        """Runs kerrd film; returns the --stats, or the error message."""
+        """Runs kerrd film. Returns the numbers of --stats, or the error message."""
         done = support.run(
             "film", "-", "-o", self.path(name), "-t", *options, stdin=json.dumps(request).encode(), seconds=280
         )
@@ -169,8 +169,8 @@ class Pictures(Case):
             self.assertEqual(self.again(frames[k]), frames[k], k)
 
     def test_one_exposure(self):
-        """The film has one exposure, the median of those of nine frames, measured at 160 pixels. Exceptions: the
-        request gives each frame its own, or a keyframe gives a number."""
+        """The film has one exposure: the median of the exposures of nine frames, measured at 160 pixels. There are
+        two exceptions: the request gives each frame its own, or a keyframe gives a number."""
         stats = self.film("a.zip", TURN)
         scenes = [self.scene_of(png) for png in self.frames("a.zip")]
         self.assertEqual((stats["exposure_frames"], {s["style"]["exposure"] for s in scenes}), (9, {stats["exposure"]}))
@@ -370,7 +370,7 @@ class Pictures(Case):
             "preset": "white-dwarf",
             "debris_per_body": 200,
             "budget": 40,
-        }  # so few sub-steps that they are used up before a frame's time has passed
+        }  # too few sub-steps to reach the time of the next frame
         request = {"playground": document, "every": 200, "frames": 4, "scene": {"image": SIZE}}
         self.film("a.zip", request, "--state", self.path("kept"))
         whole = self.read("a.zip")
@@ -405,7 +405,7 @@ class Pictures(Case):
         return text
 
     def test_goes_on(self):
-        """After a killed run the existing frames stay and the rest is rendered. The whole equals that of an
+        """After a killed run the existing frames stay, and the rest is rendered. The film equals that of an
         uninterrupted run."""
         folder = self.path("kept")
         there = self.killed("b.zip", LONG, folder, 3)

@@ -61,7 +61,7 @@ class Usage(Case):
         self.bad(2, "it must be at most 1279", "scene", "--tile", "1280x720+1+0")
 
     def test_assets(self):
-        """No field refers to these assets. tests/cli/render.py tests one that is shown."""
+        """No field refers to these assets. tests/cli/render.py tests an asset that is shown."""
         picture = self.path("a.png")
         chunk = lambda kind, data: (
             struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -360,7 +360,7 @@ class Scenes(Case):
         self.assertEqual(merged["camera"]["inclination_deg"], 80)
 
     def test_rules_apply_to_the_whole(self):
-        # Each alone is valid; together they put the edges of the disk in the wrong order.
+        # each field alone is valid; together they put the edges of the disk in the wrong order
         document = self.write("scene.json", '{"disk":{"inner":30}}')
         self.bad(2, "(at /disk/", "scene", document)
         self.assertEqual(self.scene(document, "--set", "disk.outer=40")["disk"]["inner"], 30)

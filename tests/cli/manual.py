@@ -12,7 +12,7 @@ import sys
 from contexts import contexts, told
 from support import KERRD, Case, main, run
 
-MADE = pathlib.Path(sys.argv.pop(1))  # where the build has put them
+MADE = pathlib.Path(sys.argv.pop(1))  # folder into which the build has put the pages
 SOURCES = pathlib.Path(__file__).parents[2] / "src"
 
 
@@ -199,7 +199,7 @@ class Bash(Case):
 
     def complete(self, line):
         """The proposals for this line, with the cursor at its end."""
-        tokens = re.findall(r"[=:]+|[^\s=:]+", line) + ([""] if line.endswith(" ") else [])  # as bash splits them
+        tokens = re.findall(r"[=:]+|[^\s=:]+", line) + ([""] if line.endswith(" ") else [])  # words as bash splits them
         script = 'source "$1"; COMP_LINE=$2 COMP_POINT=${#2}; shift 2; COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _kerrd; printf "%s\\n" "${COMPREPLY[@]}"'
         env = {**os.environ, "PATH": os.path.dirname(KERRD) + os.pathsep + os.environ["PATH"]}
         done = subprocess.run(

@@ -65,8 +65,8 @@ class Playground(Case):
         self.assertLess(separations[-1], 0.5 * separations[0])
 
     def test_all_that_happens_is_told(self):
-        """If there are more events than are stored at once, none is lost while the motion goes on. If there are more in
-        a single sub-step, the lost ones are reported."""
+        """If there are more events than are stored at once, none is lost as long as they are written during the
+        motion. If a single sub-step has more, the lost ones are reported."""
         events, document = self.path("events.ndjson"), self.path("many.json")
         ring = [
             {

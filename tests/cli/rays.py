@@ -133,7 +133,7 @@ class Rays(Case):
     def test_no_device_is_asked_for(self):
         self.good("rays", "--ray", "1,2", "--device", "no such device")
         done = run("rays", "--ray", "1,2", "--device", "no such device", "--engine", "mino-rkn6")
-        self.assertIn(done.returncode, (1, 2))  # there is no device, or none with this name
+        self.assertIn(done.returncode, (1, 2))  # there is no device, or no device of this name
         self.assertTrue(done.stderr.startswith(b"kerrd: "), done.stderr)
 
     def test_a_tolerance_is_held_ray_by_ray(self):

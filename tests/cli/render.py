@@ -237,7 +237,7 @@ class Pictures(Case):
         alone = self.good("render", *SMALL, "--set", "sky.model=image", "-o", "-")
         self.assertEqual(
             self.good("render", *named, "--set", "sky.image=null", "-o", "-"), alone
-        )  # the later of the two is used
+        )  # the later of two options applies
         self.bad(
             2, "image.width is null where a number is needed", "render", *SMALL, "--set", "image.width=null", "-o", "-"
         )
@@ -496,7 +496,7 @@ class Outputs(Case):
         self.assertEqual(self.read("a.png")[:4], b"\x89PNG")
 
     def test_pipes_stay(self):
-        # not /dev/null: if this test failed as root, the whole machine would lose it
+        # a pipe instead of /dev/null, because a failing test as root would remove the machine's /dev/null
         os.mkfifo(self.path("pipe"))
         read = threading.Thread(target=lambda: self.assertEqual(self.read("pipe")[:4], b"\x89PNG"), daemon=True)
         read.start()
@@ -515,7 +515,7 @@ class Outputs(Case):
         reader, writer = os.pipe()
         os.close(reader)
         done = run("render", *SMALL, "-o", "-", stdout=writer)
-        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))  # as cat and similar tools end
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))  # ends as cat and similar tools do
         os.close(writer)
 
     def test_nowhere_to_write(self):

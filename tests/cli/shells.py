@@ -18,7 +18,7 @@ import unittest
 from contexts import contexts, told
 from support import KERRD, Case, run
 
-MADE = pathlib.Path(sys.argv.pop(1))  # where the build has put them
+MADE = pathlib.Path(sys.argv.pop(1))  # folder into which the build has put the completions
 NEEDED = ["zsh", "fish", "mandoc", "man"]
 
 # Writes the proposals, one whole word to a line, instead of displaying them.
@@ -120,7 +120,7 @@ class Zsh(Completes, Case):
             os.execvpe("zsh", ["zsh", "-o", "no_global_rcs", "-i"], env)
         fcntl.ioctl(
             self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 1000, 200, 0, 0)
-        )  # otherwise the shell would ask whether to show that many
+        )  # smaller, because the shell would otherwise ask whether to show that many
         self.reader = threading.Thread(target=self.drain, daemon=True)
         self.reader.start()
         self.addCleanup(self.end)
@@ -191,7 +191,8 @@ class Read(Case):
     def lint(self, path):
         """Neither program reports anything about a page."""
         mandoc = subprocess.run(["mandoc", "-Tlint", "-W", "warning", path], capture_output=True, text=True)
-        env = {**os.environ, "LC_ALL": "C.UTF-8", "MANROFFSEQ": "", "MANWIDTH": "80"}  # as Debian's lintian reads them
+        # the options with which Debian's lintian reads them
+        env = {**os.environ, "LC_ALL": "C.UTF-8", "MANROFFSEQ": "", "MANWIDTH": "80"}
         man = subprocess.run(
             ["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", path],
             env=env,

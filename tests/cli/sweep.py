@@ -260,7 +260,7 @@ class Sweep(support.Case):
             self.assertEqual((alone[0].header["FREQ"], alone[0].header["FLUX_JY"]), (given[j] * 1e9, fluxes[i, j]))
             for name in layers:
                 self.assertTrue(numpy.array_equal(bits(alone[name].data), bits(units[name].data[i, j])), (name, at))
-        # the mean of I_nu times the solid angle is the flux, at the plane's own frequency only
+        # the mean of I_nu times the solid angle is the flux, but only at the plane's own frequency
         pixel = units["specific_intensity"].header["CDELT2"] * numpy.pi / 180
         self.assertTrue(
             numpy.allclose(

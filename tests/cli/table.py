@@ -92,7 +92,7 @@ class Table(support.Case):
             a, i, h = (float(v) for v in nodes[k])
             shown = f"--spin={a}", f"--inclination-deg={i}", f"--height={h}"
             share = self.line(*shown, "--emissivity=lamppost", *ENERGIES)[:, 2]
-            # edges and shares of the table have 32 bits
+            # tolerance: edges and shares in the table have 32 bits
             off = numpy.abs(numpy.cumsum(spectra["INTPSPEC"][k], dtype=float) - numpy.cumsum(share)).max()
             self.assertLess(off, 3e-6, nodes[k])
 
@@ -153,7 +153,7 @@ class Table(support.Case):
         self.opened("a.fits")
 
     def test_complete_but_for_its_name(self):
-        """A table whose last step failed gets its name by the same command."""
+        """If only the last step of a table failed, the same command gives the table its name."""
         self.good("table", *SMALL, "-o", self.path("a.fits"))
         whole = self.read("a.fits")
         os.rename(self.path("a.fits"), self.path("b.fits.part"))

@@ -65,7 +65,7 @@ class Terminal:
                         time.sleep(0.02)
                         os.write(master, piece) if piece else None
         except OSError:
-            pass  # the other end is closed
+            pass  # ignored, because the other end is closed
 
 
 def kitty(sent):
@@ -151,7 +151,7 @@ class View(Case):
 
     def test_kitty_before_sixel(self):
         self.assertEqual(kitty(Terminal(*SMALL, answer=KITTY[:12] + SIXEL).sent)[1], self.rendered(*SMALL))
-        # kitty's answer comes too late, after that of sixel
+        # kitty's answer comes after that of sixel, and so too late
         shown = Terminal(*SMALL, answer=SIXEL + KITTY[:12])
         self.assertIn(b"\x1bP", shown.sent)
 
@@ -197,7 +197,7 @@ class View(Case):
 
     def test_no_terminal(self):
         self.bad(1, "standard output is not a terminal", "view", *SMALL)
-        self.bad(2, "(at /image/width)", "view", "--set", "image.width=0")  # this is checked first
+        self.bad(2, "(at /image/width)", "view", "--set", "image.width=0")  # the size is checked first
         self.bad(2, "kitty or sixel", "view", "--protocol", "iterm")
         _, png, rest = kitty(self.good("view", *SMALL, "--protocol", "kitty"))
         self.assertEqual((png, rest), (self.rendered(*SMALL), b"\n"))
@@ -222,7 +222,7 @@ class View(Case):
         self.assertEqual(self.size("--size", "100x1", answer=KITTY, pixels=(20, 384)), (20, 1))
         shown = Terminal(
             *wide, answer=b"\x1b[4;384;80t" + NEITHER, pixels=(0, 0)
-        )  # the terminal reports its size, which the system does not know
+        )  # the terminal itself reports the size that the system does not know
         self.assertIn(b"\x1b[14t", shown.queries)
         self.assertEqual(self.size(*wide, answer=KITTY[:12] + b"\x1b[4;384;80t" + NEITHER, pixels=(0, 0)), (80, 45))
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(0, 0)), (320, 180))

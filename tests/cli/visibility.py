@@ -221,8 +221,8 @@ class Visibility(Case):
 
     def test_a_spectrum_of_a_disk_at_one_frequency(self):
         """Pictures of a disk at each frequency have the flux of kerrd's integral over the disk's image, in double
-        precision with rays in closed form, which has the direct image alone; and the visibility at no length is
-        it."""
+        precision with rays in closed form, which contains only the direct image. The visibility at length 0 equals
+        that flux."""
         disk = {
             "inner": "isco",
             "outer": 40,
@@ -256,12 +256,12 @@ class Visibility(Case):
                 )
             )["columns"]
             for mine, its in zip(pictures["flux_jy"], integral["flux_jy"], strict=True):
-                self.assertAlmostEqual(mine / its, 1, delta=4e-4)  # the rim lies within pixels
+                self.assertAlmostEqual(mine / its, 1, delta=4e-4)  # tolerance: the rim lies within pixels
         asked = {"scene": scene, "u": [0, 0], "v": [0, 3e6], "pixels": 384, "orders": 1}
         told = json.loads(self.good("visibility", self.write("b.json", json.dumps(asked))))
         self.assertAlmostEqual(told["values"]["flux_jy"] / integral["flux_jy"][2], 1, delta=4e-4)
         columns = told["columns"]
-        for i in range(2):  # its only order is all of it
+        for i in range(2):  # the light of its only order is the whole light
             mine, its = (columns["amplitude"][2 * i + k] for k in range(2))
             self.assertAlmostEqual(mine / its, 1, delta=1e-4)
         self.assertAlmostEqual(columns["amplitude"][0] / told["values"]["flux_jy"], 1, delta=1e-5)
@@ -276,7 +276,8 @@ class Visibility(Case):
             return r**-3 * (1 - math.sqrt(6 / r))
 
         kelvin = [peak * (shape(r) / shape(6 * 49 / 36)) ** 0.25 for r in (inner, outer)]
-        self.assertTrue(all(0.1 < h * nu / (k * t) < 20 for t in kelvin), kelvin)  # neither end of Planck's law
+        # checks that the frequencies are at neither end of Planck's law
+        self.assertTrue(all(0.1 < h * nu / (k * t) < 20 for t in kelvin), kelvin)
 
         def bright(r):
             t = peak * (shape(r) / shape(6 * 49 / 36)) ** 0.25
@@ -307,7 +308,7 @@ class Visibility(Case):
         }
         settings = [word for name, value in changes.items() for word in ("--set", f"{name}={value}")]
         told = json.loads(run("render", *settings, "--size", "512x512", "--stats", "-o", self.path("a.png")).stderr)
-        self.assertAlmostEqual(told["flux_jy"] / jansky, 1, delta=1e-3)  # the rims lie within pixels
+        self.assertAlmostEqual(told["flux_jy"] / jansky, 1, delta=1e-3)  # tolerance: the rims lie within pixels
 
     @staticmethod
     def thin_sphere(radius, n, field, hz):

@@ -62,7 +62,7 @@ def send(self, request, **more):
     response = plain_send(self, request, **{**more, "stream": True})
     if response.headers.get("Content-Type", "").startswith(ENDLESS):
         response._content = response.raw.read1(65536)
-        response.raw.close()  # close it first: a connection whose stream continues cannot be reused
+        response.raw.close()  # closed first, because a connection whose stream continues cannot be reused
         response._content_consumed = True
     return response
 

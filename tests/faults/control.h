@@ -29,9 +29,10 @@ struct kd_faults {
     /* 1: record each stack of an allocation in `stacks`. Another value except 0: fail_at counts only allocations by
      * that stack. */
     _Atomic int64_t by_stack;
-    _Atomic int64_t by_library;  /* failed allocations that libmicrohttpd requested; it closes the connection then */
+    /* failed allocations that libmicrohttpd requested, after which it closes the connection */
+    _Atomic int64_t by_library;
     _Atomic int64_t failed_from; /* caller of the last failed allocation, as in `blocks` */
-    _Atomic int64_t files_mask;  /* bit mask of the file operations that are counted */
+    _Atomic int64_t files_mask;  /* bit mask of the file operations that count */
     _Atomic int64_t files_at;    /* operations before one fails; negative: none fails */
     _Atomic int64_t files_for;   /* as fail_for */
     _Atomic int64_t files_errno; /* the error to return */

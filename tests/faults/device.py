@@ -64,7 +64,7 @@ class Memory(sweep.Case):
                     answer = self.ask("GET", at + "/frame.png?wait_ms=20000")
                     answer.body = (
                         answer.body if answer.status != 200 else answer.body[:16]
-                    )  # its quality depends on the time it took
+                    )  # left out, because its quality depends on the time it took
             finally:
                 self.faults.mend()
                 self.assertEqual(self.server.request("DELETE", at, headers=owner).status, 204)
@@ -109,7 +109,7 @@ class Drawing:
         self.faults = faults.Faults()
         case.addCleanup(self.faults.close)
         case.assertEqual(self.draw().returncode, 0)  # what the first run learns about the device is stored
-        self.calm = self.faults.live  # blocks that a run without faults does not free
+        self.calm = self.faults.live  # number of blocks that a run without faults does not free
         with open(self.out, "rb") as f:
             self.good = f.read()
 
@@ -322,8 +322,8 @@ class Streams(unittest.TestCase):
         faults.record("EPIPE", "a server's standard output and error", ["serves"])
 
     def test_streams_that_are_not_open(self):
-        """If standard streams are closed at the start, neither a client's connection nor a file of the state folder
-        gets the descriptor of a standard stream, into which messages would be written."""
+        """If standard streams are closed at the start, no connection and no file of the state folder gets the
+        descriptor of a standard stream. Otherwise messages would be written into it."""
         port = daemon.free_port()
         with tempfile.TemporaryDirectory() as folder:
             process = subprocess.Popen(

@@ -59,8 +59,8 @@ class Case(state.Case):
         return str(answer.status)
 
     def reached(self, word, failed):
-        """The word for an outcome if more operations have failed than the `failed` before. If none has, everything must
-        be as usual."""
+        """The word for an outcome if more operations have failed than `failed`. If none has, everything must be as
+        usual."""
         if self.faults.files_failed > failed:
             return word
         self.assertIn(word, ("whole", "started"))
@@ -154,7 +154,7 @@ class Operations(Case):
                 server = self.sweep("a job from POST to its result", number, mask, run)
                 self.assertEqual(server.stop(), 0)
                 server = self.start()
-                for job in accepted[-60:]:  # the server keeps 64
+                for job in accepted[-60:]:  # the last 60, because the server keeps 64
                     self.assertEqual(
                         (self.status(job, server)["state"], self.frames_of(job, server)), ("done", good[0])
                     )

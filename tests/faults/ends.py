@@ -131,7 +131,7 @@ class Clients(state.Case):
                             got += more
                             s.settimeout(2)
                     except TimeoutError:
-                        pass  # the stream has nothing more to send for now
+                        pass  # ignored, because the stream has nothing more to send for now
                     if taken > 1:
                         self.assertRegex(got, rb"^HTTP/1.1 (200|202|204) ")
                     outcomes.append(

@@ -92,7 +92,7 @@ class Faults:
         return {at: place for at, place in zip(words[::2], words[1::2]) if at}
 
     def forget(self):
-        """Call this before another program is started with it, which has no blocks yet."""
+        """Call this before another program is started with this memory, because that program has no blocks yet."""
         self.set("live", 0)
         self.map[8 * len(FIELDS) : 8 * len(FIELDS) + 16 * BLOCKS] = bytes(16 * BLOCKS)
 

@@ -135,7 +135,8 @@ class Memory(sweep.Case):
 
         def change():
             before = inclination()
-            turn[0] = 41 - turn[0]  # critical curves are cached by camera: with two cameras there are at most two
+            # uses two cameras in turn, because critical curves are cached by camera and so at most two are cached
+            turn[0] = 41 - turn[0]
             try:
                 answer = self.ask("PATCH", at, {"camera": {"inclination_deg": turn[0]}}, owner)
             finally:

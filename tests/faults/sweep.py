@@ -6,7 +6,7 @@ import http.client
 import json
 import unittest
 
-import faults  # first: it adds the folder of `daemon` to the path
+import faults  # must come first, because it adds the folder of `daemon` to the path
 
 import daemon
 

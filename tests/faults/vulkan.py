@@ -367,7 +367,7 @@ def live(server, scenario, faults, fault, same):
     except Refused as refused:
         got, outcome = None, f"error {refused}"
     if faults.get("injected"):
-        faults.disarm()  # otherwise the fault might come when the server stops
+        faults.disarm()  # disarmed, because the fault might otherwise come when the server stops
     if same is not None and got is not None and got != same:
         raise Broken("other bytes than without the fault")
     if outcome:  # the next request must work as if nothing had happened
@@ -461,7 +461,7 @@ def kind_of(scenario, fault, outcome, injected):
         if word != ("recovered" if scenario.loses else "same"):
             raise Broken(f"without a fault: {outcome}")
         return "not reached"
-    # the message then says that there is no driver
+    # the message must then say that there is no driver
     if word == "error" and f"vk{name}" not in outcome and code != DRIVER:
         raise Broken(f"this does not say what has failed: {outcome}")
     if word == "error" and code == LOST and not scenario.at_start:

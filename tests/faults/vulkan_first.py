@@ -135,7 +135,7 @@ class Vulkan(Case):
             self.faults.arm(name, n, DEVICE)
             with concurrent.futures.ThreadPoolExecutor(2) as pool:
                 for one in [pool.submit(ask, server, view) for ask in (picture, job_of, picture)]:
-                    # a refusal is allowed; any other answer without success raises Broken
+                    # a refusal is permitted; any other unsuccessful answer raises Broken
                     with contextlib.suppress(Refused):
                         one.result()
             reached += self.faults.get("injected")
@@ -207,7 +207,8 @@ class Long(Case):
         self.faults.arm("BeginCommandBuffer", 1, UNKNOWN)
         self.faults.set(hang=1)
         with contextlib.suppress(OSError, daemon.http.client.HTTPException):
-            self.assertEqual(server.get(RENDER + "&disk.gas.amplitude=0.5").status, 500)  # this picture traces no rays
+            # this picture traces no rays, so it works
+            self.assertEqual(server.get(RENDER + "&disk.gas.amplitude=0.5").status, 500)
         self.assertEqual(server.wait(60), EXIT_DEVICE)
         self.assertEqual(self.faults.get("injected"), 1)
         self.assertNotIn("reopened", server.said())

@@ -75,7 +75,7 @@ static void tell(const struct kd_scene *scene)
     CHECK(!kd_scene_line(scene, &line), "a scene has no line");
     char *text = strdup((const char *)line.data);
     CHECK(text, "out of memory");
-    /* The style first: it sets other fields, as a document's does. */
+    /* the style is set first, because it sets other fields, as in a document */
     for (int style = 1; style >= 0; style--) {
         strcpy(text, (const char *)line.data);
         for (char *word = strcmp(text, "the default scene") ? strtok_r(text, " ", &rest) : NULL; word;

@@ -28,7 +28,7 @@ static void check_png(const void *data, size_t size)
                                           picture.pixels, picture.text,   picture.n_text };
     status = kd_png_encode(&params, &out, &error);
     if (status)
-        kd_fuzz_refused(status, &error); /* some texts have keys that kerrd may not write */
+        kd_fuzz_refused(status, &error); /* refused, because some texts have keys that kerrd may not write */
     else {
         CHECK(!kd_png_decode(out.data, out.size, &again, &error), "a picture that was written cannot be read: %s",
               error.message);

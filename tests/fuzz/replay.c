@@ -27,7 +27,7 @@ static unsigned run_file(int (*run)(const uint8_t *, size_t), const char *path)
     for (size_t n; (n = fread(part, 1, sizeof part, file)) > 0;)
         CHECK(!kd_buffer_append(&bytes, part, n), "out of memory");
     fclose(file);
-    fprintf(stderr, "%s\n", path); /* names the input if the process ends here */
+    fprintf(stderr, "%s\n", path); /* printed now, to name the input if the process ends here */
     run(bytes.data, bytes.size);
     const size_t before = kd_held();
     run(bytes.data, bytes.size);

@@ -36,7 +36,7 @@ static FILE *open_file(const char *folder, const char *name)
     return file;
 }
 
-/* A seed of these bytes, preceded by a text. */
+/* A seed of these bytes, which follow a text. */
 static void put(const char *target, const char *name, const char *before, const void *data, size_t size)
 {
     FILE *file = open_file(target, name);

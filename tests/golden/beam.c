@@ -111,7 +111,7 @@ static void the_ring_of(const char *preset, double uas, double error)
                                     "\"width\":320,\"height\":180,\"samples\":2,\"critical_factor\":4,"
                                     "\"bit_depth\":16}}";
     char json[240];
-    snprintf(json, sizeof json, look, -4, 0.0); /* the brightest pixels have some 1e11 K */
+    snprintf(json, sizeof json, look, -4, 0.0); /* the brightest pixels have a brightness temperature of some 1e11 K */
     struct kd_scene scene = studio_scene(preset, json);
     const double pixel = pixel_uas(&scene);
     struct kd_frame sharp = studio_render(&scene);

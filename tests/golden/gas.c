@@ -283,7 +283,7 @@ static void nothing_in_common(void **state)
         printf("waves of band %d: %.3f of the power that independence leaves, 1 within %.2f\n", band, ratio, allowed);
         assert_true(fabs(ratio - 1) < allowed);
     }
-    for (int k = 0; k < SIDE / 2; k++) /* rings: the mean at each radius over its own scatter */
+    for (int k = 0; k < SIDE / 2; k++) /* at each radius: the mean divided by its own scatter */
         if (scatter[k] > 0 && !(fabs(profile[k]) < 4.5 * sqrt(scatter[k] / SEEDS)))
             fail_msg("at radius %d the mean is off by %g, its scatter is %g", k, profile[k], sqrt(scatter[k] / SEEDS));
 }

@@ -94,7 +94,7 @@ static void symmetries(void **state)
         double d = difference(&a, &b, pairs[i].flip);
         if (!(d <= 1))
             fail_msg("%s: off by %g/255", pairs[i].what, d);
-        assert_true(light_between(&a, 0, a.width) > 1); /* this is the total light: the picture is not black */
+        assert_true(light_between(&a, 0, a.width) > 1); /* tests that the picture is not black, by its total light */
         kd_frame_finish(&a);
         kd_frame_finish(&b);
     }

@@ -25,8 +25,8 @@ struct kernel {
     double bound, phi_bound;
 };
 
-/* As in docs/accuracy.md. The series of the closed form starts at an eighth of the time, and loses a digit at order 7.
- */
+/* Bounds as in docs/accuracy.md. The series of the closed form starts at an eighth of the time, and loses one digit
+ * at order 7. */
 static const struct kernel kernels[] = {
     { "lens_closed", { .quantities = KD_LENS_W }, 0, 5e-6, INFINITY },
     { "lens_closed", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 0, 5e-6, 2e-6 },
@@ -108,7 +108,7 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         }
     while (found < ORDERS && map[(uint64_t)found * plan->lens.rays] > 0)
         found++;
-    for (int n = 0; n < p.crossings; n++) { /* for a ray on its way out, also the distance from infinity */
+    for (int n = 0; n < p.crossings; n++) { /* also includes the distance from infinity for a ray on its way out */
         double w = 1 / p.crossing[n].r;
         least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_hole(v->spin)->outer - w));
     }

@@ -97,7 +97,7 @@ static void make(const struct view *v, struct list *list)
         else if (k % 6 == 0)
             out[k / 6 % 2] = special[k / 12 % SPECIAL];
         if (kd_rays_check(&params, out, 1, NULL))
-            continue; /* no light with these constants reaches the observer */
+            continue; /* skipped, because no light with these constants reaches the observer */
         struct kd_null_ray ray = ray_of(v, out);
         ray.outward = list->outward[list->n] = !isinf(v->r) && k % 2;
         list->path[list->n++] = kd_null_trace(&ray);
@@ -129,7 +129,7 @@ static void judge_crossings(const struct view *v, const struct kd_null_path *p, 
         double r = fmax(fabs(c[n].r / x->r - 1) - x->error_r, 0) / (1 + gain[n]);
         double phi = fmax(turn(c[n].phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]);
         t->r[t->n++] = r;
-        bool thrown = p->turned && p->fate == KD_NULL_CAPTURED; /* the reason is in docs/accuracy.md */
+        bool thrown = p->turned && p->fate == KD_NULL_CAPTURED; /* excluded for the reason in docs/accuracy.md */
         if (x->r > 1.6 * kd_hole_charged(v->spin, v->charge).outer && !thrown)
             t->phi = fmax(t->phi, phi);
     }
@@ -171,7 +171,7 @@ static enum kd_status run(struct kd_renderer *renderer, const struct kd_rays_par
                              error);
     struct kd_ray_labels labels = { list->alpha_beta, list->outward, list->n };
     enum kd_status status = kd_rays_device(renderer, params, &labels, list->crossings, list->ends, NULL, NULL, error);
-    for (size_t i = 0; i < list->n * ORDERS; i++) /* filled in only by kd_rays_trace */
+    for (size_t i = 0; i < list->n * ORDERS; i++) /* set here, because only kd_rays_trace fills it in */
         list->crossings[i].g = 1;
     return status;
 }
@@ -188,7 +188,7 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
                                .phi_bound = wide ? 1e-9 : 2e-6,
                                .unsure_most = 0.05 };
     struct kd_error error = { 0 };
-    /* From next to the horizon, half a turn leads far out or back in with the usual number of steps. */
+    /* Bound: from next to the horizon, half a turn leads far out or back in with the usual number of steps. */
     if (v->r < 1.1 * kd_hole_charged(v->spin, v->charge).outer) {
         row.bound = wide ? 2e-8 : 1e-4;
         row.unsure_most = 0.1;

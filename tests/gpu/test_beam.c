@@ -170,7 +170,7 @@ static void bands_and_readers(void **state)
             assert_memory_equal(pixels, others, bytes);
         }
         look.rows = 0;
-        info->max_texels = 4608; /* as few as the tables need */
+        info->max_texels = 4608; /* as few texels as the tables need */
         show(&look, others);
         info->max_texels = texels;
         assert_memory_equal(pixels, others, bytes);

@@ -237,7 +237,7 @@ static void bands_and_readers(void **state)
             show(width, height, 0.5, rows, others);
             assert_memory_equal(pixels, others, bytes);
         }
-        info->max_texels = 4608; /* as few as the tables need */
+        info->max_texels = 4608; /* a device whose limit is just enough for the tables */
         show(width, height, 0.5, 0, others);
         info->max_texels = texels;
         assert_memory_equal(pixels, others, bytes);

@@ -16,7 +16,7 @@ enum { HOLES = 20, RAYS = 25, ORDERS = 3, MOST = HOLES * RAYS * ORDERS };
 static const struct set {
     const char *name;
     bool charged;
-    double decades[2]; /* of 1 - a^2 - q^2 */
+    double decades[2]; /* range of 1 - a^2 - q^2, as powers of ten */
 } sets[] = {
     { "Q = 0, a² to 0.99", false, { 0, -2 } },
     { "a² + Q² to 0.99", true, { 0, -2 } },

@@ -10,7 +10,7 @@
 
 enum { WIDTH = 150, HEIGHT = 120, RAYS = 700, ORDERS = 3, PARTICLES = 500 };
 
-/* One result of each kind. */
+/* Results of each kind of request. */
 struct answers {
     struct kd_frame frames[3];
     struct kd_ray_crossing crossings[RAYS * ORDERS];
@@ -195,7 +195,7 @@ static void test_heap(void **state)
     fake_device_off();
 }
 
-/* Of a large heap only the part that other programs leave free is available. */
+/* Only the part of a large heap that other programs leave free counts as available. */
 static void test_budget(void **state)
 {
     (void)state;

@@ -16,7 +16,8 @@
 #define WIDTH 160
 #define HEIGHT 90
 #define ORDERS 3
-/* In steps. The error of the oracle's differences is this number's square, and their rounding 1e-12 divided by it. */
+/* Step of the oracle's differences, in steps of the camera. Their truncation error is its square, and their rounding
+ * error 1e-12 divided by it. */
 #define NUDGE 1e-3
 
 struct view {

@@ -56,7 +56,7 @@ static void test_names(void **state)
             if (!planned(&plan, frame.timings[i].name))
                 fail_msg("%s: \"%s\" ran and is not planned", scenes[k], frame.timings[i].name);
         kd_frame_finish(&frame);
-        frame = drawn(scenes[k], &plan); /* with the cached lens map */
+        frame = drawn(scenes[k], &plan); /* now with the cached lens map */
         assert_true(frame.lens_reused);
         for (int i = 0; i < KD_PASS_COUNT; i++)
             if (kd_passes[i].when == KD_EACH_MAP)
@@ -82,7 +82,7 @@ static void test_learned(void **state)
     for (int k = 0; k < 15; k++) {
         renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
             renderer->store.maps[3].key[0] = 0;
-        renderer->frames = 0; /* every frame updates the estimates */
+        renderer->frames = 0; /* 0, because the estimates of early frames are updated at every frame */
         frame = drawn(scene, &plan);
         for (size_t i = 0; i < plan.cost.n_passes; i++) {
             learns[plan.cost.passes[i].figure] = true;
@@ -111,7 +111,7 @@ static void test_stars_are_learned(void **state)
     for (int k = 0; k < 10; k++) {
         renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
             renderer->store.maps[3].key[0] = 0;
-        renderer->frames = 0; /* every frame updates the estimates */
+        renderer->frames = 0; /* 0, because the estimates of early frames are updated at every frame */
         struct kd_frame frame = drawn("{\"image\": {\"width\": 192, \"height\": 108}, \"disk\": {\"model\": \"none\"}, "
                                       "\"sky\": {\"model\": \"stars\"}}",
                                       &plan);
@@ -142,7 +142,7 @@ static void test_refining_is_learned(void **state)
     double took = 0, others = 0;
     renderer->capacity.ns[KD_NS_RAY_REFINED] = 1;
     for (int k = 0; k < 10; k++) {
-        renderer->frames = 0; /* every frame updates the estimates */
+        renderer->frames = 0; /* 0, because the estimates of early frames are updated at every frame */
         struct kd_frame frame = drawn(scene, &plan);
         if (k >= 5)
             took += timing_of(&frame, "refine") / 5;

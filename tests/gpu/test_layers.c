@@ -114,7 +114,7 @@ static void expected(const struct kd_scene *scene, const struct ks_path *path, i
     out[PHI] = path->phi[n] + scene->camera.azimuth_deg * M_PI / 180;
     out[DELAY] = path->delay[n];
     out[ANGLE] = acos(fmin(fabs(path->p_z[n]) / emitted,
-                           1)); /* in the plane the unit normal is along z, in which the gas does not move */
+                           1)); /* g: in the plane the unit normal is along z, in which the gas does not move */
 }
 
 static double apart(int kind, double x, double y)
@@ -335,7 +335,8 @@ static void test_plunge(void **state)
         double x = path.r[0], l = path.momentum[0];
         double u_r = -sqrt(fmax(-1 - product(a, x, u_t, u_phi, u_t, u_phi), 0)),
                p_r = sqrt(fmax(-product(a, x, p_t, l, p_t, l) - path.p_z[0] * path.p_z[0], 0));
-        double rest = product(a, x, u_t, u_phi, p_t, l); /* both radial parts are along a unit vector */
+        /* both radial parts are along one unit vector, so u_r p_r adds to the rest of the product */
+        double rest = product(a, x, u_t, u_phi, p_t, l);
         double want = -1 / (rest + u_r * (path.falls[0] ? -p_r : p_r));
         inside++;
         assert_true(fabs(t[k] - 0.7 * scene.disk.peak_temperature_k) < 0.01);

@@ -155,7 +155,7 @@ static void test_slices(void **state)
     OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity,
                         &cut.plan, &error));
     assert_true(cut.plan.picture.bands > 5);
-    cut.plan.cost.trace_ns = 1e7; /* a slice of a row */
+    cut.plan.cost.trace_ns = 1e7; /* slow enough that a slice is a part of a row */
     cut.planes = test_malloc(sizeof(float) * cut.plan.lens.planes * cut.plan.lens.rays);
     OK(kd_render_lens(renderer, &scene, &cut.plan, cut.planes, NULL, &error));
     assert_memory_equal(whole.planes, cut.planes, sizeof(float) * whole.plan.lens.planes * whole.plan.lens.rays);
@@ -261,7 +261,7 @@ static void test_given_up(void **state)
     int sky = 0;
     for (size_t i = 0; i < 40; i++)
         sky += magenta((unsigned char *)kd_frame_pixels(&frame) + 3 * (40 * 20 + i));
-    assert_true(sky > 0); /* where no disk is in front */
+    assert_true(sky > 0); /* tests that some rays see the sky in front of which there is no disk */
     kd_frame_finish(&frame);
     memset(map->key, 0, sizeof map->key); /* other tests must not find this map */
 }
@@ -274,7 +274,8 @@ static void test_refused(void **state)
     struct kd_capacity capacity;
     struct kd_plan plan;
     kd_renderer_capacity(renderer, &capacity);
-    capacity.accuracy = kd_accuracy_built_in(); /* with a table of this device another engine might be the fastest */
+    /* the built-in table, because with a table of this device another engine might be the fastest */
+    capacity.accuracy = kd_accuracy_built_in();
     capacity.accuracy_measured = false;
     scene.accuracy.tolerance = 1e-15;
     FAILS(KD_EINVAL, "at least 6e-08", kd_plan_make(&scene, &capacity, &plan, &error));

@@ -167,7 +167,8 @@ static void test_stirred(void **state)
     (void)state;
     static const double aims[] = KD_MARCH_STIRRED_ERRORS;
     struct kd_scene scene = scene_of("thick-disk", "{\"image\":{\"width\":96,\"height\":54}}");
-    struct kd_frame fine = by_plan(&scene, 2, 1); /* at "balanced" this march is accurate to a seventh of the target */
+    /* reference: at "balanced" this march is accurate to a seventh of the target */
+    struct kd_frame fine = by_plan(&scene, 2, 1);
     for (int profile = 0; profile <= KD_PROFILE_BALANCED; profile++) {
         scene.accuracy.profile = profile;
         struct kd_frame frame = rendered(&scene);

@@ -217,7 +217,7 @@ struct judged {
 static double twist(const struct seer *seer)
 {
     double a = seer->spin, root = sqrt((1 - a) * (1 + a));
-    if (seer->motion.observer == KD_OBSERVER_INFALL) /* the observer's azimuth is ingoing */
+    if (seer->motion.observer == KD_OBSERVER_INFALL) /* the observer's azimuth is ingoing already */
         return 0;
     return a / (2 * root) * log1p(2 * root / (seer->r - 1 - root));
 }

@@ -206,7 +206,7 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
         fail_msg("the path ends otherwise");
     if (!isnan(x.path.error))
         near("crossings of the path", x.path.error, 0,
-             fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* both differences grow with the ray's amplification */
+             fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* tolerance: both differences grow with the ray's amplification */
     kd_explained_finish(&x);
 }
 
@@ -694,7 +694,8 @@ static void alone(void **state)
         OK(kd_explain_at(at, &plan, &error));
         narrow = scene, less = plan;
         OK(kd_explain_narrow(&c, &narrow, &less, &error));
-        assert_true(less.lens.rays < plan.lens.rays || scene.sky.model); /* stars need a wide margin */
+        /* stars need a wide margin, so more rays are traced */
+        assert_true(less.lens.rays < plan.lens.rays || scene.sky.model);
         encoded(&scene, &plan, &texts[0]);
         encoded(&narrow, &less, &texts[1]);
         const char *by_itself = (char *)texts[1].data, *whole = (char *)texts[0].data;

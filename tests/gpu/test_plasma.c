@@ -126,7 +126,7 @@ static void thermal(double n, double theta, double turn, double sine, double nu,
     const double x = nu / (2.0 / 9 * turn * theta * theta * sine),
                  shape = sqrt(x) + pow(2, 11.0 / 12) * pow(x, 1.0 / 6);
     out[0] = out[1] = 0;
-    if (!(x < 1e6)) /* this part contributes e^-100 of the total */
+    if (!(x < 1e6)) /* skipped, because this part contributes only e^-100 of the total */
         return;
     out[0] = n * E2 * turn / C * sqrt(2) * M_PI / 27 * sine * shape * shape * exp(-cbrt(x));
     out[1] = out[0] * expm1(H * nu / (theta * ME * C * C)) * C * C / (2 * H * nu * nu * nu);

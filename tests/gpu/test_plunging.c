@@ -179,7 +179,8 @@ static void test_slopes(void **state)
             double w[] = { planes[0][at], planes[1][at] }, dw[] = { planes[0][slope], planes[1][slope] };
             if (!(w[0] > 1.01 / isco && w[1] > 0 && fabs(w[0] / w[1] - 1) < 1e-4 &&
                   1 / w[0] > 1.02 * kd_hole(0.3)->outer))
-                continue; /* the crossing is in only one of them, or is next to the critical curve */
+                continue; /* skipped, because only one of them has the crossing, or because the crossing is next to
+                           * the critical curve */
             double off = fabs(dw[0] - dw[1]) / (fabs(dw[1]) + 0.05);
             far += off > 1e-3;
             worst = fmax(worst, off);

@@ -78,7 +78,7 @@ static void place(const struct view *v, const struct kd_critical *curve, size_t 
     }
     if (v->where != CRITICAL)
         return;
-    /* At a relative distance from the curve of 0.1 to 1e-7, on either side. */
+    /* Places rays at relative distances from 0.1 to 1e-7 from the curve, on both sides of it. */
     const struct kd_critical_point p = kd_critical_at(curve, 2 * M_PI * x);
     double rho = p.rho * (1 + (k % 2 ? 0.1 : -0.1) * pow(10, -6 * y));
     out[0] = curve->centre + rho * cos(p.angle);
@@ -106,7 +106,7 @@ static void prepare(void)
             double *out = l->rays + 2 * l->n;
             place(v, &curve, k, out);
             if (kd_rays_check(&params, out, 1, NULL))
-                continue; /* no light with these constants reaches the observer */
+                continue; /* skipped, because no light with these constants reaches the observer */
             ray.alpha = out[0], ray.beta = out[1];
             l->paths[l->n++] = series_trace(&ray, ORDERS);
         }
@@ -265,7 +265,7 @@ static void count(const struct list *l, double tolerance, const struct kd_ray_en
         t->rays++;
         t->again += e->again;
         t->beyond += said;
-        for (int n = 0; n < p->crossings; n++) { /* a missing crossing counts as wrong */
+        for (int n = 0; n < p->crossings; n++) { /* a missing crossing is an error */
             bool off = n >= (int)e->n_crossings || fabsl(crossings[k * ORDERS + (size_t)n].r / p->r[n] - 1) > tolerance;
             t->crossings++;
             t->off += off;

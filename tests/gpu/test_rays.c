@@ -297,7 +297,7 @@ static void test_starts(void **state)
             views[v].r, views[v].inclination, views[v].half, wide ? "f64" : "f32", differ, n, errors[0][n / 2],
             errors[1][n / 2], errors[1][n - n / 100]);
         assert_true(n > RAYS / 2);
-        assert_true(differ <= (wide ? 0 : 2)); /* at the critical curve, in single precision */
+        assert_true(differ <= (wide ? 0 : 2)); /* a few rays at the critical curve may differ in single precision */
         assert_true(errors[0][n / 2] < (wide ? 2e-7 : 3e-5));
         assert_true(errors[1][n - n / 100] < (wide ? 1e-4 : 3e-3));
     }

@@ -256,7 +256,7 @@ static void test_choice(void **state)
             pixels[3 * k + c] = (uint16_t)(4000 * (k % W) + 300 * (k / W));
     struct kd_choice choice = bent(pixels, W * H);
     assert_true(choice.list.n > 0);
-    for (size_t i = 0; i < choice.list.n; i++) /* no pixel inside is chosen */
+    for (size_t i = 0; i < choice.list.n; i++) /* checks that no pixel inside the square is chosen */
         assert_true(place(&choice, i).x == 0 || place(&choice, i).x == W - 1 || place(&choice, i).y == 0 ||
                     place(&choice, i).y == H - 1);
     kd_choice_finish(&choice);
@@ -264,7 +264,7 @@ static void test_choice(void **state)
     for (int k = 0; k < 9; k++) /* a square in one channel, by 0.03, one corner by 0.3 */
         pixels[3 * ((3 + k / 3) * W + 6 + k % 3) + 1] = k ? 1966 : 19660;
     choice = bent(pixels, W * H);
-    assert_int_equal(choice.list.n, 25); /* the square and its neighbours */
+    assert_int_equal(choice.list.n, 25); /* the pixels of the square and its neighbours */
     assert_true(place(&choice, 0).x == 5 && place(&choice, 0).y == 2 && place(&choice, 24).x == 9 &&
                 place(&choice, 24).y == 6);
     kd_choice_finish(&choice);

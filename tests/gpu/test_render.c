@@ -53,7 +53,7 @@ static void test_reuse(void **state)
 {
     (void)state;
     struct kd_scene scene = small_scene();
-    scene.camera.inclination_deg = 61.5; /* not in the cache yet */
+    scene.camera.inclination_deg = 61.5; /* a view that is not in the cache yet */
     struct kd_frame first = rendered(&scene), again = rendered(&scene);
     assert_false(first.lens_reused);
     assert_true(again.lens_reused && ran(&first, "trace") && !ran(&again, "trace"));
@@ -65,7 +65,7 @@ static void test_reuse(void **state)
     scene.style.exposure = 1;
     scene.image.bit_depth = 16;
     first = rendered(&scene);
-    /* only where there are timestamps */
+    /* times exist only where the device has timestamps */
     assert_true(first.lens_reused && ran(&first, "upload") == ran(&first, "transfer"));
     kd_frame_finish(&first);
 
@@ -84,7 +84,7 @@ static void test_the_curve_is_followed_once(void **state)
 {
     (void)state;
     struct kd_scene scene = small_scene();
-    scene.camera.inclination_deg = 62.75; /* not in the cache yet */
+    scene.camera.inclination_deg = 62.75; /* a view that is not in the cache yet */
     uint64_t before = kd_critical_pixels_made();
     struct kd_frame frame = rendered(&scene);
     assert_false(frame.lens_reused);
@@ -231,7 +231,7 @@ static void test_progress(void **state)
     struct kd_frame frame;
     int calls = 0;
     double last = 0;
-    scene.spacetime.spin = 0.123; /* no test has cached this map */
+    scene.spacetime.spin = 0.123; /* a spin whose map no test has cached */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     FAILS(KD_ECANCELLED, "cancelled", kd_render(renderer, &scene, &plan, stop_at_once, &calls, &frame, &error));
     assert_int_equal(calls, 1);
@@ -271,7 +271,8 @@ static void test_glances(void **state)
     for (int k = 0; k < 6; k++) {
         struct kd_scene scene = small_scene();
         struct kd_plan plan;
-        scene.camera.inclination_deg = 60 + k;                              /* this picture has a lens map of its own */
+        /* a view of its own, so that this picture needs a new lens map */
+        scene.camera.inclination_deg = 60 + k;
         scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays traced, and a sampled map */
         scene.image.bit_depth = k % 2 ? 16 : 8;
         scene.style.exposure = k < 3 ? 0 : INFINITY;
@@ -519,7 +520,8 @@ static void test_what_idle_asides_keep_is_bounded(void **state)
     scene.image.height = 720;
     uint64_t kept[KD_N_CACHE_KINDS], all = 0, one = 0;
     for (int i = 0; i <= VIEWS; i++) {
-        scene.camera.inclination_deg = 33 + i % VIEWS + (i == VIEWS ? VIEWS - 1 : 0); /* the last one once more */
+        /* renders the last view once more */
+        scene.camera.inclination_deg = 33 + i % VIEWS + (i == VIEWS ? VIEWS - 1 : 0);
         OK(kd_plan_make(&scene, &c, &plan, &error));
         OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &frame, &error));
         assert_int_equal(frame.lens_reused, i == VIEWS);
@@ -543,7 +545,7 @@ static void test_what_is_resident_is_counted_when_asked(void **state)
     (void)state;
     const uint64_t started = renderer->started_bytes;
     uint64_t kept[KD_N_CACHE_KINDS];
-    renderer->started_bytes = UINT64_MAX / 4; /* as if more memory had been resident at the start, ... */
+    renderer->started_bytes = UINT64_MAX / 4; /* pretends that more memory was resident at the start, ... */
     kd_renderer_cached(renderer, kept);
     assert_int_equal(kept[KD_CACHE_OTHER], 0);
     renderer->started_bytes = 0; /* ... and as if none had been */
@@ -640,7 +642,7 @@ static void test_audit(void **state)
     kd_frame_finish(&first);
     kd_frame_finish(&again);
 
-    scene.spacetime.spin = 0.99; /* in the ergosphere, where some rays have negative energy */
+    scene.spacetime.spin = 0.99; /* a camera in the ergosphere, where some rays have negative energy */
     scene.camera.r = 1.6;
     scene.camera.yaw_deg = 150;
     scene.camera.observer = KD_OBSERVER_ZAMO;

@@ -15,7 +15,7 @@ static struct kd_scene scene_of(double spin)
     scene.spacetime.spin = spin;
     scene.camera.inclination_deg = 75;
     scene.camera.field_m = 30;
-    scene.image.critical_factor = 1; /* a pixel is one ray */
+    scene.image.critical_factor = 1; /* so that each pixel has one ray */
     scene.disk.outer = 15;
     scene.disk.opacity = 0.5;
     scene.image.width = 96;
@@ -199,7 +199,7 @@ static void test_thick(void **state)
     scene.image.height = 32;
     double *last = calloc((size_t)scene.image.width * (size_t)scene.image.height * 3, sizeof *last);
     assert_non_null(last);
-    scene.accuracy.orders = 8; /* the march contains all orders */
+    scene.accuracy.orders = 8; /* as many orders as the march contains */
     const struct change flat = changed(&scene, 0, last, false);
     for (int high = 0; high < 2; high++) {
         scene.disk.height = high ? 0.1 : 5e-5;
@@ -214,7 +214,7 @@ static void test_thick(void **state)
     free(last);
 }
 
-/* Without ringdown nothing is reported. */
+/* Without a ringdown, no approximation about it is reported. */
 static void test_said(void **state)
 {
     (void)state;

@@ -33,7 +33,7 @@ static struct map map_with(const struct kd_scene *scene, const struct kd_needs *
     struct map map;
     kd_renderer_capacity(renderer, &c);
     OK(kd_scene_validate(scene, &error));
-    OK(kd_plan_one(scene, needs, &c, &map.plan, &error)); /* for a tile without its margin */
+    OK(kd_plan_one(scene, needs, &c, &map.plan, &error)); /* plans a tile without its margin */
     map.planes = test_calloc(map.plan.lens.planes * map.plan.lens.rays, sizeof *map.planes);
     OK(kd_render_lens(renderer, scene, &map.plan, map.planes, NULL, &error));
     return map;
@@ -253,7 +253,7 @@ static void footprints_are_derivatives(void **state)
     static double off[300 * 200], sky[300 * 200];
     size_t n = 0, m = 0;
     for (size_t i = 0; i < a.plan.lens.rays; i++) {
-        if (crossings(&b, i)) /* only crossings of the direct image, whose second-order differences are small */
+        if (crossings(&b, i)) /* only for crossings of the direct image, whose second-order differences are small */
             off[n++] = fabs(plane(&a, KD_LENS_FOOTPRINT, 0)[i] / plane(&b, KD_LENS_FOOTPRINT, 0)[i] - 1);
         if (plane(&b, KD_LENS_FATE, 0)[i] == KD_FATE_ESCAPED)
             sky[m++] = fabs(plane(&a, KD_LENS_SKY_FOOTPRINT, 0)[i] / plane(&b, KD_LENS_SKY_FOOTPRINT, 0)[i] - 1);

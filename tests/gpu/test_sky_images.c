@@ -262,7 +262,7 @@ static void lifted_all_the_same(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of(KD_SKY_CATALOGUE, "");
-    assert_true(fabs(kd_scene_exposure_most(&scene) + 2) < 1e-15); /* from brightness 1 to a quarter */
+    assert_true(fabs(kd_scene_exposure_most(&scene) + 2) < 1e-15); /* from brightness 1 to a quarter of white */
     scene.style.palette = KD_PALETTE_HEAT;
     assert_true(isinf(kd_scene_exposure_most(&scene)));
     scene = scene_of(KD_SKY_GRID, "");
@@ -274,7 +274,7 @@ static void lifted_all_the_same(void **state)
     assert_true(fabs(kd_scene_exposure_most(&scene) - log2(25)) < 1e-12);
     scene.disk.model = KD_DISK_NONE;
     assert_true(fabs(kd_scene_exposure_most(&scene) - log2(1.25)) < 1e-12);
-    scene.volume.model = KD_VOLUME_UNIFORM; /* and a hundredth beside a volume */
+    scene.volume.model = KD_VOLUME_UNIFORM; /* beside a volume the brightness is a hundredth */
     assert_true(fabs(kd_scene_exposure_most(&scene) - log2(25)) < 1e-12);
 }
 

@@ -11,7 +11,7 @@ static struct kd_scene spot_scene(double spin, double inclination)
     struct kd_scene scene;
     kd_scene_smooth(&scene);
     scene.image.width = 160;
-    scene.image.critical_factor = 1; /* these tests assume one ray a pixel */
+    scene.image.critical_factor = 1; /* one ray a pixel, as these tests assume */
     scene.image.height = 120;
     scene.spacetime.spin = spin;
     scene.camera.inclination_deg = inclination;

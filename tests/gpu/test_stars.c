@@ -32,7 +32,7 @@ static struct kd_scene scene_of(double spin, double inclination)
     scene.camera.fov_deg = FIELD;
     scene.disk.model = KD_DISK_NONE;
     scene.sky.model = KD_SKY_CATALOGUE;
-    scene.sky.limit_mag = -1; /* no other star is so bright */
+    scene.sky.limit_mag = -1; /* so bright that no other star passes the limit */
     scene.sky.brightness = 1;
     scene.sky.milky_way = 0;
     scene.style.exposure = 0;
@@ -413,7 +413,7 @@ static void next_to_the_curve(void **state)
             continue;
         struct kd_frame frame = seen(&scene);
         const double x = 0.5 * (CLOSE_WIDTH - 1), y = 0.5 * (CLOSE_HEIGHT - 1);
-        /* contains all of this image, and almost nothing of the star's other images */
+        /* a region with all of this image, and almost nothing of the star's other images */
         const struct blob b = blob_at(&frame, x, y, 1);
         if (fabs(b.light / want - 1) > 0.003 || hypot(b.x - x, b.y - y) > 0.003)
             printf("spin 0.9, %g from the curve at angle %.2f: light %.4g, off by %+.5f, place by %.4f\n", off, angle,
@@ -548,7 +548,7 @@ static void another_sky_meanwhile(void **state)
     turned = scene;
     turned.camera.azimuth_deg = 40;
     o.scene = turned;
-    o.scene.image.critical_factor = 2; /* this picture has its own map */
+    o.scene.image.critical_factor = 2; /* another factor, so that this picture has its own map */
     o.plan = plan_of(&o.scene, &c);
     const struct kd_plan plan = plan_of(&scene, &c), plan_turned = plan_of(&turned, &c);
     assert_true(plan.picture.bands > 1 && plan.lens.cacheable);
@@ -592,7 +592,8 @@ static void kept_and_made_anew(void **state)
         own = scene;
         own.image.critical_factor = 5 + (int)i;
         struct kd_frame first = seen(&base), again = seen(&scene), fresh = seen(&own);
-        bool idle = i + 1 == sizeof changes / sizeof *changes; /* the change affects nothing that a star depends on */
+        /* the last change affects nothing on which a star depends */
+        bool idle = i + 1 == sizeof changes / sizeof *changes;
         assert_true(again.lens_reused && !fresh.lens_reused && was_run(&fresh, "stars"));
         assert_true(was_run(&again, "stars") == !idle);
         assert_memory_equal(again.layers[1].data, fresh.layers[1].data, 12ull * WIDTH * HEIGHT);

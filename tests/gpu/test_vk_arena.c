@@ -52,7 +52,7 @@ static void random_use(void **state)
             }
             check(&arena, taken, n);
         }
-        assert_true(refused > 0); /* otherwise the sizes are too small to fill it */
+        assert_true(refused > 0); /* tests that the sizes were large enough to fill it */
         while (n)
             n--, kd_vk_arena_give(&arena, taken[n].offset, taken[n].size);
         check(&arena, taken, 0);

@@ -82,7 +82,7 @@ static void destroyed_in_flight(void **state)
     OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 2, &error));
     mix(vk, pipeline, x, y, n, 5);
     OK(kd_vk_copy(vk, "readback", back, 0, y, 0, n * 4, &error));
-    kd_vk_pipeline_destroy(vk, pipeline); /* its commands are recorded but not submitted */
+    kd_vk_pipeline_destroy(vk, pipeline); /* destroyed while its commands are recorded but not submitted */
     kd_vk_buffer_destroy(vk, x);
     OK(kd_vk_submit(vk, NULL, &error));
     kd_vk_buffer_destroy(vk, y);

@@ -58,7 +58,7 @@ static void written_and_read(void **state)
     (void)state;
     live(directory, false);
     assert_int_equal(given, 0);
-    assert_int_equal(only_file(directory, path), 0); /* there is nothing to keep */
+    assert_int_equal(only_file(directory, path), 0); /* no file, because there is nothing to keep */
     live(directory, true);
     assert_int_equal(only_file(directory, path), 1);
     assert_int_equal(stat(path, &first), 0);
@@ -95,7 +95,7 @@ static void damaged(void **state)
         live(directory, false);
         assert_int_equal(given, 0);
     }
-    live(directory, true); /* replaced by a valid file */
+    live(directory, true); /* the damaged file must be replaced by a valid one */
     live(directory, true);
     assert_true(given > 0);
 }

@@ -186,8 +186,8 @@ static void sweep(VkResult result, enum kd_status expected)
         enum kd_status status = life(&error);
         if (!tripped)
             break;
-        /* These failures are tolerated: without a query pool there are no times, and if a block cannot be allocated
-         * or mapped, a smaller one is tried. */
+        /* These failures must be harmless: without a query pool there are no times, and if a block cannot be
+         * allocated or mapped, a smaller one is tried. */
         bool harmless =
             !strcmp(tripped, "CreateQueryPool") || !strcmp(tripped, "AllocateMemory") || !strcmp(tripped, "MapMemory");
         if (status ? status != expected || !error.message[0] : !harmless)
@@ -278,7 +278,7 @@ static void deadline(void **state)
     FAILS(KD_EDEVICE, "missed its deadline of 1500 ms", kd_vk_wait(vk, ticket, &error));
     assert_int_equal(waits, 2);
 
-    vk->core.fn.WaitSemaphores = NULL; /* from here on nothing may reach the driver */
+    vk->core.fn.WaitSemaphores = NULL; /* replaced by NULL, because from here on nothing may reach the driver */
     FAILS(KD_EDEVICE, "lost", kd_vk_wait(vk, 0, &error));
     FAILS(KD_EDEVICE, "lost", kd_vk_submit(vk, NULL, &error));
     FAILS(KD_EDEVICE, "lost", kd_vk_fill(vk, "fill", buffer, 0, 256, 3, &error));

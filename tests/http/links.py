@@ -167,7 +167,7 @@ class Links(access.Access):
         self.works(signed(RENDER, ends=100 * 365 * 24 * HOUR))
 
     def test_a_budget(self):
-        """Pictures are made until the budget is spent; then the link is refused, and another link is not."""
+        """Pictures are made until the budget is spent. Then the link is refused, while another link still works."""
         link, other = (signed(RENDER + "&time=" + str(i), budget_ms=1) for i in range(2))
         self.works(link)
         self.assertTrue(daemon.eventually(lambda: self.ask("GET", link).status == 403))

@@ -559,8 +559,8 @@ class Integrals(daemon.Case):
         self.assertAlmostEqual(among["columns"]["lag"][0], 0, delta=1e-9)
 
     def test_coronae(self):
-        """The line of a ring has the energies of its echo; a narrow layer and slab about it have its line, and tell the
-        same continuum. Far from the hole the continuum is that of flat space, and the line twice cos i as strong."""
+        """The line of a ring has the energies of the ring's echo. A narrow layer or slab around the ring gives the same
+        line and continuum. Far from the hole the continuum is that of flat space, and `strength` is 2 cos i."""
         hole = {"spin": 0.9, "inclination_deg": 40, "outer": 200, "bins": 30}
         ring = {**hole, "emissivity": "ring", "corona_radius": 6, "height": 3, "motion": "corotating"}
         line = self.post("line", ring).json()

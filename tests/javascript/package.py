@@ -18,6 +18,7 @@ def make(root, folder):
         subprocess.run(["sh", "-e", "-c", described["scripts"]["prepack"]], cwd=source, check=True)
         target = folder / "node_modules" / described["name"]
         target.mkdir(parents=True)
-        for name in ("package.json", "README.md", "LICENSE", *described["files"]):  # npm takes the first three anyway
+        # npm packs the first three even if they are not listed
+        for name in ("package.json", "README.md", "LICENSE", *described["files"]):
             shutil.copy(source / name, target / name)
     (folder / "package.json").write_text('{ "type": "module" }\n')

@@ -48,7 +48,7 @@ const at: Asked = '1,2';
 
 // @ts-expect-error no field
 await hole.render({ camera: { tilt: 60 } });
-// @ts-expect-error a word that is none of its words
+// @ts-expect-error a word that the field does not have
 await hole.render({ camera: { projection: 'round' } });
 // @ts-expect-error a number for a word
 await hole.render({ disk: { model: 1 } });
@@ -64,13 +64,13 @@ await hole.request('GET /v1/jobs/{id}');
 await hole.request('POST /v1/render', {});
 // @ts-expect-error without the pixel
 await hole.request('GET /v1/pixel', { query: { preset } });
-// @ts-expect-error a type that it does not answer
+// @ts-expect-error a type that the route does not answer
 await hole.request('POST /v1/line', { body: {}, accept: 'image/png' });
 // @ts-expect-error bytes without their type
 await hole.request('PUT /v1/assets', { body: blob });
-// @ts-expect-error text, or numbers: which was asked for is not said
+// @ts-expect-error the answer may be text or numbers, because the call names no type
 const either: string = (await hole.request('POST /v1/line', { body: {} })).data;
 // @ts-expect-error null is for patches
 await hole.render({ camera: { r: null } });
-// @ts-expect-error a frame may not be there
+// @ts-expect-error there may be no frame
 const sure: Picture = await live.frame();

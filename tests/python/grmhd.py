@@ -163,7 +163,7 @@ class Dumps(unittest.TestCase):
         self.assertIn("rows beyond r = 20 are left out", near.notes[0])
 
     def test_electrons_of_kharma(self):
-        """The entropy of electrons, K = (gamma_e - 1) u_e / rho^gamma_e, is theirs by its own name."""
+        """The entropy of electrons, K = (gamma_e - 1) u_e / rho^gamma_e, is read from each dataset that may have it."""
         path = self.written_kharma()
         with h5py.File(path, "r+") as file:
             rho, energy = (file["prims." + name][()] for name in ("rho", "u"))

@@ -332,7 +332,7 @@ class Ipole(Files):
             self.assertEqual(
                 {fates[key] for key, value in values.items() if value is not None} - {"said"}, set(), values
             )
-        # A pixel to the right and one up, of 40 M/80.
+        # The camera is shifted by a pixel, 40 M/80, to the right and upwards.
         shifted = self.imported(changed("thin_disk.par", xoff=1, yoff=1)).document["camera"]
         self.assertEqual((shifted["centre_alpha"], shifted["centre_beta"]), (0.5, 0.5))
 

@@ -33,7 +33,7 @@ static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision prec
     return row;
 }
 
-/* Medians are a quarter of the promised error. */
+/* made_up: in each row the medians are a quarter of the error that the row promises. */
 static int made_up(void **state)
 {
     (void)state;
@@ -79,7 +79,7 @@ static void the_cheapest_that_holds(void **state)
     expect(1e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
     expect(0.99e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
     expect(1e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
-    table.rows[1].sets[KD_ACCURACY_BULK].rays_per_s = 1; /* now the Runge-Kutta method is the fastest at 1e-4 */
+    table.rows[1].sets[KD_ACCURACY_BULK].rays_per_s = 1; /* makes the Runge-Kutta method the fastest one at 1e-4 */
     expect(1e-4, KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64);
 }
 
@@ -109,7 +109,7 @@ static void what_none_holds(void **state)
     refused(0.5, "kerrd bench accuracy");
 }
 
-/* With some number of steps the bulk may be accurate enough, but not edge-on rays. */
+/* With some numbers of steps the bulk is accurate enough, but edge-on rays are not. */
 static void other_sets(void **state)
 {
     (void)state;
@@ -261,7 +261,8 @@ static void markdown(void **state)
 }
 
 /* On the critical curve the radial potential R = (r^2 + a^2 - a l)^2 - Delta (eta + (l - a)^2) has a double root
- * outside the horizon, and beside it none or two (Bardeen 1973). Returns its minimum there, by search. */
+ * outside the horizon; beside the curve it has no root there, or two (Bardeen 1973). Returns its minimum there, by
+ * search. */
 static double least_potential(double a, double inclination_deg, const double *x)
 {
     double s = sin(inclination_deg * M_PI / 180), u2 = 1 - s * s;
@@ -287,7 +288,8 @@ static void critical_curve(void **state)
     for (int k = 0; k < N; k++) {
         int decade = k / 2 % 5 + 2;
         double least = least_potential(a, i, rays + 2 * k), scale = fabs(least) * 0.2 * pow(10, decade);
-        /* R grows with the distance from the curve, by some tens of M^4 a unit: beyond 1e-4 its minimum is resolved. */
+        /* R grows with the distance from the curve, by some tens of M^4 per unit, so its minimum is resolved beyond
+         * 1e-4. */
         if ((k % 2 ? least > 0 : least < 0) || (decade <= 4 && !(scale > 5 && scale < 500)))
             fail_msg("ray %d: R is %g at least, 5e-%d from the curve", k, least, decade);
     }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Includes point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and cli on top.
 
-arrows.py SRC     exit 1 naming every #include in SRC that points the wrong way, after proving that it finds some
+arrows.py SRC exit 1 naming every #include in SRC that points the wrong way, after checking that it finds planted ones
 """
 
 import pathlib
@@ -98,8 +98,8 @@ ROOMS = {
         "waves": {"math", "spacetime"},
     }
 }
-# In these modules files must not know each other in a circle. A header and its source count as one, with the
-# includes of both.
+# In these modules includes must not form a circle. A header and its source count as one file, with the includes of
+# both.
 NO_CIRCLES = {
     "base",
     "document",
@@ -129,7 +129,7 @@ FOREIGN = {
     "argp.h": {"cli"},
     "sixel.h": {"cli"},
 }
-# Files made from shaders/, which cannot be included in another way.
+# Headers made from shaders/. They can be included in no other way.
 SHADERS = re.compile(r"^(\w+\.spv\.h|(interface|emitters|faces|layers|lens|spec)\.h)$")
 DEFINED = re.compile(r"^(?!static\b)[A-Za-z_][\w *]*?\b(kd_\w+)\([^;{}]*\)\s*\{", re.M)
 CALLED = re.compile(r"\bkd_\w+(?=\()")
@@ -137,7 +137,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
 
 
 def rank(module, parts):
-    """The position of a file or header of a module among its folders: the larger, the more it may include."""
+    """The position of a file or header among the folders of its module. A higher position may include more."""
     order = FOLDERS[module]
     return len(order) if len(parts) < 3 else order.index(parts[1]) if parts[1] in order else -1
 
@@ -204,7 +204,7 @@ def circle(known):
 
 
 def circles(src):
-    """A sentence for each module that has a circle although it must not."""
+    """One sentence for each module whose includes form a forbidden circle."""
     for module in sorted(NO_CIRCLES):
         texts = {
             path.relative_to(src): path.read_text(encoding="utf-8") for path in sorted((src / module).rglob("*.[ch]"))

@@ -64,7 +64,7 @@ static void who_is_alone_has_everything(void **state)
         frame(&b, one, 0, 30, 5);
         assert_true(kd_budget_share(&b.budget, one, b.now) == 1);
     }
-    for (int k = 0; k < 10; k++) /* the use of others counts for 400 ms */
+    for (int k = 0; k < 10; k++) /* the work of other clients counts for 400 ms */
         frame(&b, k % 2 ? other : stranger, 0, 20, 5);
     assert_true(kd_budget_share(&b.budget, one, b.now + 300) < 0.5);
     assert_true(kd_budget_share(&b.budget, one, b.now + 450) == 1);
@@ -175,8 +175,8 @@ static void clients_come_before_their_sessions(void **state)
         assert_true(fabs(kd_budget_share(&b.budget, &b.entries[i], b.now) - 1.0 / 14) < 1e-9);
 }
 
-/* The division by another algorithm, which pours drop by drop, each drop into the least full bowl that has room. Bowl n
- * has no bottom: its content is the answer. */
+/* Computes the division by another algorithm: it pours one drop at a time into the least full bowl that has room.
+ * Bowl n has no limit; its content is the answer. */
 static double pour(const double *sizes, int n, double whole)
 {
     static const double drop = 1e-4;

@@ -93,7 +93,8 @@ static void test_what_is_there_already(void **state)
     kd_bytes_destroy(b);
 }
 
-/* There are more clients than the table distinguishes. The surplus is counted together, and all bytes are returned. */
+/* There are more clients than places in the table. Those without a place are counted together, and all bytes are
+ * returned. */
 static void test_many_clients(void **state)
 {
     struct kd_bytes *b = make(false);

@@ -64,7 +64,7 @@ static void test_a_silent_client_is_late(void **state)
     closed(&p);
 }
 
-/* Half a request line has not been read yet. Its client must not keep a connection with it. */
+/* Half a request line has arrived and stays unread. Its client must not be able to keep a connection open with it. */
 static void test_half_a_line_is_late(void **state)
 {
     (void)state;

@@ -195,8 +195,8 @@ static void damaged_zip(void **state)
     kd_buffer_finish(&file);
 }
 
-/* A directory of 700 000 entries is refused because of the count in either end record. Going through it would take
- * seconds. */
+/* A directory of 700 000 entries is refused because of the count in either end record, before the entries are read,
+ * which would take seconds. */
 static void too_many_members(void **state)
 {
     (void)state;
@@ -231,8 +231,8 @@ static void too_many_members(void **state)
     free(bytes);
 }
 
-/* Members beyond 4 GiB read back with the sizes that the writer declared, which are in the fields of ZIP64. The bytes
- * themselves are removed, as for a film. */
+/* Members beyond 4 GiB have the sizes that the writer declared, in the fields of ZIP64. The test removes the bytes
+ * themselves, as a film does. */
 static void long_members(void **state)
 {
     (void)state;

@@ -69,7 +69,7 @@ static void every_field_counts(void **state)
             check(&scene);
             const struct kd_row *field = &kd_fields[i];
             if (kd_section_find(field->object)->most || field->kind == KD_KIND_ASSET)
-                continue; /* fields of lists, and names: the camera has none */
+                continue; /* skips fields of lists and names, because the camera has none */
             double value = kd_field_get(&scene, field, 0);
             const double others[] = { value * 0.9 + 0.05, value + 1, 1 - value };
             for (size_t k = 0; k < 3; k++) {
@@ -91,7 +91,7 @@ static void the_oldest_goes(void **state)
     for (int i = 0; i < KD_CRITICAL_KEPT - 1; i++) {
         struct kd_scene other = scene_of(0.6 + 0.001 * i, 64);
         assert_int_equal(check(&other), 1);
-        assert_int_equal(check(&first), 0); /* it was used recently, and so stays */
+        assert_int_equal(check(&first), 0); /* it stays, because it was used recently */
     }
     assert_int_equal(check(&second), 1);
 }

@@ -28,7 +28,7 @@ static struct kd_scene scene_of(double spin, double r, double inclination)
     return scene;
 }
 
-/* Two by two rays a pixel: true if they fall into the hole. */
+/* Traces two by two rays in each pixel. A value is true if the ray falls into the hole. */
 static void fates(const struct kd_scene *scene, bool *captured)
 {
     const struct kd_scene fine = kd_critical_camera(scene, 2);
@@ -61,7 +61,8 @@ static bool mixed(const bool *captured, int x, int y, int reach)
     return some[0] && some[1];
 }
 
-/* All pixels that the visible edge of the shadow passes are listed, and none far from it. Returns the number listed. */
+/* Checks that all pixels which the visible edge of the shadow passes are listed, and no pixels far from it. Returns
+ * the number of listed pixels. */
 static size_t judge(const struct kd_scene *scene, const char *what)
 {
     static bool captured[4 * WIDTH * HEIGHT];
@@ -76,8 +77,8 @@ static size_t judge(const struct kd_scene *scene, const char *what)
         assert_true(list.pixels[i].x < WIDTH && list.pixels[i].y < HEIGHT && (!i || at > before));
         listed[before = at] = true;
     }
-    /* Pixels outside the picture are not judged, since near its edge a pixel may be listed because of a part of the
-     * curve outside. */
+    /* Pixels next to the picture's edge are not judged, because they may be listed for a part of the curve outside
+     * the picture. */
     const int far = (int)KD_CRITICAL_NEAR + 2;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -159,7 +160,8 @@ static void from_nearby(void **state)
     }
 }
 
-/* Tests a small hole, a hole whose edge alone is in the picture, one that fills the picture, and one outside it. */
+/* Tests a small hole, a hole of which only the edge is in the picture, a hole that fills the picture, and a hole
+ * outside it. */
 static void sizes(void **state)
 {
     (void)state;
@@ -215,8 +217,8 @@ static void the_largest_picture(void **state)
     kd_critical_pixels_finish(&list);
 }
 
-/* The rays of a pixel are point-symmetric, with one in each column and row. Their spacing is compared with the closest
- * packing, sqrt(2/sqrt 3) over the square root of their number. */
+/* The rays of a pixel are point-symmetric, with one ray in each column and row. Their least distance is compared
+ * with that of the closest packing, sqrt(2/sqrt 3) divided by the square root of their number. */
 static void places(void **state)
 {
     (void)state;

@@ -28,7 +28,7 @@ FORMS = re.compile(
     )
 )
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
-# The factors (x - y)(x + y) are Delta only if y is made of the root.
+# The factors (x - y)(x + y) count as Delta only if y is computed from the root of 1 - a^2 - q^2.
 DIFFERENCE = re.compile(r"\((\w+) - (\w+)\) \* \(\1 \+ \2\)")
 
 

@@ -323,7 +323,7 @@ static void lists_and_objects_in_objects(void **state)
     static const struct {
         const char *text;
         bool patch;
-        const char *after; /* of the steps before it, too */
+        const char *after; /* steps that are applied before this one */
     } steps[] = {
         { "{}", false, TRAY("200", PLAIN, "\"apple\"", "") },
         { "{\"biscuits\":[{\"size_cm\":4},{\"kind\":\"rye\"}]}", false,
@@ -417,7 +417,7 @@ static void lists_are_refused_where_they_are_wrong(void **state)
 static void typed_paths_lead_to_one_field(void **state)
 {
     static const struct {
-        const char *path, *text, *pointer, *message; /* message NULL: it is taken */
+        const char *path, *text, *pointer, *message; /* message NULL: the text is accepted */
     } steps[] = {
         { "biscuits.0.size_cm", "3", NULL, NULL },
         { "on.cloth.red", "false", NULL, NULL },

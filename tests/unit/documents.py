@@ -40,7 +40,7 @@ def anchors(text):
 
 
 def tree(root):
-    """Every file and folder of ROOT that people write, as paths relative to ROOT."""
+    """Every file and folder of ROOT that people write, as a path relative to ROOT."""
     for folder, folders, names in os.walk(root):
         if "build.ninja" in names or "pyvenv.cfg" in names:
             folders.clear()
@@ -50,7 +50,7 @@ def tree(root):
 
 
 def named(name, paths, tops):
-    """Whether a quoted text is the name of a file or folder, and whether this exists."""
+    """Whether a quoted text is the name of a file or folder; if so, whether that file or folder exists."""
     if not re.fullmatch(r"[\w.*{},/-]+", name) or name.startswith("build/") or "DATE" in name or name.startswith("."):
         return True
     for each in braces(name):

@@ -26,7 +26,7 @@ static void all_are_there(void **state)
         assert_non_null(kd_emitters[i]->present);
         assert_true(kd_emitters[i]->n_sentences > 0); /* each has approximations */
         assert_true(!kd_emitters[i]->fill ||
-                    kd_emitters[i]->depends[0].size); /* else the numbers would be filled only once */
+                    kd_emitters[i]->depends[0].size); /* otherwise the numbers would be filled only once */
     }
 }
 
@@ -411,7 +411,7 @@ static void what_shines_is_told(void **state)
     kd_buffer_finish(&json);
 }
 
-/* Stars have a pass of their own, diffuse light has none; without either the sky is simply black. */
+/* Stars have a pass of their own, and diffuse light has none. Without either the sky is black. */
 static void skies(void **state)
 {
     (void)state;
@@ -598,7 +598,7 @@ static void work_follows_emitters(void **state)
     assert_false(alike(&scene, &gas));
 
     struct kd_work bodies[4];
-    for (uint32_t n = 0; n < 3; n++) { /* 0, 1, 7 bodies */
+    for (uint32_t n = 0; n < 3; n++) { /* tests 0, 1 and 7 bodies */
         scene = smooth;
         scene.bodies.count = (uint32_t[]) { 0, 1, 7 }[n];
         for (uint32_t i = 0; i < scene.bodies.count; i++)

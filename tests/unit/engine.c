@@ -1,4 +1,4 @@
-/* Requests for accuracy, and the engines chosen. */
+/* Tests requests for accuracy, and the engines that are chosen for them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

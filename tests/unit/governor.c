@@ -47,7 +47,7 @@ static void assert_same_scene(const struct kd_scene *a, const struct kd_scene *b
 
 static int rank(int samples) { return samples ? samples : 9; }
 
-/* Checks the order of qualities: nothing is reduced before everything that precedes it in the order is reduced. */
+/* Checks the order of qualities: a quality is reduced only when all those before it in the order are reduced. */
 static void assert_order(const struct kd_quality *before, const struct kd_quality *after)
 {
     bool scale = after->scale < before->scale, samples = rank(after->samples) < rank(before->samples);
@@ -271,7 +271,7 @@ static void two_slow_frames_are_enough(void **state)
     begin(&s, kd_governor_params(), 1280, 720, (struct truth) { .traced = 400, .reused = 40, .pixels = 20 });
     change(&s, true);
     frame(&s);
-    assert_int_equal(s.changes, 0); /* one slow frame may be a kernel being compiled */
+    assert_int_equal(s.changes, 0); /* a single slow frame may be due to the compilation of a kernel */
     change(&s, true);
     frame(&s);
     assert_int_equal(s.changes, 1);
@@ -305,8 +305,8 @@ static void what_cannot_be_mended_costs_no_resolution(void **state)
         }
 }
 
-/* The part of the time that depends on the picture's size is limited to the larger of half the target and a quarter of
- * the fixed part. */
+/* The part of the time that depends on the picture's size is limited to half the target or a quarter of the fixed
+ * part, whichever is larger. */
 static void what_can_be_mended_is(void **state)
 {
     (void)state;
@@ -362,8 +362,8 @@ static void a_drag_is_soon_forgotten(void **state)
     }
 }
 
-/* Ten million particles become as many thousand; a sky, a volume, turbulence or a body is removed: earlier slowness no
- * longer counts. */
+/* After particles become a thousand times fewer, or a sky, a volume, turbulence or a body is removed, earlier
+ * slowness no longer counts. */
 static void another_kind_of_scene_begins_anew(void **state)
 {
     (void)state;
@@ -390,8 +390,8 @@ static void another_kind_of_scene_begins_anew(void **state)
     }
 }
 
-/* A drag of the number of particles, to and fro across what is rounded to another octave, keeps what was measured. A
- * change by more than a factor of two drops it. Later changes are then compared with the new number. */
+/* A user drags the number of particles to and fro across a power of two. Small drags keep what was measured; a
+ * change by more than a factor of two drops it, and later changes are compared with the new number. */
 static void drags_across_an_octave_go_on(void **state)
 {
     (void)state;
@@ -456,7 +456,7 @@ static void what_only_rings_keeps_its_size(void **state)
             run(&s, before == 1 ? PLAY : DRAG, 5000);
         else
             change(&s, true);
-        s.now += before < 3 ? 3000 : 0; /* in the last round the change comes at the very end of a drag */
+        s.now += before < 3 ? 3000 : 0; /* in the last round the change comes just before a drag ends */
         while (before < 3 && frame(&s))
             s.now += 200;
         assert_true(s.last.final == (before < 3));
@@ -501,8 +501,8 @@ static void what_refinement_measured_is_believed(void **state)
     /* a first estimate that is much too low is corrected, too */
     begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 180, .reused = 6, .pixels = 4 });
     change(&s, true);
-    /* Nothing was rendered while the camera moved. From one frame that misses its lens map the governor learns that
-     * frames trace rays. */
+    /* Nothing was rendered while the camera moved. The governor learns from one frame without a cached lens map that
+     * frames must trace rays. */
     s.now += 1000;
     frame(&s);
     change(&s, true);
@@ -620,8 +620,9 @@ static struct kd_frame_cost restless(const struct simulation *s, const struct kd
     return c;
 }
 
-/* Bounds the number n of failed climbs. The wait doubles after each, so that 3 s (2^n - 1) <= T. Before the first wait
- * there may be one more for each rung. Each failed climb causes at most a descent and a climb of the whole ladder. */
+/* Bounds the number n of failed climbs. The wait doubles after each, so that 3 s (2^n - 1) <= T. Before the first
+ * wait there may be one more failed climb for each rung. Each failed climb causes at most a descent and a climb of
+ * the whole ladder. */
 static void assert_settles(machine *adversary, struct truth truth, int hours)
 {
     struct simulation s;
@@ -803,7 +804,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         }
         assert_true(final ? isinf(turn.wait_ms)
                           : fabs(turn.wait_ms - fmax(changed + 150 - s.now, 50)) <
-                                1e-9); /* after waiting for a slow frame there is time for a change */
+                                1e-9); /* after the wait for a slow frame the user has time for a change */
         refine_to_rest(&s, &frames);
         assert_true(final ? frames == 0 : frames >= 1 && frames <= KD_LADDER_STEPS);
         assert_true(s.last.final);
@@ -847,7 +848,7 @@ static void a_change_breaks_into_refinement(void **state)
     change(&s, true);
     struct kd_frame_decision next = kd_governor_decide(&s.governor, s.now);
     assert_true(!next.refining && next.wait_ms == 0 && next.quality.scale < 1);
-    /* The old frame arrives late. It is no longer requested, and does not count as a measurement. */
+    /* The old frame arrives late. It is no longer requested, so it does not count as a measurement. */
     struct kd_pace pace = s.governor.paces[1];
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .rays_ms = 9e5, .total_ms = 9e5 });
     assert_same_pace(&pace, &s.governor.paces[1]);
@@ -855,7 +856,7 @@ static void a_change_breaks_into_refinement(void **state)
     int frames;
     frame(&s);
     refine_to_rest(&s, &frames);
-    assert_int_equal(frames, 5); /* 1, 2, 4, 8 rays a side; then in double precision */
+    assert_int_equal(frames, 5); /* 1, 2, 4 and 8 rays along a side, then a frame in double precision */
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .total_ms = 1 }); /* of the old scene */
     assert_true(isinf(kd_governor_decide(&s.governor, s.now).wait_ms));
 }
@@ -938,7 +939,7 @@ static void what_measures_nothing_is_not_counted(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         kd_governor_frame(&s.governor, s.now, &turn, &bad[i]);
     assert_same_pace(&pace, &s.governor.paces[1]);
-    /* Another ladder, by chance on the same rung: the old ladder's ceiling does not apply. */
+    /* Another ladder that happens to start on the same rung: the ceiling of the old ladder does not apply. */
     s.asked.image.width = 1300;
     change(&s, true);
     assert_int_equal(s.governor.paces[1].rung, turn.rung);
@@ -989,8 +990,8 @@ static void whatever_happens_the_answer_is_sound(void **state)
 }
 
 /* A starry view whose azimuth changes. In the frames of a session 7.2 ms of the rays' time did not depend on the
- * picture's size; frames do not report this part. The view was too slow for a while because of other load. Then it must
- * regain the size that meets the target. */
+ * picture's size; frames do not report this part. Other load slowed the view down for a while. When that load ends,
+ * the view must regain the size that meets the target. */
 static struct kd_frame_cost starry(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     const double pixels = 1e-3 * scene->image.width * scene->image.height,
@@ -1102,8 +1103,8 @@ static void no_frame_is_less_than_the_least(void **state)
     }
 }
 
-/* Frames whose rays take `stays_ms` at any size, and `full_ms` more at full size. Returns the last one's width over
- * the requested one. */
+/* Simulates frames whose rays take `stays_ms` at any size, and `full_ms` more at full size. Returns the width of the
+ * last frame divided by the requested width. */
 static double after_frames_of(struct kd_governor *governor, const struct kd_scene *scene, double *now, double stays_ms,
                               double full_ms, int frames)
 {
@@ -1150,8 +1151,8 @@ static void wide_frames_come_back_where_much_stays(void **state)
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5);
 }
 
-/* Half the width is kept while such a frame is within the patience, and given up beyond it. It returns when such a
- * frame would be within the patience again, or when the scene is another. */
+/* Half the width is kept while such a frame takes no longer than the patience, and given up when it takes longer. It
+ * returns when such a frame would meet the patience again, or when the scene changes its kind. */
 static void wide_frames_give_way_to_slowness(void **state)
 {
     (void)state;
@@ -1165,7 +1166,8 @@ static void wide_frames_give_way_to_slowness(void **state)
     double now = 0;
     assert_true(after_frames(&governor, &scene, &now, 360, 300) == 0.5); /* 90 ms */
     assert_true(after_frames(&governor, &scene, &now, 800, 300) == 0.25);
-    assert_true(after_frames(&governor, &scene, &now, 360, 300) == 0.25); /* too close to the patience */
+    /* the time of such a frame is too close to the patience */
+    assert_true(after_frames(&governor, &scene, &now, 360, 300) == 0.25);
     assert_true(after_frames(&governor, &scene, &now, 200, 300) == 0.5);
     assert_true(after_frames(&governor, &scene, &now, 800, 300) == 0.25);
     scene.sky.model = KD_SKY_GRID;

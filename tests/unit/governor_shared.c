@@ -87,8 +87,9 @@ static void tell(const char *what, int n, const struct device *d, const struct s
                   (unsigned long long)sum->seen);
 }
 
-/* A session that does not know its share keeps a picture that takes 30 ms, and loses frames: with eight sessions each
- * has 4 a second. If they know it, all have the same rate, with eight at least 12, and quality is stable. */
+/* A session that does not know its share keeps a picture that takes 30 ms, and loses frames: with eight sessions
+ * each has 4 a second. If sessions know their shares, all have the same rate (at least 12 a second with eight
+ * sessions), and quality is stable. */
 static void many_keep_moving(void **state)
 {
     (void)state;
@@ -151,7 +152,7 @@ static void parts_are_equal_on_any_machine(void **state)
         for (int i = 0; i < n; i++)
             assert_true(d.sharers[i].sim.governor.share >= 0.999 / n);
         if (rung(s) + 1 < s->sim.governor.ladder.n_rungs &&
-            sum.used > 0.9) { /* otherwise the machine is too slow at its minimum, or idle */
+            sum.used > 0.9) { /* otherwise the machine is too slow even for the lowest rung, or it is idle */
             assert_true(cost <= 1.1001 * may_take(period * share, truth.fixed));
             assert_true(sum.most <= 1.25 * sum.least);
             reached++;
@@ -185,7 +186,7 @@ static void with_share(struct simulation *s, double share, enum pattern pattern,
     run(s, pattern, ms);
 }
 
-/* Being slow with an eighth of the device says nothing about the whole device. */
+/* Frames that were slow with an eighth of the device do not limit the quality once the session has the whole device. */
 static void a_ceiling_of_less_is_none(void **state)
 {
     (void)state;
@@ -234,8 +235,8 @@ static void a_stall_is_shared(void **state)
 
 /* Coming and going */
 
-/* When the others leave, a session recovers within two and a half seconds what it had alone. In the seconds after they
- * come, all have their frames. */
+/* When the other sessions leave, a session regains within two and a half seconds the quality that it had alone. In
+ * the seconds after others come, all sessions have their frames. */
 static void others_come_and_go(void **state)
 {
     (void)state;
@@ -264,8 +265,8 @@ static void others_come_and_go(void **state)
         }
 }
 
-/* If another session pauses for less than two seconds in a gesture, its time is not lent, so that the rates of the
- * others do not fluctuate. */
+/* If another session pauses for less than two seconds within a gesture, its share is not given to the others, so
+ * that their rates do not fluctuate. */
 static void strokes_of_another_are_not_seen(void **state)
 {
     (void)state;
@@ -286,7 +287,7 @@ static void strokes_of_another_are_not_seen(void **state)
 
 /* Unused time is lent */
 
-/* A session with a small demand takes from the others only this demand, whatever its rate of requests. */
+/* A session with a small demand takes no more than this demand from the others, whatever its rate of requests. */
 static void who_asks_for_little_gets_little(void **state)
 {
     (void)state;
@@ -330,8 +331,8 @@ static void clients_share_before_sessions(void **state)
 
 /* Refinement */
 
-/* A picture that takes long to refine yields to moving ones. It has a fifth of the time of the client that they share
- * or, if it belongs to another client, the half of that client. */
+/* A picture that takes long to refine yields to moving ones. If both belong to one client, it gets a fifth of that
+ * client's time. If it belongs to another client, it gets the half of the time that is due to that client. */
 static void refinement_makes_way(void **state)
 {
     (void)state;

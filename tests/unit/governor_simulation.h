@@ -30,7 +30,7 @@ struct truth {
     double traced, reused, pixels;
     double fixed, hidden; /* ms independent of the size: reported, and not reported */
     double noise;         /* relative to the time, uniformly distributed */
-    double spikes, spike; /* how often a spike comes, and by which factor it lengthens a frame */
+    double spikes, spike; /* how often a spike occurs, and the factor by which it lengthens a frame */
     bool silent;          /* reports only the total */
 };
 
@@ -54,7 +54,7 @@ static double rays_of(const struct kd_scene *scene)
     return (double)scene->image.width * scene->image.height * scene->image.samples * scene->image.samples;
 }
 
-/* Here orders and profiles do not cost what ray_cost() in quality.c assumes. */
+/* The true cost of orders and profiles differs here from what ray_cost() in quality.c assumes. */
 static double ray_weight(const struct kd_scene *scene)
 {
     static const double profile[] = { 0.9, 0.95, 1, 1.1, 9 };
@@ -80,7 +80,7 @@ static inline struct kd_frame_cost truthful(const struct simulation *s, const st
     return c;
 }
 
-/* Like the renderer's cache of lens maps: the last four. */
+/* Models the renderer's cache, which holds the last four lens maps. */
 static bool lens_kept(struct simulation *s, const struct kd_scene *scene)
 {
     uint32_t key[3] = { s->lens, (uint32_t)scene->image.width, (uint32_t)scene->image.samples };
@@ -196,7 +196,7 @@ static inline struct truth some_truth(void)
                             .hidden = hidden };
 }
 
-/* Permitted time of frames with a fixed part: at most the target, if that leaves half of it to the picture. */
+/* Time that frames with a fixed part may take: at most the target, if that leaves half of it for the picture. */
 static inline double may_take(double target, double fixed)
 {
     double picture = fmax(target / 2, fixed / 4);

@@ -46,8 +46,8 @@ static double a_disk(double x, double y) { return hypot(x, y) < 21 ? 1 : 0; }
 static double a_ring(double x, double y) { return exp(-pow((hypot(x, y) - 24) / 1.5, 2) / 2); }
 static double a_gaussian(double x, double y) { return exp(-(x * x / (2 * 49.) + y * y / (2 * 144.))); }
 
-/* Effect of averaging over pixels, sinc(u pixel) sinc(v pixel). It is in the map, but not in a sum over points at the
- * pixels' centres. */
+/* Effect of averaging over pixels, sinc(u pixel) sinc(v pixel). The map contains this effect; a sum over points at
+ * the pixels' centres does not. */
 static double pixel_turns(double u, double v)
 {
     const double a = M_PI * u * 1e9 * UAS, b = M_PI * v * 1e9 * UAS;
@@ -167,8 +167,8 @@ static void test_baselines(void **state)
     assert_int_equal(kd_integral_pictures(&r), 6);
     near(kd_integral_scene(&r, 3).volume.frequency_ghz, 200, 1e-9);
     kd_integral_request_finish(&r);
-    /* Matter normalised to a flux has this flux at the scene's frequency. It is the same matter at all other
-     * frequencies. */
+    /* Matter that is normalised to a flux has this flux at the scene's frequency, and is the same matter at all
+     * other frequencies. */
     ask(&r, KD_INTEGRAL_SPECTRUM,
         "{\"frequencies_hz\":[1e11,2e11],\"preset\":\"riaf\",\"scene\":{\"volume\":{\"normalise_to_jy\":2,\"frequency_"
         "ghz\":230}}}");

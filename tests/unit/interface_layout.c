@@ -113,7 +113,8 @@ struct field {
     uint32_t opcode;
 };
 
-/* Every field of C is at its place in the kernel; `more` members of the kernel are not in the list. */
+/* Checks that every field of the C struct is at its place in the kernel. `more`: number of the kernel's members that
+ * are not in the list. */
 static void same(const struct spirv *s, const char *block, const struct field *fields, size_t n, int more)
 {
     uint32_t id = struct_called(s, block);

@@ -112,8 +112,7 @@ static void count(const struct spirv *s, const char *name, int *all, int *precis
     }
 }
 
-/* Delta and the turning-point test: every operation must be precise. Nystroem steps: at least six operations that
- * produce y and v in each of the two orders. */
+/* at least ten functions still have the names that are searched */
 static void what_must_not_be_reordered(void **state)
 {
     (void)state;

@@ -46,7 +46,7 @@ static void text_has_letters(void **state)
     assert_true(kd_font_has(0xb5) && kd_font_has(0xb0));
 }
 
-/* Strokes join neighbouring dots, across a corner only if no dot is there. */
+/* Strokes join neighbouring dots; diagonally only if no dot lies between them. */
 static void letters_are_strokes(void **state)
 {
     (void)state;
@@ -89,8 +89,8 @@ static void numbers_are_round(void **state)
     check_labels(&(struct kd_map_scale) { 1e-3, 10, true }, 24, "0.001 0.01 0.1 1 10");
     check_labels(&(struct kd_map_scale) { 1.03, 1.05, true }, 18, "1.03 1.04 1.05");
     check_labels(&(struct kd_map_scale) { 4, 4, false }, 18, "4");
-    check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, ""); /* no number, and no long search: this is not a
-                                                                  * scale */
+    check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, ""); /* an invalid scale gets no numbers, and no long
+                                                                  * search for them */
     check_labels(&(struct kd_map_scale) { -1, 2, true }, 18, "");
     check_labels(&(struct kd_map_scale) { 1, INFINITY, true }, 18, "1");
 }

@@ -61,8 +61,8 @@ static struct kd_link_budgets *opened(const char *folder)
     return all;
 }
 
-/* The file has each charge at once, so that a server that is killed loses none. Its places of expired links are reused
- * as well. */
+/* The file has each charge at once, so that no charge is lost if the server is killed. Places of expired links are
+ * reused in the file as well. */
 static void a_folder_keeps_them(void **state)
 {
     (void)state;
@@ -97,8 +97,8 @@ static void write_file(const char *path, const void *data, size_t size)
     close(fd);
 }
 
-/* Another file is refused and stays as it is. Damaged places are unused, and a file that was cut is read as far as it
- * goes. */
+/* A file of another kind is refused and stays as it is. Damaged places count as unused. A truncated file is read as
+ * far as it goes. */
 static void a_damaged_file(void **state)
 {
     (void)state;

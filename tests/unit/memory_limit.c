@@ -102,7 +102,7 @@ static void version_2(void **state)
     put("/sys/fs/cgroup/a/memory.max", "1073741824\n"); /* a parent group may have the tighter limit */
     put("/sys/fs/cgroup/a/memory.current", "943718400\n");
     assert_int_equal(limit().left, 124 * MIB);
-    put("/sys/fs/cgroup/a/memory.current", "1073745920\n"); /* exceeded: nothing is left */
+    put("/sys/fs/cgroup/a/memory.current", "1073745920\n"); /* more than the limit is in use, so nothing is left */
     assert_int_equal(limit().left, 0);
 }
 
@@ -130,7 +130,7 @@ static void version_1(void **state)
     assert_string_equal(limit().by, "the memory.limit_in_bytes of a control group");
 }
 
-/* Docker without a cgroup namespace: the mount shows only the container's group, while the path is the host's. */
+/* Docker without a cgroup namespace: only the container's group is mounted, while the path is that of the host. */
 static void a_mount_of_a_part(void **state)
 {
     (void)state;

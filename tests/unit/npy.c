@@ -20,7 +20,7 @@ static struct file file_of(int version, const char *text, size_t zeros)
 {
     size_t n = strlen(text), start = version == 1 ? 10 : 12;
     struct file file = { .size = start + n + zeros };
-    file.data = calloc(1, file.size); /* exact size, so that a sanitizer detects an overrun */
+    file.data = calloc(1, file.size); /* a copy of exactly this size, so that a sanitizer detects an overrun */
     assert_non_null(file.data);
     memcpy(file.data, "\x93NUMPY", 6);
     file.data[6] = (uint8_t)version;

@@ -169,14 +169,14 @@ static void pieces_change_nothing(void **state)
     }
 }
 
-/* A duration in periods with "or_end". An orbit without periods is followed to its end, as without a duration; for a
- * bound one periods count as usual. */
+/* Tests a duration in periods with "or_end". An orbit without periods is followed to its end, as it is without a
+ * duration. For a bound orbit, periods count as usual. */
 static void to_its_end_instead(void **state)
 {
     (void)state;
 #define PLUNGE "{\"samples\":20,\"orbit\":{\"case\":\"plunge\"}"
 #define ESCAPE "{\"samples\":20,\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"v_r\":0.9}}"
-/* goes round more than twice; with L = 4 it would do so for ever */
+/* the body goes round more than twice; with L = 4 it would go round for ever */
 #define WHIRL "{\"samples\":20,\"method\":\"rkn6\",\"orbit\":{\"energy\":1,\"angular_momentum\":3.9999999}"
 #define PERIODS ",\"duration\":{\"periods\":1,\"or_end\":true}}"
     static const char *const bodies[][2] = { { PLUNGE "}", PLUNGE PERIODS },

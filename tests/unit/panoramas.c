@@ -90,8 +90,8 @@ static void is_there_when_it_is_asked_for(void **state)
     kd_panoramas_finish(&all);
 }
 
-/* A panorama made ahead takes only a free place, never that of a requested one. Its place is given to one that is
- * requested. */
+/* A panorama that is made ahead takes only a free place, and never evicts a requested one. Its own place is given to
+ * a requested panorama. */
 static void has_a_free_place_only(void **state)
 {
     struct kd_panoramas all;
@@ -193,7 +193,7 @@ static void what_is_kept_is_what_was_made(void **state)
     free(made);
 }
 
-/* If the folder cannot be written, the only loss is time. */
+/* If the folder cannot be written, only time is lost. */
 static void nowhere_to_keep_it(void **state)
 {
     (void)state;

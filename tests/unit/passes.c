@@ -65,7 +65,7 @@ static void names_are_names(void **state)
     assert_null(kd_pass_find("total"));
 }
 
-/* Names that users of GET /v1/device, or older cache files, rely on: they must not change. */
+/* Users of GET /v1/device and older cache files rely on these names, so the names must not change. */
 static void words_stay(void **state)
 {
     (void)state;

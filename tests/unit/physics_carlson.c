@@ -24,7 +24,7 @@ static void close_to(const char *what, double x, double y, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* Some five steps with a few roundings each, in which all terms are positive: 2e-15. */
+/* Each integral takes some five steps with a few roundings each, and all terms are positive, so the bound is 2e-15. */
 static void symmetric(void **state)
 {
     (void)state;

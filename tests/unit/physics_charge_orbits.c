@@ -41,7 +41,7 @@ static void places(void **state)
     }
 }
 
-/* r is a double: a number that changes by d from one double to the next is known to d. */
+/* The bound: r is a double, so a number that changes by d from one double to the next is known to within d. */
 static void orbits(void **state)
 {
     (void)state;

@@ -26,7 +26,7 @@ static double random_unit(uint64_t *seed) /* splitmix64: the same orbits on ever
     return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
 }
 
-/* Within a^2 + q^2 <= 1 - 1e-9, which every eighth hole reaches. */
+/* A random hole within a^2 + q^2 <= 1 - 1e-9; every eighth hole is at this limit. */
 static struct kd_hole random_hole(uint64_t *seed, int i)
 {
     const double size = i % 8 ? sqrt(random_unit(seed)) : 1 - 0.5e-9, turn = 2 * M_PI * random_unit(seed);

@@ -63,7 +63,7 @@ static void test_axis(void **state)
         }
 }
 
-/* Far away space is flat. The deflection of light, some 4/b, remains. */
+/* Far away, space is flat except for the deflection of light, some 4/b. */
 static void test_flat_ring(void **state)
 {
     const double radius = 2000, height = 1000;

@@ -53,7 +53,7 @@ static void check_neighbours(const struct kd_null_ray *ray, const struct kd_null
                              const struct kd_null_place *q)
 {
     const double s = sqrt((1 - p->u) * (1 + p->u)), t = sqrt((1 - q->u) * (1 + q->u));
-    if (s < 0.05 || t < 0.05 || fabs(ray->hole.a) > 0.01) /* frame dragging turns places as well */
+    if (s < 0.05 || t < 0.05 || fabs(ray->hole.a) > 0.01) /* skipped, because frame dragging turns places as well */
         return;
     const double apart = acos(fmin(1, p->u * q->u + s * t * cos(p->phi - q->phi)));
     if (apart > 0.035)

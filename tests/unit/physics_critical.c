@@ -80,7 +80,7 @@ static void published_shapes(void **state)
             near(fabs(x.delta), M_PI, 2e-15, "delta", 0, k);
             near(x.tau, root27 * M_PI, 1e-14, "tau", 0, k);
         }
-    double e = 1e-12; /* 1 - a; seen from the pole everything is smooth in it */
+    double e = 1e-12; /* 1 - a; from the pole everything depends smoothly on it */
     struct kd_critical pole = curve_of(1 - e, 1, INFINITY, KD_OBSERVER_STATIC);
     struct kd_critical_point p = kd_critical_at(&pole, 1);
     near(p.rho, 2 + 2 * sqrt(2), 2 * e, "rho over the pole", 1, 1);

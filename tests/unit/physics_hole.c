@@ -79,8 +79,8 @@ static void charged(void **state)
     assert_false(kd_hole_exists(&(struct kd_hole) { 0 }) || kd_hole_exists(kd_hole(1)) || kd_hole_exists(kd_hole(NAN)));
 }
 
-/* Delta is a product of two differences: r - r+ has the error of r+, half an ulp or one, over r - r+. Sigma, A and
- * omega are sums that do not cancel. */
+/* Bounds: Delta is a product of two differences, and r - r+ has the error of r+ (half an ulp or one) divided by r -
+ * r+. Sigma, A and omega are sums that do not cancel. */
 static void metric(void **state)
 {
     (void)state;

@@ -35,9 +35,9 @@ static void special_radii(void **state)
     }
 }
 
-/* E and L are flat at the ISCO, so the rounding of its radius costs nothing, and 1e-12 holds up to 1 - a = 1e-12,
- * where r - 1 is 1.6e-4 and a plain 1 - 3/r + 2a r^-3/2 would lose half of the digits. 1 - E loses a factor of 26 at
- * a = -1. */
+/* E and L are flat at the ISCO, so the rounding of its radius costs nothing, and the bound 1e-12 holds up to 1 - a =
+ * 1e-12. There r - 1 is 1.6e-4, and 1 - 3/r + 2a r^-3/2 as written would lose half of the digits. 1 - E loses a
+ * factor of 26 at a = -1. */
 static void the_isco_orbit(void **state)
 {
     (void)state;

@@ -408,7 +408,7 @@ static void test_lamp(void **state)
     }
 }
 
-/* Where a ray of the oracle starts in the plane, and its redshift. */
+/* start of a ray of the oracle in the plane, and its redshift */
 struct start { double r, g; };
 
 static struct start start_of(const struct kd_hole *hole, double u, double alpha, double beta)

@@ -218,7 +218,7 @@ static void degenerate_input(void **state)
         assert_int_equal(p.status, KD_NULL_BAD_INPUT);
         assert_true(p.crossings == 0 && isnan(p.sky_u));
     }
-    struct kd_null_ray beyond = good; /* with b = 50 light does not come within 10 */
+    struct kd_null_ray beyond = good; /* light with b = 50 does not come within 10 M */
     beyond.alpha = 50;
     assert_int_equal(kd_null_trace(&beyond).status, KD_NULL_NO_RAY);
     struct kd_null_ray plane = { .hole = kd_hole_of(0.9), .radius = INFINITY, .cos_theta = 0, .alpha = 7, .orders = 3 };
@@ -245,7 +245,7 @@ static void principal_rays(void **state)
     double turn = a / (plus - minus) * log((10 - minus) / (10 - plus));
     assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0);
     within(0, 0, "u of a principal ray", fabs(p.sky_u - 0.5),
-           1e-7); /* at a double root of U the rounding of alpha becomes its square root */
+           1e-7); /* tolerance: at a double root of U, the rounding of alpha becomes its square root */
     within(0, 0, "phi of a principal ray", fabs(p.sky_phi + turn), 1e-7);
     struct kd_null_ray axis = { .hole = kd_hole_of(a), .radius = 10, .cos_theta = 1, .orders = 3, .outward = true };
     p = kd_null_trace(&axis);

@@ -183,7 +183,7 @@ static void charged_to_the_last_digits(void **state)
     (void)state;
     if (LDBL_MANT_DIG < 64)
         skip();                             /* the reference would have no more digits than the closed form */
-    double worst = 0, worst_phi[2] = { 0 }; /* the second: nearly extremal holes */
+    double worst = 0, worst_phi[2] = { 0 }; /* index 1: nearly extremal holes */
     int compared = 0;
     uint64_t seed = 5;
     for (int i = 0; i < charged_rays; i++) {

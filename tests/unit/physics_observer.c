@@ -108,7 +108,8 @@ static void everywhere(check *each)
         m.fall_momentum *= at.s;
         m.fall_from *= at.r;
         assert_true(kd_observer_exists(m.observer, &at));
-        if (kd_observer_check(&m, &at, &bound)) { /* with its constants the body turns back before it gets here */
+        /* skipped, because with its constants the body turns back before it gets here */
+        if (kd_observer_check(&m, &at, &bound)) {
             assert_true(m.observer == KD_OBSERVER_INFALL && m.fall_momentum != 0);
             continue;
         }
@@ -120,8 +121,8 @@ static void everywhere(check *each)
         assert_true(seen[k] > (int)(COUNT(spins) * COUNT(angles) * COUNT(heights)) / 2);
 }
 
-/* The relative rounding of Delta or g_tt, which vanish at the edge: that of r, or of cos(theta) as far as it moves
- * the edge, over the distance to the edge. */
+/* The relative rounding of Delta or g_tt, which vanish at the edge. It is the rounding of r (or of cos(theta), as
+ * far as that moves the edge), divided by the distance to the edge. */
 static double rounding(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
     double edge = fmax(kd_observers[m->observer].outside(&at->hole, at->u), at->hole.outer),
@@ -314,7 +315,7 @@ static struct ks_frame frame_by_oracle(const struct kd_observer_motion *m, const
     if (m->observer == KD_OBSERVER_ZAMO)
         return base;
     if (m->observer != KD_OBSERVER_INFALL &&
-        m->observer != KD_OBSERVER_VELOCITY) { /* on circular orbits: E and L are tested elsewhere, and p^r = 0 */
+        m->observer != KD_OBSERVER_VELOCITY) { /* on circular orbits p^r = 0; E and L are tested elsewhere */
         double delta = at.r * at.r - 2 * at.r + at.a * at.a;
         u[0] = -frame->t.energy, u[3] = frame->t.momentum * v->s, u[1] = -(2 * at.r * u[0] + at.a * u[3]) / delta;
     }

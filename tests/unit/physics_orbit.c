@@ -287,7 +287,7 @@ static void constants_and_back(void **state)
         if (kd_orbit_from_constants(kd_hole(e->spin), o.energy, o.momentum, o.carter, NAN, &back, &error))
             fail_msg("row %zu: %s", i, error.message);
         assert_int_equal(back.fate, KD_ORBIT_BOUND);
-        /* E near 1 has lost digits of 1 - E^2, and a narrow range of r has lost half of them */
+        /* tolerance: E near 1 has lost digits of 1 - E^2, and a narrow range of r has lost half of its digits */
         double bound = 1e-14 / o.binding * condition(e) / fmax(e->e, 1e-7);
         close_to(i, "periastron", back.w_high, o.w_high, bound * o.w_high);
         close_to(i, "apastron", back.w_low, o.w_low, bound * o.w_low);

@@ -81,8 +81,8 @@ static void test_off_the_plane_without_spin(void **state)
         const double n[3] = { sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta) };
         struct kd_place_image here, there;
         assert_true(kd_place_image_seen(&view, r, cos(theta), phi, NULL, true, &here));
-        /* The place in a plane tilted by 60 degrees, which is this observer's equator: psi stays, and so does the
-         * ray's b. */
+        /* The place lies in a plane that is tilted by 60 degrees and is this observer's equator. psi and the ray's b
+         * are unchanged. */
         const double psi = acos(n[0]), b = hypot(here.alpha, here.beta);
         const double side = atan2(n[2], n[1]);
         assert_true(fabs(turn(atan2(here.beta, here.alpha) - side)) < 1e-6);

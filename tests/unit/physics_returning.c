@@ -398,7 +398,7 @@ static void reflected_light_is_as_warm_as_followed_rays(void **state)
         for (int b = 0; b < BINS; b++) {
             printf("    a = %g, from s = %.3f: warmth %+.2e of all\n", hole->a, (double)b / BINS,
                    (got[b] - want[b]) / want[0]);
-            /* a few rays dominate because of the factor g^2, the more so the faster the hole rotates; the error falls
+            /* tolerance: because of the factor g^2 a few rays dominate, especially for fast holes; the error falls
              * as the number of rays */
             within("warmth", hole->a, got[b] / want[0], want[b] / want[0], 3e-3 + (hole->a > 0.99 ? 10 : 3) * grain());
         }

@@ -140,7 +140,7 @@ static void light_is_reflected_like_photons(void **state)
                 kd_scattering_reflect(&at[i], mu[i], &in, mu0, cases[n].light, &out);
                 const double *const all[3] = { out.l, out.r, out.u };
                 for (int k = 0; k < 3; k++)
-                    /* a photon counts mu times the intensity; the mean of a squared cosine or sine is 1/2 */
+                    /* weight: a photon counts mu times the intensity; the mean of a squared cosine or sine is 1/2 */
                     for (int m = 0; m < 5; m++)
                         want[k][m] += all[k][m] * (m ? M_PI : 2 * M_PI) * mu[i] / (STEPS * BINS) / mu0;
             }

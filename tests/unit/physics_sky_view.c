@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #define RADIAN (M_PI / 180)
-#define HORIZON 1.4358898943540673 /* of a = 0.9 */
+#define HORIZON 1.4358898943540673 /* for a = 0.9 */
 #define FALL .fall_from = INFINITY, .fall_energy = INFINITY
 
 /* energy and momentum of infalling or orbiting observers, by Bardeen, Press & Teukolsky or computed by hand. */

@@ -161,7 +161,7 @@ static void mergers_keep_mass_and_momentum(void **state)
     const struct kd_playground_totals after = kd_playground_totals(p);
     assert_int_equal(p->n, 2);
     assert_true(fabs(after.mass / before.mass - 1) < 4e-16);
-    /* Meanwhile the hole attracts them with 1e-10 per M; this effect is known to its own rounding. */
+    /* The hole attracts the bodies with 1e-10 per M. The change of momentum that this causes is subtracted. */
     for (int k = 0; k < 3; k++) {
         const double pulled = k ? 0 : -p->t * 1e-10 * (4e-4 - 3e-5);
         assert_true(fabs(after.momentum[k] - before.momentum[k] - pulled) < 2e-15);
@@ -259,10 +259,13 @@ static void scenes_that_mean_harm_stay_finite(void **state)
             params.amplification = 1e9;
             struct kd_playground *p = playground_make(params);
             const double m = masses[i];
-            playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 } }); /* on top of each other */
+            /* two bodies at the same place */
+            playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 } });
             playground_put(p, (struct kd_playground_body) { .mass = m, .x = { 10, 0, 0 }, .v = { 1, 0, 0 } });
-            playground_put(p, (struct kd_playground_body) {
-                                  .mass = m, .x = { 8, 0, 0 }, .v = { -1, 0, 0 } }); /* at the horizon, with speed c */
+            playground_put(p, (struct kd_playground_body) { /* a body at the horizon with speed c */
+                                                            .mass = m,
+                                                            .x = { 8, 0, 0 },
+                                                            .v = { -1, 0, 0 } });
             playground_put(p, (struct kd_playground_body) {
                                   .mass = m, .radius = 3, .x = { 2.06, 0, 0 } }); /* next to the hole, at rest */
             playground_put(p, (struct kd_playground_body) { .mass = 1e12, .x = { 0, 0, -1e6 } });
@@ -374,7 +377,7 @@ static void far_debris_moves(void **state)
             assert_true(fabs(one->x[i] - other->x[i]) < 1e-7 * out[k] &&
                         fabs(one->v[i] - other->v[i]) < 1e-7 / sqrt(out[k]));
             assert_true(fabs(one->v[i] - (i ? 0.8 : -0.3) / sqrt(out[k])) >
-                        300 / (out[k] * out[k])); /* the hole has pulled it */
+                        300 / (out[k] * out[k])); /* the hole's attraction has changed the velocity */
         }
     for (int i = 0; i < 2; i++)
         kd_debris_finish(&debris[i]);

@@ -189,13 +189,13 @@ static void a_star_is_shown(void **state)
     struct kd_playground *p = playground_read("{\"preset\":\"disruption\"}");
     struct kd_playground_params looks = p->params;
     struct kd_error error = { 0 };
-    playground_advance(p, 2600); /* some of it is left */
+    playground_advance(p, 2600); /* a part of the star is left */
     const double rate = p->rate;
     looks.debris_depth = 3;
     looks.debris_temperature_k = 7000;
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
     assert_true(p->rate == rate && rate > 0);
-    looks.debris_per_body = 500; /* applies to pieces torn off from now on; the existing ones keep their weight */
+    looks.debris_per_body = 500; /* applies only to pieces that are torn off from now on */
     assert_int_equal(kd_playground_set(p, &looks, &error), KD_OK);
     struct kd_dynamic_bodies *dynamic = shown(p);
     const struct sums s = sums_of(&dynamic->debris);

@@ -51,7 +51,7 @@ static void encoding(void **state)
     (void)state;
     int n = 0;
     libdeflate_set_memory_allocator(__wrap_malloc, free);
-    kd_parallel_threads = 1; /* so that allocations occur in a fixed order */
+    kd_parallel_threads = 1; /* one thread, so that allocations occur in a fixed order */
     for (;; n++) {
         struct kd_buffer out = { 0 };
         struct kd_error error = { 0 };
@@ -151,7 +151,7 @@ static void live_encoding(void **state)
                 assert_int_equal(status, KD_ENOMEM);
                 assert_true(error.message[0]);
             }
-            assert_true(status || n > 5); /* each allocation has failed once */
+            assert_true(status || n > 5); /* at the end, each allocation has failed once */
             assert_memory_equal(out.data, "head", 4);
             kd_buffer_finish(&out);
         }

@@ -278,7 +278,7 @@ static void all_text_comes_back(void **state)
         struct kd_png png;
         const struct kd_png_text one = { "key", value };
         if (kind == 1)
-            memcpy(value, "\xc3\xa4", 2); /* not ASCII: an iTXt chunk */
+            memcpy(value, "\xc3\xa4", 2); /* not ASCII, so it becomes an iTXt chunk */
         struct kd_png_params params = { .width = 1,
                                         .height = 1,
                                         .bit_depth = 8,

@@ -124,7 +124,7 @@ static void test_one_that_does_nothing(void **state)
     assert_true(kd_program_idle_ms(&p, true, now += 500) == 0);
     kd_program_idle_ms(&p, false, now += 500);
     assert_int_equal(kd_program_write(&p, "go\n", 3), 3);
-    while (kd_program_idle_ms(&p, false, now) > 0) /* it uses the processor */
+    while (kd_program_idle_ms(&p, false, now) > 0) /* not idle, because it uses the processor */
         doze();
     kd_program_end(&p);
 }

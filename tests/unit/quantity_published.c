@@ -47,7 +47,7 @@ static void published(const char *source, double got, double want, double allowe
         fail_msg("%s: %.12g, not %.12g +- %.2g", source, got, want, allowed);
 }
 
-/* Half a unit of the last published digit, unless the source gives an error. */
+/* Tolerance: half a unit of the last published digit, unless the source gives an error. */
 static void figures(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static void fall(void **state)
     published("rain, 8 M to the horizon", ASK("infall", "proper_time_to_horizon", "r=8"),
               sqrt(2) / 3 * (pow(8, 1.5) - pow(2, 1.5)), 1e-12);
     published("the longest time within", ASK("infall", "proper_time_to_end", "r=1", "infall_energy=0"), 0.5 * M_PI - 1,
-              1e-12); /* pi from 2 M on */
+              1e-12); /* tolerance: the angle is pi from 2 M on */
     published("from rest", ASK("infall", "proper_time_to_end", "r=10", "infall_from=10"), 0.5 * M_PI * sqrt(500),
               1e-10);
     published("halfway", ASK("infall", "proper_time_to_end", "r=5", "infall_from=10"),

@@ -106,7 +106,8 @@ class Queues(unittest.TestCase):
     def test_patience_ends(self):
         found, statuses = waits(1, 1.5, 10000, lambda rng: MEAN, 4, patience=0.2)
         self.assertLess(max(found), 0.2 + 1e-9)
-        self.assertLess(abs(statuses.count(503) / len(statuses) - 1 / 3), 0.02)  # the part beyond the capacity
+        # tests the fraction of requests beyond the capacity
+        self.assertLess(abs(statuses.count(503) / len(statuses) - 1 / 3), 0.02)
 
 
 class Shares(unittest.TestCase):

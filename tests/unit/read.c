@@ -43,7 +43,7 @@ static void test_no_files(void **state)
     expect("huge", 0, 1 << 20, EFBIG);
     expect(".", 0, 1 << 20, EINVAL);
     expect("/dev/zero", 0, 1 << 20, EINVAL);
-    expect("/proc/self/cmdline", 0, 1, EFBIG); /* the kernel gives its size as 0 */
+    expect("/proc/self/cmdline", 0, 1, EFBIG); /* a file whose size the kernel reports as 0 */
     expect("link", O_NOFOLLOW, 1 << 20, ELOOP);
     expect("nothing", 0, 1 << 20, ENOENT);
 }

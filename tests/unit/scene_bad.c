@@ -10,11 +10,11 @@ static void expect_refused(const char *text, size_t length, const char *pointer,
 {
     struct kd_scene scene, before;
     struct kd_error error = { 0 };
-    memset(&scene, 0x5a, sizeof scene); /* its content does not matter */
+    memset(&scene, 0x5a, sizeof scene); /* filled with arbitrary bytes, because its content must not matter */
     kd_scene_defaults(&scene);
     scene.camera.r = 12;
     before = scene;
-    /* has the exact size, so that a sanitizer notices a read past the end; NULL for no bytes */
+    /* of exactly this size, so that a sanitizer detects a read past the end; NULL for no bytes */
     char *exact = length ? malloc(length) : NULL;
     if (length)
         memcpy(exact, text, length);
@@ -263,7 +263,7 @@ static void names_are_found(void **state)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t length = strlen(cases[i].text);
         char *exact =
-            malloc(length ? length : 1); /* has the exact size, so that a sanitizer notices a read past the end */
+            malloc(length ? length : 1); /* of exactly this size, so that a sanitizer detects a read past the end */
         memcpy(exact, cases[i].text, length);
         if (kd_scan_names(exact, length, "axes") != cases[i].there)
             fail_msg("%s", cases[i].text);
@@ -353,7 +353,7 @@ static void random_damage_is_harmless(void **state)
         for (uint64_t n = 1 + support_random(&seed) % 3; n; n--)
             length = length ? mutate(text, length, capacity, &seed) : 0;
         text = realloc(text,
-                       length ? length : 1); /* has the exact size, so that a sanitizer notices a read past the end */
+                       length ? length : 1); /* of exactly this size, so that a sanitizer detects a read past the end */
         struct kd_error error = { 0 };
         if (kd_scene_from_json(&target, text, length, &error)) {
             refused++;
@@ -361,7 +361,7 @@ static void random_damage_is_harmless(void **state)
             assert_true(*error.message);
             assert_memory_equal(&target, &before, sizeof before);
         } else {
-            accepted++; /* for example a changed digit: then the document is a scene like any other */
+            accepted++; /* the document may still be valid, for example after a change of a digit */
             for (size_t s = 0; s < KD_SECTION_COUNT; s++) {
                 const struct kd_section *section = &kd_sections[s];
                 assert_true(!section->most || kd_section_size(&target, section) <= section->most);
@@ -373,7 +373,7 @@ static void random_damage_is_harmless(void **state)
         free(text);
         free(good);
     }
-    assert_true(accepted > 100 && refused > 1000); /* otherwise only one outcome would be tested */
+    assert_true(accepted > 100 && refused > 1000); /* both outcomes must occur often enough */
 }
 
 int main(void)

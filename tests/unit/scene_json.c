@@ -192,7 +192,7 @@ static void old_names_are_read(void **state)
         { "{\"spot2\":{\"brightness\":1,\"r\":12},\"spot1\":{\"size\":2}}",
           "{\"spots\":[{\"size\":2},{\"brightness\":1,\"r\":12}]}" },
         { "{\"spot3\":{\"index\":2}}", "{\"spots\":[{},{},{\"index\":2}]}" },
-        /* as they used to be written in full: without spots, and with only the second one */
+        /* documents as they were written before lists: without spots, and with only the second spot */
         { "{\"spot1\":{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},"
           "\"spot2\":{},\"spot3\":{}}",
           "{}" },
@@ -210,7 +210,7 @@ static void old_names_are_read(void **state)
     kd_scene_smooth(&picture); /* the default scene, over which a picture's document is read */
     assert_int_equal(support_parse(&picture, hot_spot, NULL), KD_OK);
     assert_int_equal(kd_scene_preset(&preset, "hot-spot", NULL), KD_OK);
-    picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* this field did not exist then */
+    picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* documents of that time lack this field */
     picture.sky.brightness = preset.sky.brightness;               /* nor did this word */
     picture.source = preset.source;                               /* nor did these fields */
     assert_memory_equal(&picture, &preset, sizeof picture);

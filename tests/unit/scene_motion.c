@@ -58,7 +58,7 @@ static void rings_move_while_time_does(void **state)
     scene.disk.model = KD_DISK_NONE;
     assert_false(kd_emit_moves(&scene));
     scene = struck(0.5, 1);
-    scene.accuracy.orders = 1; /* with this change, nothing in the picture shows the ringdown */
+    scene.accuracy.orders = 1; /* the change hides the ringdown from the picture */
     assert_false(kd_emit_moves(&scene));
 }
 

@@ -406,7 +406,8 @@ static void presets_are_valid(void **state)
         struct kd_error error;
         assert_string_equal(kd_scene_preset_name(i), names[i]);
         assert_true(strlen(kd_scene_preset_title(i)) > 10);
-        assert_in_range(strlen(kd_scene_preset_label(i)), 3, 26); /* it must fit in one line beside a small picture */
+        /* tests that the label fits in one line beside a small picture */
+        assert_in_range(strlen(kd_scene_preset_label(i)), 3, 26);
         memset(&scene, 0xff, sizeof scene);
         if (kd_scene_preset(&scene, names[i], &error) || kd_scene_validate(&scene, &error))
             fail_msg("%s: %s %s", names[i], error.pointer, error.message);
@@ -424,7 +425,7 @@ static void presets_show_what_they_say(void **state)
     (void)state;
     static const char *const stirred[] = { "falling", "infall", "jet", "thick-disk", "companions" };
     struct kd_scene scene, base;
-    for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* only scenes with gas have radiating electrons */
+    for (size_t i = 0; i < kd_scene_preset_count(); i++) { /* electrons are required only in scenes with gas */
         assert_int_equal(kd_scene_preset(&scene, kd_scene_preset_name(i), NULL), KD_OK);
         bool gas = strstr(kd_scene_preset_name(i), "gas");
         for (size_t k = 0; k < sizeof stirred / sizeof *stirred; k++)

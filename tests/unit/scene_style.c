@@ -84,7 +84,7 @@ static void the_name_alone_does_nothing_later(void **state)
     scene = parsed(&scene, "{\"style\":{\"name\":null}}", true); /* the default, which is a style itself */
     assert_true(scene.style.name == KD_STYLE_FILM && scene.disk.redshift);
     char *text = support_canonical(&dngr);
-    const struct kd_scene again = of(text); /* this text names the style and each field */
+    const struct kd_scene again = of(text); /* the text names the style and each of its fields */
     assert_memory_equal(&again, &dngr, sizeof again);
     scene = of("{\"style\":{\"name\":\"dngr\",\"bloom\":0.25,\"dither\":false}}");
     free(text);

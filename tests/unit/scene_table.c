@@ -286,7 +286,7 @@ static void schema_has_natures_places_and_groups(void **state)
         const cJSON *row = cJSON_GetObjectItemCaseSensitive(rows, natures[i][0]);
         assert_string_equal(word_of(row, "x-nature"), natures[i][1]);
         assert_int_equal(cJSON_HasObjectItem(row, "x-front"), i < 2);
-        assert_false(cJSON_HasObjectItem(row, "x-group")); /* its section has the group */
+        assert_false(cJSON_HasObjectItem(row, "x-group")); /* absent, because its section has the group */
     }
     assert_string_equal(word_of(bodies, "x-group"), "gas");
     assert_string_equal(word_of(cJSON_GetObjectItemCaseSensitive(all, "stops"), "x-group"), "hole");

@@ -207,8 +207,8 @@ static void short_first(void **state)
         turn(&b);
     }
     assert_false(isnan(long_one->began));
-    assert_true(long_one->began >= 5000 &&
-                long_one->began <= 4 * 5000); /* not before a time of its own length, nor after four times that */
+    assert_true(long_one->began >= 5000 && long_one->began <= 4 * 5000); /* it must not begin before its own length, nor
+                                                                          * end after four times its length */
 }
 
 /* A client cannot save up time by being away or blocked, and does not pay for having been alone. */
@@ -227,7 +227,7 @@ static void no_savings_and_no_debts(void **state)
     barred->barred = false;
     before = late->served;
     run(&b, 605000);
-    assert_true(barred->served <= 1000 + 200 + 2 * SLICE); /* it catches up by at most 200 ms */
+    assert_true(barred->served <= 1000 + 200 + 2 * SLICE); /* tests that it catches up by at most 200 ms */
     assert_true(late->served - before >= 1000 - 200 - 2 * SLICE);
 }
 

@@ -204,7 +204,7 @@ static void poles(void **state)
     NEAR(amplitude, 0.70, 0.03);
     wave(true, 32, 0.5, 2, &amplitude, &mean);
     NEAR(amplitude, 0.97, 0.03);
-    wave(false, 32, 86, 2, &amplitude, &mean); /* as for a wave that needs no such averaging */
+    wave(false, 32, 86, 2, &amplitude, &mean); /* compared with a wave that needs no such averaging */
     NEAR(amplitude, 0.98, 0.02);
 }
 

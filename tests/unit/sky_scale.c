@@ -15,7 +15,7 @@ static struct kd_canvas canvas_of(uint32_t width, uint32_t height, int depth, in
 {
     const size_t bytes = (size_t)3 * width * height * (depth == 16 ? 2 : 1);
     struct kd_canvas canvas = { malloc(bytes), width, height,
-                                depth }; /* of exact size, so that a sanitizer notices a pixel written beyond the end */
+                                depth }; /* of exactly this size, so that a sanitizer detects a write past the end */
     assert_non_null(canvas.pixels);
     memset(canvas.pixels, value, bytes);
     return canvas;
@@ -67,7 +67,8 @@ static void lengths_are_to_scale(void **state)
                 }
         assert_true(fabs((right + 1 - left) - cases[k].bar_uas / cases[k].pixel_uas) <= 1);
         for (uint32_t y = 0; y < c.height; y++) {
-            uint32_t run = 0, grey = 0; /* the longest run; the smooth edges of letters have single grey pixels */
+            /* the longest run counts, because the smooth edges of letters have single grey pixels */
+            uint32_t run = 0, grey = 0;
             for (uint32_t x = 0; x < c.width; x++) {
                 run = abs(value(&c, x, y) - 115) <= 1 ? run + 1 : 0;
                 grey = run > grey ? run : grey;

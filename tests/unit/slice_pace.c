@@ -9,7 +9,7 @@
 #include <cmocka.h>
 
 enum { MOST = 100000 };
-#define NS 1e5 /* of an item on an idle device: a submission has 400 of them */
+#define NS 1e5 /* ns of an item on an idle device: a submission has 400 items */
 
 /* Runs submissions on a device that is slower than estimated. Returns the time of the last one. */
 static double run(struct kd_slice_pace *pace, unsigned submissions, double slower, double ns)
@@ -41,7 +41,7 @@ static void a_busy_machine(void **state)
         struct kd_slice_pace pace = { 0 };
         assert_float_equal(run(&pace, 1, slower, NS), slower * KD_SLICE_MS, 1);
         assert_in_range((uintmax_t)run(&pace, 7, slower, NS), 0.9 * KD_SLICE_MS, 1.2 * KD_SLICE_MS);
-        run(&pace, 60, 1, NS); /* then it is idle again */
+        run(&pace, 60, 1, NS); /* afterwards the machine is idle again */
         assert_true(run(&pace, 1, 1, NS) > 0.95 * KD_SLICE_MS);
     }
 }
@@ -56,7 +56,7 @@ static void one_that_is_long(void **state)
     assert_true(run(&pace, 40, 1, NS) > 0.8 * KD_SLICE_MS);
 }
 
-/* Short work and work whose time is unknown say nothing about the device. */
+/* Short work, and work whose time is unknown, must not change the measured pace of the device. */
 static void what_says_nothing(void **state)
 {
     (void)state;

@@ -14,7 +14,7 @@
 
 struct walk {
     int fails;          /* the step that fails; N_STEPS: none */
-    int taken[N_STEPS]; /* how often each was taken */
+    int taken[N_STEPS]; /* number of times that each step was taken */
     int unref;
 };
 
@@ -26,7 +26,7 @@ static enum kd_status step(struct walk *walk, int i)
 
 static enum kd_status steps(struct walk *walk)
 {
-    enum kd_status status = KD_EBUSY; /* the former value does not matter */
+    enum kd_status status = KD_EBUSY; /* set to a wrong value, because KD_TRY must ignore the former value */
     for (int i = 0; i < N_STEPS; i++)
         if (i % 2) /* the macro is one statement, so that the else belongs to this if */
             KD_TRY(step(walk, i));

@@ -59,7 +59,7 @@ class Alone(Browser):
         self.assertTrue(daemon.eventually(lambda: not shown()))
         page.keyboard.press("Tab")
         self.assertTrue(daemon.eventually(shown))
-        page.keyboard.press("Tab")  # past the button that explains a light
+        page.keyboard.press("Tab")  # moves the focus past the button that explains a light
         self.assertEqual(page.get_attribute("#full", "aria-label"), "Leave the picture (Esc)")
         page.keyboard.press("Enter")
         self.assertTrue(daemon.eventually(lambda: page.is_visible("#panel")))

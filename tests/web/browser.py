@@ -134,7 +134,7 @@ class Browser(unittest.TestCase):
             + "#"
             + ("" if "pace=" in fragment else "pace=fast&")
             + (fragment if "preset=" in fragment else "preset=default&" + fragment)
-        )  # whatever the first view is
+        )  # the scene does not depend on the first view
         page.wait_for_selector(wait, timeout=PATIENCE_MS, state="attached")
         return page
 
@@ -224,7 +224,7 @@ class Browser(unittest.TestCase):
         page.wait_for_selector(AT_REST)
 
     def there(self, page, words, selector, text=False):
-        """Waits for words to appear. text: also where they are in a part that is folded up."""
+        """Waits for words to appear. text: words in folded parts count too."""
         read = page.text_content if text else page.inner_text
         self.assertTrue(daemon.eventually(lambda: words in read(selector)), f"{words!r} in {read(selector)!r}")
 
@@ -246,7 +246,7 @@ class Browser(unittest.TestCase):
         self.assertTrue(daemon.eventually(still))
 
     def axe(self, page):
-        """axe finds nothing to complain of; not checked where it is not installed, which test_axe reports."""
+        """Checks that axe finds no fault. If axe is not installed, nothing is checked, and test_axe reports this."""
         if Axe:
             results = Axe().run(page, options={"runOnly": RULES}).response
             self.assertGreater(len(results["passes"]), 5)

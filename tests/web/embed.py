@@ -143,7 +143,7 @@ class Listed(Embed):
             }""",
             self.base,
         )
-        self.complaints.clear()  # the refusal is one
+        self.complaints.clear()  # the browser reports the expected refusal as a complaint
         self.assertGreaterEqual(told.pop("rays"), 64 * 36)
         self.assertGreater(told.pop("approximations"), 3)
         wanted = {

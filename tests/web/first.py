@@ -368,7 +368,7 @@ class First(Browser):
             self.assertEqual(self.cut(page), [])
 
     def test_the_order_of_the_strip(self):
-        """What people come for stands first; the plain disk and Gold's tests stand last."""
+        """The best known presets come first, the plain disk and Gold's tests last."""
         page = self.open("lang=en&preset=smooth", gallery=True)
         page.wait_for_selector("#gallery [aria-pressed=true]")
         names = page.evaluate(

@@ -342,7 +342,7 @@ class Lensing(Browser):
         bar, ticks = page.locator(".key-light i").bounding_box(), page.locator(".key-ticks span")
         self.assertEqual(ticks.all_inner_texts(), ["0", "5", "10", "15", "20"])
         places = [box["x"] + box["width"] / 2 for box in (tick.bounding_box() for tick in ticks.all())]
-        for x, kelvin in zip(places, (0, 5, 10, 15, 20)):  # light 1 is 1e10 K, and white 2 of it
+        for x, kelvin in zip(places, (0, 5, 10, 15, 20)):  # light 1 is 1e10 K, and white is light 2
             self.assertAlmostEqual((x - bar["x"]) / bar["width"], kelvin / 20, delta=5e-3)
         self.shot(page, "scales")
         # The colours of the bar are those of the server's own, whose bar has 112 pixels.
@@ -698,7 +698,8 @@ class Lensing(Browser):
         )
         self.assertGreater(min(seen["on"], seen["off"]), 1500, seen)
         self.assertGreater(seen["lit_on"] / seen["on"], 0.998, seen)
-        self.assertLess(seen["lit_off"] / seen["off"], 0.006, seen)  # the gaps of a dashed line
+        # light is visible through the gaps of a dashed line
+        self.assertLess(seen["lit_off"] / seen["off"], 0.006, seen)
 
     def test_lines_of_a_near_camera_lie_on_the_disk(self):
         page = self.open(
@@ -734,7 +735,7 @@ class Lensing(Browser):
         self.open_groups(page)
         page.fill('[data-path="spacetime.spin"] input[type=number]', "2")
         page.keyboard.press("Enter")
-        page.wait_for_timeout(300)  # meanwhile nothing removes it
+        page.wait_for_timeout(300)  # in this time the page keeps the refused value
         self.assertEqual(
             (self.field(page, "spacetime.spin"), page.locator('[data-path="spacetime.spin"] input:invalid').count()),
             ("2", 1),

@@ -368,8 +368,8 @@ class Others(unittest.TestCase):
         self.elsewhere(listed=False)
         self.assertIs(self.browser.js("return window.came"), False)
         self.assertIs(self.browser.js("return document.querySelector('kerr-hole').shadowRoot === null"), True)
-        # WebKit's driver neither runs a script in a refused frame nor makes a screenshot of it. What the frame would
-        # ask for next is never asked for: the page has asked for the module.
+        # WebKit's driver neither runs a script in a refused frame nor makes a screenshot of it. The test checks instead
+        # that the page has requested the module, and that the frame has requested no file.
         self.assertEqual((self.answered("/embed/{code}"), self.answered("/web/{file}")), (1, 1))
 
     def test_the_story(self):

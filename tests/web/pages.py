@@ -195,7 +195,7 @@ class Pages(Browser):
                 self.assertNotRegex(text, r"must|\{|undefined| is | of |degrees|masses", detail)
             unknown = "what is this; it must be none"
             self.assertEqual(self.said(lang, [unknown]), [[unknown, "en"]])
-            # a unit is translated, and not its letters in a name
+            # a unit is translated, but the same letters in a name are not
             bits = self.words(lang)["server"]["amount.bits"]
             [[text, marked]] = self.said(lang, ['volume.orbits is "two bits"; it must be "orbits" or 8 bits'])
             self.assertIsNone(marked)

@@ -84,7 +84,8 @@ class Pair(Browser):
         self.shot(page, "pair-charge")
 
     def test_the_model_beside_the_data(self):
-        """Whatever the scene was, M87* stands beside its data, which no second session shows. Another pair ends that."""
+        """M87* stands beside its data whatever the scene was, and no second session shows the data. The choice of
+        another pair removes the data."""
         page = self.begin()
         page.select_option("#pair-what", label="M87*: our model | what was measured")
         page.wait_for_selector("#pair-data .data:not([hidden]) canvas >> nth=1")

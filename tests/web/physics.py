@@ -18,7 +18,7 @@ class Physics(Browser):
         self.assertGreaterEqual(cards.count(), 9)
         for i in range(cards.count()):
             name = cards.nth(i).get_attribute("id")
-            cards.nth(i).scroll_into_view_if_needed()  # some are drawn only then
+            cards.nth(i).scroll_into_view_if_needed()  # some curves are drawn only when they are in sight
             self.assertTrue(daemon.eventually(lambda: self.drawn(page, f"#{name} canvas")["coloured"] > 300), name)
             page.click(f"#{name} summary >> nth=0")
             page.wait_for_selector(f"#{name} tbody tr >> nth=5")

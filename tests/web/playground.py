@@ -72,8 +72,8 @@ class Playground(Browser):
         (got,) = (body for i, body in self.bodies().items() if i not in before)
         for a, b in zip(got[:6], place + velocity):
             self.assertAlmostEqual(a, b, delta=2e-4 * max(abs(b), 0.01))
-        # The arrow goes 10 pixels to the left and 90 up. ARROW_PX are the speed of a circle in the potential of
-        # Paczynski and Wiita.
+        # The arrow goes 10 pixels to the left and 90 up. The length ARROW_PX stands for the speed of a circle in the
+        # potential of Paczynski and Wiita.
         r = math.hypot(*place)
         circle = math.sqrt(r) / (r - 2)
         self.assertAlmostEqual(velocity[0], -10 / ARROW_PX * circle, delta=0.03 * circle)
@@ -140,7 +140,7 @@ class Playground(Browser):
     def test_a_body_is_thrown_anew_changed_and_removed(self):
         page = self.open_play(
             "lang=en&play.preset=emri&play.paused=1"
-        )  # a moving body is elsewhere in the page than on the server
+        )  # a moving body has another place in the page than on the server
         ((only, body),) = self.bodies().items()
         x, y = self.stage(page)
         scale = (
@@ -232,7 +232,7 @@ class Playground(Browser):
         self.shot(page, "playground", full_page=True)
 
     def test_a_star_was_torn_and_falls_back(self):
-        """A snapshot from the command line continues in the page, with the debris that has returned so far."""
+        """A snapshot from the command line continues in the page, with all debris that has returned before."""
         made = subprocess.run(
             [
                 KERRD,
@@ -403,10 +403,10 @@ class Playground(Browser):
 
     def test_a_picture_that_takes_long_says_so(self):
         context, held = self.context(viewport={"width": 1200, "height": 900}), []
-        passing = [1]  # how many pictures go through at once; a request that waits in vain brings none
+        passing = [1]  # number of pictures that go through at once; a request that waits in vain brings no picture
 
         def hold(route):
-            if passing[0] > 1:  # the test is over: an answer that was fetched could be gone before it is given on
+            if passing[0] > 1:  # the test is over, and the page may end while an answer is fetched
                 return route.continue_()
             if passing[0]:
                 answer = route.fetch()

@@ -305,7 +305,7 @@ class Saving(Browser):
         keys, scenes = self.made(page, "#film-orbit")
         self.assertEqual(
             (keys, len(scenes)), ([{"frame": 59, "scene": {"camera": {"azimuth_deg": 34}}}], 4)
-        )  # one step from where it began
+        )  # one step from the starting value
         self.assertEqual([round(s["camera"]["azimuth_deg"], 9) % 360 for s in scenes], [40, 158, 276, 34])
         page.wait_for_selector("#film-preview:visible")
         self.there(page, "Saved.", "#film-told")

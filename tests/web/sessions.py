@@ -157,7 +157,7 @@ class Sessions(Browser):
                 page.goto(f"{self.base}#preset=default&lang=en&view={view}")
                 page.wait_for_selector(f"{told} >> text=The server does not answer – trying again")
                 page.unroute(fails)
-                if view != "physics":  # that view changes by itself
+                if view != "physics":  # the view "physics" changes by itself
                     page.click(f'{told} button:has-text("Try again")')
                     # A browser may remember that a module could not be loaded (Chromium 150 does, 156 does not). The
                     # user's next try then reloads the page.

@@ -18,8 +18,8 @@ export const math = maker(tag => document.createElementNS('http://www.w3.org/199
 export const byId = id => document.getElementById(id);
 
 // Protects a field from being overwritten while somebody types. typed: the field has a value that is not submitted yet.
-// held: the same, or the field has the focus; for values that arrive all the time and may be older. given(): the value
-// was submitted by a key.
+// held: typed, or the field has the focus; for values that keep arriving and may be older than the input. given(): the
+// value was submitted by a key.
 export function typing(input) {
   let typed = false;
   const given = () => (typed = false);

@@ -67,13 +67,14 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
   const remove = ({ id, token }) =>
     ask('v1/jobs/' + id, { method: 'DELETE', headers: { Authorization: `Bearer ${token}` } });
 
-  // After the result has been fetched and the last poll has been handled, the server may delete the job.
+  // Called when the result has been fetched and the last poll has been handled. From then on the server may delete the
+  // job.
   async function fetched(done, looked) {
     const sentence = await take(done, () => job === done);
     await looked;
     if (job !== done) return;
     end(sentence ?? words.done);
-    remove(done).catch(() => {}); // otherwise it expires within a day
+    remove(done).catch(() => {}); // ignored: without this request the job expires within a day
   }
 
   async function follow() {
@@ -91,7 +92,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
         await pause(poll_ms);
       } catch (error) {
         if (job !== now) return;
-        // another attempt would fail as well
+        // returns, because another attempt would fail as well
         if (!passes(error) || error.status === 500) return end(error.message, true);
         tell(fault, error.message).append(t('common.trying-again', ' – trying again'));
         await pause(again_ms);
@@ -111,11 +112,11 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
     async begin(request, about) {
       told.textContent = '';
       tell(fault, '');
-      const asked = (job = {}); // so that a second job is not started
+      const asked = (job = {}); // set at once, so that a second job is not started
       show({ fraction: 0 });
       try {
         const { id, token } = await postJson('v1/jobs', await request());
-        // it was cancelled before the server answered
+        // the job was cancelled before the server answered
         if (job !== asked) return void remove({ id, token }).catch(() => {});
         job = { id, token, ...about };
         kept.write(job);

@@ -6,7 +6,7 @@ const live_ms = 1000; // least time between two updates of a table
 
 export const shared = spec => spec.series.every(s => s.x === spec.series[0].x);
 
-// The curves, those with equal x together.
+// The curves in groups of equal x.
 function groups({ series }) {
   const by = new Map();
   for (const s of series) {

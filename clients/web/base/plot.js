@@ -162,8 +162,8 @@ function key(style) {
 
 // spec: { title, note, csv, live, x: { label, min, max, log }, y: likewise, series: [{ name, x, y, style, error }],
 // marks: [{ x or y, label, low, left }], map: { rows, x: [from, to], y: [from, to] }, at(index) }. style: "dim", or
-// "dots" without a line between them, with errors. at: the note while the cursor is there. Returns the figure, with a
-// method draw(spec) that shows other numbers.
+// "dots" without a line between them, with errors. at(index): the note while the cursor is at this point. Returns the
+// figure, with a method draw(spec) that shows other numbers.
 export function plot(first) {
   const id = 'plot-' + ++count,
     caption = el('figcaption', { id });
@@ -285,7 +285,7 @@ export function plot(first) {
   function draw(next) {
     spec = next;
     caption.textContent = spec.title;
-    chart.setAttribute('role', 'slider'); // with its first values
+    chart.setAttribute('role', 'slider'); // the first values are shown
     chart.setAttribute('aria-labelledby', id);
     chart.tabIndex = 0;
     note.textContent = spec.note ?? '';

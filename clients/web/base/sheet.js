@@ -37,7 +37,7 @@ export function sheet(node) {
     drag = null,
     placed = false;
 
-  // If the page is still too short to scroll to the picture, the picture counts as not placed yet.
+  // If the page is still too short to scroll to the picture, the picture must be placed again later.
   function show() {
     if (!at || !picture?.offsetHeight || !handle.offsetParent) return;
     picture.scrollIntoView();
@@ -112,7 +112,7 @@ export function sheet(node) {
     else if (keys[event.key]) rest(keys[event.key]());
     else return;
     event.preventDefault();
-    event.stopPropagation(); // so that the space key does not pause the clock
+    event.stopPropagation(); // stops here, so that the space key does not pause the clock
   });
   // Raises the sheet when the keyboard moves the focus into it.
   node.addEventListener(
@@ -126,7 +126,7 @@ export function sheet(node) {
     // The picture, or the content that makes the page long enough, may come after the sheet was raised. The picture is
     // then placed.
     const grows = new ResizeObserver(() => {
-      placed &&= picture.offsetHeight > 0; // a view that is opened again is placed again
+      placed &&= picture.offsetHeight > 0; // when the view is opened again, the picture must be placed again
       if (!placed) show();
     });
     grows.observe(picture);

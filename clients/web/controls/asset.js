@@ -5,7 +5,7 @@ import { t, tell } from '../words/i18n.js';
 import { ask, module } from '../base/server.js';
 
 export function assetRow(field, scene, id, hint) {
-  let taken = null; // { chosen, hash }: the file that was chosen last, and the value of the field after it
+  let taken = null; // { chosen, hash }: the file that was chosen last, and the value that the field got from it
   const name = el('output', { class: 'asset' }),
     fault = el('p', { class: 'fault', hidden: true }),
     none = el(
@@ -51,7 +51,7 @@ export function assetRow(field, scene, id, hint) {
   function choose() {
     const [chosen] = file.files;
     if (chosen) take(chosen);
-    file.value = ''; // so that choosing the same file again is an event
+    file.value = ''; // cleared, so that choosing the same file again is an event
   }
   // The box may be changed after the file was chosen.
   function again() {

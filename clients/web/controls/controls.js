@@ -31,7 +31,7 @@ function numberRow(field, scene, id, hint) {
     'aria-describedby': hint,
   });
   const hand = typing(box);
-  let own = null; // the last value that this control set
+  let own = null; // the last value that this control set itself
   const give = value => {
     hand.given();
     own = value;
@@ -86,7 +86,7 @@ function choiceRow(field, scene, id, hint) {
     show: () => {
       const value = scene.get(field.path);
       select.value = value;
-      // a list of several words, or a word with a number
+      // adds an option for a list of several words, or for a word with a number
       if (select.value !== value) select.add(new Option(word(value, field.path), value, false, true));
     },
   };

@@ -2,7 +2,7 @@
 import { byId } from '../base/dom.js';
 import { valueAt } from '../picture/scene.js';
 
-const together_ms = 400; // changes that follow each other within this time are one step, as those of a drag
+const together_ms = 400; // changes that follow each other within this time, such as those of a drag, are one step
 const most = 200;
 
 export function buildHistory(scene) {

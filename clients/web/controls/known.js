@@ -12,7 +12,7 @@ const has_disk = scene => scene.get('disk.model') !== 'none',
     is_map(scene) ||
     scene.get('camera.projection') === 'ring' ||
     scene.emitters.some(({ name }) => name !== 'sky');
-// a value that the scene refuses can be taken back
+// also shown if it has a value, so that a value that the scene refuses can be taken back
 const or_set = (path, possible) => scene => has_disk(scene) && (possible(scene) || scene.get(path) !== 'none');
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,

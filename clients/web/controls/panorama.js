@@ -21,7 +21,8 @@ async function turned({ data, width, height }) {
       Float64Array.from({ length: width }, (_, i) => f((0.5 - (i + 0.5) / width) * 2 * Math.PI)),
     );
   for (let j = 0; j < height; j++) {
-    if (j % rows_at_once === 0) await new Promise(resolve => setTimeout(resolve)); // the page stays responsive
+    // pauses, so that the page stays responsive
+    if (j % rows_at_once === 0) await new Promise(resolve => setTimeout(resolve));
     const b = (0.5 - (j + 0.5) / height) * Math.PI,
       [flat, z] = [Math.cos(b), Math.sin(b)];
     for (let i = 0; i < width; i++) {

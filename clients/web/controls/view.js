@@ -55,8 +55,8 @@ export function handle(stage, scene) {
   const pointers = new Map(),
     { looks, toggle } = looker(scene);
   let begin = null,
-    tapped = null, // where the only finger went down, as long as it has not moved
-    since = -Infinity, // when the fingers were last followed
+    tapped = null, // where the only finger was put down, as long as it has not moved
+    since = -Infinity, // time at which the fingers were last followed
     timer = 0;
 
   const get = name => scene.get('camera.' + name),

@@ -66,11 +66,11 @@ function wayBack(id) {
 
 function panel(scene, session) {
   let lesson = memory.get(),
-    sent = {}, // what this page has last sent: session, link and words
+    sent = {}, // what this page sent last: session, link and words
     turn = Promise.resolve(), // the request before
     timer = 0,
     ended = false,
-    drawn = ''; // the state of the question that is shown
+    drawn = ''; // state of the question that the panel shows now
   const title = el('h2', { tabindex: -1 }, t('lesson.your-class', 'Your class')),
     count = el('p', { id: 'lesson-count', role: 'status' }, '…'),
     fault = el('p', { class: 'fault', role: 'status' }),
@@ -147,7 +147,7 @@ function panel(scene, session) {
     lesson = null;
     sent = {};
     memory.set(null);
-    if (drawn && JSON.parse(drawn)[0]) drawn = ''; // the question is lost too
+    if (drawn && JSON.parse(drawn)[0]) drawn = ''; // the question is lost as well
     invite.replaceChildren();
     byId('lesson-large')?.close();
     renewed.textContent = t('lesson.the-lesson-ended-pupils', 'The lesson ended. Pupils must open the new link.');
@@ -162,8 +162,9 @@ function panel(scene, session) {
       if (error.status === 404 && lesson) lose();
       else if (error.pointer !== '/session') {
         tell(fault, error.message);
-        if (!lesson && [403, 422].includes(error.status)) return; // another try would be refused as well
-      } // else the session has just ended, and the page opens another one
+        // stops, because another attempt would be refused as well
+        if (!lesson && [403, 422].includes(error.status)) return;
+      } // otherwise the session has just ended, and the page opens another one
     }
     if (!ended) timer = setTimeout(beat, beat_ms);
   }
@@ -357,7 +358,7 @@ function panel(scene, session) {
     );
 
   async function showHands({ choices, answered, tally: votes, right, open }, hands) {
-    await ready.catch(() => []); // the question is drawn
+    await ready.catch(() => []); // waits until the question is drawn
     const most = Math.max(1, answered);
     byId('lesson-answered').textContent = t(
       'lesson.of-have-answered',

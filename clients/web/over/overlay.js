@@ -233,7 +233,7 @@ const overlays = [
   ['orbit', orbit, t('overlay.orbit-of-the-orbits', 'Orbit of the Orbits view, lensed')],
 ];
 
-const slow = ['orbit']; // takes seconds: the other lines are drawn first
+const slow = ['orbit']; // drawn after the other lines, because it takes seconds
 
 export function buildOverlays(root, stage, scene) {
   const chosen = new Set((link.get('over') ?? '').split(',').filter(Boolean)),
@@ -314,7 +314,7 @@ export function buildOverlays(root, stage, scene) {
       'aria-describedby': `over-${name}-words`,
       onchange: () => {
         box.checked ? chosen.add(name) : chosen.delete(name);
-        asked.set(name, null); // it is the user's choice now
+        asked.set(name, null); // now set by the user
         leave.abort();
         link.set('over', [...chosen].filter(one => !asked.get(one)).join(','));
         draw();

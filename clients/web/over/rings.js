@@ -36,7 +36,7 @@ export async function ringAxes(scene, width, height) {
     lines.push(`M${x} ${height}v-8`);
     nodes.push(text(x, height - 12, `${degrees}°`, { 'text-anchor': 'middle' }));
   }
-  // A third of the way across, in the middle of each band that is tall enough on the screen.
+  // Labels are a third of the way across, in the middle of each band that is tall enough on the screen.
   const x = width / 3,
     [inner, outer] = [scene.get('disk.inner'), scene.get('disk.outer')];
   const { values } = await physics('photon-rings', {

@@ -72,8 +72,8 @@ export function buildStars(stage, scene) {
   let timer = 0,
     pointer = null,
     azimuth = null, // of the latest picture
-    last = null, // the list for a turning picture
-    pace = 0, // pixels a degree, of the named star
+    last = null, // list of stars for a turning picture
+    pace = 0, // pixels per degree by which the named star moves
     asked = 0;
 
   const turns = () => azimuth != null && scene.turns() !== 0;

@@ -14,14 +14,15 @@ const slow_ms = 1000; // the same before a recording of the first view begins
 const stage = byId('stage');
 const plain =
   first_view && !document.hidden && link.entries('').every(([key]) => ['lang', 'pace'].includes(key)) && fits(stage);
-if (plain) stage.dataset.still = true; // until its first picture comes
-let left = null, // the session, until take() returns it
+if (plain) stage.dataset.still = true; // hidden until the first picture comes
+let left = null, // the session that was opened, until take() returns it
   shown = null; // a promise that resolves when its first picture is shown
 
 async function show(answer) {
   const seen = URL.createObjectURL(await answer.blob()),
     picture = byId('picture');
-  if (picture.getAttribute('src') !== null) return URL.revokeObjectURL(seen); // another picture is shown already
+  // returns, because another picture is already shown
+  if (picture.getAttribute('src') !== null) return URL.revokeObjectURL(seen);
   picture.src = seen;
   await picture.decode();
   await new Promise(requestAnimationFrame);

@@ -22,8 +22,8 @@ const radians = Math.PI / 180;
 const most = 4; // largest scaling up or down: beyond it, the picture shows too little, or leaves too much empty
 const half = fov_deg => Math.tan((fov_deg / 2) * radians);
 
-// How a picture seen by the camera `then` lies in the view of the camera `now`: { scale, right, down }, the shifts in
-// widths of the picture. Null if the cameras are too different.
+// How a picture seen by the camera `then` appears in the view of the camera `now`: { scale, right, down }, with shifts
+// in widths of the picture. Null if the cameras differ too much.
 export function carried(then, now, height) {
   const same = name => then[name] === now[name];
   if (
@@ -112,7 +112,7 @@ export function buildCarry(stage, scene) {
   async function rest(blob, { camera: by, width, all }, alt) {
     const mine = ++begun,
       old = picture,
-      before = picture.getAttribute('src'), // ahead.js may have set one
+      before = picture.getAttribute('src'), // ahead.js may have set the picture already
       next = old.cloneNode(); // the old picture stays until the new one is decoded
     next.src = URL.createObjectURL(blob);
     if (alt != null) next.alt = alt;

@@ -41,7 +41,7 @@ export function begin(stage, scene, fresh) {
   }
 
   const sees = () => !document.hidden && document.body.dataset.view === 'lensing';
-  let seen; // during the whole trial
+  let seen; // true if the pictures were seen during the whole trial
   const look = () => (seen &&= sees());
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, look);
   function judge() {
@@ -77,7 +77,7 @@ export function begin(stage, scene, fresh) {
   scene.addEventListener('drift', stop);
   scene.drifts(rate_deg);
   if (goesOn('lesson'))
-    stand(); // the class follows the session, which therefore shows the pictures
+    stand(); // live pictures are shown, because the class follows the session
   else if (begun()) record().then(plays => plays || (scene.drift && trial()));
   else trial();
   return frame => {

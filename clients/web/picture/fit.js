@@ -44,7 +44,7 @@ export function buildFit(scene) {
 
   new ResizeObserver(() => {
     const now = scene.fitted();
-    // during a fall the width is another field
+    // skipped, because during a fall the width is another field
     if (!now || byId('lensing').hidden || widthOf(path => scene.get(path)) !== now.path) return;
     const value = wide(now.path, now.base);
     if (value === now.value) return;

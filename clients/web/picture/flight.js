@@ -53,7 +53,7 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
       top(from);
       const kicked = new Promise(resolve => (kick = () => resolve({})));
       const { one, answer, error, took } = await Promise.race([...from.flight.map(({ answer }) => answer), kicked]);
-      if (!one) return null; // woken to send more requests
+      if (!one) return null; // requests can be sent again
       from.flight.splice(from.flight.indexOf(one), 1);
       if (error && one.carries) refused(from);
       if (error && one.carries && error instanceof Problem && error.status !== 404) return null;
@@ -61,7 +61,7 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
       line.answered(took - Number(answer.headers.get('Kerrd-Waited')));
       if (one.carries) arrived(from, one, answer);
       if (answer.status !== 204 && Number(answer.headers.get('Kerrd-Frame')) > from.frame) return answer;
-      answer.body?.cancel(); // another request has brought it already
+      answer.body?.cancel(); // another request has already brought this picture
       return null;
     },
   };

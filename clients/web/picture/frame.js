@@ -80,7 +80,7 @@ export const said = (get, { quality, revision, clock, falls, azimuth }, from, si
   ...fits(quality, size, from),
   camera: falls ? null : from.cameras.get(revision),
   accuracy: figures(get('Kerrd-Accuracy')),
-  flux: figures(get('Kerrd-Flux')), // at a radio frequency
+  flux: figures(get('Kerrd-Flux')), // flux of a picture at a radio frequency
   passes: passes(get('Server-Timing')),
   clock,
   azimuth,

@@ -52,7 +52,7 @@ export function buildLine() {
         holds_up = since > slow_ms && since < choked_ms && ms > busy * since;
       came_ms = now;
       read_ms = ms;
-      if (quality !== qualities[at]) return; // it was requested before the quality changed
+      if (quality !== qualities[at]) return; // ignored, because it was requested before the quality changed
       if ((ms > long_ms * depth() || holds_up) && trip_ms > near_ms && at + 1 < qualities.length) {
         patience = now - climbed < soon_ms ? Math.min(2 * patience, most_calm) : calm;
         at = Math.min(at + (ms > steep * slow_ms ? 2 : 1), qualities.length - 1);

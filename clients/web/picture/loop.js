@@ -30,12 +30,12 @@ async function open(stage, from_s, wanted) {
   if (over || still.matches || navigator.connection?.saveData || !(width >= lowest * height)) return false;
   film = el('video', { id: 'loop', loop: true, playsinline: true, 'aria-hidden': 'true', hidden: true });
   film.muted = true;
-  (document.getElementById('moving') ?? byId('picture')).after(film); // over the live pictures
+  (document.getElementById('moving') ?? byId('picture')).after(film); // placed over the live pictures
   try {
     const answer = await fetch(new URL('../stills/first.webm', import.meta.url));
     if (!answer.ok) throw new Error();
     const there = happens('loadeddata');
-    // a blob can be sought in, even if the server does not support ranges
+    // a blob, because it can be sought in even if the server does not support ranges
     film.src = URL.createObjectURL(await answer.blob());
     await there;
     const found = happens('seeked');

@@ -33,7 +33,7 @@ export function buildRefining(address, say) {
     await seen('lensing');
     if (mine !== timer) return;
     const { frame, rendering, refining } = (address() && (await getJson(address()).catch(() => null))) || {};
-    if (mine !== timer) return; // the picture has come, or another one has begun
+    if (mine !== timer) return; // returns, because the picture has come or another one has begun
     const made = rendering ?? refining;
     bar.hidden = !made;
     if (made) {

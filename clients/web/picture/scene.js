@@ -203,7 +203,7 @@ export class Scene extends EventTarget {
   // The value from which the server began to move a field.
   begun = path => this.#values.get(path) ?? this.fields.get(path).default;
 
-  // These values of all fields that the server moves, by path.
+  // The values from which the server began to move fields, by path.
   origins = () => Object.fromEntries([...this.#moved.keys()].map(path => [path, this.begun(path)]));
 
   // Fixes moved values at their present values.

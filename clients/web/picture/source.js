@@ -13,7 +13,7 @@ import { ask, passes as may_pass, too_large } from '../base/server.js';
 import { adopter, asleep, fresh, load, strike } from './session.js';
 import { kept } from './sizes.js';
 
-const least_part = 1 / 8; // of the window's width: the least size of a picture at rest
+const least_part = 1 / 8; // least size of a picture at rest, as a fraction of the window's width
 
 const heard = (target, event) => new Promise(resolve => target.addEventListener(event, resolve, { once: true }));
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
@@ -32,7 +32,7 @@ export function openSource(scene, size, shown, failed, rests) {
     striking = null,
     dozes = 0,
     asked = 0, // number of changes
-    told = 0, // number of the last change that the server has
+    told = 0, // number of the last change that the server has received
     last = null, // the picture that is shown
     stirred_ms = -Infinity, // time of the latest change or unfinished picture
     line = buildLine(),
@@ -110,7 +110,8 @@ export function openSource(scene, size, shown, failed, rests) {
         if (!from) session = fresh({ id, token });
         return leave();
       }
-      if (from && session !== from) return; // the session was replaced meanwhile; the next call opens another one
+      // returns, because the session was replaced meanwhile; the next call opens another one
+      if (from && session !== from) return;
       if (!session) last &&= { final: false }; // a new session counts its revisions from the start
       session ??= fresh({ id, token });
       session.cameras.set(revision, document.camera ?? {});
@@ -156,7 +157,7 @@ export function openSource(scene, size, shown, failed, rests) {
   }
 
   function arrived(from, { order, carries }, answer) {
-    if (order < from.known) return; // a later one has been answered
+    if (order < from.known) return; // a later change has already been answered
     const revision = Number(answer.headers.get('Kerrd-Patched'));
     Object.assign(from, { known: order, document: carries.document, revision: Math.max(from.revision, revision) });
     from.cameras.set(revision, carries.document.camera ?? {});
@@ -193,7 +194,7 @@ export function openSource(scene, size, shown, failed, rests) {
     for (const old of from.cameras.keys()) if (old < revision) from.cameras.delete(old);
     const now = performance.now();
     if (quality.final !== 1) stirred_ms = now;
-    // or the last three of a slow server
+    // for a slow server, the last three pictures
     recent = scene.streams() ? [...recent.filter((time, i) => time > now - 2000 || i >= recent.length - 2), now] : [];
     const [picture, left] = await Promise.all([answer.blob(), approximations(from, get)]);
     line.read(quality.lossy, performance.now() - now);
@@ -202,7 +203,7 @@ export function openSource(scene, size, shown, failed, rests) {
       picture,
       ...said(get, told_of, from, size()),
       final,
-      shows: current ? from.document : null, // if it is known
+      shows: current ? from.document : null, // the document of the scene, if it is known
       pace: recent.length > 2 && (1e3 * (recent.length - 1)) / (now - recent[0]),
       approximations: left,
     });
@@ -222,7 +223,7 @@ export function openSource(scene, size, shown, failed, rests) {
         await next(from);
       } catch (error) {
         from.flight.length = 0; // the other requests have failed as well, or are too late
-        if (session !== from) continue; // another session has taken its place
+        if (session !== from) continue; // continues, because another session has replaced this one
         if (error.status !== 404) failed(Object.assign(error, { again: true }));
         else (session = null), put();
         await pause(error.status === 404 ? 0 : again_ms);
@@ -249,7 +250,7 @@ export function openSource(scene, size, shown, failed, rests) {
     const left = session,
       owner = headers();
     session = null;
-    polls.abort(); // otherwise they would report that the session no longer exists
+    polls.abort(); // aborted, because they would otherwise report that the session no longer exists
     polls = new AbortController();
     if (left) fetch(left.url, { method: 'DELETE', headers: owner, keepalive: true });
   }

@@ -19,7 +19,7 @@ function documentOf(scene) {
 // field: the input that shows the text, if there is one.
 async function copy(text, done, field) {
   try {
-    await navigator.clipboard.writeText(text); // only if the page came over HTTPS or from this machine
+    await navigator.clipboard.writeText(text); // works only if the page came over HTTPS or from this machine
     done.textContent = t('common.copied', 'Copied.');
   } catch {
     field.value = text;
@@ -92,7 +92,7 @@ function previewOf({ code, title, about }) {
     src: `v1/share/${code}/picture.png?width=${preview.width}`,
     alt: '',
     ...preview,
-    onerror: () => (picture.hidden = true), // the server is busy; the link works all the same
+    onerror: () => (picture.hidden = true), // hidden, because the server is busy; the link works nevertheless
   });
   return el('figure', {}, picture, el('figcaption', { lang: 'en' }, el('strong', {}, title), ' ', about));
 }

@@ -49,7 +49,7 @@ export function share(scene, size) {
   async function copy(text, from) {
     const done = byId('copied');
     try {
-      await navigator.clipboard.writeText(text); // only if the page came over HTTPS or from this machine
+      await navigator.clipboard.writeText(text); // works only if the page came over HTTPS or from this machine
       done.textContent = t('common.copied', 'Copied.');
     } catch {
       from?.select();

@@ -19,7 +19,8 @@ function set(hole, path, value) {
 // Numbers of /v1/physics/kerr that a sentence mentions.
 const says = { isco: ({ values }) => values.isco };
 async function tell(output, spin) {
-  output.dataset.spin = spin; // an answer for an earlier spin is dropped
+  // shows which spin the number belongs to, so that an answer for an earlier spin is dropped
+  output.dataset.spin = spin;
   const answer = await fetch('v1/physics/kerr?spin=' + spin).catch(() => null),
     told = answer?.ok && (await answer.json());
   if (told && output.dataset.spin === String(spin)) output.textContent = number(says[output.dataset.says](told), 0.01);

@@ -160,7 +160,7 @@ static void write_examples(struct kd_writer *w, const char *command)
         if (command && strcmp(kd_examples[i].command, command))
             continue;
         if (!command && i && !strcmp(kd_examples[i].command, kd_examples[i - 1].command))
-            continue; /* only the first example of a command has the heading */
+            continue; /* only the first example of a command has a heading, so the others end here */
         kd_write(w, any ? ".PP\n" : ".SH EXAMPLES\n");
         write_text(w, kd_examples[i].says);
         kd_write(w, "\n.PP\n.RS 4\n.EX\n");

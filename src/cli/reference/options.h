@@ -18,7 +18,7 @@ struct kd_option {
     const char *names[KD_OPTION_NAMES]; /* including aliases */
     size_t n_names;
     const char *argument; /* NULL: none */
-    bool optional;        /* its argument is optional */
+    bool optional;        /* the option's argument may be omitted */
     bool again;           /* the option may be repeated */
     enum kd_argument takes;
     const char *doc; /* the option's help; "": none */

@@ -15,7 +15,7 @@ static double planck(double wavelength, double temperature)
 struct kd_colour_xyz kd_colour_blackbody(double temperature)
 {
     struct kd_colour_xyz sum = { 0, 0, 0 };
-    /* the colour-matching functions vanish at both ends, so that the sum is the trapezoidal rule */
+    /* both ends of the colour-matching functions vanish, so the plain sum is the trapezoidal rule */
     for (int i = 0; i < KD_CIE1931_COUNT; i++) {
         double b =
             planck((KD_CIE1931_FIRST_NM + i * KD_CIE1931_STEP_NM) * 1e-9, temperature) * KD_CIE1931_STEP_NM * 1e-9;

@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define EXACT 1e-8      /* error of ln r of a ray that meets a ring */
-#define RIGHT 1e-4      /* relative error of epsilon below which no more angles are taken */
+#define RIGHT 1e-4      /* relative error of epsilon at which no more angles are added */
 #define CORRECT 1e-10   /* error of a direction of the sky, in the chart below */
 #define FAR 1e7         /* M, radius to which light is followed; the rest of the way to infinity is added */
 #define DIFFERENCE 1e-5 /* step of differences on the source's sky, in radians */
@@ -134,7 +134,7 @@ static struct kd_corona_light nodes_of(double centre, double width, double inner
 static void fill_radii(const struct kd_corona_light *c, double radii[KD_CORONA_RINGS])
 {
     const double last = c->first + (KD_CORONA_RINGS - 1) * c->step;
-    for (int k = 0; k < KD_CORONA_RINGS; k++) /* s - ln r has the sign of ln r - centre */
+    for (int k = 0; k < KD_CORONA_RINGS; k++) /* s - ln r has the sign of ln r - centre, which brackets the root */
         radii[k] = exp(log_radius_of(c, c->first + k * c->step, fmin(c->first, c->centre), fmax(last, c->centre)));
 }
 

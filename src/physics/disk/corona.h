@@ -106,7 +106,7 @@ void kd_corona_parts(const struct kd_corona *corona, double r, double *part, dou
 /* The light of a ring that reaches an observer at infinity without meeting the plane, from `n` azimuths. */
 enum { KD_CORONA_AZIMUTHS = 64 };
 struct kd_corona_direct {
-    int n;       /* 1 on the axis */
+    int n;       /* number of azimuths; 1 on the axis */
     double flux; /* F, as above */
     double g;    /* mean of E, weighted by the flux */
     double time; /* mean coordinate time to the observer less r_o + 2 ln r_o, weighted by the flux */

@@ -10,18 +10,18 @@
 #include <string.h>
 
 enum { POINTS = 6 }; /* number of nodes that an interpolation uses */
-#define NEAREST \
-    0.1 /* M, minimum distance of the origin of the coordinate u (radius_of_node) from the ISCO. If it were smaller, \
-           all nodes above a = 0.9995 would lie at the horizon, where the image no longer changes. */
+/* M, minimum distance of the origin of the coordinate u (radius_of_node) from the ISCO. With a smaller distance, all
+ * nodes for a > 0.9995 would lie at the horizon, where the image no longer changes. */
+#define NEAREST 0.1
 #define NODES 1e-7  /* error of ln r at the nodes */
 #define PLACE 1e-12 /* error of ln r at a single requested place */
 #define BENDS 10.   /* maximum relative change of a slope per unit of ln r */
-#define DRIFTS \
-    0.2 /* error of a slope: this, if only the slope of flat space is known; otherwise this fraction of the error of \
-           the extrapolation from the preceding rings */
+/* error of a slope: this value if only the slope of flat space is known; otherwise this fraction of the error of the
+ * extrapolation from the preceding rings */
+#define DRIFTS 0.2
 #define FLATTEST 0.1  /* all slopes that occur lie between this and its inverse */
 #define MOVED 0.3     /* maximum correction of a guess of R by the errors of the guesses at the preceding angles */
-enum { HISTORY = 5 }; /* a slope at a ring of nodes is computed from this many preceding rings */
+enum { HISTORY = 5 }; /* number of preceding rings from which a slope at a ring of nodes is computed */
 
 struct ellipse { double x0, y0, a, b; };
 

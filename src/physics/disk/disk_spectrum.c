@@ -11,11 +11,11 @@
 enum { PANELS = 32, GAUSS = 3 };
 static const double at_gauss[GAUSS] = { -0.7745966692414834, 0, 0.7745966692414834 },
                     share_gauss[GAUSS] = { 5. / 18, 8. / 18, 5. / 18 };
-#define TABLE \
-    0.125 /* factor on the change from every second node of the table: its error falls at best as the sixth power of \
-             the step, so twice the step shows 63 times the error (as in line_profile.c) */
-/* cos i below which the error of sums does not yet fall as the square of the cells. There, random sums had errors of
- * up to 2.1 times the estimate (tests/unit/told_spectra.c), so that four times the estimate is reported. */
+/* fraction of the change from every second node that is reported: the table's error falls at best as the sixth power
+ * of the step, so twice the step shows 63 times the error (as in line_profile.c) */
+#define TABLE 0.125
+/* cos i below which the error of sums does not yet fall as the square of the cells. In this range, sums at random
+ * had errors of up to 2.1 times the estimate (tests/unit/told_spectra.c), so four times the estimate is reported. */
 #define EDGE_ON 0.1
 #define APART 1e-3 /* step for slopes of the image, as a fraction of the distance to the horizon */
 

@@ -75,7 +75,7 @@ struct mirror {
     double largest; /* largest flux of the disk */
     double mu[COSINES];
     struct kd_scattering_functions at[COSINES];
-    double (*parts)[PARTS][KD_STOKES_NODES]; /* of the ring that is being filled */
+    double (*parts)[PARTS][KD_STOKES_NODES]; /* array for the ring that is being filled */
     double r;
 };
 
@@ -136,7 +136,7 @@ static void reflect(void *user, const struct kd_returning_ray *ray)
                  flux = kd_disk_flux_page_thorne(m->hole, ray->from);
     if (!(flux > 0) || !(mu0 > 0))
         return;
-    /* mu dOmega of the frame of zero angular momentum, in which the energy is 1 */
+    /* mu dOmega in the frame of zero angular momentum, in which the light has the energy 1 */
     const double solid = ray->solid / pow(at.energy, 3) / mu0,
                  light = kd_limb_at(m->p->limb, mu_e) * kd_limb_scale(m->p->limb) * solid,
                  fraction = fraction_at(a, mu_e);

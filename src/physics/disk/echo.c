@@ -188,7 +188,8 @@ static void add_part(const struct view *view, const struct cell *c, size_t ring,
                  wide = REACH(g), late = AT(time, across, along) - zero, slow = REACH(time);
     double before = 0, before_part = 0;
     struct touched all = { s->times, 0 };
-    for (size_t k = n > 1 ? 0 : 1; k <= n; k++) { /* from the last angle, the first one's neighbour */
+    /* begins with the last angle, because it is the first one's neighbour */
+    for (size_t k = n > 1 ? 0 : 1; k <= n; k++) {
         const size_t j = (k + n - 1) % n;
         const double bright = light * ((1 - across) * parts[0][j] + across * parts[1][j]),
                      here = late + (1 - across) * times[0][j] + across * times[1][j],

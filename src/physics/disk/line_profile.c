@@ -19,7 +19,7 @@ enum {
     MOST = 512,
     COARSEST = 16,
     /* FEWEST, MOST: numbers of rings. COARSEST: factor by which the coarsest sum has fewer rings and angles. LOOKED:
-     * number of parts of a line at whose edges sums are compared. */
+     * number of parts of a line; two sums are compared at the edges of these parts. */
     LOOKED = 128,
     COLUMNS = 256 /* the finest columns, in each part of the image */
 };

@@ -15,15 +15,16 @@
 
 enum {
     N = KD_RETURNING_RINGS,
-    ORDERS = 5, /* crossings of the plane that are followed. Without spin each further crossing has e^-pi of the light;
-                   next to a = 1 it has more: at a = 0.998 the sixth has 1e-5 of the ISCO's light. */
+    ORDERS = 5, /* number of crossings of the plane that are computed. Without spin, each further crossing has e^-pi
+                 * of the light of the one before; next to a = 1 it has more: at a = 0.998 the sixth has 1e-5 of the
+                 * ISCO's light. */
     SIDES = 16, /* Gauss points in chi, in each of at most PANELS panels */
     PANELS = 3,
     DEPTH = 12, /* Gauss points along each chi */
 };
 
-/* A ray is followed by series if its E at infinity over its energy in the frame of zero angular momentum is below this:
- * the labels L/E and Q/E^2 of the closed form grow without bound. */
+/* A ray is traced by series if its E at infinity, divided by its energy in the frame of zero angular momentum, is
+ * below this, because the labels L/E and Q/E^2 of the closed form grow without bound. */
 #define SLOW 1e-3
 
 /* Gas on a circular orbit at r, and the frame of zero angular momentum there. */
@@ -161,7 +162,7 @@ static double beyond(const struct kd_hole *hole, const struct ring *o, double is
 struct sky {
     int panels;
     double ends[PANELS + 1];
-    struct parts parts; /* of the last chi */
+    struct parts parts; /* for the last chi that was computed */
 };
 
 static struct sky sky_of(const struct kd_hole *hole, const struct ring *o, double isco)
@@ -245,7 +246,7 @@ static void add_strip(const struct ring *o, enum kd_limb limb, const struct rule
     }
 }
 
-/* Adds where light goes along one chi. */
+/* Adds the light along one chi to the sums of where it goes. */
 static void add_side(const struct ring *o, enum kd_limb limb, const struct rule *rule, const struct parts *parts,
                      struct side side, struct kd_returning_ring *sum)
 {
@@ -340,8 +341,8 @@ static double at_nodes(const double *nodes, const double *values, double s)
     return sum;
 }
 
-/* What rings receive, times r^3. flux, deficit, energy: of the light that the gas emits without returning light.
- * flux_of, deficit_of: matrices that give F_ret and L F_ret - l of the light that `more` adds. */
+/* Light that rings receive, times r^3. flux, deficit and energy describe the light that the gas emits without returning
+ * light. flux_of, deficit_of: matrices that give F_ret and L F_ret - l of the light that `more` adds. */
 struct kernel {
     double flux[N], deficit[N], energy[N]; /* F_ret; L F_ret - l; energy at infinity */
     double flux_of[N][N], deficit_of[N][N];
@@ -507,7 +508,7 @@ static void make_ring(void *user, size_t i)
     table->energy.returns[i] = shares.energy.returns, table->energy.falls_in[i] = shares.energy.falls_in;
 }
 
-/* False: nobody waits for the table any more. */
+/* Returns false if nobody waits for the table any more. */
 static bool make(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
 {
     struct making m = { .table = table, .rule = rule_of() };

@@ -93,7 +93,8 @@ void kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, e
 /* The member `largest` of that table. The values of the last 256 tables are kept, and take no time. */
 double kd_returning_largest(const struct kd_hole *hole, enum kd_limb limb);
 
-/* kd_returning_flux: F at r >= ISCO. kd_returning_at: a list of the table at r, over r^3. */
+/* kd_returning_flux: F at r >= ISCO. kd_returning_at: one of the table's lists, interpolated at r and divided by
+ * r^3. */
 double kd_returning_flux(const struct kd_returning *table, double r);
 double kd_returning_at(const struct kd_returning *table, const double list[KD_RETURNING_RINGS], double r);
 

@@ -57,8 +57,8 @@ static void solve(const struct rule *rule, const struct law *law, double h[NODES
     }
 }
 
-/* H_l and H_r belong to 3/4 (1 - mu^2) and 3/8 (1 - mu^2), and at mu = 1 q H_l(1) = (1 + c) H_r(1), and q^2 = 2 (1 -
- * c^2): so c = (2 k - 1)/(2 k + 1), k = (H_l(1)/H_r(1))^2. */
+/* H_l and H_r belong to psi = 3/4 (1 - mu^2) and 3/8 (1 - mu^2). From q H_l(1) = (1 + c) H_r(1) and q^2 = 2 (1 -
+ * c^2) follows c = (2 k - 1)/(2 k + 1), with k = (H_l(1)/H_r(1))^2. */
 struct laws {
     struct rule rule;
     double l[NODES], r[NODES], c, q;

@@ -11,7 +11,7 @@
  * order at the ISCO. */
 static double log_term(double a, double x, double x0, double root, double other1, double other2)
 {
-    if (root == 0) /* a = 0: (root - a)^2 / root -> 0 */
+    if (root == 0) /* for a = 0, (root - a)^2 / root tends to 0 */
         return 0;
     double k = 3 * (root - a) * (root - a) / (root * (root - other1) * (root - other2));
     return k * log1p((x - x0) / (x0 - root));

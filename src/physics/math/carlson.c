@@ -109,7 +109,7 @@ double kd_carlson_rj_arg(struct kd_carlson_arg s, double p)
         if (converged(x, yz) && y_z * y_z < spread2)
             break;
         double rp = sqrt(p), d = (rp + s.first) * (p + rp * s.sum + s.root);
-        /* 1 + e is a product of positive terms; rounding must not make it negative */
+        /* a product of positive terms, which rounding must not make negative */
         sum += scale / d * rc_unit(fmax(delta / (d * d), -1 + 1e-16));
         p = 0.25 * (p + s.first * s.sum + s.root);
         duplicate(&s);

@@ -10,7 +10,7 @@
 #define KD_G_SI 6.67430e-11             /* Newtonian constant, m^3 kg^-1 s^-2, CODATA 2018; relative error 2.2e-5 */
 #define KD_PROTON_KG 1.67262192369e-27  /* CODATA 2018 */
 #define KD_ELECTRON_KG 9.1093837015e-31 /* CODATA 2018 */
-#define KD_CHARGE_C 1.602176634e-19     /* of a proton, exact */
+#define KD_CHARGE_C 1.602176634e-19     /* charge of a proton in C, exact */
 #define KD_EPSILON_0 8.8541878128e-12   /* F/m, CODATA 2018 */
 #define KD_THOMSON_M2 6.6524587321e-29  /* CODATA 2018 */
 #define KD_STEFAN_BOLTZMANN_SI 5.670374419184429e-8 /* W m^-2 K^-4: 2 pi^5 k^4 / (15 h^3 c^2), exact */

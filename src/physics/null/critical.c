@@ -12,7 +12,7 @@ struct place {
     struct kd_shell_orbit orbit;
     double alpha, beta2;
     double right, up2, inwards, energy; /* energy: at infinity, over the measured energy */
-    double x, y2;                       /* relative to the centre; at a finite radius components of the direction */
+    double x, y2;                       /* relative to the centre; at a finite radius, components of the direction */
 };
 
 /* The point of the critical curve that the orbit at the place `at` * sin i makes. Places are divided by sin i because
@@ -148,7 +148,7 @@ static struct place aim_at(const struct kd_critical *c, double angle)
         return see(c, c->high);
     struct aim aim = { c, cos(angle), sin(angle) };
     double at = angle == M_PI ? c->low : kd_root(miss, &aim, c->low, c->high);
-    if (isnan(at)) /* the angle is within rounding of an end */
+    if (isnan(at)) /* no root, because the angle is within rounding of an end */
         at = angle < 1 ? c->high : c->low;
     return see(c, at);
 }

@@ -100,7 +100,7 @@ static double solve(kd_root_fn f, const struct search *q, double expected, doubl
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
     for (int i = 0; !(f(q, low) < 0); i++, low -= 4)
-        if (i > 150) /* e^-600: no sign change */
+        if (i > 150) /* e^-600 is reached without a sign change */
             return NAN;
     while (high < end && !(f(q, high) > 0))
         high = fmin(high + 2, end);
@@ -126,7 +126,7 @@ double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_poi
         far = solve(beyond, &q, 0, far);
         struct ray turn = ray_of(&q, far);
         q.out = !(turn.crossing < turn.radial.turn.tau);
-        far -= 1e-13 * (1 + fabs(far)); /* where the ray still reaches the source */
+        far -= 1e-13 * (1 + fabs(far)); /* slightly nearer, so that the ray still reaches the source */
     } else {
         q.out = true;
     }

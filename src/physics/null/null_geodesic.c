@@ -11,7 +11,7 @@
 struct motion {
     struct kd_null_polar polar;
     struct kd_null_radial radial;
-    struct kd_null_radial_sum start; /* from the observer to the radial reference                          */
+    struct kd_null_radial_sum start; /* sum from the observer to the radial reference */
     double begin, forward;           /* Mino time from the reference is begin + forward tau                */
     double end;                      /* Mino time at which the ray is captured or has escaped              */
 };

@@ -27,8 +27,8 @@ enum { KD_NULL_ORDERS = 32 };
  * E > 0. */
 struct kd_null_ray {
     struct kd_hole hole;
-    double radius;    /* of the observer; outside the horizon, or INFINITY */
-    double cos_theta; /* of the observer: [-1, 1], exact 0 and +-1 included                                */
+    double radius;    /* radius of the observer; outside the horizon, or INFINITY */
+    double cos_theta; /* cos(theta) of the observer: [-1, 1], exact 0 and +-1 included */
     double sin_theta; /* 0: computed from cos_theta, which within 1e-5 of the axis determines it to 1e-6 only */
     double alpha, beta;
     bool outward; /* finite radius only: the traced ray starts outwards, the photon arrives moving inwards */
@@ -43,7 +43,8 @@ enum kd_null_status {
     KD_NULL_BAD_INPUT, /* NaN, or outside the ranges above                                                         */
 };
 
-enum kd_null_fate { KD_NULL_CAPTURED, KD_NULL_ESCAPED }; /* of the traced ray: into the (past) horizon, to infinity */
+/* end of the traced ray: in the (past) horizon, or at infinity */
+enum kd_null_fate { KD_NULL_CAPTURED, KD_NULL_ESCAPED };
 
 /* Crossing n = 0, 1, ... counts back from the observer; a start in the plane does not count.
  *   phi    Boyer-Lindquist, source minus observer, not reduced to a turn. On the axis the observer's azimuth is
@@ -76,7 +77,7 @@ struct kd_null_path {
 /* With a status other than OK, IN_PLANE and CRITICAL there are no crossings and no direction. */
 struct kd_null_path kd_null_trace(const struct kd_null_ray *ray);
 
-/* The same without the errors, which are 0; takes a quarter to a third of the time. */
+/* Like kd_null_trace, without the errors, which are 0; takes a quarter to a third of the time. */
 struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray);
 
 #endif

@@ -32,13 +32,14 @@ struct kd_null_polar {
         sense; /* |cos theta| of the observer; sign of cos theta; sign of lambda, of -alpha on the axis */
     double z, n, s, kappa;
     double cc, nu;
-    bool fixed;                       /* theta does not change: principal null rays, rays in the equatorial plane */
-    bool vortical;                    /* eta < 0 */
-    bool crosses;                     /* the equatorial plane: eta > 0 and not `fixed` */
-    struct kd_null_polar_sum quarter; /* from a turning point to the plane; if vortical, to the other turning point */
-    struct kd_null_polar_sum start;   /* from the turning point at z, the next or the last one, to the observer;
-                                       * negative if it is the next one */
-    double first, first_phi;          /* Mino time and azimuth from the observer to the first crossing             */
+    bool fixed;    /* theta does not change: principal null rays, rays in the equatorial plane */
+    bool vortical; /* eta < 0 */
+    bool crosses;  /* the equatorial plane: eta > 0 and not `fixed` */
+    /* sums from a turning point to the plane, or, if vortical, to the other turning point */
+    struct kd_null_polar_sum quarter;
+    struct kd_null_polar_sum start; /* from the turning point at z, the next or the last one, to the observer;
+                                     * negative if it is the next one */
+    double first, first_phi;        /* Mino time and azimuth from the observer to the first crossing             */
 };
 
 struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m);
@@ -46,7 +47,7 @@ struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m);
 /* z - u^2 and N + a^2 u^2 at the observer, and s = N + a^2 z, each without cancellation. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *s, double *gap, double *weight);
 
-/* Only the Mino time from the observer to the first crossing; INFINITY if there is no crossing. */
+/* Computes only the Mino time from the observer to the first crossing; INFINITY if there is no crossing. */
 double kd_null_polar_first(const struct kd_null_motion *m);
 
 /* Only the Mino time from one crossing to the next; eta > 0. */

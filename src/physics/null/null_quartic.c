@@ -60,7 +60,7 @@ static double least_root(const double *k)
 
 static void finish(struct kd_null_roots *r, double product)
 {
-    if (r->pair == 0) /* such a ray winds for ever; it is replaced by one that does so for some 25 radians */
+    if (r->pair == 0) /* a ray with pair 0 winds for ever; it is replaced by one that winds for some 25 radians */
         r->pair = -1e-22 * r->mean * r->mean;
     r->kind = r->pair >= 0 ? KD_NULL_FOUR_REAL : KD_NULL_TWO_REAL;
     if (r->pair >= 0) { /* mean >= 0 since K >= 0: r4 has no cancellation, and r3 follows from the product */

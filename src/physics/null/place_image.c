@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
-#define FOUND 1e-9 /* of the radius: the search stops */
+#define FOUND 1e-9 /* relative change of the radius at which the search stops */
 #define WRONG 1e-5
 /* Distances from the hole on the sky at which the search starts, in M: from LEAST on in all, and NEAR to FAR close to
  * the critical curve. */

@@ -12,7 +12,7 @@
 #include "physics/spacetime/observer.h"
 
 /* The observer, outside the horizon, at a finite radius or at INFINITY. */
-struct kd_place_view { struct kd_tetrad frame; /* at infinity only its vantage is set */ };
+struct kd_place_view { struct kd_tetrad frame; /* at infinity only the vantage is set */ };
 struct kd_place_view kd_place_view_of(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
 /* alpha, beta: labels of null_geodesic.h. look: NAN at infinity. delay: as in null_geodesic.h. off: distance by

@@ -26,7 +26,7 @@ struct kd_ring_image {
 bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, double inclination, double r,
                         int order);
 
-/* The same without the table, for kd_ring_image_seen only. */
+/* Like kd_ring_image_init, without the table; only for kd_ring_image_seen. */
 struct kd_ring_image kd_ring_image_plain(const struct kd_hole *hole, double inclination, double r, int order);
 
 /* phi, sense: as in struct kd_null_crossing. residual: the last step of Newton's method before it was taken; the

@@ -18,7 +18,7 @@ struct kd_sky_view {
     struct kd_critical edge;
     struct kd_tetrad tetrad;
     double dark;            /* solid angle of the dark disk */
-    double least, greatest; /* g over the visible sky */
+    double least, greatest; /* smallest and largest g over the visible sky */
 };
 
 /* The radius must be finite (otherwise KD_CRITICAL_BAD_INPUT). Takes some 1.5 ms. Relative errors: 1e-9 of `dark`, for

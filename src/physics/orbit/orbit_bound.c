@@ -116,7 +116,7 @@ static void set_radial(struct kd_orbit_bound *b)
 {
     const struct kd_orbit *o = &b->orbit;
     double g[3], *r = b->r;
-    kd_orbit_factor(o, g); /* g0 r^2 + g1 r + g2 = 0 gives the other two roots */
+    kd_orbit_factor(o, g); /* the other two roots are those of g0 r^2 + g1 r + g2 */
     r[0] = 1 / o->w_low, r[1] = 1 / o->w_high;
     r[2] = (sqrt(fmax(g[1] * g[1] - 4 * g[0] * g[2], 0)) - g[1]) / (2 * g[0]);
     r[3] = g[2] / (g[0] * r[2]);
@@ -260,7 +260,7 @@ double kd_orbit_periastron_advance(const struct kd_orbit_bound *b)
 
 double kd_orbit_nodal_advance(const struct kd_orbit_bound *b)
 {
-    if (b->orbit.hole.a == 0) /* the orbital plane is fixed */
+    if (b->orbit.hole.a == 0) /* no precession, because the orbital plane is fixed */
         return 0;
     struct kd_orbit_frequencies f = kd_orbit_frequencies_of(b);
     return 2 * M_PI * (fabs(f.mino_phi) / f.mino_theta - 1);

@@ -20,8 +20,9 @@ struct kd_orbit_bound {
                                           * the rates */
     double h, h_plus, h_minus;
     double pace_z, k_z, k1_z, quarter_z; /* u = sqrt(z) sn(pace lambda | k) */
-    struct kd_orbit_sums half_r, half_z; /* from periastron to apastron; from the equator to a turning point of theta */
-    double phase_r, phase_z;             /* pace times Mino time since periastron and ascending node, at the start */
+    /* sums from periastron to apastron, and from the equator to a turning point of theta */
+    struct kd_orbit_sums half_r, half_z;
+    double phase_r, phase_z; /* pace times Mino time since periastron and ascending node, at the start */
     struct kd_orbit_sums start_r, start_z;
 };
 

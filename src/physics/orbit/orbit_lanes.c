@@ -50,7 +50,7 @@ INLINE void keep_greater(lane *greatest, const lane *x, const mask *where)
     *greatest = (lane)((size & greater) | ((mask)*greatest & ~greater));
 }
 
-/* Same sums as in orbit_path.c, in the same order. */
+/* Has the same sums as orbit_path.c, in the same order. */
 INLINE void radial_force(const struct state *s, const lane *w, const lane *rest, lane *force)
 {
     lane left = (*w - s->w_low) + *rest, right = (s->w_high - *w) - *rest;

@@ -53,7 +53,7 @@ struct kd_orbit_path {
     bool factored, ingoing;
     double g[3];
     struct kd_spring spring[KD_PATH_PLACES];
-    double stiff;                /* of y, if its linear force is repulsive */
+    double stiff;                /* rate of y, if its linear force is repulsive */
     double cc, nu, twist, swing; /* constants of the azimuth; swing: its value at the start */
     double entry_t, entry_phi;   /* ingoing coordinates minus t and phi where the path changed to ingoing coordinates */
     struct kd_exact place[KD_PATH_PLACES]; /* w, y */

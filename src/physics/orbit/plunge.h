@@ -14,7 +14,7 @@
 struct kd_plunge {
     struct kd_hole hole;
     double isco;
-    double energy, momentum; /* of the orbit at the ISCO */
+    double energy, momentum; /* constants of the orbit at the ISCO */
     /* (u^r)^2 = 2/(3 isco) gap^3 (stretch - bend gap), gap = isco/r - 1. Without charge 1 and 0. */
     double stretch, bend;
     double shift; /* bend/stretch */

@@ -74,7 +74,7 @@ static bool find_range(struct kd_orbit *o, double w)
         if (allowed && here) {
             high = next;
             o->w_low = low, o->w_high = high;
-            o->turns_out = low > 0; /* with E = 1 infinity is a root */
+            o->turns_out = low > 0; /* excludes infinity, which is a root for E = 1 */
             o->turns_in = i < n;
             o->circular = touches;
             return true;
@@ -89,8 +89,8 @@ static void set_fate(struct kd_orbit *o)
     if (o->circular) { /* unstable where W has a minimum */
         double w = o->w_low, bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
         double size = fabs(o->w[2]) + w * (3 * fabs(o->w[3]) + w * 6 * fabs(o->w[4]));
-        o->fate = bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* at a triple root `bend` vanishes within
-                                                                          * rounding */
+        o->fate = bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* tolerance: at a triple root `bend`
+                                                                          * vanishes within rounding */
         return;
     }
     o->fate = !o->turns_in ? KD_ORBIT_PLUNGE : o->turns_out ? KD_ORBIT_BOUND : KD_ORBIT_ESCAPE;

@@ -25,7 +25,7 @@ struct kd_orbit {
     struct kd_hole hole;
     double energy, binding;  /* E, and 1 - E^2, which is accurate where E is close to 1 */
     double momentum, carter; /* L and Q */
-    double k, total;         /* K, and L^2 + Q */
+    double k, total;         /* K, and the sum L^2 + Q */
     double w[5];             /* coefficients of W, ascending powers */
     /* Rates of azimuth and time per Mino time: a (2E r - drag)/Delta + L/sin^2 theta and
      * E (r^2 + 2r + four + a^2 u^2) + (near r - 4 a^2 E - nearer)/Delta. */

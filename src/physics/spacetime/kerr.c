@@ -135,7 +135,7 @@ static struct circle circle_of(double a, double r)
 {
     struct circle o = { .x = sqrt(r), .e = 1 - a };
     o.d = (r - 1) / (o.x + 1);
-    o.norm = sqrt(r * o.x * (o.d * o.d * (o.x + 2) - 2 * o.e)); /* zero at the photon orbit */
+    o.norm = sqrt(r * o.x * (o.d * o.d * (o.x + 2) - 2 * o.e)); /* vanishes at the photon orbit */
     return o;
 }
 

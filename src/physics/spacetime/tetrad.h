@@ -51,9 +51,9 @@ int kd_tetrad_is_level(const struct kd_tetrad *frame);
 struct kd_look { double right, up, inwards, energy; };
 struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_covector *photon);
 
-/* The same for light that moves inwards (radial <= 0), in a frame that falls, also at a horizon. polar2: the square
- * of p_theta. It may be negative when continued beyond the visible directions; `up` is then computed from the photon's
- * own p_theta. kd_tetrad_look uses this function where necessary. */
+/* Like kd_tetrad_look, for light that moves inwards (radial <= 0), in a frame that falls, also at a horizon. polar2:
+ * the square of p_theta. It may be negative when continued beyond the visible directions; `up` is then computed from
+ * the photon's own p_theta. kd_tetrad_look uses this function where necessary. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2);
 
 /* The same from the components x = (1, m) of a photon in the rain frame: for a frame that falls, regular at a

@@ -20,7 +20,7 @@ struct kd_worldline_place {
 struct kd_worldline_place kd_worldline_after(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                              double proper_time);
 
-/* False for an observer that has fallen as far as a camera can. */
+/* Returns false for an observer that has fallen as far as a camera can. */
 bool kd_worldline_goes_on(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
 #endif

@@ -12,7 +12,7 @@
 
 #include "physics/spacetime/hole.h"
 
-struct kd_tidal { double hole, mass, radius; /* the hole's mass; the star's mass and radius */ };
+struct kd_tidal { double hole, mass, radius; /* hole: mass of the hole; mass and radius: those of the star */ };
 
 /* r_t = R (M/m)^(1/3) [Hills 1975; Rees 1988]: inside it the hole's tide exceeds the star's gravity. */
 double kd_tidal_radius(struct kd_tidal t);

@@ -7,8 +7,9 @@ enum { PROFILES = KD_PROFILE_REFERENCE + 1 };
 /* Default number of steps of each engine; docs/accuracy.md has the engines' errors. */
 static const struct {
     const char *name;
-    uint32_t steps[2];             /* indexed by precision, for requests without steps and profile */
-    uint32_t profile[2][PROFILES]; /* by precision, for the profiles draft, interactive, balanced, high, reference */
+    uint32_t steps[2]; /* default by precision, for requests without steps and without a profile */
+    /* default by precision, for each of the profiles draft, interactive, balanced, high, reference */
+    uint32_t profile[2][PROFILES];
 } engines[KD_ENGINE_COUNT] = {
     [KD_ENGINE_CLOSED] = { .name = "closed" },
     [KD_ENGINE_MINO_RKN4] = { "mino-rkn4", { 32, 256 }, { { 8, 8, 16, 32, 32 }, { 8, 16, 64, 128, 512 } } },
@@ -30,9 +31,9 @@ uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision)
     return engines[engine].steps[precision];
 }
 
-/* The most steps for which a ray is completed: llvmpipe leaves a kernel's loops silently after 65535 rounds, counted
- * over all loops together. In Mino time a ray takes at most 12 + KD_RAYS_MAX_ORDERS half periods. rays_kerr_schild.comp
- * gives the counts of the Kerr-Schild engines; Tao's has an inner loop. */
+/* The most steps with which every ray is completed: llvmpipe silently ends a kernel's loops after 65535 rounds,
+ * counted over all loops together. In Mino time a ray takes at most 12 + KD_RAYS_MAX_ORDERS half periods.
+ * rays_kerr_schild.comp gives the counts of the Kerr-Schild engines; Tao's has an inner loop. */
 uint32_t kd_engine_most_steps(enum kd_engine engine)
 {
     return engine == KD_ENGINE_KS_TAO6 ? 512 : engine >= KD_ENGINE_KS_EULER ? 1024 : KD_STEPS_MAX;
@@ -45,7 +46,7 @@ enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, stru
                           steps, kd_engine_name(engine), kd_engine_most_steps(engine));
 }
 
-/* The words of a scene's enumerations are "auto", then the names of the values in the order of our enums
+/* The words of a scene's enumeration are "auto" and then the names of the values, in the order of our enums
  * (tests/unit/engine.c). */
 struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene)
 {
@@ -98,7 +99,7 @@ static struct kd_setting by_profile(const struct kd_accuracy_request *asked_accu
     s.precision = asked_accuracy->precision >= 0         ? (enum kd_precision)asked_accuracy->precision
                   : s.engine == KD_ENGINE_CLOSED || fine ? KD_PRECISION_F64
                                                          : KD_PRECISION_F32;
-    /* A precision and an engine that come from the profile, not from the request, may be replaced. */
+    /* A precision or an engine may be replaced if it comes from the profile and not from the request. */
     if (s.precision == KD_PRECISION_F64 && !float64 && asked_accuracy->precision < 0 && asked_accuracy->engine < 0 &&
         !asked_accuracy->steps)
         s.engine = KD_ENGINE_CLOSED;

@@ -11,15 +11,15 @@
 #include <stdint.h>
 
 enum kd_engine {
-    /* elliptic functions: in double precision on the CPU (the reference), or in single precision on the device for rays
-     * outside the photon orbits */
+    /* elliptic functions: on the CPU in double precision (the reference), or, for rays outside the photon orbits, on
+     * the device in single precision */
     KD_ENGINE_CLOSED,
     KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4 */
     KD_ENGINE_MINO_RKN6, /* Mino time on the device: Albrecht's Nystroem method of order 6 */
     KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler */
     KD_ENGINE_KS_RK4,    /* the Kerr-Schild Hamiltonian on the device: classical Runge-Kutta */
-    KD_ENGINE_KS_TAO6,   /* the same Hamiltonian in Tao's extended phase space: Yoshida's order 6. No KS engine gives a
-                          * delay */
+    KD_ENGINE_KS_TAO6,   /* the same Hamiltonian in Tao's extended phase space: Yoshida's method of order 6. Engines
+                          * named KS give no delay */
     KD_ENGINE_COUNT
 };
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
@@ -28,7 +28,7 @@ const char *kd_engine_name(
     enum kd_engine engine); /* "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
 const char *kd_precision_name(enum kd_precision precision); /* "f32", "f64" */
 
-#define KD_STEPS_MAX 2048 /* limit for any engine; some have a lower one */
+#define KD_STEPS_MAX 2048 /* limit of steps for any engine; some engines have a lower one */
 
 /* Default number of steps of an engine. */
 uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision);
@@ -43,38 +43,38 @@ struct kd_accuracy_request {
     int profile;    /* enum kd_profile; -1: none was named */
     int engine;     /* enum kd_engine; -1: any */
     int precision;  /* enum kd_precision; -1: any */
-    uint32_t steps; /* per half period, a multiple of 4; 0: as many as the profile or the engine has */
-    /* largest relative error of the crossing radii, by the table; INFINITY: no tolerance was requested, so the
-     * profile decides */
+    uint32_t steps; /* step number per half period, a multiple of 4; 0: the number of the profile or of the engine */
+    /* largest relative error of the crossing radii according to the table; INFINITY: no tolerance was requested, so
+     * the profile decides */
     double tolerance;
 };
 
 struct kd_setting {
     enum kd_engine engine;
     enum kd_precision precision;
-    uint32_t steps; /* 0 for the closed form */
+    uint32_t steps; /* step number; 0 for the closed form */
     /* relative error of the crossing radii that the table gives for this setting; NaN: no tolerance was requested */
     double holds;
 };
 
-/* The closed form's own error estimate is within this tolerance for 99 of 100 rays (docs/accuracy.md). The closed form
- * is used where no row of the table meets a tolerance. */
+/* The closed form's own error estimate is within this tolerance for 99 of 100 rays (docs/accuracy.md). If no row of
+ * the table meets a tolerance, the closed form is used. */
 #define KD_CLOSED_HOLDS 1e-12
 
 #define KD_WISH_NONE { .profile = -1, .engine = -1, .precision = -1, .tolerance = INFINITY }
 
 struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene);
 
-/* Whether the result depends on the device. False: the closed form can serve the request on any device. */
+/* Whether the request needs a device. If not, the closed form serves it on any device. */
 bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy);
 
-/* Without a tolerance, each of engine, precision and steps that the request does not name comes from the profile;
- * without a profile the setting is the closed form in double precision. With a tolerance, picks the fastest row of
- * the table that meets it, among the permitted engines and precisions; the request must then not name steps.
- * float64: whether the device has double precision. If it has not, a profile that needs double precision falls back
- * to the closed form. A tolerance that no row meets also falls back to it. KD_EINVAL at /accuracy/... for a
- * contradiction, a tolerance that cannot be met, or what this device cannot do. table may be NULL if no tolerance
- * is requested. */
+/* Resolves a request. Without a tolerance, an engine, precision or number of steps that the request does not name
+ * comes from the profile; without a profile the setting is the closed form in double precision. With a tolerance,
+ * the function picks the fastest row of the table that meets it, among the permitted engines and precisions; the
+ * request must then not name steps. The closed form is used if no row meets the tolerance, and if a profile needs
+ * double precision that the device lacks. float64: whether the device has double precision. Returns KD_EINVAL at
+ * /accuracy/... for a contradiction, a tolerance that cannot be met, or a setting that this device does not support.
+ * table may be NULL if no tolerance is requested. */
 enum kd_status kd_setting_of(const struct kd_accuracy_request *asked_accuracy, const struct kd_accuracy_table *table,
                              bool float64, struct kd_setting *out, struct kd_error *error);
 

@@ -11,7 +11,7 @@
 
 #define FORMAT 1 /* version of the document; a table of another version is measured again */
 
-/* Writes four digits: further digits vary from run to run. */
+/* Writes a number with four digits, because further digits vary from run to run. */
 static void add_figure(struct kd_json *json, const char *name, double value)
 {
     char text[32];
@@ -49,7 +49,8 @@ static void add_row(struct kd_json *json, const struct kd_accuracy_table *table,
     kd_json_string(json, "engine", kd_engine_name(row->engine));
     kd_json_string(json, "precision", kd_precision_name(row->precision));
     kd_json_number(json, "steps", row->steps);
-    add_figure(json, "holds", kd_accuracy_holds(row)); /* for readers; derived from the row's other numbers */
+    /* written for readers only; it is derived from the row's other numbers */
+    add_figure(json, "holds", kd_accuracy_holds(row));
     kd_json_object(json, "sets");
     for (int k = 0; k < KD_ACCURACY_SETS; k++)
         if (row->sets[k].rays)
@@ -94,8 +95,8 @@ static double figure(const cJSON *object, const char *name)
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
-/* Reads a whole number of the document. Anything else, or a number that is too large, gives UINT32_MAX, which no reader
- * accepts. */
+/* Reads a whole number of the document. Anything else, or a number that is too large, becomes UINT32_MAX, which no
+ * reader accepts. */
 static uint32_t whole(const cJSON *object, const char *name)
 {
     double value = figure(object, name);

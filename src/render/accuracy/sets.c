@@ -74,7 +74,7 @@ static bool is_near_critical(const struct kd_critical *curve, const double *ray)
     return fabs(hypot(x, y) / kd_critical_at(curve, atan2(y, x)).rho - 1) < NEAR;
 }
 
-/* The next point of the sequence outside the near-critical set; advances *k. */
+/* Gets the next point of the sequence that lies outside the near-critical set; advances *k. */
 static void anywhere(const struct kd_critical *curve, size_t *k, double *out)
 {
     do {

@@ -1,14 +1,13 @@
-/* Named, fixed sets of rays on which engines are compared, so that tables of different days and devices are
- * comparable.
+/* Named, fixed sets of rays on which engines are compared, so that tables of different days and devices are comparable.
  *
  * A set has one or more views; a view is one hole seen by one observer at infinity. Positions come from a
- * low-discrepancy sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples
- * of 1/g and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. Positions are not
- * rounded: if an engine rounds them to single precision, that counts as the engine's error.
+ * low-discrepancy sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples of
+ * 1/g and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. Positions are not rounded:
+ * if an engine rounds them to single precision, that counts as the engine's error.
  *
- * Rays within 5 % of the critical curve, which have all crossings of order 2, belong to the near-critical set only.
- * There the error of any method is that of the arithmetic times a condition number of hundreds. rho is measured
- * from the centre of physics/null/critical.h. Pure; any thread. */
+ * Rays within 5 % of the critical curve belong to the near-critical set only. All crossings of order 2 are among
+ * them. There the error of any method is the error of the arithmetic times a condition number of several hundred.
+ * rho is measured from the centre of physics/null/critical.h. Pure; any thread. */
 #ifndef KD_RENDER_ACCURACY_SETS_H
 #define KD_RENDER_ACCURACY_SETS_H
 
@@ -17,7 +16,7 @@
 
 enum kd_accuracy_set {
     KD_ACCURACY_BULK,          /* a = 0.9, i = 70, +-12 M */
-    KD_ACCURACY_NEAR_CRITICAL, /* the same view, |rho/rho_c - 1| = 5e-2 ... 5e-6 in turn, inside and outside */
+    KD_ACCURACY_NEAR_CRITICAL, /* the same view, with |rho/rho_c - 1| from 5e-2 to 5e-6 in turn, inside and outside */
     KD_ACCURACY_NEAR_AXIS,     /* a = 0.9: i = 0.001 degrees, +-12 M; i = 70, alpha = 0, +-1e-12 ... +-1e-2 */
     KD_ACCURACY_EDGE_ON,       /* a = 0.9: i = 90 and 89.99, +-12 M */
     KD_ACCURACY_NEAR_EXTREMAL, /* a = 0.9999, i = 70, +-12 M */
@@ -25,7 +24,7 @@ enum kd_accuracy_set {
 };
 
 extern const char *const kd_accuracy_set_names[KD_ACCURACY_SETS]; /* "bulk", "near-critical", ... */
-extern const char *const kd_accuracy_set_rays[KD_ACCURACY_SETS];  /* the rays in words */
+extern const char *const kd_accuracy_set_rays[KD_ACCURACY_SETS];  /* description of each set's rays in words */
 
 struct kd_accuracy_view { double spin, inclination_deg; };
 #define KD_ACCURACY_VIEWS 2 /* maximum number of views in a set */

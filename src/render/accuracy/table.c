@@ -31,7 +31,7 @@ static enum kd_status refuse(const struct kd_accuracy_table *table, const struct
         return kd_error_field(error, "/accuracy/tolerance",
                               "the accuracy table of this device has no reliable row for this request; `kerrd bench "
                               "accuracy` makes a new table");
-    /* The number is rounded up, so that a request for the printed number succeeds. */
+    /* Rounded up, so that a request for the printed number succeeds. */
     return kd_error_field(
         error, "/accuracy/tolerance",
         "tolerance is %.3g; %s reaches %.3g at best (%s %s with %u steps); the engine \"closed\", the reference of "

@@ -14,12 +14,12 @@
 #include "render/accuracy/engine.h"
 
 #define KD_ACCURACY_ORDERS 3
-#define KD_ACCURACY_FAR 1e3 /* M: w = 1/r has an absolute error, so the relative error of r grows as r */
+#define KD_ACCURACY_FAR 1e3 /* M: w = 1/r has an absolute error, so the relative error of r is proportional to r */
 #define KD_ACCURACY_ROWS 64
-/* The tolerance that a row meets: the 99th percentile of the error over the crossings of the bulk set, or the median
- * of any other set if that is larger, because few steps lose more edge-on. The near-critical set is left out, since
- * no number of steps helps there. This is only the first choice: in a list of rays, those whose own error exceeds
- * the tolerance are followed again (rays/hold.h). */
+/* The tolerance that a row meets: the 99th percentile of the error over the crossings of the bulk set, or the
+ * largest median of the other sets if that is larger, because few steps lose more accuracy edge-on. The
+ * near-critical set is left out, since more steps do not help there. The table gives only the first choice: in a
+ * list of rays, each ray whose own error exceeds the tolerance is traced again (rays/hold.h). */
 /* a row meets no tolerance if more than this fraction of rays differ in one of these sets */
 #define KD_ACCURACY_STRAY 0.01
 
@@ -29,13 +29,13 @@ extern const char *const kd_accuracy_quantity_names[KD_ACCURACY_QUANTITIES]; /* 
 struct kd_accuracy_errors { double median, p99, worst; }; /* NaN: the engine has no such quantity */
 
 struct kd_accuracy_entry {
-    double rays_per_s; /* by the device's clock; by the host's if the device has none */
+    double rays_per_s; /* by the device's clock, or by the host's if the device has none */
     uint32_t rays, crossings, differ;
     struct kd_accuracy_errors of[KD_ACCURACY_QUANTITIES];
 };
 
 struct kd_accuracy_row {
-    enum kd_engine engine; /* for KD_ENGINE_CLOSED the row has only a speed, on one core of the host */
+    enum kd_engine engine; /* the row of KD_ENGINE_CLOSED has only a speed, on one core of the host */
     enum kd_precision precision;
     uint32_t steps;
     struct kd_accuracy_entry sets[KD_ACCURACY_SETS];
@@ -44,11 +44,11 @@ struct kd_accuracy_row {
 struct kd_accuracy_table {
     char version[32], date[32]; /* version of kerrd; date in UTC, ISO 8601 */
     char command[256];
-    char machine[256], device[800]; /* the processor and system; the Vulkan device with its driver */
-    char skipped[400];              /* limits of this device, in words; "" if there are none */
+    char machine[256], device[800]; /* machine: processor and system; device: the Vulkan device with its driver */
+    char skipped[400];              /* tests that this device's limits exclude, in words; "" if there are none */
     uint32_t cores;                 /* cores that the device computes on; 0 if it is not a CPU */
     bool device_clock, quick;
-    double seconds; /* device time of one speed measurement; less if a million rays take less */
+    double seconds; /* device time of one measurement of speed; shorter if a million rays take less */
     uint32_t n;
     struct kd_accuracy_row rows[KD_ACCURACY_ROWS];
 };
@@ -57,29 +57,30 @@ struct kd_accuracy_choice {
     enum kd_engine engine;
     enum kd_precision precision;
     uint32_t steps;
-    double error, rays_per_s; /* the tolerance that the row meets; its speed on the bulk set */
+    double error, rays_per_s; /* error: the tolerance that the row meets; rays_per_s: its speed on the bulk set */
 };
 
 /* The tolerance that a row meets; INFINITY if none. */
 double kd_accuracy_holds(const struct kd_accuracy_row *row);
 
-/* The fastest row within the limits (NULL: any) that meets a relative error of the crossing radius. If none does,
- * KD_EINVAL at "/accuracy/tolerance"; the message states the best that this device can meet. */
+/* Finds the fastest row within the limits (NULL: any row) that meets a relative error of the crossing radius. If no
+ * row does, returns KD_EINVAL at "/accuracy/tolerance"; the message states the best error that this device can meet. */
 struct kd_accuracy_limits { int engine, precision; /* -1: any */ };
 enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double tolerance,
                                   const struct kd_accuracy_limits *limits, struct kd_accuracy_choice *out,
                                   struct kd_error *error);
 
-/* The table used for tolerances until this device has a table of its own. It is that of llvmpipe, from bench/results:
- * errors hardly depend on the device, speeds do. Any thread; never freed; NULL if out of memory. */
+/* The table used for tolerances until this device has its own. It was measured on llvmpipe and comes from
+ * bench/results: errors hardly depend on the device, speeds do. Any thread; never freed; NULL if out of memory. */
 const struct kd_accuracy_table *kd_accuracy_built_in(void);
 
-/* The first appends the document of GET /v1/accuracy. The second reads it back, with KD_EINVAL for any other text. */
+/* kd_accuracy_to_json appends the document of GET /v1/accuracy. The other function reads it back, and returns
+ * KD_EINVAL for any other text. */
 enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct kd_buffer *out);
 enum kd_status kd_accuracy_from_json(const char *text, size_t length, struct kd_accuracy_table *out,
                                      struct kd_error *error);
 
-/* Markdown: the machine, then one table for each set. */
+/* Writes Markdown: the machine, then one table for each set. */
 enum kd_status kd_accuracy_to_markdown(const struct kd_accuracy_table *table, struct kd_buffer *out);
 
 #endif

@@ -1,4 +1,4 @@
-/* Stores the accuracy table of a device on disk, beside its pipeline cache. A new driver gets a new table. */
+/* Stores the accuracy table of a device on disk, beside the device's pipeline cache. A new driver gets a new table. */
 #ifndef KD_RENDER_DEVICE_ACCURACY_STORE_H
 #define KD_RENDER_DEVICE_ACCURACY_STORE_H
 
@@ -11,11 +11,11 @@ char *kd_accuracy_path(const struct kd_renderer *renderer);
 /* Replaces the stored table atomically. */
 enum kd_status kd_accuracy_save(const struct kd_accuracy_table *table, const char *path, struct kd_error *error);
 
-/* KD_EIO if the file is missing or cannot be read, KD_EINVAL if it is damaged or of another format; the message
- * says how to make a table. path may be NULL. Any thread. */
+/* Returns KD_EIO if the file is missing or cannot be read, and KD_EINVAL if it is damaged or has another format; the
+ * message says how to make a table. path may be NULL. Any thread. */
 enum kd_status kd_accuracy_load(const char *path, struct kd_accuracy_table *out, struct kd_error *error);
 
-/* Appends the document of GET /v1/accuracy; errors as kd_accuracy_load. Any thread. */
+/* Appends the document of GET /v1/accuracy. Errors are those of kd_accuracy_load. Any thread. */
 enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out,
                                          struct kd_error *error);
 

@@ -10,7 +10,7 @@ static struct kd_asset_request *asked(struct kd_asset_reader *reader, const char
     return NULL;
 }
 
-/* The bytes of a hash never change, so an invalid asset stays invalid. A missing file may come back. */
+/* The bytes of a hash never change, so an invalid asset stays invalid. A missing file may appear again. */
 static bool is_invalid(const struct kd_asset_reader *reader, const char *of)
 {
     return reader->invalid && !strcmp(reader->broken, of);
@@ -21,7 +21,7 @@ static bool is_cached(struct kd_asset_reader *reader, const struct kd_asset_requ
     return reader->maker->is_cached(reader->owner, request);
 }
 
-/* Makes the first thing that is requested. Called with the lock, which is released meanwhile. */
+/* Makes the first object that is requested. Called with the lock, which is released meanwhile. */
 static void make_first(struct kd_asset_reader *reader)
 {
     struct kd_asset_request request = reader->asked[0];
@@ -31,7 +31,7 @@ static void make_first(struct kd_asset_reader *reader)
     pthread_mutex_unlock(&reader->lock);
     const enum kd_status status = reader->maker->make(reader->owner, &request, &invalid, &why);
     pthread_mutex_lock(&reader->lock);
-    request = reader->asked[0]; /* `ahead` may have changed meanwhile */
+    request = reader->asked[0]; /* `ahead` may have changed while the lock was released */
     if (!status) {
         reader->maker->keep(reader->owner, &request);
     } else if (!request.ahead) {
@@ -87,15 +87,16 @@ bool kd_asset_reader_begin(struct kd_asset_reader *reader, const struct kd_asset
 enum kd_status kd_asset_reader_wait(struct kd_asset_reader *reader, const struct kd_asset_request *request,
                                     struct kd_error *error)
 {
-    if (!is_invalid(reader, request->of) && !strcmp(reader->broken, request->of)) /* other failures are tried again */
+    if (!is_invalid(reader, request->of) && !strcmp(reader->broken, request->of)) /* after any other failure the
+                                                                                   * request may be tried again */
         *reader->broken = 0;
     while (!is_cached(reader, request) && strcmp(reader->broken, request->of)) {
         if (kd_asset_reader_begin(reader, request) || reader->runs) {
             pthread_cond_wait(&reader->changed, &reader->lock);
             continue;
         }
-        reader->asked[reader->n_asked++] = *request; /* there is no thread here, so the list is empty */
-        reader->runs = true;                         /* this call runs in place of the thread */
+        reader->asked[reader->n_asked++] = *request; /* without a thread the list is empty */
+        reader->runs = true;                         /* the calling thread does the work of the missing thread */
         while (reader->n_asked)
             make_first(reader);
         reader->runs = false;

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 4096 }; /* numbers in the file; the oldest are dropped first */
+enum { MOST = 4096 }; /* most numbers in the file; the oldest are dropped first */
 
 static uint64_t number_of(const struct kd_kernel_request *w, uint64_t folder)
 {
@@ -62,7 +62,7 @@ void kd_compiled_add(const struct kd_renderer *r, const struct kd_kernel_request
             status = kd_buffer_append(&numbers, &number, sizeof number);
     }
     const size_t most = MOST * sizeof(uint64_t), skip = numbers.size > most ? numbers.size - most : 0;
-    if (path && numbers.size && !status) /* if the file cannot be written, only time is lost */
+    if (path && numbers.size && !status) /* a failure is ignored: without the file only time is lost */
         kd_replace_file(path, numbers.data + skip, numbers.size - skip);
     kd_buffer_finish(&numbers);
     free(path);

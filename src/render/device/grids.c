@@ -10,7 +10,7 @@
 #include <string.h>
 
 struct own {
-    struct kd_grids *all; /* of the renderer; set by the first `prepare` */
+    struct kd_grids *all; /* grids of the renderer; set by the first `prepare` */
     struct kd_vk_buffer *nodes;
     char of[KD_ASSET_NAME]; /* hash of the asset whose grid is uploaded */
     bool there;             /* whether a grid is uploaded */
@@ -66,7 +66,7 @@ static void free_nodes(struct kd_grids *all, int n)
     }
 }
 
-/* The slot for a grid: its own, or that of the least recently used description without nodes. */
+/* Finds the slot for a grid: the grid's own slot, or that of the least recently used description without nodes. */
 static struct kd_cached_grid *slot_of(struct kd_grids *all, const char *hash)
 {
     struct kd_cached_grid *oldest = cached(all, hash);
@@ -116,7 +116,7 @@ bool kd_grid_begin(struct kd_grids *all, const struct kd_scene *scene)
     return in_progress;
 }
 
-/* Copies the description of the scene's grid, and moves its nodes and places to *out if they are requested; the caller
+/* Copies the description of the scene's grid. If nodes and places are requested, moves them to *out, and the caller
  * frees them. Waits for the grid if necessary. Render thread only. */
 static enum kd_status take_grid(struct kd_grids *all, const struct kd_scene *scene, bool nodes,
                                 struct kd_matter_grid *out, struct kd_error *error)
@@ -142,7 +142,7 @@ static enum kd_status take_grid(struct kd_grids *all, const struct kd_scene *sce
     return status;
 }
 
-/* Notes that a grid is on the device, so that its nodes need not stay on the host. */
+/* Records that a grid is on the device, so that its nodes are no longer needed on the host. */
 static void note_uploaded(struct kd_grids *all, const char *hash)
 {
     pthread_mutex_lock(&all->reader.lock);
@@ -208,7 +208,7 @@ done:
     return status;
 }
 
-/* Sets the location of the grid's nodes, and the range of radii common to scene and grid. */
+/* Sets the location of the grid's nodes, and the range of radii that scene and grid have in common. */
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
                            size_t size, struct kd_error *error)
 {

@@ -19,7 +19,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-/* Working set of one kd_render_in_background. Its lens maps stay cached for other pictures until their memory is
+/* Working set of one kd_render_in_background. Its lens maps stay cached for other pictures until the memory is
  * needed. */
 struct kd_background_render {
     struct kd_store store;
@@ -49,29 +49,30 @@ struct kd_renderer {
         enum kd_precision precision;
         uint32_t steps, orders, size;
     } rays_pace;
-    bool passing; /* this member and the next two have the meaning of those in kd_renderer_params */
+    bool passing; /* passing and the next two members have the meaning that they have in kd_renderer_params */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
-    struct kd_emit_state *emit; /* numbers and tables of the emitters, as of the last frame */
+    struct kd_emit_state *emit; /* numbers and tables of the emitters, as the last frame left them */
     struct kd_panoramas panoramas;
     struct kd_grids grids;
     struct kd_normalised normalised;
     pthread_mutex_t lock;        /* guards capacity and memory */
-    struct kd_capacity capacity; /* not reduced to the host's limit, which kd_renderer_capacity applies */
+    struct kd_capacity capacity; /* capacity without the host's limit, which kd_renderer_capacity applies */
     struct kd_memory_watch memory;
-    _Atomic uint64_t held; /* bytes of device buffers, as of the last frame */
+    _Atomic uint64_t held; /* bytes of device buffers after the last frame */
     _Atomic uint64_t kept_bytes[KD_N_CACHE_KINDS];
     _Atomic uint64_t opened_bytes;                /* bytes that were resident after the device was last opened */
-    _Atomic uint64_t started_bytes, started_heap; /* after the device was first opened: bytes resident; bytes of the
-                                                   * heap in use */
+    _Atomic uint64_t started_bytes, started_heap; /* values after the device was first opened: resident bytes, and
+                                                   * heap bytes in use */
     struct kd_accuracy_table *accuracy; /* accuracy table of this device, as on disk when the renderer was created;
                                          * NULL: none */
     struct kd_verdict verdict;
-    struct kd_capacity stored;       /* as stored in the file */
-    struct kd_slice_pace slice_pace; /* of the pictures that let others have the device */
-    uint32_t frames;                 /* number of frames so far, as learn.c counts them */
-    bool probing;                    /* a pass costs the smallest of the measured costs instead of their mean */
-    char name[800];                  /* the next two, joined */
+    struct kd_capacity stored;       /* capacity as it is stored in the file */
+    struct kd_slice_pace slice_pace; /* pace of pictures that release the device between slices */
+    uint32_t frames;                 /* number of frames so far, counted by learn.c */
+    /* the cost of a pass is the smallest of the measured costs instead of their mean */
+    bool probing;
+    char name[800]; /* the next two members, joined */
     char device[256], driver[520];
 };
 

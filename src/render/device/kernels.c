@@ -67,7 +67,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MAKERS = 4 }; /* threads that make kernels concurrently, at most */
+enum { MAKERS = 4 }; /* largest number of threads that make kernels concurrently */
 
 #define KD_STORED_words 1
 #define KD_STORED_pairs 1
@@ -89,7 +89,7 @@ _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + (0 KD_
 #define KD_KIND_stored KD_VK_STORAGE
 #define KD_KIND_quads KD_VK_STORAGE
 #define KD_KIND_quad_texels KD_VK_TEXELS_QUAD
-/* The bindings of a kernel of light that reads what it can as storage. */
+/* The bindings of a kernel of light. It reads data as storage buffers where that is possible. */
 #define STORED_KINDS \
     { [1] = KD_VK_UNIFORM, \
       [2] = KD_VK_TEXELS_RGBA, \
@@ -366,7 +366,7 @@ static void request_kernel(struct kd_kernels *kernels, const struct kd_vk_pipeli
             return;
     struct kd_kernel_entry *known = find(kernels, source, key);
     if (known)
-        known->used = ++kernels->clock; /* otherwise the kernel might be evicted, and be made again for each frame */
+        known->used = ++kernels->clock; /* updated so that the kernel is not evicted and made again for each frame */
     if (known || all->n == KD_KERNEL_WISHES || all->n == room_of(kernels))
         return;
     struct kd_kernel_request *w = &all->at[all->n++];
@@ -379,7 +379,7 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
                                  const struct kd_vk_pipeline **out, struct kd_error *error)
 {
     uint32_t key[KD_KERNEL_MAX_CONSTANTS] = { 0 };
-    for (size_t i = 0; i < n; i++) /* constants is NULL when there are none */
+    for (size_t i = 0; i < n; i++) /* constants is NULL if there are none */
         key[i] = constants[i];
     *out = NULL;
     if (kernels->noting) {
@@ -416,7 +416,7 @@ struct makers {
 static void *make_wishes(void *user)
 {
     struct makers *m = user;
-    struct kd_error error = { 0 }; /* the next kd_kernels_get reports it */
+    struct kd_error error = { 0 }; /* ignored here, because the next kd_kernels_get reports the error */
     size_t i;
     while ((i = atomic_fetch_add(&m->next, 1)) < m->wishes->n) {
         struct kd_kernel_request *w = &m->wishes->at[i];
@@ -426,8 +426,8 @@ static void *make_wishes(void *user)
     return NULL;
 }
 
-/* Sorts by SPIR-V length, longest first. The longest takes longest: started last, it would keep one thread busy while
- * the others are idle. */
+/* Sorts by SPIR-V length, longest first. The longest kernel takes longest: if it were started last, one thread would
+ * work on it while the others are idle. */
 static int longer_first(const void *a, const void *b)
 {
     const size_t x = ((const struct kd_kernel_request *)a)->source->spirv_bytes,
@@ -452,7 +452,7 @@ void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk
     while (n < MAKERS - 1 && n + 1 < (size_t)processors && n + 1 < wishes->n &&
            !pthread_create(&threads[n], NULL, make_wishes, &m))
         n++;
-    make_wishes(&m); /* this thread takes part, and works alone if no thread could be created */
+    make_wishes(&m); /* this thread takes part, and works alone if no other thread could be created */
     for (size_t i = 0; i < n; i++)
         pthread_join(threads[i], NULL);
 }

@@ -9,17 +9,17 @@ enum kd_kernel {
     KD_KERNEL_LENS_CLOSED,
     KD_KERNEL_LENS_MAP,
     KD_KERNEL_FOOTPRINT,
-    KD_KERNEL_FOOTPRINT_TEXELS, /* the footprint kernel, reading the lens map as texels */
+    KD_KERNEL_FOOTPRINT_TEXELS, /* the footprint kernel; it reads the lens map as texels */
     KD_KERNEL_LENS_CELLS,
     KD_KERNEL_LENS_FILL,
-    KD_KERNEL_LENS_FILL_TEXELS, /* the fill kernel, reading nodes as texels */
+    KD_KERNEL_LENS_FILL_TEXELS, /* the fill kernel; it reads nodes as texels */
     KD_KERNEL_BETWEEN,
     KD_KERNEL_SETTLE,
     KD_KERNEL_RAYS_F32,
     KD_KERNEL_RAYS_F64,
     KD_KERNEL_RAYS_KS_F32,
     KD_KERNEL_RAYS_KS_F64,
-    KD_KERNEL_RAYS_TRACE_F32, /* the four kernels of rays above, which also record each step */
+    KD_KERNEL_RAYS_TRACE_F32, /* the four kernels of rays above, in variants that also record each step */
     KD_KERNEL_RAYS_TRACE_F64,
     KD_KERNEL_RAYS_KS_TRACE_F32,
     KD_KERNEL_RAYS_KS_TRACE_F64,
@@ -30,8 +30,9 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES,
     KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
-    KD_KERNEL_TRANSFER_TEXELS, /* the transfer kernel, reading texels */
-    KD_KERNEL_TRANSFER_PROBE,  /* for a single ray, with a report of each emitter; the next one: through volumes */
+    KD_KERNEL_TRANSFER_TEXELS, /* the transfer kernel; it reads texels */
+    /* transfer kernel for a single ray, with a report of each emitter; the next one is for rays through volumes */
+    KD_KERNEL_TRANSFER_PROBE,
     KD_KERNEL_MARCH_PROBE,
     KD_KERNEL_LAYERS,
     KD_KERNEL_MARCH,        /* the transfer and layers kernels for scenes with volumes */
@@ -39,7 +40,7 @@ enum kd_kernel {
     KD_KERNEL_LAYERS_MARCH,
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,
-    KD_KERNEL_BLOOM_BRIGHT, /* each bloom and beam kernel is followed by its variant that reads texels */
+    KD_KERNEL_BLOOM_BRIGHT, /* each bloom and beam kernel is followed by its variant for texels */
     KD_KERNEL_BLOOM_BRIGHT_TEXELS,
     KD_KERNEL_BLOOM_GATHER,
     KD_KERNEL_BLOOM_GATHER_TEXELS,
@@ -56,7 +57,7 @@ enum kd_kernel {
     KD_KERNEL_BEAM_SPREAD,
     KD_KERNEL_BEAM_SPREAD_TEXELS,
     KD_KERNEL_POST,
-    KD_KERNEL_POST_TEXELS, /* the kernel before, reading texels; kd_kernel_post chooses */
+    KD_KERNEL_POST_TEXELS, /* the variant of the kernel above for texels; kd_kernel_post chooses */
     KD_KERNEL_POST_BLOOM,
     KD_KERNEL_POST_BLOOM_TEXELS,
     KD_KERNEL_POST_HEAT,
@@ -89,15 +90,15 @@ struct kd_kernel_requests {
 };
 struct kd_kernels {
     struct kd_kernel_entry entries[KD_KERNELS_KEPT];
-    size_t limit; /* number of entries in use; 0: all. A test sets it before the first request */
+    size_t limit; /* number of entries that may be used; 0: all. A test sets it before the first request */
     uint64_t clock;
     bool noting;
     struct kd_kernel_requests wishes;
     uint64_t noted; /* value of the clock when the latest noted kernels were made */
 };
 
-/* The pipeline of a kernel with specialisation constants 0..n-1; if the cache is full, the least recently used one
- * is evicted. */
+/* Gets the pipeline of a kernel with specialisation constants 0..n-1. If the cache is full, the least recently used
+ * pipeline is evicted. */
 enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum kd_kernel kernel,
                               const uint32_t *constants, size_t n, const struct kd_vk_pipeline **out,
                               struct kd_error *error);
@@ -105,23 +106,24 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
 enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
                                  const struct kd_vk_pipeline_params *source, const uint32_t *constants, size_t n,
                                  const struct kd_vk_pipeline **out, struct kd_error *error);
-/* kd_kernels_note starts recording: kd_kernels_get then makes no kernel but notes missing ones, up to
- * KD_KERNEL_WISHES, and sets *out to NULL. kd_kernels_make ends recording and makes the noted kernels on as many
- * threads as there are processors, at most four. A kernel that fails is left to the next kd_kernels_get, which
- * reports the error. */
+/* kd_kernels_note starts recording: from then on kd_kernels_get only notes missing kernels, up to KD_KERNEL_WISHES,
+ * and sets *out to NULL. kd_kernels_make ends recording and makes the noted kernels on one thread for each
+ * processor, at most four. If a kernel fails, the next kd_kernels_get reports its error. */
 void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
-/* kd_kernels_make in three steps: ends recording and hands out the noted kernels; makes them; adds them to the
- * cache. The second may run on any thread while another one uses the device, as long as the device stays open. */
+/* kd_kernels_make in three steps. The first ends recording and returns the noted kernels; the second makes them; the
+ * third adds them to the cache. The second may run on any thread while another thread uses the device, as long as
+ * the device stays open. */
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
 void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);
-/* Whether a device reads the radiance of this many pixels as texels of four floats. Software devices take a third of
- * the time for texels, but differ in how many they bind. */
+/* Whether a device reads the radiance of this many pixels as texels of four floats. Software devices read texels in
+ * a third of the time, but differ in how many they can bind. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
-/* like kd_kernels_texels, for this many bytes of any data */
+/* like kd_kernels_texels, for this number of bytes of any data */
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes);
-/* like kd_kernels_texels, for any lens map, with one number a texel: software devices take less than half the time */
+/* like kd_kernels_texels, for any lens map, with one number in each texel: software devices take less than half the
+ * time */
 bool kd_kernels_map_as_texels(const struct kd_vk *vk);
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);
 static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
@@ -131,9 +133,10 @@ static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)
                     : KD_KERNEL_POST) +
            (texels ? 1 : 0);
 }
-/* Keeps the n most recently used kernels. */
+/* Keeps the n most recently used kernels and destroys the others. */
 void kd_kernels_rest(struct kd_kernels *kernels, struct kd_vk *vk, size_t n);
-/* All cached kernels, up to KD_KERNEL_WISHES, to be made again on another device (kd_kernel_requests_make). */
+/* Lists all cached kernels, up to KD_KERNEL_WISHES, so that kd_kernel_requests_make can make them again on another
+ * device. */
 void kd_kernels_list(const struct kd_kernels *kernels, struct kd_kernel_requests *out);
 uint64_t kd_kernels_spirv_bytes(const struct kd_kernels *kernels); /* size of the cached kernels' SPIR-V */
 void kd_kernels_finish(struct kd_kernels *kernels, struct kd_vk *vk);

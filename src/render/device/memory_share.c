@@ -2,7 +2,7 @@
 
 void kd_memory_narrow(struct kd_capacity *capacity, const struct kd_memory_limit *host, uint64_t held)
 {
-    /* device buffers count as far as they are resident: pages that were never written to are not memory in use yet */
+    /* only the resident part of device buffers counts, because pages that were never written use no memory yet */
     uint64_t reused = held < host->own ? held : host->own;
     uint64_t left = host->left > UINT64_MAX - reused ? UINT64_MAX : host->left + reused;
     uint64_t most = kd_memory_main(left / 4 * 3);

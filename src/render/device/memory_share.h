@@ -1,23 +1,23 @@
-/* Memory limit for pictures: the minimum of what the device has, what --memory allows, and, if the device uses host
- * memory, what the host has left. */
+/* Memory limit for pictures: the minimum of the device's memory, the --memory option and, if the device uses host
+ * memory, the memory that the host has left. */
 #ifndef KD_RENDER_DEVICE_MEMORY_SHARE_H
 #define KD_RENDER_DEVICE_MEMORY_SHARE_H
 
 #include "base/memory_limit.h"
 #include "render/plan/plan.h"
 
-/* Pictures are planned with two thirds of their memory limit. Large pictures that are rendered concurrently share
- * that; a third remains for small ones and for caches (server/render/queue.h, frame/frame.c). Pure. */
+/* Pictures are planned for two thirds of the memory limit. Large pictures that are rendered concurrently share
+ * these; the last third is for small pictures and for caches (server/render/queue.h, frame/frame.c). Pure. */
 static inline uint64_t kd_memory_main(uint64_t all) { return all / 3 * 2; }
 
-/* Reduces a capacity to what the host has left. If device memory is host memory, pictures get three quarters of
- * what is left, from which frames on their way to a file or client are taken as well; the rest is for finished
- * frames, bodies and responses. If the device has its own memory, only the frames are in host memory. held: bytes
- * of device buffers that the process has already, which the next picture reuses. Pure. */
+/* Reduces a capacity to what the host has left. If device memory is host memory, pictures get three quarters of what
+ * is left; frames on their way to a file or client are taken from that as well. The last quarter is for finished
+ * frames, bodies and responses. If the device has its own memory, only the frames are in host memory. held: bytes of
+ * the process's device buffers, which the next picture reuses. Pure. */
 void kd_memory_narrow(struct kd_capacity *capacity, const struct kd_memory_limit *host, uint64_t held);
 
-/* The host's limit, at most KD_MEMORY_FRESH_MS old; if it cannot be read for lack of descriptors, the last known
- * one. One thread at a time. Initialise with zeros. */
+/* Gets the host's limit, at most KD_MEMORY_FRESH_MS old. If it cannot be read for lack of descriptors, the last
+ * known limit is returned. One thread at a time. Initialise with zeros. */
 #define KD_MEMORY_FRESH_MS 250.0
 struct kd_memory_watch {
     struct kd_memory_limit limit;

@@ -1,4 +1,4 @@
-/* Cache of the most recent densities found for given fluxes (frame/normalise.h). Only the thread that has the
+/* Cache of the latest densities that were found for given fluxes (frame/normalise.h). Only the thread that owns the
  * renderer. */
 #ifndef KD_RENDER_DEVICE_NORMALISED_H
 #define KD_RENDER_DEVICE_NORMALISED_H
@@ -7,7 +7,7 @@
 
 enum { KD_NORMALISED = 16 };
 
-/* hash: hash of everything in the scene that the flux depends on, and of the flux. matter: the same hash without the
+/* hash: hash of the flux and of everything in the scene on which the flux depends. matter: the same hash without the
  * camera and the picture's shape. */
 struct kd_normal {
     char hash[65], matter[65];

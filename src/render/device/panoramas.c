@@ -82,15 +82,16 @@ static enum kd_status make(void *owner, const struct kd_asset_request *request, 
                          : make_new(all->assets, request, out, invalid, error);
 }
 
-/* Whether `a` is evicted before `b`: panoramas that were not delivered go last, because somebody waits for them. */
+/* Whether `a` is evicted before `b`. Panoramas that were not delivered yet are evicted last, because a client waits
+ * for them. */
 static bool goes_before(const struct kd_panorama *a, const struct kd_panorama *b)
 {
     const bool promised = *a->of && !a->shown, other = *b->of && !b->shown;
     return promised != other ? !promised : a->used < b->used;
 }
 
-/* Evicts the least recently used panorama. This precedes making a new one, so that memory never holds more than
- * KD_PANORAMAS. */
+/* Evicts the least recently used panorama, before a new one is made, so that there are never more than KD_PANORAMAS
+ * in memory. */
 static void make_room(void *owner)
 {
     struct kd_panoramas *all = owner;
@@ -123,7 +124,7 @@ static void keep(void *owner, const struct kd_asset_request *request)
     all->fresh = all->recalled || is_image(request) ? NULL : place;
 }
 
-/* Writes the file without the lock. Only this thread evicts slots, so the words stay valid meanwhile. */
+/* Writes the file without the lock. The words stay valid, because only this thread evicts slots. */
 static void write_file(void *owner, const struct kd_asset_request *request)
 {
     struct kd_panoramas *all = owner;

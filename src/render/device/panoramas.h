@@ -1,6 +1,6 @@
-/* Panoramas of the sky on the host: the procedural Milky Way, by its seed, or sky.image. The renderer caches the
- * last KD_PANORAMAS, up to 45 MB each. A thread makes them (asset_reader.h). The first Milky Way of a process is cached
- * in a file for later ones (render/sky/milky_way_file.h). Any thread, unless stated otherwise. */
+/* Panoramas of the sky on the host. A panorama is the procedural Milky Way of some seed, or sky.image. The renderer
+ * caches the last KD_PANORAMAS, up to 45 MB each. A thread makes them (asset_reader.h). The first Milky Way of a
+ * process is cached in a file for later ones (render/sky/milky_way_file.h). Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_PANORAMAS_H
 #define KD_RENDER_DEVICE_PANORAMAS_H
 
@@ -14,21 +14,22 @@ struct kd_panorama {
     uint32_t *words;            /* all levels: render/sky/panorama.h */
     uint32_t columns, rows;     /* size of the finest level */
     char credit[KD_SKY_CREDIT]; /* author of the picture; "": unknown */
-    uint64_t used;              /* time of the last use, counted */
+    uint64_t used;              /* value of a counter at the last use */
     bool shown;                 /* the panorama was delivered to a request */
 };
 enum { KD_PANORAMAS = 3 };
 
 struct kd_panoramas {
-    struct kd_asset_reader reader;               /* its lock guards everything below */
-    struct kd_panorama at[KD_PANORAMAS], *given; /* given: the last result of kd_panorama_of, which is not evicted */
-    struct kd_panorama made;                     /* by the reader's thread, which caches it */
+    struct kd_asset_reader reader;               /* its lock protects all members below */
+    struct kd_panorama at[KD_PANORAMAS], *given; /* given: the last result of kd_panorama_of; it is not evicted */
+    struct kd_panorama made;                     /* panorama made by the reader's thread, which then caches it */
     bool recalled;                               /* `made` was read from the file */
-    const struct kd_panorama *fresh;             /* a new Milky Way for the file, or NULL */
+    const struct kd_panorama *fresh;             /* a new Milky Way that must be written to the file, or NULL */
     uint64_t used;
     const struct kd_assets *assets; /* NULL: there are none */
-    char *file; /* file for the first Milky Way, for later processes; NULL: none, or already written */
-    bool blank; /* makes black panoramas of a Milky Way's size at no cost, for a device that only compiles */
+    char *file; /* file in which the first Milky Way is stored for later processes; NULL: none, or already written */
+    /* for a device that only compiles: panoramas are black and have a Milky Way's size, which costs no time */
+    bool blank;
 };
 void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *assets, void (*made)(void *user),
                        void *user);
@@ -36,21 +37,23 @@ void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *a
  * before the first request. */
 void kd_panoramas_keep_at(struct kd_panoramas *panoramas, char *path);
 
-/* Starts making the panorama of a scene, if the scene has one and it is not cached. Returns whether the panorama is in
- * progress. Panoramas that were not delivered yet are evicted last. A waiting client calls again, so that a panorama
- * that was evicted meanwhile is made once more. */
+/* Starts making the panorama of a scene, if the scene has one and it is not cached. Returns whether the panorama is
+ * in progress. A waiting client calls this again from time to time, so that a panorama that was evicted meanwhile is
+ * made once more. Panoramas that were not delivered yet are evicted last. */
 bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky, if a slot is free and nothing else is in progress, so that later
- * requests wait less. Such a panorama is evicted first, and errors are reported to the caller that requests it. */
+ * requests wait less. Such a panorama is evicted first. An error is not reported here, but to the caller that
+ * requests the panorama. */
 void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
-/* Gets the panorama of a scene that has one. Waits for it if necessary: some tenths of a second for a Milky Way, a
- * second for a large picture. Valid until the next call. Render thread only. KD_EINVAL at /sky/image: the asset is
- * gone or is not a valid picture; KD_ENOMEM. */
+/* Gets the panorama of a scene that has one, and waits for it if necessary: some tenths of a second for a Milky Way,
+ * a second for a large picture. It is valid until the next call. Render thread only. Returns KD_EINVAL at /sky/image
+ * if the asset is gone or is not a valid picture, or KD_ENOMEM. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene,
                               const struct kd_panorama **out, struct kd_error *error);
-/* Waits for the panorama in progress and drops other requests: `made` is not called any more until a new request. */
+/* Waits for the panorama in progress and drops all other requests. `made` is not called again before a new request. */
 void kd_panoramas_stop(struct kd_panoramas *panoramas);
-/* Evicts all but the n most recent ones, unless one is in progress. Render thread only, while no panorama is in use. */
+/* Evicts all but the n most recent panoramas, unless one is in progress. Render thread only, while no panorama is in
+ * use. */
 void kd_panoramas_rest(struct kd_panoramas *panoramas, unsigned n);
 uint64_t kd_panoramas_bytes(struct kd_panoramas *panoramas); /* bytes of the cached panoramas' pixels; any thread */
 void kd_panoramas_finish(struct kd_panoramas *panoramas);

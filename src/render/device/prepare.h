@@ -13,7 +13,7 @@ struct kd_renderer;
 struct kd_vk;
 struct kd_vk_buffer;
 
-/* State of each emitter, of the size that it requests; NULL: none yet. */
+/* State of each emitter, as large as the emitter requests; NULL: none yet. */
 struct kd_prepared { void *own[KD_EMITTER_COUNT]; };
 
 /* Starts the work that emitters do on the host, on threads of their own. */
@@ -26,10 +26,10 @@ enum kd_status kd_prepare_tell(struct kd_renderer *renderer, const struct kd_sce
 enum kd_status kd_prepare(struct kd_renderer *renderer, struct kd_prepared *prepared, const struct kd_scene *scene,
                           const struct kd_plan_light *light, const struct kd_capacity *capacity,
                           struct kd_error *error);
-/* The working set of an emitter that has buffers, for requests other than frames. */
+/* Prepares one emitter that has buffers, with a working set of its own, for requests other than frames. */
 enum kd_status kd_prepare_asked(struct kd_renderer *renderer, enum kd_emitter_number number,
                                 struct kd_emitter_buffers_work *out, struct kd_error *error);
-/* Buffers for the kernels of light, by number; NULL for emitters that the scene does not have. */
+/* Lists the buffers for the kernels of light, by number. Buffers of emitters that the scene does not have are NULL. */
 void kd_prepared_buffers(const struct kd_prepared *prepared, const struct kd_plan_light *light,
                          struct kd_vk_buffer *out[KD_OWN_COUNT]);
 void kd_prepared_forget(struct kd_prepared *prepared);

@@ -11,14 +11,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Device memory for pictures: three quarters of the heap, but no memory that other processes use. */
+/* Device memory for pictures: three quarters of the heap, less the memory that other processes use. */
 static uint64_t free_bytes(const struct kd_vk_info *info)
 {
     uint64_t share = info->heap_bytes / 4 * 3;
     return info->budget_bytes && info->budget_bytes < share ? info->budget_bytes : share;
 }
 
-/* Defaults until something has been measured: orders of magnitude per item for this type of device. */
+/* Costs until something has been measured: orders of magnitude per item for this type of device. */
 static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
 {
     uint64_t device = free_bytes(info), given = kd_memory_main(memory_bytes);
@@ -40,7 +40,7 @@ static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_b
     return c;
 }
 
-/* Loads the table in which tolerances are looked up: this device's own, if there is one and it can be read. */
+/* Loads the table in which tolerances are looked up: the device's own table if it exists and can be read. */
 static void load_accuracy(struct kd_renderer *r)
 {
     char *path = kd_accuracy_path(r);
@@ -54,7 +54,7 @@ static void load_accuracy(struct kd_renderer *r)
     r->capacity.accuracy_measured = r->accuracy;
 }
 
-/* Path of the file in the folder of the driver's cache, which all devices share. */
+/* Path of the Milky Way's file in the folder of the driver's cache. All devices share the file. */
 static char *milky_way_file(const struct kd_vk *vk)
 {
     char *own = kd_vk_cache_file(vk, ""), *slash = own ? strrchr(own, '/') : NULL, *out = NULL;
@@ -175,8 +175,8 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     free(renderer);
 }
 
-/* Whether two descriptions are of the same device. A new driver version counts as another device: pictures and measured
- * values may differ. */
+/* Whether two descriptions are of the same device. A new driver version counts as another device, because pictures
+ * and measured values may differ. */
 static bool is_same(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {
     return !memcmp(a->uuid, b->uuid, sizeof a->uuid) && a->driver_version == b->driver_version &&
@@ -187,7 +187,7 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer) { return renderer->vk
 
 enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
 {
-    /* Submitted work may hang only now. The device then cannot be closed, and a second device is never opened. */
+    /* If submitted work hangs, the device cannot be closed. No second device is opened then. */
     if (r->vk)
         kd_vk_wait(r->vk, 0, NULL);
     if (kd_renderer_hangs(r))

@@ -41,8 +41,8 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
     return named + more_than(resident_bytes(), r->opened_bytes + named);
 }
 
-/* Resident memory that belongs to no other category is counted as heap or `other`. Device memory is counted in full
- * although some pages may never have been touched; the heap is therefore limited to the remainder. */
+/* Resident memory that belongs to no other category is counted as heap or `other`. Device memory is counted in full,
+ * although some of its pages may never have been touched. What remains then bounds the heap. */
 void kd_renderer_cached(const struct kd_renderer *r, uint64_t out[KD_N_CACHE_KINDS])
 {
     const uint64_t left = more_than(resident_bytes(), r->started_bytes + named_bytes(r, out)),
@@ -90,16 +90,16 @@ static void give_back(struct kd_renderer *r)
     kd_grids_rest(&r->grids);
 }
 
-/* Closes the device and reopens it. If the process is still larger afterwards, the growth is reported, but not
- * attributed to the device, and does not cause another reopening. The latest kernels are made again, so that the next
- * picture of the same view need not wait for them: a third of a second on two cores. */
+/* Closes the device and reopens it. If the process is still larger afterwards, the growth is reported separately
+ * from the device and does not cause another reopening. The latest kernels are made again, in a third of a second on
+ * two cores, so that the next picture of the same view does not wait for them. */
 static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
 {
     _Static_assert(KD_REST_KERNELS <= KD_KERNEL_WISHES, "all kernels that are kept are made again");
     struct kd_kernel_requests latest;
     kd_kernels_list(&r->kernels, &latest);
     enum kd_status status = kd_renderer_reopen(r, error);
-    if (status && !r->vk) /* there is no device, whatever the reason */
+    if (status && !r->vk) /* reopening failed for whatever reason, so there is no device */
         status = error->status = KD_EDEVICE;
     if (status)
         return status;
@@ -118,7 +118,8 @@ enum kd_status kd_renderer_rest(struct kd_renderer *r, struct kd_error *error)
         return KD_OK;
     KD_TRY(kd_vk_wait(r->vk, 0, error));
     give_back(r);
-    KD_TRY(kd_vk_wait(r->vk, 0, error)); /* buffers that were destroyed before are freed only now */
+    /* waits, because buffers that were destroyed are freed only when the device is idle */
+    KD_TRY(kd_vk_wait(r->vk, 0, error));
     kd_allocator_trim();
     kd_renderer_count(r);
     const uint64_t sum = kd_renderer_kept_sum(r);

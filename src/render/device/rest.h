@@ -1,4 +1,4 @@
-/* Memory that an idle renderer keeps, in bytes by kind, and how it frees the rest. */
+/* Memory that an idle renderer keeps, in bytes of each kind, and how it frees the rest. */
 #ifndef KD_RENDER_DEVICE_REST_H
 #define KD_RENDER_DEVICE_REST_H
 
@@ -15,22 +15,21 @@ enum kd_cache_kind {
         KD_N_CACHE_KINDS
 };
 
-/* Bounds of what stays after kd_renderer_rest. Device memory is allocated in blocks of 64 MiB (vk/memory.c): one map
- * may keep two of them. */
-#define KD_REST_MAPS_BYTES (64ull << 20) /* the latest lens map, or none if it is larger */
-#define KD_REST_KERNELS 16u              /* the most recently used ones: enough for one view and its refinement */
-#define KD_REST_PANORAMAS 1u             /* the latest one, up to 45 MB */
-/* Limit for buffers of finished pictures that were rendered in the background (kd_render_in_background), besides those
- * of the last one: their lens maps may serve the next picture. */
+/* Bounds of what stays after kd_renderer_rest. Device memory is allocated in blocks of 64 MiB (vk/memory.c), and one
+ * map may occupy two of them. */
+#define KD_REST_MAPS_BYTES (64ull << 20) /* the latest lens map, unless it is larger */
+#define KD_REST_KERNELS 16u              /* the most recently used kernels: enough for one view and its refinement */
+#define KD_REST_PANORAMAS 1u             /* the latest panorama, up to 45 MB */
+/* Limit for the buffers of finished background renders (kd_render_in_background) other than the last one. They are
+ * kept because their lens maps may serve the next picture. */
 #define KD_IDLE_ASIDES_BYTES (128ull << 20)
-/* Lens maps kept besides the one in use. */
+/* Limit for lens maps that are kept besides the one in use. */
 #define KD_KEPT_MAPS_BYTES (512ull << 20)
-/* Limit for all kinds together at rest. Beyond it the device is closed and reopened: until then lavapipe keeps
- * something of each kernel that it has ever compiled (an LLVM context is never emptied). */
+/* Limit for all kinds together at rest. If it is exceeded, the device is closed and reopened, because lavapipe
+ * otherwise keeps some memory of each kernel that it has ever compiled (an LLVM context is never emptied). */
 #define KD_REST_BYTES (256ull << 20)
-#define KD_REST_SOON_BYTES \
-    (768ull << 20) /* beyond this, any moment without work counts as rest (server/render/rest.c); see KD_REST_BYTES \
-                      for the limit itself */
+/* above this, any moment without work counts as rest (server/render/rest.c); KD_REST_BYTES is the limit after a rest */
+#define KD_REST_SOON_BYTES (768ull << 20)
 
 /* The label of a kind; NULL after the last. */
 static inline const char *kd_cached_documents_word(size_t kind)
@@ -40,22 +39,24 @@ static inline const char *kd_cached_documents_word(size_t kind)
 #undef KD_CACHE_WORD
     return kind < KD_N_CACHE_KINDS ? words[kind] : NULL;
 }
-/* Bytes of each kind. The device's kinds are as of the latest frame or rest; kernels are counted by their SPIR-V. The
- * last two kinds, `heap` and `other`, divide what is resident beyond the kinds above and beyond the size of the process
- * when it first opened the device. heap: memory in use on the heap, mostly what lavapipe has compiled. other: code,
- * stacks, freed memory that was not yet returned, and blocks of a MiB and more in use for rendering, encoding or
- * sending. Reads a file in /proc and inspects the heap, about a millisecond. Any thread. */
-void kd_renderer_cached(const struct kd_renderer *renderer, uint64_t out[KD_N_CACHE_KINDS]);
-/* The sum of all kinds, without inspecting the heap, and without what remained after the device was reopened. Any
+/* Counts the bytes of each kind. The device's kinds are those after the latest frame or rest; kernels are counted by
+ * their SPIR-V. The last two kinds, `heap` and `other`, divide the resident memory that exceeds the other kinds and
+ * the size of the process when it first opened the device. heap: memory in use on the heap, mostly what lavapipe has
+ * compiled. other: code, stacks, freed memory that was not yet returned, and blocks of a MiB and more that are in
+ * use for rendering, encoding or sending. Reads a file in /proc and inspects the heap, in about a millisecond. Any
  * thread. */
+void kd_renderer_cached(const struct kd_renderer *renderer, uint64_t out[KD_N_CACHE_KINDS]);
+/* The sum of all kinds without inspecting the heap. Memory that remained after the device was reopened is not
+ * included. Any thread. */
 uint64_t kd_renderer_kept_sum(const struct kd_renderer *renderer);
 /* Updates the counts after each frame, without system calls. Render thread only. */
 void kd_renderer_count(struct kd_renderer *renderer);
-/* Frees everything except what the bounds above name, and returns the host's free memory to the kernel. Later pictures
- * are the same. Those of the latest view take no longer, unless the device had to be reopened (KD_REST_BYTES). Errors
- * as kd_renderer_reopen. Render thread only, while nothing is being rendered, here or in the background. */
+/* Frees everything beyond the bounds above, and returns the host's free memory to the kernel. Later pictures are the
+ * same. Pictures of the latest view take no longer, unless the device had to be reopened (KD_REST_BYTES). Errors are
+ * those of kd_renderer_reopen. Render thread only, while nothing is being rendered, here or in the background. */
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error);
-/* Call after the process has opened the device for the first time: what is resident now is not counted as kept. */
+/* Call this after the process has opened the device for the first time. Memory that is resident then is not counted
+ * as kept. */
 void kd_renderer_begin_count(struct kd_renderer *renderer);
 
 #endif

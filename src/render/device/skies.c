@@ -39,7 +39,7 @@ static int64_t cell_on(const struct kd_star *s, int face, int side)
     return ((int64_t)face * side + y) * side + x;
 }
 
-/* Computes the start of each cell, shifted by one entry as `sort` needs it; places count from `from`. The last number
+/* Computes the start of each cell, counted from `from` and shifted by one entry as `sort` needs it. The last number
  * is the end of the last cell. */
 static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_t *cells)
 {
@@ -56,9 +56,9 @@ static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_
         cells[i] += cells[i - 1];
 }
 
-/* Sorts stars into cells, keeping their order, so that each cell has its brightest star first. Meanwhile cells[c + 1]
- * advances from the start of cell c to its end, which is the start of the next. all: number of places, after which the
- * temperatures follow. */
+/* Sorts stars into cells and keeps their order, so that each cell has its brightest star first. During the sort,
+ * cells[c + 1] advances from the start of cell c to its end, which is the start of the next cell. all: number of
+ * places, after which the temperatures follow. */
 static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t all, float *rows)
 {
     for (size_t i = 0; i < stars->n; i++)

@@ -1,6 +1,6 @@
 /* The sky on the device: a panorama, which the transfer pass reads, and stars sorted by place. Both are made on the
  * host when the sky has changed (kd_emitter_buffers_sky, render/emit/own.h). A panorama takes up to a second, on a
- * thread of its own (panoramas.h), stars 30 ms. Render thread only. */
+ * thread of its own (panoramas.h); stars take 30 ms. Render thread only. */
 #ifndef KD_RENDER_DEVICE_SKIES_H
 #define KD_RENDER_DEVICE_SKIES_H
 
@@ -10,9 +10,9 @@
 #include <stddef.h>
 
 struct kd_sky_buffers {
-    struct kd_vk_buffer *panorama; /* words as in render/sky/panorama.h; NULL: never made */
-    struct kd_vk_buffer
-        *stars; /* direction and flux of each, cell by cell, the brightest of a cell first; then all temperatures */
+    struct kd_vk_buffer *panorama; /* words as in render/sky/panorama.h; NULL: not made yet */
+    struct kd_vk_buffer *stars;    /* direction and flux of each star, cell by cell, with the brightest of a cell first;
+                                    * then all temperatures */
     uint32_t n; /* number of entries: a star may be in up to three fine cells, and in up to three coarse cells */
     struct kd_vk_buffer *cells; /* the indices in `stars` at which the cells of faces.h begin */
     struct kd_sky of;           /* the sky that the buffers hold, if `there` is true */

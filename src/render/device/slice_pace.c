@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/* Submissions are made shorter at once, and longer again over some ten of them: one that is too long is worse. */
+/* Submissions become shorter at once, but longer only over some ten of them, because one that is too long does more
+ * harm. */
 #define FALLS 0.5
 #define RISES 0.1
 
@@ -22,7 +23,7 @@ void kd_slice_begin(struct kd_slice_pace *pace, double now_ms)
 
 void kd_slice_end(struct kd_slice_pace *pace, double now_ms)
 {
-    const double LEAST_MS = 1; /* less is mostly the cost of a submission */
+    const double LEAST_MS = 1; /* a shorter time is mostly the cost of the submission itself */
     const double known = fmax(pace->slowness, 1);
     if (!(pace->expected_ms >= LEAST_MS))
         return;

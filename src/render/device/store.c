@@ -45,7 +45,7 @@ static uint64_t bytes_of_map(const struct kd_lens_map *map)
            bytes_of(map->rim_lens);
 }
 
-/* Marks the light of stars and the rim as missing. */
+/* Marks the light of stars and the rim as not computed. */
 static void forget_stars(struct kd_lens_map *map)
 {
     map->star_key.lens[0] = 0;
@@ -66,7 +66,7 @@ static void map_finish(struct kd_lens_map *map, struct kd_vk *vk)
     map->used = 0;
 }
 
-/* Evicts cached maps, oldest first, until the plan fits beside the others and the others are within their limit. */
+/* Evicts cached maps, oldest first, until the plan fits and the cached maps are within their limit. */
 static void make_room(struct kd_store *store, const struct kd_plan_cost *cost, const struct kd_lens_map *spare)
 {
     for (;;) {
@@ -120,14 +120,14 @@ static enum kd_status make_star_light(struct kd_store *store, const struct kd_pl
                       error);
 }
 
-/* Makes *buffer if it is NULL; it is never resized. */
+/* Makes *buffer if it is NULL. The buffer is never resized. */
 static enum kd_status once(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size, enum kd_vk_memory memory,
                            const char *name, struct kd_error *error)
 {
     return *buffer ? KD_OK : kd_vk_buffer_create(vk, size, memory, name, buffer, error);
 }
 
-/* kd_store_lens_map without the buffers that rays need besides their lens map. */
+/* Like kd_store_lens_map, but without the further buffers that rays need. */
 static enum kd_status find_or_make(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                    bool *reused, struct kd_error *error)
 {
@@ -167,8 +167,7 @@ done:
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error)
 {
-    /* The list of undecided rays is needed in any case: a map that was found may come from another store, and
-     * refine.c traces further rays. */
+    /* Made in any case, because a map that was found may come from another store, and refine.c traces further rays. */
     const uint64_t bytes = 4 * (1 + kd_plan_open_most(plan));
     enum kd_status status =
         kd_store_at_least(store->vk, &store->undecided, bytes, KD_VK_DEVICE, "undecided rays", error);
@@ -223,7 +222,7 @@ done:
     return status;
 }
 
-/* Makes a beam's buffers. They are freed when no longer needed, because they are as large as the picture. */
+/* Makes a beam's buffers. They are as large as the picture, so they are freed when no longer needed. */
 static enum kd_status make_beam(struct kd_store *store, const struct kd_plan_picture *picture, struct kd_error *error)
 {
     const struct kd_beam_grid *beam = &picture->beam;

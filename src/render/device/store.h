@@ -20,12 +20,12 @@ struct kd_bands {
     uint64_t band_bytes;
 };
 
-/* Everything besides the lens map on which the light of stars depends. The light stays valid while only time
+/* Everything besides the lens map on which the light of stars depends. That light stays valid while only time
  * advances. */
 struct kd_star_key {
     char lens[65];
-    bool visible; /* brightness weighted as by the eye */
-    bool bright;  /* as in a plan */
+    bool visible; /* brightness is weighted by the eye's sensitivity */
+    bool bright;  /* the plan's member of the same name */
     struct kd_sky sky;
     struct kd_sky_block block;
 };
@@ -36,7 +36,7 @@ struct kd_lens_map {
     struct kd_bands
         critical; /* the lens maps of the pixels at the critical curve, part by part, each followed by its list */
     struct kd_critical_pixels pixels;
-    /* for each pixel of a band KD_STAR_LIGHT words: the light of stars seen through this map; none: no frame had
+    /* the light of stars seen through this map, in KD_STAR_LIGHT words for each pixel of a band; none: no frame had
      * stars */
     struct kd_bands star_light;
     struct kd_rim rim; /* the rim of the map's camera, for images of stars of high orders, if there is a rim and it was
@@ -53,41 +53,42 @@ struct kd_lens_map {
 
 struct kd_store {
     struct kd_vk *vk;
-    uint64_t memory_bytes; /* limit for all of this; set for each frame */
+    uint64_t memory_bytes; /* limit for all memory of the store; set for each frame */
     struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
     uint64_t clock;
     struct kd_bands radiance;
     struct kd_bands layers; /* the layers of numbers in sequence, kd_plan_layer_bytes each; none: no frame had layers */
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
-    /* parameters and tables, read at each crossing: in device memory, uploaded through `staging` */
+    /* parameters and tables that are read at each crossing: in device memory, uploaded through `staging` */
     struct kd_vk_buffer *transfer, *staging;
-    struct kd_emit_data *sent;                   /* the uploaded contents; NULL: nothing yet */
-    bool sent_whole;                             /* false: the contents are unknown, since a frame was given up */
-    struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES for each camera, and the staging buffer; NULL: none
-                                                  * yet */
+    struct kd_emit_data *sent;                   /* what was uploaded; NULL: nothing yet */
+    bool sent_whole;                             /* false: what was uploaded is unknown, because a frame was given up */
+    struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES for each camera; cameras_host is the staging
+                                                  * buffer; NULL: none yet */
     struct kd_camera_block sent_cameras[KD_CAMERAS];
-    bool cameras_sent; /* whether sent_cameras is what the buffer holds */
+    bool cameras_sent; /* whether the buffer holds sent_cameras */
     struct kd_vk_buffer *histogram, *counts;
-    struct kd_vk_buffer *light, *light_host;      /* sums of photometry; NULL: never measured */
-    struct kd_vk_buffer *bloom;                   /* grids of bloom; NULL: never made */
-    struct kd_bands beamed;                       /* radiance after the telescope's beam; none: the plan has no beam */
-    struct kd_vk_buffer *beam_lines, *beam_grids; /* intermediate rows of cells, and grids of them; NULL: never made */
-    struct kd_vk_buffer *palette;    /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: never made */
-    struct kd_vk_buffer *star_pairs; /* pairs of a ray and a star that it may see; NULL: no frame had stars */
+    struct kd_vk_buffer *light, *light_host; /* sums of photometry; NULL: not measured yet */
+    struct kd_vk_buffer *bloom;              /* grids of bloom; NULL: not made yet */
+    struct kd_bands beamed;                  /* radiance after the telescope's beam; none: the plan has no beam */
+    /* intermediate rows of cells, and grids of cells; NULL: not made yet */
+    struct kd_vk_buffer *beam_lines, *beam_grids;
+    struct kd_vk_buffer *palette;    /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: not made yet */
+    struct kd_vk_buffer *star_pairs; /* pairs of a ray and a star that the ray may see; NULL: no frame had stars */
     struct kd_vk_buffer *star_rays;  /* rays whose stars are searched one by one */
     struct kd_vk_buffer *listed;     /* lens map of listed pixels, overwritten part by part */
-    /* for a sampled map (frame/sample.c): its lists, index and nodes; NULL: no frame had any */
+    /* buffers for a sampled map (frame/sample.c): its lists, index and nodes; NULL: no frame had such a map */
     struct kd_vk_buffer *sample, *sample_index, *nodes;
-    uint32_t alone;                      /* offset in the lists of the rays that are traced singly */
-    int32_t alone_x, alone_y;            /* the ray from which the places of those rays count */
+    uint32_t alone;                      /* offset in the lists at which the rays begin that are traced singly */
+    int32_t alone_x, alone_y;            /* the ray from which the places of these rays are counted */
     struct kd_vk_buffer *sample_head;    /* head of the lists, on the host */
     struct kd_vk_buffer *undecided;      /* rays that the kernels leave undecided (frame/settle.c): a counter, then the
                                             places of at most kd_plan_open_most rays */
     struct kd_vk_buffer *undecided_host; /* the same on the host */
 };
 
-/* Finds the lens map of the plan; *reused: it is complete. Otherwise its buffers are ready to be written, and
- * kd_store_commit makes it findable. Least recently used maps are evicted. */
+/* Finds the lens map of the plan; *reused is then true if the map is complete. Otherwise the map's buffers are ready
+ * to be written, and kd_store_commit makes the map findable. Least recently used maps are evicted. */
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error);
 void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan_lens *lens);
@@ -95,7 +96,7 @@ void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const stru
 /* Allocates radiance, packed pixels, tables and histogram for a picture of this plan and bit depth. */
 enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan, int bit_depth,
                               struct kd_error *error);
-/* Makes *buffer (NULL: none yet) at least this large; a larger one is kept unless it is much too large. */
+/* Makes *buffer at least this large (NULL: there is none yet). A larger buffer is kept, unless it is much too large. */
 enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size,
                                  enum kd_vk_memory memory, const char *name, struct kd_error *error);
 /* Records copies that update the transfer buffer: parameters and tables, each if it has changed. */
@@ -103,7 +104,7 @@ enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *
 /* Records copies that update the cameras, in a buffer that is made when first needed. */
 enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS],
                                      struct kd_error *error);
-/* Call when a frame is given up: its uploads may not have happened. */
+/* Call when a frame is given up, because its uploads may not have happened. */
 void kd_store_give_up(struct kd_store *store);
 /* Approximate device memory of the store, bytes. */
 uint64_t kd_store_bytes(const struct kd_store *store);
@@ -113,7 +114,7 @@ uint64_t kd_store_map_bytes(const struct kd_store *store);
 void kd_store_rest(struct kd_store *store, uint64_t bytes);
 /* Whether kd_store_lens_map would find the plan's lens map. */
 bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan);
-/* Moves the plan's lens map from `from` to `to`, if it is there. */
+/* Moves the plan's lens map from `from` to `to`, if `from` has it. */
 void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct kd_plan *plan);
 /* Frees everything: the store is then as after creation. */
 void kd_store_empty(struct kd_store *store);

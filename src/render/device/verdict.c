@@ -56,7 +56,7 @@ void kd_verdict_save(const struct kd_renderer *r, struct kd_capacity capacity)
     free(path);
 }
 
-/* Reads the text of a file; a file for another device, driver or version is ignored. */
+/* Reads the text of a file. A file for another device, driver or version is ignored. */
 static void understand(struct kd_renderer *r, const char *text, size_t size)
 {
     struct kd_capacity *c = &r->capacity;
@@ -79,7 +79,7 @@ static void understand(struct kd_renderer *r, const char *text, size_t size)
         if (cJSON_IsNumber(ns) && ns->valuedouble > 1e-6 && ns->valuedouble < 1e9)
             c->ns[i] = ns->valuedouble;
         else
-            speed = NULL; /* ignore later figures as well: these passes keep their defaults */
+            speed = NULL; /* all later figures are ignored too, and these passes keep their defaults */
     }
     c->measured = known && speed;
     cJSON_Delete(root);
@@ -98,7 +98,7 @@ void kd_verdict_recall(struct kd_renderer *r)
     r->stored = r->capacity;
 }
 
-/* Whether a figure has changed enough for the file to be written again. */
+/* Whether a figure has changed so much that the file must be written again. */
 static bool differs(double a, double b) { return !(a < 1.25 * b && b < 1.25 * a); }
 
 void kd_verdict_keep(struct kd_renderer *r)

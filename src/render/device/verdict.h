@@ -1,5 +1,5 @@
 /* Result of the self-test: whether a device computes correctly, and how fast it is. The test runs at the first start
- * (selftest/first_start.h) and its result is cached on disk. Only the renderer's thread. */
+ * (selftest/first_start.h), and its result is cached on disk. Only the renderer's thread. */
 #ifndef KD_RENDER_DEVICE_VERDICT_H
 #define KD_RENDER_DEVICE_VERDICT_H
 
@@ -10,17 +10,17 @@ struct kd_renderer;
 
 struct kd_verdict {
     enum { KD_UNTESTED, KD_PASSED, KD_FAILED } result;
-    bool now; /* tested by this process, not by an earlier one */
+    bool now; /* this process ran the test; false: an earlier process did */
     unsigned checks, failed;
     double seconds;  /* duration of the test */
-    char worst[160]; /* the first check that failed; "" if none */
+    char worst[160]; /* the first check that failed; "" if none failed */
 };
 
-/* Loads the cached verdict of a new renderer's device, and the costs of its passes. */
+/* Loads the cached verdict for a new renderer's device, and the costs of its passes. */
 void kd_verdict_recall(struct kd_renderer *renderer);
-/* Writes the renderer's verdict, with the costs of this capacity if they were measured. */
+/* Writes the renderer's verdict. The costs of this capacity are written too if they were measured. */
 void kd_verdict_save(const struct kd_renderer *renderer, struct kd_capacity capacity);
-/* Stores the present costs of passes for the next start; does nothing if there is no cache. */
+/* Stores the present costs of passes for the next start, if there is a cache. */
 void kd_verdict_keep(struct kd_renderer *renderer);
 
 /* The verdict on a renderer's device. Belongs to the renderer. */

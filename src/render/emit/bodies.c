@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Velocity relative to the observer of zero angular momentum; returns the angular velocity. */
+/* Velocity relative to the observer of zero angular momentum. Returns the angular velocity. */
 static double motion_of(const struct kd_body *body, const struct kd_vantage *at, double velocity[3])
 {
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO), motion = kd_body_motion(body);
@@ -144,7 +144,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     const struct kd_bodies_view view = view_of(scene);
     size_t n;
     struct kd_seen_body *bodies = listed(scene, &n);
-    /* out of memory: `prepare` fails as well and reports it */
+    /* out of memory: `prepare` fails as well, and reports it */
     out->bodies = (struct kd_bodies_block) { .least = 1, .leaves = 1 };
     if (bodies)
         kd_bodies_bound(bodies, n, &view, &out->bodies);
@@ -222,7 +222,7 @@ const struct kd_emitter_buffers kd_emitter_buffers_bodies = {
     .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish
 };
 
-/* Whether a body has a velocity although its position is fixed at the scene's time. */
+/* Whether a body has a velocity although its position does not depend on the time. */
 static bool stands(const struct kd_scene *scene, const struct kd_setting *rays)
 {
     const struct kd_body *on[KD_SCENE_BODIES];

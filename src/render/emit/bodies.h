@@ -13,34 +13,35 @@
 
 #define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* the most bodies that are seen */
 
-/* How bodies are viewed: the hole, the observer's azimuth, and the temperature that corresponds to the disk's
- * brightness 1. */
+/* What the appearance of bodies depends on: the hole, the observer's azimuth, and the temperature that corresponds
+ * to the disk's brightness 1. */
 struct kd_illumination;
 struct kd_bodies_view {
     struct kd_hole hole;
     double azimuth, peak_k;
     const struct kd_illumination *lit;
-}; /* lit: NULL if the disk does not illuminate the bodies */
+}; /* lit: the disk as a light source; NULL if it does not illuminate the bodies */
 
-/* kd_illumination_exists: whether the scene has a thin disk. kd_illumination_of: if so, prepares the disk as a light
- * source for bodies (bodies_illumination.c), else returns false. */
+/* kd_illumination_exists: whether the scene has a thin disk. kd_illumination_of: prepares the disk as a light source
+ * for bodies (bodies_illumination.c); returns false if there is no thin disk. */
 enum { KD_LIT_RINGS = 16, KD_LIT_PLACES = 24 };
 struct kd_illumination {
     struct kd_illumination_ring { double r, t, light, lapse, velocity; } rings[KD_LIT_RINGS];
 };
 bool kd_illumination_exists(const struct kd_scene *scene);
 bool kd_illumination_of(const struct kd_scene *scene, struct kd_illumination *out);
-/* The light that a body reflects, in the kernels' layout; 3 us. lapse: at the body's position. */
+/* Computes the light that a body reflects, in the kernels' layout, in 3 us. lapse: at the body's position. */
 void kd_illumination_body(const struct kd_illumination *lit, const struct kd_seen_body *body, double lapse,
                           float out[12]);
 
 /* Number of floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
-/* Writes bodies and tree; n at most KD_SEEN_BODIES. 10 us for 16 bodies, 2 ms for 4096. Bodies without a size, at
- * impossible places or within KD_BODIES_CLEAR of the horizon's radius are left out. */
+/* Writes bodies and tree, in 10 us for 16 bodies and 2 ms for 4096. n is at most KD_SEEN_BODIES. Three kinds of
+ * bodies are left out: those without a size, those at impossible places, and those nearer to the horizon than
+ * KD_BODIES_CLEAR of its radius. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                               float *words, struct kd_error *error);
-/* Whether a body is packed. A body of temperature 0 is packed: it is dark and hides what is behind it. */
+/* Whether a body is packed. A body of temperature 0 is packed, because it is dark but hides what is behind it. */
 bool kd_bodies_seen(const struct kd_seen_body *body, const struct kd_hole *hole);
 /* Computes the block of numbers that goes with the packed bodies. */
 void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,

@@ -55,8 +55,8 @@ static double turn_of(const struct metric *g, const struct kd_seen_body *b)
     return g->phi * b->s * g->omega / g->lapse;
 }
 
-/* Bounding ball of a body. Azimuths are mirrored, as in the traced path. At one time of the observer a moving body
- * appears longer than it is wide. */
+/* Bounding ball of a body. Azimuths are mirrored, as in the traced path. A moving body appears longer than it is
+ * wide, because all its light arrives at one time of the observer. */
 static struct ball ball_of(const struct kd_seen_body *b, size_t body, const struct kd_bodies_view *view)
 {
     const struct metric g = metric_at(&view->hole, b);
@@ -126,7 +126,7 @@ static void part(struct ball *balls, size_t n, size_t k, int axis)
                 break;
             swap(&balls[i++], &balls[j--]);
         }
-        /* Balls up to j are not beyond `middle`; balls after j are not before it. */
+        /* From here on no ball up to j is beyond `middle`, and no ball after j is before it. */
         if (k <= j)
             high = j;
         else

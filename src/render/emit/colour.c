@@ -1,4 +1,4 @@
-/* Fills the tables of black bodies: their colours, and how luminous they are. */
+/* Fills the tables of black bodies: their colours and their luminosities. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/colour.h"

@@ -42,7 +42,7 @@ static size_t words(const struct kd_dynamic_bodies_debris *d) { return KD_CROWD_
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return 2 * sizeof(float) * words(of(scene));
-} /* the numbers on the device, and on their way there */
+} /* numbers: on the device; staging: on their way there */
 
 /* The area of a node is r^2 (2 pi/turn)^2. */
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
@@ -63,7 +63,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 
 struct own {
     struct kd_vk_buffer *device, *staging;
-    uint64_t generation; /* generation of the uploaded debris; 0: none was uploaded */
+    uint64_t generation; /* generation of the uploaded debris; 0: none is uploaded */
 };
 
 static void forget(void *own) { ((struct own *)own)->generation = 0; }

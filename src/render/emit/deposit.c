@@ -19,10 +19,11 @@ static const struct kd_vk_pipeline_params particles = { "particles", kd_spv_part
 static const struct kd_vk_pipeline_params density = { "density", kd_spv_density, sizeof kd_spv_density, 3, 4 };
 
 struct own {
-    struct kd_vk_buffer *guides, *staging, *grid, *density, *list; /* made when first needed, then kept */
-    struct kd_scene of;                                            /* the scene for which `guides` is filled */
-    double time; /* the time for which `guides` is filled; slices of a list and refining frames find the buffer up to
-                  * date */
+    /* buffers that are made when first needed and then kept */
+    struct kd_vk_buffer *guides, *staging, *grid, *density, *list;
+    struct kd_scene of; /* the scene for which `guides` is filled */
+    double time;        /* the time for which `guides` is filled; it does not change between slices of a list or while a
+                         * frame is refined */
 };
 
 static enum kd_status guides(const struct kd_emitter_buffers_work *w, const struct kd_scene *scene,
@@ -39,7 +40,7 @@ static enum kd_status guides(const struct kd_emitter_buffers_work *w, const stru
     p->time = status ? NAN : time;
     if (status || there)
         return status;
-    memcpy(&p->of, scene, sizeof *scene); /* with padding, because scenes are compared by memcmp */
+    memcpy(&p->of, scene, sizeof *scene); /* includes padding, because scenes are compared by memcmp */
     kd_particle_tables_fill(kd_vk_buffer_map(p->staging), scene, grid, time);
     return kd_vk_copy(w->vk, "upload", p->guides, 0, p->staging, 0, bytes, error);
 }
@@ -48,8 +49,8 @@ static void forget(void *own) { ((struct own *)own)->time = NAN; }
 
 static uint32_t groups(uint32_t n) { return (n + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE; }
 
-/* Runs the particles from push->first up to `end`, which are either all falling or all not: in a kernel with both
- * branches lavapipe executes both. */
+/* Runs the particles from push->first up to `end`. Either all of them fall or none does, because in a kernel with
+ * both branches lavapipe would execute both. */
 static enum kd_status share_out(const struct kd_emitter_buffers_work *w, const struct kd_scene *scene, bool plunge,
                                 struct kd_particles_push *push, uint32_t end, struct kd_error *error)
 {
@@ -73,8 +74,8 @@ done:
     return status;
 }
 
-/* Converts weights to densities on one grid. at: the byte at which the grid starts in both buffers; expected: the byte
- * at which the expected numbers of its rows start. */
+/* Converts weights to densities on one grid. at: byte at which the grid starts in both buffers; expected: byte at
+ * which the expected numbers of the grid's rows start. */
 static enum kd_status divide(const struct kd_emitter_buffers_work *w, uint64_t at, uint64_t expected, uint32_t rows,
                              uint32_t columns, struct kd_error *error)
 {

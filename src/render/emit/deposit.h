@@ -7,7 +7,7 @@
 #include "render/emit/own.h"
 #include "render/emit/particles.h"
 
-/* Fills the density at scene->top.time minus kd_particle_delay, for the transfer pass. */
+/* Fills the density at the time scene->top.time minus kd_particle_delay, for the transfer pass. */
 extern const struct kd_emitter_buffers kd_emitter_buffers_particles;
 
 /* Positions of n particles (first, first + stride, ...) at scene->top.time, as the device computes them:

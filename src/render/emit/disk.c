@@ -42,7 +42,7 @@ static enum kd_limb limb_of(const struct kd_scene *scene)
                                                                 : KD_LIMB_ISOTROPIC;
 }
 
-/* The flux of a scene's disk, over Mdot. With returning light it is that of a table. */
+/* The flux of a scene's disk, divided by Mdot. With returning light a table gives it. */
 struct profile {
     struct kd_hole hole;
     kd_disk_flux_fn own;
@@ -127,7 +127,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
-/* The cubic through the ends of a cell and the places at a third and two thirds of it. */
+/* Computes the cubic through the ends of a cell and the places at one and two thirds of it. */
 static void put_cubic(float out[4], const double f[4])
 {
     out[0] = (float)f[0];
@@ -155,8 +155,8 @@ static void reflected_table(struct kd_emit_tables *out, const struct profile *p,
     out->disk[i][3] = (float)(light->flux * pow(r, 3) / pow(light->warm, 4));
 }
 
-/* Tables over y = sqrt(1 - r_isco/r), in which T r^(3/4) is smooth and bounded: linear at the ISCO, where the flux has
- * a double zero, and finite at infinity, where T falls as r^(-3/4). */
+/* Tables over y = sqrt(1 - r_isco/r). In y, T r^(3/4) is smooth and bounded: it is linear at the ISCO, where the
+ * flux has a double zero, and finite at infinity, where T falls as r^(-3/4). */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     const struct profile p = profile_of(scene);

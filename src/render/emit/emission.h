@@ -15,7 +15,7 @@
 #define MEMBER(number, name) _Alignas(16) struct kd_##name##_block name;
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
-/* The layout is that of std140: the blocks begin at multiples of 16 bytes. */
+/* The layout is that of std140: each block begins at a multiple of 16 bytes. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef F
 #undef U
@@ -24,7 +24,7 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef MEMBER
 _Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "elements of an array, by std140");
 
-/* Tables are read as texels: on lavapipe four floats cost as much as one word of a storage buffer. */
+/* Tables are read as texels, because on lavapipe four floats then cost as much as one word of a storage buffer. */
 typedef float kd_table_row[4];
 #define KD_T(table, rows) kd_table_row table[rows];
 struct kd_emit_tables { KD_EMIT_TABLES };
@@ -34,7 +34,7 @@ _Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMI
                "no gaps: the kernels count rows");
 #undef KD_T
 
-/* Checks that no two traits share a bit of a word: if they did, their sum would exceed their bitwise or. */
+/* Checks that no two traits share a bit of a word: otherwise the sum of all traits would exceed their bitwise or. */
 #define ADDED(trait) +(uint64_t)KD_TRAIT_##trait
 #define JOINED(trait) | KD_TRAIT_##trait
 #define DISJOINT(number, name) \

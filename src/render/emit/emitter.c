@@ -16,7 +16,7 @@ KD_EMITTERS(DECLARE, DECLARE, DECLARE, DECLARE, DECLARE, DECLARE)
 const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT] = { KD_EMITTERS(ENTRY, ENTRY, ENTRY, ENTRY, ENTRY,
                                                                              ENTRY) };
 
-/* Kinds of emitters: the list has an argument for each kind. */
+/* Kinds of emitters. The list of emitters has one argument for each kind. */
 enum kind { AT_CROSSING = 1, HELPER = 2, MODULATE = 4, AT_END = 8, ALONG = 16, SURFACE = 32 };
 #define IS_AT_CROSSING(number, name) [number] = AT_CROSSING,
 #define IS_PART(number, name) [number] = HELPER,
@@ -243,7 +243,7 @@ static double height_of_all(const struct kd_scene *scene)
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         if (kinds[i] == ALONG && kd_emit_has(scene, kd_emitters[i]))
             most = fmax(most, kd_emitters[i]->height ? kd_emitters[i]->height(scene) : 1);
-    return most >= 1 ? 2 : most; /* 2: no ray stops at the axis */
+    return most >= 1 ? 2 : most; /* a value of 2 means that no ray stops at the axis */
 }
 
 /* 1/r of the outermost knot in a volume; 0: none. */
@@ -274,7 +274,8 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .band_pixels = band_pixels,
         .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
         .delay = (float)kd_particle_delay(scene),
-        /* The range is widened by more than a float's rounding: the emitter itself cuts off at the exact edge. */
+        /* The range is widened by more than a float's rounding, because the emitter itself cuts off at the exact
+         * edge. */
         .w_least = (float)fmax((1 - 1e-6) / reach[1], 1e-30), /* 0 means no crossing */
         .w_most = (float)fmin((1 + 1e-6) / reach[0], 1e30),
         .along_least = (float)(1 / along[1]),
@@ -298,7 +299,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
             e->fill(numbers, scene);
         if (e->tables)
             e->tables(&state->data.tables, scene);
-        memcpy(&state->of[i], scene, sizeof *scene); /* with padding, because scenes are compared by memcmp */
+        memcpy(&state->of[i], scene, sizeof *scene); /* includes padding, because scenes are compared by memcmp */
         state->filled[i] = true;
     }
 }

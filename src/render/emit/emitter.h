@@ -2,8 +2,9 @@
  * shaders/shared/emitters.h, with one file for each. Plan, needs of the lens map, motion, device data and
  * approximations iterate over the table and know no emitter by name.
  *
- * To add one: its line in that list, shaders/emit/NAME.glsl, src/render/emit/NAME.c with `const struct kd_emitter
- * kd_emit_NAME`, and its section in the field table. Constant data and pure functions of valid scenes; any thread. */
+ * To add an emitter, write its line in that list, shaders/emit/NAME.glsl, src/render/emit/NAME.c with `const struct
+ * kd_emitter kd_emit_NAME`, and its section in the field table. Constant data and pure functions of valid scenes;
+ * any thread. */
 #ifndef KD_RENDER_EMIT_EMITTER_H
 #define KD_RENDER_EMIT_EMITTER_H
 
@@ -35,43 +36,44 @@ struct kd_scene_part { size_t at, size; };
 struct kd_emitter {
     const char *name;
     const char *title; /* its common name without an article: "spots" */
-    /* Writes one sentence, without quotation marks, about the appearance of the emitter; NULL: there is none. */
+    /* Writes one sentence, without quotation marks, about the appearance of the emitter. NULL: the emitter has no
+     * such sentence. */
     void (*tell)(const struct kd_scene *scene, char out[KD_EMIT_TOLD]);
     bool (*present)(const struct kd_scene *scene);
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
-    /* enum kd_varies: the causes of a change of its light; NULL: it does not change */
+    /* enum kd_varies: the causes for which its light changes; NULL: its light never changes */
     unsigned (*varies)(const struct kd_scene *scene);
     /* The emitter's own device buffers, their bytes, and the invocations of the pass that fills them before light is
-     * computed (KD_PASS_name of its GLSL file). NULL: none; if only `invocations` is NULL, the host fills the
-     * buffers. */
+     * computed (KD_PASS_name of its GLSL file). NULL: the emitter has none. If only `invocations` is NULL, the host
+     * fills the buffers. */
     const struct kd_emitter_buffers *own;
-    uint32_t quads; /* the emitter reads a buffer of quads if it has any of these traits; 0: never */
+    uint32_t quads; /* the emitter reads a buffer of quads if it has any of these traits; 0: it never does */
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*making_bytes)(
-        const struct kd_scene *scene); /* peak of the host memory that making the buffers takes; NULL: little */
+        const struct kd_scene *scene); /* peak of the host memory needed to make the buffers; NULL: little */
     uint64_t (*invocations)(const struct kd_scene *scene);
     /* Least and largest r at which the emitter emits or absorbs, M; NULL: anywhere. Crossings outside the range of all
      * emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
-    /* For ALONG emitters: the least and the largest |cos(theta)| at which they emit or absorb; NULL: 0 and 1. The march
-     * resolves the edges given by `reach`, `hollow` and `height` to a float's accuracy, for all volumes of a scene
-     * together. An edge inside these bounds is resolved only as far as the emitter's grain requires. */
+    /* For ALONG emitters: the least and the largest |cos(theta)| at which they emit or absorb; NULL: 0 and 1.
+     * `reach`, `hollow` and `height` give bounds, which the march resolves to a float's accuracy, for all volumes of
+     * a scene together. An edge inside these bounds is resolved only as finely as the emitter's grain requires. */
     double (*hollow)(const struct kd_scene *scene), (*height)(const struct kd_scene *scene);
-    /* Radius in M of a sphere within `reach` at which light or optical depth has an edge; the march finds it as
-     * well. 0 or NULL: none. */
+    /* Radius in M of a sphere within `reach` at which light or optical depth has an edge. The march finds this edge
+     * as well. 0 or NULL: none. */
     double (*knot)(const struct kd_scene *scene);
-    /* Compute numbers and tables; tables may take milliseconds. Called again when a part of the scene in `depends`
+    /* Computes numbers and tables; tables may take milliseconds. Called again when a part of the scene in `depends`
      * has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
     void (*tables)(struct kd_emit_tables *out, const struct kd_scene *scene);
     struct kd_scene_part depends[KD_EMITTER_PARTS]; /* ends at the first part of size 0 */
     const struct kd_sentence *sentences;
     size_t n_sentences;
-    const struct kd_emitter *kind; /* an emitter whose approximations apply to this one as well; NULL: none */
-    /* another emitter whose numbers and tables this one reads, including all those that the other one reads; NULL: none
-     */
+    const struct kd_emitter *kind; /* an emitter whose approximations also apply to this one; NULL: none */
+    /* another emitter whose numbers and tables this one reads, including those that the other one reads itself;
+     * NULL: none */
     const struct kd_emitter *reads;
     const struct kd_emitter *replaces; /* an emitter that is left out where this one is present; NULL: none */
 };
@@ -86,75 +88,79 @@ enum {
 };
 extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 
-/* Whether a scene has an emitter: it is present, and no emitter that replaces it is. */
+/* Whether a scene has an emitter: the emitter is present, and no emitter that replaces it is present. */
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
-/* Computes the words of the specialisation constants; 0 for emitters that the scene does not have. */
+/* Computes the words of the specialisation constants. The words of emitters that the scene does not have are 0. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
-/* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads, for a device that reads it as texels. */
+/* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads. For a device that reads this buffer as
+ * texels. */
 void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT]);
-/* What the scene's emitters need. kd_emit_needs: quantities of the lens map. The others: whether there is light at
- * crossings of the plane, at the ends of rays, light with separate luminance, or light from points. */
+/* What the scene's emitters need. kd_emit_needs: quantities of the lens map. The other functions: whether there is
+ * light at crossings of the plane, at the ends of rays, with separate luminance, or from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
-bool kd_emit_along(const struct kd_scene *scene);      /* whether there are volumes */
-bool kd_emit_slow_along(const struct kd_scene *scene); /* whether a volume is shown as it was when its light left it */
-bool kd_emit_met(const struct kd_scene *scene);        /* whether there are surfaces off the plane */
+bool kd_emit_along(const struct kd_scene *scene); /* whether there are volumes */
+/* whether a volume is shown as it was when its light left the volume (slow light) */
+bool kd_emit_slow_along(const struct kd_scene *scene);
+bool kd_emit_met(const struct kd_scene *scene); /* whether there are surfaces off the plane */
 bool kd_emit_at_ends(const struct kd_scene *scene);
 bool kd_emit_separate_photometry(const struct kd_scene *scene);
 bool kd_emit_points(const struct kd_scene *scene);
 /* Bytes of all device buffers of the scene's emitters. */
 uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
-/* Peak of the host memory that making the contents of these buffers takes. */
+/* Peak of the host memory needed to make the contents of these buffers. */
 uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass; 0 if it has none or the scene does not have the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
-/* What the scene's emitters cost. kind: hash of the set of emitters, of their traits, and of the quantities of the lens
- * map that they need. log2_of: for each emitter, the logarithms of the bytes of its own buffers and of the invocations
- * of its own pass; 0: it has none. */
+/* What the scene's emitters cost. kind: hash of the set of emitters, of their traits, and of the quantities of the
+ * lens map that they need. log2_of: for each emitter, the logarithms of two numbers: the bytes of its own buffers,
+ * and the invocations of its own pass. 0: the emitter has none. */
 struct kd_work {
     uint64_t kind;
     float log2_of[KD_EMITTER_COUNT][2];
 };
 struct kd_work kd_emit_work(const struct kd_scene *scene);
-/* Whether the emitters take about the same time at the same size of the picture: equal kinds, and no number differs by
- * more than a factor of two. */
+/* Whether the emitters take about the same time in a picture of the same size. They do if the kinds are equal and no
+ * number differs by more than a factor of two. */
 bool kd_work_alike(const struct kd_work *a, const struct kd_work *b);
 /* Calls take(user, approximation) for each approximation that is in force. */
 void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *rays,
                        void (*take)(void *user, struct kd_approximation approximation), void *user);
 size_t kd_emit_sentence_count(void); /* number of all approximations, in force or not */
 
-/* Numbers and tables of all emitters, and the scenes for which they were computed; {0} before the first use. Not shared
- * between threads. */
+/* Numbers and tables of all emitters, and the scenes for which they were computed. {0} before the first use. Not
+ * shared between threads. */
 struct kd_emit_state {
     struct kd_emit_data data;
-    struct kd_scene of[KD_EMITTER_COUNT]; /* scene from which each emitter was last filled */
+    struct kd_scene of[KD_EMITTER_COUNT]; /* scene for which each emitter was last filled */
     bool filled[KD_EMITTER_COUNT];        /* whether each emitter was filled */
     bool colours, luminous;               /* whether the tables that depend on no scene are filled */
 };
-/* Brings the data up to date. band_pixels: pixels of the picture's bands (emit/frame.glsl). 15 ms the first time, and
- * 15 ms more for the first scene of a visible band; afterwards only data whose scene has changed is computed. */
+/* Brings the data up to date. band_pixels: pixels of the picture's bands (emit/frame.glsl). The first call takes 15
+ * ms, and the first scene of a visible band 15 ms more. Later calls compute only data whose part of the scene has
+ * changed. */
 void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels);
 
 extern const struct kd_emitter kd_emit_disk;
-/* Traits of the smooth disk, shared by emitters that use its numbers and tables. */
+/* Traits of the smooth disk. Emitters that use its numbers and tables share them. */
 uint32_t kd_disk_traits(const struct kd_scene *scene);
-/* What emitters with the disk's light need of the lens map. For rays that are not on a grid, Q is computed from their
- * slope. */
+/* Quantities of the lens map that emitters with the disk's light need. For rays that are not on a grid, Q is
+ * computed from their slope. */
 uint32_t kd_disk_needs(const struct kd_scene *scene);
 /* kd_disk_reach: radii of the smooth disk's edges. kd_disk_sentence: a sentence such as "A thin disk from the ISCO
  * to 22 M." for the noun "thin disk". */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
 void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EMIT_TOLD]);
-/* Functions shared by emitters on orbits: KD_TRAIT_... for Doppler shift and redshift; quantities of the lens map
- * that they need; what changes their light. */
+/* Functions that all emitters on orbits share: KD_TRAIT_... for Doppler shift and redshift, quantities of the lens
+ * map that they need, and what changes their light. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
-/* The largest effective temperature of the disk, in K in the gas's own frame; with light that returns. */
+/* The largest effective temperature of the disk, in K, in the frame of the gas. Returning light is included. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
-/* Temperatures of black bodies as bright as the smooth disk at n radii r, including fade and opacity, relative to
- * kd_disk_peak_temperature. Makes a table of 0.1 to 0.3 s if light returns, so not for a thread that holds a lock. */
+/* Computes temperatures of black bodies that are as bright as the smooth disk at n radii r, including fade and
+ * opacity, relative to kd_disk_peak_temperature. If light returns, this makes a table in 0.1 to 0.3 s, so it must
+ * not be called with a lock. */
 void kd_disk_heats(const struct kd_scene *scene, size_t n, const double r[], double out[]);
 static inline double kd_disk_heat(const struct kd_scene *scene, double r)
 {

@@ -7,13 +7,13 @@
 
 #include <math.h>
 
-/* Displacement of an octave where the octave before is one standard deviation from its mean, in widths of the octave's
- * cells: streaks bend but do not tear. */
+/* Displacement of an octave where the octave before is one standard deviation from its mean, in widths of the
+ * octave's cells. With this value streaks bend but do not tear. */
 #define WARP 0.2
-/* Mean square slope of both noises along an axis, per cell. Displacement increases slopes in proportion to this. */
+/* Mean square slope of both noises along an axis, per cell. A displacement increases slopes in proportion to it. */
 #define STEEPNESS 16.6
-/* Amplitude ratio of successive octaves of the logarithm. Each octave has KD_GAS_FINER times as many cells, and
- * Kolmogorov's amplitudes fall as the cube root of that. */
+/* Ratio of the amplitudes of successive octaves of the logarithm. Each octave has KD_GAS_FINER times as many cells,
+ * and by Kolmogorov's law amplitudes fall as the cube root of that. */
 #define PERSISTENCE 0.72
 
 static bool present(const struct kd_scene *scene)
@@ -46,7 +46,7 @@ static double inner_radius(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Amplitude of the first octave, such that the logarithm has the standard deviation `amplitude` over all octaves
+/* Amplitude of the first octave with which the logarithm has the standard deviation `amplitude` over all octaves
  * together. */
 static double loudness(const struct kd_scene *scene)
 {

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#define CLEAR 1.05 /* least inner radius over the horizon's radius: outflow further in is not visible */
+#define CLEAR 1.05 /* least inner radius divided by the horizon's radius: outflow further in is not visible */
 
 static bool present(const struct kd_scene *scene) { return scene->jets.brightness > 0; }
 

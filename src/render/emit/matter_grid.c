@@ -14,20 +14,20 @@
 #include <string.h>
 
 #define NEVER -1e6 /* log2 of zero */
-#define COLD -24.0 /* log2 of k T/(m_e c^2), below which no fit is valid: 354 K */
+#define COLD -24.0 /* log2 of k T/(m_e c^2) below which no fit is valid: 354 K */
 #define EMPTY \
     40.0 /* An empty node is set this many octaves below the densest one, so that the light falls to nothing within a \
             cell. */
-#define EVEN 1e-3   /* fraction of a step: tolerance for the even spacing of rows */
+#define EVEN 1e-3   /* tolerance for the even spacing of rows, as a fraction of a step */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
-#define FINEST 1024 /* rows per factor of e in r: a stretch of the march is two cells */
-#define PARTS 64    /* the grid may cover 1/k of a turn, with k at most this */
-#define PLACES 4    /* cells a column in the table of uneven columns */
+#define FINEST 1024 /* most rows per factor of e in r, since a stretch of the march is two cells */
+#define PARTS 64    /* largest k, if the grid covers 1/k of a turn */
+#define PLACES 4    /* cells for each column in the table of uneven columns */
 #define PLACES_LEAST 256
 #define HEADER_MOST 65536
 
-/* Arrays in the order of their place in a node; `scale`: the power of r by which they are multiplied. */
+/* Arrays in the order of their place in a node. `scale`: power of r by which an array is multiplied. */
 static const struct {
     const char *name, *unit;
     double least, most;
@@ -44,9 +44,9 @@ _Static_assert(sizeof kinds / sizeof *kinds == KD_MATTER_FLOATS, "a float for ea
 struct kd_matter_reader {
     struct kd_unzip zip;
     struct kd_matter_grid grid;
-    double *r, *theta;            /* theta: of each column, or of each node of a layer */
-    size_t theta_rows;            /* 1, or the number of rows */
-    bool look;                    /* numbers are only checked, and not prepared for a renderer */
+    double *r, *theta;            /* theta: the angle of each column, or of each node of a layer */
+    size_t theta_rows;            /* 1, or the number of rows if each row has its own angles */
+    bool look;                    /* the numbers are only checked, and not prepared for a renderer */
     struct kd_matter_array array; /* the current array */
     size_t kind, done;            /* index of this array, and the number of its elements that are done */
 };
@@ -138,7 +138,7 @@ static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *e
     return status;
 }
 
-/* Checks that coordinates, or their logarithms if `logarithmic`, grow in even steps. */
+/* Checks that coordinates grow in even steps, or that their logarithms do if `logarithmic`. */
 static enum kd_status check_even(const char *name, const struct kd_matter_array *a, bool logarithmic, double least,
                                  double most, struct kd_error *error)
 {
@@ -263,7 +263,7 @@ static enum kd_status take_angles(struct kd_matter_reader *r, struct kd_error *e
     for (size_t row = 0; row < r->theta_rows; row++) {
         const double *at = r->theta + row * g->columns;
         KD_TRY(check_angles(at, g->columns, row, r->theta_rows == 1, error));
-        /* the column beside one on the axis must lie off it (over_sine) */
+        /* the column beside a column on the axis must lie off the axis (over_sine) */
         if (sin(at[1]) * sin(at[1]) <= AXIS || sin(at[g->columns - 2]) * sin(at[g->columns - 2]) <= AXIS)
             KD_TRY(kd_matter_refuse(
                 "theta", "must have its second and its last but one angle at least 3.2e-5 from the axis", error));
@@ -388,8 +388,8 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
     return refuse_number(g, kinds[kind].name, i, read, allowed, error);
 }
 
-/* Checks -lapse^2 (u^t)^2 + U^2 = -1 for observers of zero angular momentum (Bardeen, Press & Teukolsky 1972),
- * outside the horizon. */
+/* Checks that -lapse^2 (u^t)^2 + U^2 = -1, where U is the spatial part for observers of zero angular momentum
+ * (Bardeen, Press & Teukolsky 1972), at nodes outside the horizon. */
 static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     const struct kd_matter_grid *g = &r->grid;
@@ -408,8 +408,8 @@ static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struc
                          "-1 within a hundredth, as for a four-velocity in the coordinates that the grid names", error);
 }
 
-/* An empty node has no temperature. It gets the mean of its non-empty neighbours, so that interpolation next to it
- * gives matter its own temperature up to the edge. */
+/* Gets the temperature of an empty node, which has none of its own: the mean of its non-empty neighbours.
+ * Interpolation then gives matter its own temperature up to the edge. */
 static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i)
 {
     const size_t layers = g->layers, row = i / layers / g->columns, column = i / layers % g->columns,
@@ -430,8 +430,8 @@ static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i
     return n ? (float)exp2(sum / n) : nodes[KD_MATTER_FLOATS * i + TEMPERATURE];
 }
 
-/* Stores azimuthal components divided by sin^2 theta: near the axis they fall as sin^2 theta. Nodes on the axis get the
- * quotient of the node beside them. */
+/* Divides stored azimuthal components by sin^2 theta, because near the axis they fall as sin^2 theta. Nodes on the
+ * axis get the quotient of the node beside them. */
 static void over_sine(struct kd_matter_reader *r)
 {
     static const int kind[] = { VELOCITY + 2, FIELD + 2 };
@@ -472,7 +472,7 @@ static void to_logarithms(struct kd_matter_grid *g)
     }
 }
 
-/* The nearest half, for numbers within its range; infinity is cut to the largest half. */
+/* Returns the half nearest to x, for numbers within the range of halves. Infinity becomes the largest half. */
 static uint32_t half_of(float x)
 {
     uint32_t bits, sign;
@@ -481,7 +481,7 @@ static uint32_t half_of(float x)
     bits &= 0x7fffffff;
     if (bits >= 0x477ff000)
         return sign | 0x7bff;
-    if (bits < 0x38800000) { /* a sum with 1/2 rounds to multiples of 2^-24 */
+    if (bits < 0x38800000) { /* adding 1/2 rounds to a multiple of 2^-24 */
         x = fabsf(x) + 0.5f;
         memcpy(&bits, &x, 4);
         return sign | (bits - 0x3f000000);
@@ -572,7 +572,7 @@ size_t kd_matter_reader_bytes(const struct kd_matter_reader *r)
 
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *r) { return &r->grid; }
 
-/* Unpacks the next array. False: the array is u_con_t, the last one, and is missing. */
+/* Unpacks the next array. Returns false if that array is u_con_t, the last one, and is missing. */
 static bool begin_array(struct kd_matter_reader *r, enum kd_status *status, struct kd_error *error)
 {
     const char *name = r->kind < KD_MATTER_FLOATS ? kinds[r->kind].name : "u_con_t";

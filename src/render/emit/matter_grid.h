@@ -3,7 +3,7 @@
  *
  *   header        JSON: {"format": "kerrd-grid", "version": 1, "spin": a, "azimuth": "boyer-lindquist" or
  *                 "kerr-schild", "units": {array: unit}, and optionally "charge": Q of the hole in M, 0 if missing, and
- *                 "packed": true or false; it is true in a grid of more than 2^21 nodes}
+ *                 "packed": true or false; the default is true in a grid of more than 2^21 nodes}
  *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta has an
  *                 angle for each column, or, with the shape (rows, columns), for each node. phi covers a turn or 1/k
  *                 of a turn with a whole k, and may be missing
@@ -11,8 +11,8 @@
  *                 arrays of the shape (rows, columns) or (rows, columns, layers)
  *   u_con_t       optional; if present, the velocity must be a unit vector
  *
- * Components are in Boyer-Lindquist coordinates (con: contravariant, cov: covariant), namely those that are finite at
- * the horizon. u^t follows from the norm. b is the field in the frame of the matter, so b^t follows from b.u = 0. */
+ * Components are in Boyer-Lindquist coordinates (con: contravariant, cov: covariant), namely those that are finite
+ * at the horizon. u^t follows from the norm. b is the field in the frame of the matter, so b^t follows from b.u = 0. */
 #ifndef KD_RENDER_EMIT_MATTER_GRID_H
 #define KD_RENDER_EMIT_MATTER_GRID_H
 
@@ -27,9 +27,9 @@
 enum {
     KD_MATTER_SIDE = 4096,      /* limit for rows, columns and layers */
     KD_MATTER_NODES = 1 << 25,  /* limit for nodes: 512 x 256 x 256 */
-    KD_MATTER_WHOLE = 1 << 21,  /* grids of more nodes are packed */
-    KD_MATTER_FLOATS = 8,       /* floats a node, words of a packed one are half as many */
-    KD_MATTER_ANGLES = 1 << 21, /* limit for the numbers of theta, if it has one for each node of a row and column */
+    KD_MATTER_WHOLE = 1 << 21,  /* largest number of nodes of a grid that is not packed */
+    KD_MATTER_FLOATS = 8,       /* floats of a node; a packed node has half as many words */
+    KD_MATTER_ANGLES = 1 << 21, /* limit for the angles theta, if each node of a row and column has its own */
     KD_MATTER_PLACES = 1 << 20  /* limit for the cells of `places`, of four floats each */
 };
 
@@ -38,53 +38,55 @@ struct kd_matter_grid {
     double spin, charge;
     double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns
                               are evenly spaced */
-    /* phi: of the first layer; turn: the angle covered by all layers, in radians: a turn, or 1/k of it with a whole
-     * k */
+    /* phi: azimuth of the first layer; turn: angle covered by all layers, in radians, which is a turn or 1/k of it
+     * with a whole k */
     double phi, turn;
-    bool ingoing; /* phi is the ingoing Kerr-Schild azimuth; otherwise the Boyer-Lindquist one */
-    double field; /* the largest component of the field, gauss; 1 if there is no field */
+    bool ingoing; /* phi is the ingoing Kerr-Schild azimuth; false: the Boyer-Lindquist azimuth */
+    double field; /* the largest component of the field, in gauss; 1 if there is no field */
     /* For each node, with layers adjacent: log2 of density in cm^-3 and of k T/(m_e c^2), u^r, r u^theta, u_phi/(r
      * sin^2 theta), then b^r, r b^theta and b_phi/(r sin^2 theta), each divided by `field`. These numbers vary
      * little from node to node and are finite on the axis. */
     float *nodes;
-    /* A packed node has four words: density and Theta as fractions of their ranges in 16 bits, then six halves in the
-     * order above: u divided by `speed`, and b times KD_MATTER_FIELD. least, range: of log2 of density and Theta. */
+    /* A packed node has four words: density and Theta as fractions of their ranges in 16 bits, then six halves in
+     * the order above, namely u divided by `speed` and b times KD_MATTER_FIELD. least and range: least value and
+     * range of log2 of density and of Theta. */
     bool packed, whole; /* whole: the file asks for nodes that are not packed */
     double least[2], range[2], speed;
     /* For columns that are not evenly spaced: a table that gives the column at theta, as a number with a fraction,
-     * by bilinear interpolation. It has `steps` cells in theta from 0 to pi for each pair of adjacent rows, or once
-     * for all rows. A cell has four floats: the column at its beginning and at its end, in one row and in the next.
-     * NULL: the columns are evenly spaced. */
+     * by bilinear interpolation. It has `steps` cells in theta from 0 to pi for each pair of adjacent rows, or one
+     * such set of cells for all rows. A cell has four floats: the column at its beginning and at its end, each in
+     * one row and in the next. NULL: the columns are evenly spaced. */
     float *places;
     uint32_t steps, place_rows;
 };
 
-#define KD_MATTER_FIELD 16384.0 /* the largest half of a component of the field: smaller ones keep their 11 bits */
+/* half that stands for the largest component of the field, so that smaller components also keep their 11 bits */
+#define KD_MATTER_FIELD 16384.0
 
 /* Whether bytes begin as an NPZ file does. */
 bool kd_matter_grid_is(const void *data, size_t size);
-/* Reads and checks a whole file. KD_EINVAL with what is wrong and what is valid; KD_ENOMEM. */
+/* Reads and checks a whole file. KD_EINVAL: the message says what is wrong and what is valid. KD_ENOMEM. */
 enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error);
-/* As kd_matter_grid_read, but returns only the numbers of nodes, and the hole. */
+/* Like kd_matter_grid_read, but returns only the numbers of nodes in r, theta and phi, and the hole. */
 enum kd_status kd_matter_grid_look(const void *data, size_t size, struct kd_asset_grid *out, struct kd_error *error);
-/* Bytes of the nodes on the device. */
+/* Number of bytes that the nodes take on the device. */
 size_t kd_matter_grid_bytes(const struct kd_matter_grid *grid);
 struct kd_asset_grid kd_matter_grid_told(const struct kd_matter_grid *grid);
 /* floats of `places`; 0: the columns are evenly spaced */
 size_t kd_matter_grid_places(const struct kd_matter_grid *grid);
 void kd_matter_grid_finish(struct kd_matter_grid *grid);
 
-/* Reads a file in pieces of some milliseconds, none of which unpacks more than one array. The file's bytes must remain
+/* Reads a file in pieces of some milliseconds. No piece unpacks more than one array. The file's bytes must remain
  * valid until the reader is closed. One thread at a time. */
 struct kd_matter_reader;
-/* Reads the header and the coordinates of the nodes. look: the numbers are only checked; the grid cannot be
+/* Reads the header and the coordinates of the nodes. look: the numbers will only be checked, and the grid cannot be
  * rendered. */
 enum kd_status kd_matter_reader_open(const void *data, size_t size, bool look, struct kd_matter_reader **out,
                                      struct kd_error *error);
 /* Memory that the reader needs until it is closed: nodes, and the longest unpacked array. */
 size_t kd_matter_reader_bytes(const struct kd_matter_reader *reader);
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *reader);
-/* Continues until until_ms of kd_clock_ms, but begins at least one array. *over: whether the file is done. */
+/* Continues until until_ms of kd_clock_ms, but begins at least one array. *over: whether the whole file is read. */
 enum kd_status kd_matter_reader_go_on(struct kd_matter_reader *reader, double until_ms, bool *over,
                                       struct kd_error *error);
 void kd_matter_reader_close(struct kd_matter_reader *reader); /* accepts NULL */

@@ -8,14 +8,14 @@
 
 enum kd_varies {
     KD_MOVES_WITH_TIME = 1, /* something moves */
-    KD_DIMS_WITH_TIME = 2,  /* only brightness changes: each pixel keeps showing the same thing */
+    KD_DIMS_WITH_TIME = 2,  /* only brightness changes, so that each pixel keeps showing the same object */
     KD_MOVES_WITH_AZIMUTH = 4,
-    KD_MOVES_BY_FALL = 8, /* the camera's radius changes, whatever is in view */
+    KD_MOVES_BY_FALL = 8, /* the camera's radius changes, whatever the camera sees */
 };
 
-/* enum kd_varies: what would change in the picture at another time or azimuth, even if the scene's rates are 0. */
+/* enum kd_varies: what would change in the picture at another time or azimuth, even if all rates of the scene are 0. */
 unsigned kd_emit_varies(const struct kd_scene *scene);
-/* Whether anything visible changes, by the scene's rates. */
+/* Whether anything visible changes with time at the scene's rates. */
 bool kd_emit_moves(const struct kd_scene *scene);
 /* Whether only brightness changes and nothing moves. */
 bool kd_emit_only_dims(const struct kd_scene *scene);

@@ -1,7 +1,7 @@
 /* Device buffers of an emitter, which the kernels of light read (KD_BUFFERS_name of shaders/shared/emitters.h). The
- * emitter fills them before the transfer pass: from the host, or by a pass of its own (KD_PASS_name there) with the
- * kernel shaders/comp/NAME.comp. Frames iterate over the table of emitters (device/prepare.h) and know no names.
- * Render thread only. */
+ * emitter fills them before the transfer pass, from the host or by its own pass (KD_PASS_name there) with the kernel
+ * shaders/comp/NAME.comp. Frames iterate over the table of emitters (device/prepare.h) and know no names. Render
+ * thread only. */
 #ifndef KD_RENDER_EMIT_OWN_H
 #define KD_RENDER_EMIT_OWN_H
 
@@ -14,30 +14,30 @@
 struct kd_renderer;
 struct kd_scene;
 
-/* The working set of an emitter. A long picture that lends the device has its own copy of `own`
+/* The working set of an emitter. A long picture that releases the device has its own copy of `own`
  * (kd_render_in_background). */
 struct kd_emitter_buffers_work {
     struct kd_renderer *renderer;
     struct kd_vk *vk;
-    void *own; /* kd_emitter_buffers.bytes bytes, zero at first */
-    double ns; /* estimated cost of an invocation of the emitter's pass; 0: it has no pass */
+    void *own; /* state of kd_emitter_buffers.bytes bytes, zero at first */
+    double ns; /* estimated cost of an invocation of the emitter's pass; 0: the emitter has no pass */
 };
 
 struct kd_emitter_buffers {
-    size_t bytes; /* size of the emitter's state: its buffers, and a record of their contents */
+    size_t bytes; /* size of the emitter's state, which is its buffers and a record of their contents */
     /* Records and submits the commands that bring the buffers up to date with the scene. The commands are timed under
      * the emitter's name. */
     enum kd_status (*prepare)(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
                               struct kd_error *error);
     void (*buffers)(const void *own,
-                    /* sets the emitter's own entries, by KD_OWN_... (emission.h) */
+                    /* sets the emitter's own entries, indexed by KD_OWN_... (emission.h) */
                     struct kd_vk_buffer *out[KD_OWN_COUNT]);
-    void (*forget)(void *own); /* called if recorded commands may not have run, because work was given up: the contents
-                                * are then unknown */
+    void (*forget)(void *own); /* called if work was given up, so that recorded commands may not have run: the
+                                * contents are then unknown */
     void (*finish)(void *own, struct kd_vk *vk);
-    /* Starts slow work of the host on a thread; `tell` and `prepare` wait for it. NULL: there is none. */
+    /* Starts slow work of the host on a thread. `tell` and `prepare` wait for it. NULL: there is no such work. */
     void (*begin)(struct kd_renderer *renderer, const struct kd_scene *scene);
-    /* Completes the emitter's numbers after `fill` with those that the scene does not contain, and writes the
+    /* Completes the emitter's numbers after `fill` with numbers that the scene does not contain, and writes the
      * credit of the picture's sources. NULL: the emitter needs neither. */
     enum kd_status (*tell)(struct kd_renderer *renderer, const struct kd_scene *scene, struct kd_emission *out,
                            char *credit, size_t size, struct kd_error *error);
@@ -53,8 +53,8 @@ enum kd_status kd_emitter_buffers_kernel(const struct kd_emitter_buffers_work *w
                                          const struct kd_vk_pipeline_params *kernel, const uint32_t *constants,
                                          size_t n, const struct kd_vk_pipeline **out, struct kd_error *error);
 
-/* The buffers of the sky are in device/skies.c, which keeps panoramas for all pictures of a renderer. Those of matter
- * at a radio frequency are in device/grids.c, which reads volume.grid. */
+/* The buffers of the sky are in device/skies.c, which caches panoramas for all pictures of a renderer. The buffers
+ * of matter at a radio frequency are in device/grids.c, which reads volume.grid. */
 extern const struct kd_emitter_buffers kd_emitter_buffers_sky, kd_emitter_buffers_plasma;
 
 #endif

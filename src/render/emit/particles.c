@@ -12,15 +12,15 @@
 #include <math.h>
 #include <stdio.h>
 
-#define PER_CELL 5.0 /* particles a cell; the density then scatters by a third, in spots some pixels wide */
+#define PER_CELL 5.0 /* particles in each cell; the density then scatters by a third, in spots some pixels wide */
 
 static double inner(const struct kd_scene *scene)
 {
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Range of guiding orbits. It exceeds the edges of the disk by the particles' swing, so that equal numbers of particles
- * cross the edges inwards and outwards. */
+/* Range of guiding orbits. It exceeds the edges of the disk by the particles' swing, so that as many particles cross
+ * the edges inwards as outwards. */
 struct span { double low, high, s; };
 static struct span span_of(const struct kd_scene *scene)
 {
@@ -48,10 +48,10 @@ static double density(const struct kd_scene *scene, double r)
     return o.s == 0 ? 1 / all : o.s * exp(o.s * log(r / o.low)) / expm1(o.s * all);
 }
 
-/* Each parcel of falling gas holds one particle. There are three times as many parcels round the ISCO as from start to
- * end, so that half-way down a parcel is about as wide as long. Light with a longer delay shows parcels that have
- * already fallen in; light from the near side of the disk shows parcels that are still to come. Both are at most these
- * times away, in M. The delay grows by a turn for every two orders. */
+/* Each parcel of falling gas holds one particle. There are three times as many parcels round the ISCO as from start
+ * to end, so that half-way down a parcel is about as wide as it is long. Light with a longer delay shows parcels
+ * that have already fallen in; light from the near side of the disk shows parcels that have not started yet. The
+ * constants are the longest such times in M. The delay grows by a turn for every two orders. */
 #define EARLY 20.0
 #define LATE 50.0
 #define LATE_PER_ORDER 25.0
@@ -75,9 +75,9 @@ static void plunge_grid(struct kd_particle_grid *g, const struct kd_scene *scene
     g->plunge_rows = (uint32_t)fmin(g->lead_rows + g->lap_rows + more, KD_PARTICLE_ROWS);
 }
 
-/* Number of guiding radii. Each row of the grid has at least five. They are so evenly spread that a node gets its
- * expected number within 1 %, the Poisson error of the at most 10 000 particles of a row. The thinnest row is at one of
- * the edges. Each radius has at least one particle. */
+/* Number of guiding radii. Each row of the grid has at least five radii, and each radius at least one particle. The
+ * radii are spread so evenly that a node gets its expected number within 1 %. That is the Poisson error of a row,
+ * which has at most 10 000 particles. The row with the fewest radii is at one of the edges. */
 static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene *scene)
 {
     double all = log(scene->disk.outer / inner(scene));
@@ -86,8 +86,8 @@ static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene
     return (uint32_t)fmin(radii, g->count - g->plunging);
 }
 
-/* One buffer holds, each at a multiple of 256 bytes: the guiding orbits, the expected numbers of the grid's rows, and
- * the expected numbers of the plunge's rows. */
+/* Bytes of one buffer that holds the guiding orbits, the expected numbers of the grid's rows, and the expected
+ * numbers of the plunge's rows. Each of the three begins at a multiple of 256 bytes. */
 uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *g)
 {
     return (g->radii * sizeof(struct kd_guide) + 255) / 256 * 256;
@@ -116,8 +116,8 @@ struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
     g.rows = (uint32_t)fmax(4, fmin(g.count / (PER_CELL * g.columns), KD_PARTICLE_ROWS));
     plunge_grid(&g, scene);
     g.radii = radii_of(&g, scene);
-    /* Particles are scattered at random, but a node practically never gets more than twice the mean of the fullest row
-     * plus 64. */
+    /* Particles are scattered at random, but a node practically never gets more than 64 plus twice the mean of the
+     * fullest row. */
     double fullest = fmax(density(scene, inner(scene)), density(scene, scene->disk.outer)) * all;
     double unit = 65535 / (2 * fullest * g.count / ((double)g.rows * g.columns) + 64);
     g.unit = (uint32_t)fmax(1, fmin(unit, 1024));
@@ -125,7 +125,7 @@ struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
     return g;
 }
 
-/* 2^31 radii/particles, rounded down. The kernel multiplies by this factor as well, so that both round alike. */
+/* 2^31 radii/particles, rounded down. The kernel multiplies by the same factor, so that both round alike. */
 static uint32_t per_particle(const struct kd_particle_grid *grid)
 {
     return (uint32_t)(((uint64_t)grid->radii << 31) / (grid->count - grid->plunging));
@@ -161,7 +161,7 @@ static uint32_t hash(uint32_t x)
 
 static uint32_t key_of(const struct kd_scene *scene) { return hash((uint32_t)scene->disk.seed + 0x9e3779b9u); }
 
-/* The random numbers are those of the kernel. */
+/* Draws the same random numbers as the kernel. */
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle)
 {
     uint32_t key = key_of(scene), random = hash(particle ^ key);
@@ -174,7 +174,7 @@ struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_
     };
 }
 
-/* The fraction of a phase after whole turns, in 2^-32 of a turn. */
+/* The fraction of a turn that remains of a phase, in units of 2^-32 turns. */
 static uint32_t turns(double rate, double t)
 {
     double phase = rate * t / (2 * M_PI);
@@ -204,10 +204,10 @@ static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, cons
 }
 
 /* Fills in the reciprocal of the weight that a node of each row is expected to have. A particle contributes to a
- * node if it is within one row of it, with a weight that depends on the distance. */
+ * node if it is within one row of the node; its weight depends on the distance. */
 static void fill_expected(float *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
 {
-    enum { PARTS = 8 }; /* parts into which the triangular weight is divided on each side */
+    enum { PARTS = 8 }; /* parts into which each side of the triangular weight is divided */
     double rows = rows_of(scene, grid), weight = (double)(grid->count - grid->plunging) * grid->unit / grid->columns;
     for (uint32_t i = 0; i <= grid->rows; i++) {
         double sum = 0;
@@ -220,7 +220,7 @@ static void fill_expected(float *out, const struct kd_scene *scene, const struct
     }
 }
 
-/* fill_expected for the plunge, whose particles are evenly spread in phase. */
+/* Like fill_expected, for the plunge, whose particles are evenly spread in phase. */
 static void fill_plunge_expected(float *out, const struct kd_particle_grid *grid)
 {
     double weight = (double)grid->plunging * grid->unit / grid->plunge_columns / grid->lap_rows;
@@ -228,8 +228,8 @@ static void fill_plunge_expected(float *out, const struct kd_particle_grid *grid
         out[i] = (float)((i == 0 || i == grid->plunge_rows ? 2 : 1) / weight);
 }
 
-/* A stream of N particles in a time P has N/(P 2 pi r |u^r|) particles per area in their own frame; n particles per ln
- * r on circles have n/(2 pi r^2 u^t). */
+/* A stream of N particles in a time P has N/(P 2 pi r |u^r|) particles per area in the particles' own frame. On
+ * circular orbits, n particles per ln r give n/(2 pi r^2 u^t). */
 double kd_particle_plunge_depth(const struct kd_scene *scene)
 {
     const struct kd_hole *hole = kd_scene_hole(scene);

@@ -3,7 +3,7 @@
  * number and the seed; nothing is stored. The particles with the lowest numbers fall from the ISCO instead
  * (render/emit/plunging.h). Each then starts again at another azimuth, a hash of its number and the count of its falls.
  * The position at any time t is a closed form. Angular frequencies are in double. Their phases at t reach the device as
- * 32-bit fractions of a turn, whose sums wrap exactly, so that t may be arbitrarily large.
+ * 32-bit fractions of a turn. Their sums wrap exactly, so t may be arbitrarily large.
  *
  * The rows of the grid are steps of log r from edge to edge, its columns steps of azimuth. The light of the smooth disk
  * is multiplied by the ratio of the number counted at a node to the number expected there. Falling particles have a
@@ -15,8 +15,8 @@
  *   ln r = ln r0 + (A/r0) cos(kappa t + psi),  phi = phi0 + Omega t + (dOmega/dr) (A/kappa) sin(kappa t + psi)
  *   latitude = I cos(Omega_theta t + psi'),    A = disk.epicycles u r0 (kappa/Omega)^2,  I = disk.epicycles u'
  *
- * with u and u' in [0, 1], and dOmega/dr at constant E and L, so that nothing diverges at the ISCO, where kappa -> 0,
- * and r - r_isco never changes sign. Pure; the device's part is render/emit/deposit.h. */
+ * with u and u' in [0, 1], and dOmega/dr at constant E and L, so that nothing diverges at the ISCO, where kappa ->
+ * 0, and r - r_isco never changes sign. Pure; the device's part is render/emit/deposit.h. */
 #ifndef KD_RENDER_EMIT_PARTICLES_H
 #define KD_RENDER_EMIT_PARTICLES_H
 
@@ -30,27 +30,29 @@ struct kd_particles_push; /* push constants of particles.comp: render/view/layou
 
 /* number of guiding orbits if there are at least as many particles; 35 orbits to a row of the default grid */
 #define KD_PARTICLE_RADII 4096u
-#define KD_PARTICLE_RADII_MAX 65536u /* the most orbits: if there are many rows, or some are nearly empty */
+/* largest number of orbits, used if there are many rows or some are nearly empty */
+#define KD_PARTICLE_RADII_MAX 65536u
 #define KD_PARTICLE_ROWS 4096u
 
 struct kd_particle_grid {
-    uint32_t count; /* particles; 0: the disk is smooth */
+    uint32_t count; /* number of particles; 0: the disk is smooth */
     uint32_t radii;
     uint32_t rows, columns;               /* number of intervals; columns is a power of 2 */
     uint32_t plunging;                    /* number of falling particles; 0: they have no grid */
     uint32_t plunge_rows, plunge_columns; /* size of their grid */
     /* rows from the start of the plunge to its end; rows before the start, for slow light */
     uint32_t lap_rows, lead_rows;
-    uint32_t unit;  /* weight of one particle: a node holds 16 bits */
+    uint32_t unit;  /* weight of one particle, chosen so that a node fits in 16 bits */
     uint64_t bytes; /* size of the grids on the device */
 };
 /* The grid of a valid scene; its cells are about square, with a handful of particles in each. */
 struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene);
 
-/* Guiding orbit of a particle that does not fall: in order of radius, in equal numbers except for rounding. */
+/* Guiding orbit of a particle that does not fall. Orbits are in order of radius and have equal numbers of particles,
+ * except for rounding. */
 uint32_t kd_particle_guide(const struct kd_particle_grid *grid, uint32_t particle);
 
-/* The guiding radius inside which the fraction q of the particles is. */
+/* The guiding radius inside which a fraction q of the particles lies. */
 double kd_particle_radius(const struct kd_scene *scene, double q);
 
 /* Guiding orbit k: its radius, angular frequencies in rad/M, and the largest swings of ln r and of phi in radians. */
@@ -75,11 +77,11 @@ struct kd_particle_place {
     float r;
     uint32_t phi;
     float latitude;
-    bool plunging; /* falls, with the ISCO's energy and angular momentum; otherwise on a guiding orbit */
+    bool plunging; /* the particle falls with the ISCO's energy and angular momentum; false: it is on a guiding orbit */
 };
 
-/* Sizes of the kernel's buffers. One has the guiding orbits, followed by the expected numbers for the rows of both
- * grids; the other has the grids in 32-bit words. */
+/* Sizes of the kernel's buffers. One buffer has the guiding orbits, followed by the expected numbers for the rows of
+ * both grids. The other has the grids in 32-bit words. */
 #define KD_PARTICLE_EXPECTED_BYTES (4 * (KD_PARTICLE_ROWS + 64))
 uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *grid);
 uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *grid);
@@ -100,7 +102,7 @@ struct kd_particle_listed {
     float latitude;
 };
 
-/* Converts the listed particles to positions of n particles: first, first + stride, ... */
+/* Converts the listed particles to the positions of n particles: first, first + stride, ... */
 void kd_particle_places_of(const struct kd_scene *scene, const struct kd_particle_grid *grid,
                            const struct kd_particle_listed *got, uint32_t first, uint32_t stride, size_t n,
                            struct kd_particle_place *out);

@@ -47,7 +47,8 @@ static void reach(const struct kd_scene *scene, double radii[2])
         radii[1] = fmin(radii[1], kd_torus_of(kd_scene_hole(scene), radii[0], scene->volume.torus_radius).outer);
 }
 
-/* cos(theta) at which a layer has thinned out: x = steep u, or steep u/sin(theta), is KD_PLASMA_SEEN. */
+/* cos(theta) at which a layer becomes too thin to count: there x = steep u, or steep u/sin(theta), equals
+ * KD_PLASMA_SEEN. */
 static double height(const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;
@@ -72,7 +73,8 @@ static double knot(const struct kd_scene *scene)
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
 static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) && !*scene->volume.grid; }
 
-/* Number of nodes of the scene's grid; if its file has not been found yet, the largest number that is not packed. */
+/* Number of nodes of the scene's grid. If the grid's file has not been found yet, the largest number that is not
+ * packed. */
 static uint64_t nodes_of(const struct kd_scene *scene)
 {
     return scene->grid_nodes ? scene->grid_nodes : KD_MATTER_WHOLE;
@@ -84,8 +86,8 @@ static uint64_t node_bytes(const struct kd_scene *scene)
     return KD_MATTER_FLOATS * sizeof(float) / (is_packed(scene) ? 2 : 1);
 }
 
-/* Host memory: the nodes before they are packed and one array of the file; if they are not packed, the file's arrays
- * and the upload as well. */
+/* Host memory: the nodes before they are packed, and one array of the file. If they are not packed, also the file's
+ * arrays and the upload. */
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float)
@@ -99,9 +101,9 @@ static uint64_t making_bytes(const struct kd_scene *scene)
                                                      : 2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) +
                      (uint64_t)KD_MATTER_PLACES * 8 * sizeof(float)
                : 0;
-} /* the grid's numbers as read, and as uploaded */
+} /* the grid's numbers, as they were read and as they were uploaded */
 
-/* The picture depends on the azimuth unless the grid is axisymmetric, which cannot be seen from the scene. */
+/* The picture depends on the azimuth unless the grid is axisymmetric, which the scene does not tell. */
 static unsigned varies(const struct kd_scene *scene)
 {
     return is_grid(scene) && *scene->volume.grid ? KD_MOVES_WITH_AZIMUTH : 0;
@@ -209,7 +211,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     if (scene->volume.model == KD_VOLUME_TORUS)
         fill_torus(to, scene);
     if (is_grid(scene))
-        to->density = (float)log2_of(scene->volume.grid_scale); /* device/grids.c fills in the rest */
+        to->density = (float)log2_of(scene->volume.grid_scale); /* device/grids.c sets the other members */
 }
 
 static bool is_gold(const struct kd_scene *scene, const struct kd_setting *rays)

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-/* A small share of the particles may be rounded to 0; then there is no grid. */
+/* A small share of the particles may be rounded to 0; there is no grid in that case. */
 static bool present(const struct kd_scene *scene)
 {
     return scene->disk.plunging_temperature > 0 && kd_plunging_is_on(scene) && kd_particle_grid(scene).plunging > 0;
@@ -14,7 +14,8 @@ static bool present(const struct kd_scene *scene)
 
 static uint32_t needs(const struct kd_scene *scene) { return kd_orbit_needs(scene) | KD_LENS_SLOPE; }
 
-/* t and phi of the plunge are smooth in log (r_isco - r)/(r - r+): powers near one end, logarithms at the other. */
+/* t and phi of the plunge are smooth in log (r_isco - r)/(r - r+). At one end they are powers, at the other
+ * logarithms. */
 struct range { double first, last; };
 static struct range range_of(const struct kd_plunging *p)
 {

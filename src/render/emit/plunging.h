@@ -1,10 +1,9 @@
-/* The particles that fall from the ISCO. All follow one curve (physics/orbit/plunge.h), again and again. They
- * follow it from 1/32 of the way between ISCO and horizon to 1/64 of the way before the horizon, because the curve
- * takes infinite time at both ends. At the start gas falls at 1e-3 without spin and at 7e-4 for a = 0.9. That is
- * about the drift of a disk of alpha = 0.1 and h/r = 0.1, alpha (h/r)^2 v_phi (Shakura & Sunyaev 1973). A particle
- * orbits the hole 3 times (a = 0), 7 times (0.9) or 38 times (0.998) before its end; W. J. Potter 2021,
- * arXiv:2104.09951, finds 4 to 17 for turbulent gas. At the end light that escapes has g < 0.02 and less than 1e-6
- * of its brightness.
+/* The particles that fall from the ISCO. All follow one curve (physics/orbit/plunge.h), again and again. The curve
+ * takes infinite time at both ends, so they start after 1/32 of the way between ISCO and horizon, and end when 1/64 of
+ * the way is left. At the start gas falls at 1e-3 c without spin and at 7e-4 c for a = 0.9. That is about the drift
+ * alpha (h/r)^2 v_phi of a disk of alpha = 0.1 and h/r = 0.1 (Shakura & Sunyaev 1973). A particle orbits the hole 3
+ * times (a = 0), 7 times (0.9) or 38 times (0.998) before its end; W. J. Potter 2021, arXiv:2104.09951, finds 4 to 17
+ * times for turbulent gas. Light that escapes from the end has g < 0.02 and less than 1e-6 of its brightness.
  *
  * A steady stream is uniform in time, so a particle's first coordinate is its phase, the fraction of the curve's
  * time that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel
@@ -19,7 +18,8 @@
 
 #include <stdbool.h>
 
-/* Whether some particles fall: the disk is made of particles, reaches the ISCO, and has a fraction of them falling. */
+/* Whether some particles fall: the disk is made of particles and reaches the ISCO, and a fraction of its particles
+ * fall. */
 bool kd_plunging_is_on(const struct kd_scene *scene);
 
 struct kd_plunging {
@@ -30,13 +30,13 @@ struct kd_plunging {
 };
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 
-/* Place at start >= r >= end. phase: from 0 to 1; turns: azimuth in turns, minus the turns of the orbit at the ISCO
- * since the start. */
+/* Place at a radius r, start >= r >= end. phase: from 0 to 1; turns: azimuth in turns, minus the turns that the
+ * orbit at the ISCO has made since the start. */
 struct kd_plunging_place { double phase, turns; };
 struct kd_plunging_place kd_plunging_at(const struct kd_plunging *plunging, double r);
 
-/* The inverse, which converts phases to places, for many phases: a table of points with known slopes, and cubics
- * between them. r is accurate to 1e-9. */
+/* Converts many phases to places, the inverse of the function above, by a table of points with known slopes and
+ * cubics between them. r is accurate to 1e-9. */
 #define KD_PLUNGING_POINTS 1025
 struct kd_plunging_path {
     struct { double r, turns, r_slope, turns_slope; } at[KD_PLUNGING_POINTS];

@@ -1,6 +1,6 @@
-/* Units of light of one frequency (kd_scene_is_radio_alone). Light 1 of a volume is a brightness temperature of
- * KD_RADIO_KELVIN; light 1 of a disk is the intensity of its hottest place without a shift. Pure functions of valid
- * scenes, any thread. */
+/* Units of light of one frequency (kd_scene_is_radio_alone). The unit of light of a volume is a brightness
+ * temperature of KD_RADIO_KELVIN. The unit of light of a disk is the intensity of its hottest place without
+ * redshift. Pure functions of valid scenes, any thread. */
 #ifndef KD_RENDER_EMIT_RADIO_H
 #define KD_RENDER_EMIT_RADIO_H
 
@@ -11,17 +11,17 @@
 /* Specific intensity of a brightness temperature: 2 nu^2 k T/c^2, W m^-2 Hz^-1 sr^-1. */
 double kd_radio_unit(double ghz, double kelvin);
 
-/* Light 1: as brightness temperature c^2 I/(2 k nu^2), K; as Jy a steradian. */
+/* The unit of light as a brightness temperature c^2 I/(2 k nu^2) in K, and as Jy per steradian. */
 double kd_radio_kelvin(const struct kd_scene *scene);
 double kd_radio_jansky_steradian(const struct kd_scene *scene);
 
-/* Converts a flux of kd_light_report to Jy. That flux is light times solid angle: in M^2 of the image plane, or,
- * for a camera at a finite radius r, in sr. A flux in sr is multiplied by r^2, as if the picture had the same width
- * at the hole and were seen from spacetime.distance_pc (kd_scene_width_uas). */
+/* Converts a flux of kd_light_report to Jy. That flux is light times solid angle, in M^2 of the image plane, or in
+ * sr for a camera at a finite radius r. A flux in sr is multiplied by r^2, as if a picture of the same width at the
+ * hole were seen from spacetime.distance_pc (kd_scene_width_uas). */
 double kd_radio_jansky(const struct kd_scene *scene, double flux);
 
-/* Flux in Jy of one pixel of light 1, for an observer at infinity: all pixels cover the same area of the image
- * plane. */
+/* Flux in Jy of one pixel with light 1, for an observer at infinity, where all pixels cover the same area of the
+ * image plane. */
 double kd_radio_jansky_pixel(const struct kd_scene *scene);
 
 #endif

@@ -6,8 +6,8 @@
 
 #include <math.h>
 
-/* The least relative change of luminance that counts. sRGB turns a relative change d of luminance into at most 112 d
- * steps of 8 bits: this limit is a tenth of a step. */
+/* The least relative change of luminance that counts. sRGB converts a relative change d of luminance to at most 112
+ * d steps of 8 bits, so this limit is a tenth of a step. */
 #define SEEN (1. / 1024)
 
 static bool present(const struct kd_scene *scene)
@@ -15,8 +15,8 @@ static bool present(const struct kd_scene *scene)
     return scene->style.ringdown > 0 && (kd_emit_at_crossings(scene) || kd_emit_along(scene));
 }
 
-/* Whether the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too fast, so when the
- * rings are considered still, a change of a third of a step may remain. */
+/* Whether the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too fast, so a change of a
+ * third of a step may remain when this returns that they do not. */
 static unsigned varies(const struct kd_scene *scene)
 {
     double since = scene->top.time - scene->style.ringdown_time;

@@ -47,7 +47,7 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
     const char *spread = !is_spread(scene) ? "" : is_picture(scene) ? "a picture of the sky" : "a Milky Way";
     const char *before = stars[scene->sky.model],
                *and = *before && *spread ? is_picture(scene) ? " over " : " and " : "";
-    const bool begins = !*before; /* whether the diffuse light begins the sentence */
+    const bool begins = !*before; /* whether the sentence begins with the diffuse light */
     snprintf(out, KD_EMIT_TOLD, "%s%s%s%s behind.", before, and, begins ? "A" : "", begins ? spread + 1 : spread);
 }
 
@@ -60,8 +60,8 @@ static uint64_t device_bytes(const struct kd_scene *scene)
            (has_stars(scene) ? 4 * (5 * places + cells) : 0);
 }
 
-/* Host memory for the panorama's light before it is packed, and before that for all pixels of the picture, whose number
- * the scene does not contain. */
+/* Host memory for the panorama's light before it is packed, and earlier for all pixels of the picture. The scene
+ * does not contain their number. */
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     const uint64_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT, most = KD_PANORAMA_MOST;

@@ -1,16 +1,16 @@
-/* Detects cameras from which the sky looks like noise. From close to the horizon of a fast hole the whole sky appears
- * many times over in a narrow cone: one pixel's step, or the rounding of a ray's labels, leads to an unrelated place on
- * the sky. Pure; any thread. */
+/* Detects cameras from which the sky looks like noise. From close to the horizon of a fast-spinning hole the whole
+ * sky appears many times over in a narrow cone. A step of one pixel, or the rounding of a ray's labels, then leads
+ * to an unrelated place on the sky. Pure; any thread. */
 #ifndef KD_RENDER_EMIT_SKY_NOISE_H
 #define KD_RENDER_EMIT_SKY_NOISE_H
 
 #include "render/accuracy/engine.h"
 #include "scene/scene.h"
 
-/* Traces some hundred pixels of the picture in closed form. True if, for most of those that see the sky, the next
- * ray or the same ray with rounded labels (to the lens map's precision) ends more than KD_SKY_STEP away. False at
- * infinity and beyond KD_SKY_NEAR horizon radii, where this happens only next to the critical curve. A fraction of a
- * millisecond. */
+/* Traces some hundred pixels of the picture in closed form. Returns true if two rays end more than KD_SKY_STEP apart
+ * for most pixels that see the sky: the ray and the next ray, or the ray and the same ray with labels rounded to the
+ * lens map's precision. Returns false at infinity and beyond KD_SKY_NEAR horizon radii, where this happens only next
+ * to the critical curve. Takes a fraction of a millisecond. */
 #define KD_SKY_STEP 0.1 /* radians: the drawn grid has lines about every 15 degrees */
 #define KD_SKY_NEAR 1.5
 bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision);

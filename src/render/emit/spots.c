@@ -1,4 +1,4 @@
-/* Hot spots as an emitter: shaders/emit/spots.glsl. */
+/* in sizes of a spot: beyond this distance, less than 1e-9 of the peak is left */
 #include "render/emit/emitter.h"
 
 #include "physics/spacetime/kerr.h"

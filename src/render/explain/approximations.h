@@ -6,7 +6,8 @@
 #include "base/buffer.h"
 #include "base/error.h"
 
-/* Append the page, or the document {"approximations": [{"name", "of", "sentence"}]}. The only error is KD_ENOMEM. */
+/* Append the page, or the JSON document {"approximations": [{"name", "of", "sentence"}]}. The only error is
+ * KD_ENOMEM. */
 enum kd_status kd_approximations_page(struct kd_buffer *page);
 enum kd_status kd_approximations_json(struct kd_buffer *out);
 

@@ -160,7 +160,7 @@ static void put_polarized_pixel(struct kd_json *json, const struct kd_probed_pix
         put_polarization(json, "pixel_polarization", sum, n);
 }
 
-/* c: NULL if there is no crossing outside the horizon. */
+/* c: the crossing; NULL if there is none outside the horizon. */
 static void put_velocity(struct kd_json *json, const struct kd_explained *x, const struct kd_ray_crossing *c)
 {
     const struct kd_gas_velocity v = c ? kd_explained_velocity(x, c) : (struct kd_gas_velocity) { NAN, NAN };
@@ -325,7 +325,8 @@ static void put_accuracy(struct kd_json *json, const struct kd_picture *picture,
     kd_json_end(json);
 }
 
-/* Writes one of the rays whose mean is the pixel's light: the members of the middle ray without those for drawing. */
+/* Writes one of the rays whose mean is the pixel's light. It has the members of the middle ray, except those for
+ * drawing. */
 static void put_ray(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
 {
     kd_json_object(json, NULL);
@@ -361,7 +362,7 @@ static enum kd_status put_each(struct kd_json *json, const struct kd_picture *pi
     return status;
 }
 
-/* Writes the engine's steps, or why there are none; writes nothing unless steps were requested. */
+/* Writes the engine's steps, or the reason why there are none. Writes nothing if steps were not requested. */
 static void put_trace(struct kd_json *json, const struct kd_picture *picture, const struct kd_probed_pixel *told)
 {
     if (!picture->plan->report.probe.steps)

@@ -52,14 +52,14 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
         struct kd_ray_crossing *c = &x->crossings[n];
         c->phi = kd_ray_path_phi(&x->frame, c->phi);
         c->delay = kd_ray_path_delay(&x->frame, c->delay);
-        /* for light whose energy at infinity is negative, c->g and the energy are both negative */
+        /* both c->g and the energy are negative for light whose energy at infinity is negative */
         c->g /= x->label.energy;
     }
     x->end.phi = kd_ray_path_phi(&x->frame, x->end.phi);
     return status;
 }
 
-/* Compares the crossings with the picture's, which end where nothing behind is visible. */
+/* Compares the crossings with those of the picture. The picture's list ends at the last visible crossing. */
 static void compare(struct kd_explained *x)
 {
     x->picture_error = x->told->n_places ? 0 : NAN;
@@ -70,7 +70,7 @@ static void compare(struct kd_explained *x)
     }
 }
 
-/* The opaque place of the ray; NULL if the ray has none, or if a volume before it was opaque. */
+/* The opaque place of the ray. NULL if the ray has none, or if a volume in front of it is opaque. */
 static const struct kd_probed_place *hiding(const struct kd_probed_ray *told)
 {
     for (size_t i = 0; i < told->n_places; i++) {
@@ -114,7 +114,7 @@ static void find_shown(const struct kd_picture *picture, struct kd_explained *x)
                                                   : ((const uint8_t *)kd_frame_pixels(f))[at + i] / 255.0;
 }
 
-/* Computes the labels with a camera that counts in the steps of the ray. */
+/* Computes the labels, using a camera whose unit is the step between rays. */
 static void find_label(const struct kd_picture *picture, struct kd_explained *x)
 {
     const uint32_t steps = x->told->steps_a_pixel;
@@ -247,9 +247,9 @@ bool kd_explained_has_gas(const struct kd_probed_place *p)
     return false;
 }
 
-/* With the lapse A and the dragging W: the local observer measures the energies (E - W L)/A of the gas, per unit mass,
- * which is its Lorentz factor, and (1 - W lambda)/A of light with E = 1. The gas measures 1/g of that light, which is
- * the Lorentz factor times the local energy times 1 - approach. */
+/* A is the lapse and W the frame dragging. The local observer measures the energy (E - W L)/A of the gas per unit
+ * mass, which is its Lorentz factor, and the energy (1 - W lambda)/A of light with E = 1. The gas measures the
+ * energy 1/g of that light, which is the Lorentz factor times the light's local energy times (1 - approach). */
 struct kd_gas_velocity kd_explained_velocity(const struct kd_explained *x, const struct kd_ray_crossing *at)
 {
     const struct kd_hole *hole = kd_scene_hole(&x->scene);

@@ -15,11 +15,12 @@
 
 struct kd_explained {
     const struct kd_probed_pixel *pixel;
-    const struct kd_probed_ray *told; /* the picture's report of the ray that is explained */
-    double weight;                    /* factor of its light in the pixel's light: 0, or 1 over the number of rays */
-    const char *eye;                  /* "left" or "right"; NULL: not a pair */
-    struct kd_scene scene;            /* scene of this eye */
-    struct kd_camera_label label;     /* energy: E at infinity, in units of the energy that the observer measures */
+    const struct kd_probed_ray *told; /* the picture's report on this ray */
+    /* factor of the ray's light in the pixel's light: 0, or 1 divided by the number of rays */
+    double weight;
+    const char *eye;              /* "left" or "right"; NULL: not a pair */
+    struct kd_scene scene;        /* scene of this eye */
+    struct kd_camera_label label; /* energy: E at infinity divided by the energy that the observer measures */
     struct kd_ray_motion motion;
     /* crossings in closed form, with azimuths of the scene, and g as measured by the observer */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
@@ -32,40 +33,40 @@ struct kd_explained {
     char why[240];           /* where the ray ends and why, one sentence */
 };
 
-/* kd_explain explains the middle ray. kd_explain_each explains, without its path, one of the rays whose mean is the
- * pixel's light. KD_EINVAL for a ray that has no closed form. Call kd_explained_finish in any case. */
+/* kd_explain explains the middle ray. kd_explain_each explains one of the rays whose mean is the pixel's light,
+ * without its path. Both return KD_EINVAL for a ray that has no closed form. Call kd_explained_finish in any case. */
 enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *out, struct kd_error *error);
 enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *out,
                                struct kd_error *error);
-/* Where the ray passes through the picture, in pixels. */
+/* The point at which the ray passes through the picture, in pixels. */
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
 /* Relative difference between the mean of the rays' light and the pixel's light. */
 double kd_explained_sum_error(const struct kd_probed_pixel *pixel);
-/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many of these are
- * known: 3, without V, if only light of the plane is polarised; 0 if the scene is not polarised. */
+/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many of them
+ * are known: 4, or 3 (without V) if only light of the plane is polarised, or 0 if the scene is not polarised. */
 enum { KD_EXPLAINED_STOKES = 4 };
 int kd_explained_stokes(const struct kd_probed_ray *ray, double out[KD_EXPLAINED_STOKES]);
 /* kd_explained_evpa: angle of the electric field. kd_explained_polarized: degree of polarisation. NAN if undefined. */
 double kd_explained_evpa(const double stokes[3]);
 double kd_explained_polarized(const double stokes[3]);
-/* Mean delay of the light from volumes, weighted by what arrives; NAN if there is none, or if the observer is inside
- * the horizon, where a distant clock is meaningless. */
+/* Mean delay of the light from volumes, weighted by the light that arrives. NAN if there is none, or if the observer
+ * is inside the horizon, where a distant clock is meaningless. */
 double kd_explained_along_delay(const struct kd_explained *explained);
 void kd_explained_finish(struct kd_explained *explained);
 
-/* The reported place of the crossing of that order; NULL: its light is blocked, or nothing emits light there. */
+/* The reported place at the crossing of that order. NULL if its light is blocked, or if nothing emits light there. */
 const struct kd_probed_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
 /* Whether there is gas with a known temperature and angle; place may be NULL. */
 bool kd_explained_has_gas(const struct kd_probed_place *place);
-/* Velocity of the disk's gas at a crossing outside the horizon, in c, as a local observer of zero angular momentum
- * measures it: its size, and its component along the light towards the camera. Within the last stable orbit the gas
- * keeps that orbit's E and L. */
+/* Velocity of the disk's gas at a crossing outside the horizon, in units of c, as a local observer of zero angular
+ * momentum measures it. speed: its size; approach: its component along the light towards the camera. Within the last
+ * stable orbit the gas keeps that orbit's E and L. */
 struct kd_gas_velocity { double speed, approach; };
 struct kd_gas_velocity kd_explained_velocity(const struct kd_explained *explained, const struct kd_ray_crossing *at);
 /* Boyer-Lindquist azimuth in the hole's own frame, in (-pi, pi]. */
 double kd_explained_azimuth(const struct kd_explained *explained, double phi);
 
-/* Writes the explanation as a table in plain text. KD_EINVAL as kd_explain. */
+/* Writes the explanation as a table in plain text. KD_EINVAL as in kd_explain. */
 enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffer *out, struct kd_error *error);
 
 /* The document of POST /v1/pixel; not among kd_formats, because it is about one pixel. */
@@ -77,8 +78,8 @@ enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_e
  * picture (render/plan/tile.h): a numeric exposure, no bloom, no beam. Otherwise leaves both unchanged. */
 enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
                                  struct kd_error *error);
-/* Requests additional output by a word: "steps" are the engine's steps along the middle ray. KD_EINVAL for any other
- * word. */
+/* Requests additional output by a word. The only word is "steps", for the engine's steps along the middle ray.
+ * KD_EINVAL for any other word. */
 enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct kd_error *error);
 
 #endif

@@ -7,9 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define FAR 50.0     /* M: the path normally extends to this radius */
-#define FARTHEST 1e3 /* M: the path extends at most to this radius, for a crossing further out than FAR */
-#define NEAR 0.01    /* fraction of the horizon's radius: how near the path comes to the horizon */
+#define FAR 50.0     /* M: radius to which the path normally extends */
+#define FARTHEST 1e3 /* M: largest radius of the path, reached if a crossing lies further out than FAR */
+#define NEAR 0.01    /* distance from the horizon at which the path ends, as a fraction of the horizon's radius */
 #define DEGREES (180 / M_PI)
 
 static const char *const radial_cases[] = { "I", "II", "III", "IV" }, *const polar_cases[] = { "ordinary", "vortical",
@@ -63,7 +63,7 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray)
     m.roots = kd_null_roots_of(&constants);
     name_roots(&m);
     name_polar(&m, &constants);
-    if (m.within) { /* a ray from next to the horizon can turn only at r3, if r3 is outside */
+    if (m.within) { /* a ray that starts next to the horizon can turn only at r3, and only if r3 is outside */
         m.turning_r = m.roots.kind == KD_NULL_FOUR_REAL && m.roots.r3 > m.horizon ? m.roots.r3 : NAN;
         return m;
     }

@@ -13,13 +13,13 @@
 
 struct kd_ray_motion {
     struct kd_null_ray ray;
-    /* the observer is on or inside the horizon: azimuths and times of the path are ingoing (null_course.h) */
+    /* the observer is on or inside the horizon, so azimuths and times of the path are ingoing (null_course.h) */
     bool within;
     double lambda, eta; /* L/E, Q/E^2 */
     struct kd_null_roots roots;
     const char *radial_case;   /* "I" to "IV" */
-    double root[4][2];         /* real and imaginary part */
-    double horizon, turning_r; /* turning_r: turning point of this ray outside the horizon, NAN if it has none */
+    double root[4][2];         /* real and imaginary part of each root */
+    double horizon, turning_r; /* turning_r: turning point of this ray outside the horizon, NAN if the ray has none */
     /* "ordinary": oscillates across the plane; "vortical": stays on one side of it; "fixed": theta is constant */
     const char *polar_case;
     double polar_root[2]; /* roots of the polar potential, as cos^2(theta); the second is NAN without spin */
@@ -34,9 +34,9 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray);
 /* Writes one sentence on why a ray of that fate ends as it does. Returns its length. */
 int kd_ray_motion_why(const struct kd_ray_motion *motion, enum kd_ray_fate fate, char *out, size_t size);
 
-/* Computes the crossings inside the horizon that the ray requests, and the end of a ray that starts there; outside,
- * kd_rays_closed does so. phi is Boyer-Lindquist for places outside the horizon, minus the observer's ingoing azimuth.
- * delay is in ingoing time. There is no error estimate. KD_ENOMEM. */
+/* Computes the requested crossings, and the end, of a ray that starts inside the horizon; kd_rays_closed does this
+ * for rays that start outside. phi is Boyer-Lindquist for places outside the horizon, minus the observer's ingoing
+ * azimuth. delay is in ingoing time. There is no error estimate. Returns KD_OK or KD_ENOMEM. */
 enum kd_status kd_ray_within(const struct kd_ray_motion *motion, bool reversed, struct kd_ray_crossing *crossings,
                              struct kd_ray_end *end, struct kd_error *error);
 
@@ -53,17 +53,17 @@ struct kd_ray_path {
     struct kd_ray_path_frame frame;
     double spin;
     bool ingoing; /* azimuth and delay are ingoing */
-    /* largest relative error in r of the path's crossings; NAN: there are none, or nothing to compare with */
+    /* largest relative error in r of the path's crossings; NAN: there is nothing to compare */
     double error;
 };
 
-/* Computes the path as far as it is worth drawing, and compares its crossings with the n given crossings. KD_ENOMEM.
- * Call kd_ray_path_finish in any case. */
+/* Computes the part of the path that is worth drawing, and compares its crossings with the n given crossings.
+ * Returns KD_OK or KD_ENOMEM. Call kd_ray_path_finish in any case. */
 enum kd_status kd_ray_path_draw(const struct kd_ray_motion *motion, const struct kd_ray_path_frame *frame,
                                 const struct kd_ray_crossing *crossings, size_t n, struct kd_ray_path *out,
                                 struct kd_error *error);
 void kd_ray_path_finish(struct kd_ray_path *path);
-/* Azimuth and delay of a place in the frame; and its coordinates: x, y = sqrt(r^2 + a^2) sin(theta) (cos,
+/* Azimuth and delay of a place in the frame, and its coordinates x, y = sqrt(r^2 + a^2) sin(theta) (cos,
  * sin)(azimuth), z = r cos(theta). */
 double kd_ray_path_phi(const struct kd_ray_path_frame *frame, double phi);
 double kd_ray_path_delay(const struct kd_ray_path_frame *frame, double delay);

@@ -11,12 +11,12 @@ struct kd_steps_column {
     const char *name;
     size_t at;
 };
-/* The columns for these steps' engine; the last one has no name and ends the list. */
+/* The columns for the engine of these steps. The list ends with a column without a name. */
 const struct kd_steps_column *kd_steps_columns(const struct kd_rays_steps *steps);
 double kd_steps_value(const struct kd_rays_step *step, const struct kd_steps_column *column);
 const char *kd_steps_stage(const struct kd_rays_step *step); /* "start", "step", "crossing", "end" */
 
-/* Writes the member `trace`: the engine and its settings, and a row for each step with the names in `columns`. */
+/* Writes the member `trace`: the engine, its settings, the names in `columns`, and a row for each step. */
 void kd_steps_json(struct kd_json *json, const struct kd_rays_steps *steps);
 
 #endif

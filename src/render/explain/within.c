@@ -8,7 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* fraction of the horizon's radius: crossings from outside that are nearer to the horizon count as on it */
+/* fraction of the horizon's radius: a crossing that a ray from outside makes nearer than this to the horizon counts
+ * as on it */
 #define NEAR 1e-4
 
 /* Redshift factor at a crossing. outwards: the photon leaves the gas with p^r > 0; the ray traced back moves inwards
@@ -20,7 +21,7 @@ static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
                                    : kd_disk_redshift_plunging(hole, r, m->lambda, m->eta, outwards);
 }
 
-/* Inside the horizon azimuth and time stay ingoing, and a crossing has no g because there is no gas. */
+/* Inside the horizon azimuth and time stay ingoing. A crossing there has no g, because there is no gas. */
 static struct kd_ray_crossing crossing_of(const struct kd_ray_motion *m, bool reversed, const struct kd_null_place *p,
                                           bool inwards)
 {

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-/* Weights summed in one submission, at most: about 40 ms on a small device. */
+/* Largest number of weights summed in one submission: about 40 ms on a small device. */
 #define SUBMISSION 2e7
 
 static struct kd_vk_binding lines(struct kd_frame_job *j, bool write)
@@ -18,8 +18,8 @@ static struct kd_vk_binding grid(struct kd_frame_job *j, int number, bool write)
                                     write };
 }
 
-/* Runs a kernel between a band of pixels and rows of cells; its variant that reads texels is the next one in the
- * list. */
+/* Runs a kernel that converts between a band of pixels and rows of cells. Its variant for texels is the next kernel
+ * in the list. */
 static enum kd_status band(struct kd_frame_job *j, uint32_t number, enum kd_kernel kernel, bool texels,
                            uint64_t invocations, struct kd_vk_binding from, struct kd_vk_binding to)
 {
@@ -49,13 +49,13 @@ done:
     return status;
 }
 
-/* Gathers completed light, band by band, into rows of cells. */
+/* Sums completed light, band by band, into rows of cells. */
 static enum kd_status gather(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
     const uint64_t pixels = (uint64_t)p->picture.width * p->picture.band_rows, bytes = kd_post_radiance_bytes(pixels);
     enum kd_status status = KD_OK;
-    if (j->lit < p->picture.height) /* clears the rows that are not written */
+    if (j->lit < p->picture.height) /* clears rows whose light is not complete */
         KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BEAM].name, j->store->beam_lines, 0,
                           kd_beam_lines_bytes(&p->picture.beam), 0, j->error));
     for (uint32_t i = 0; i < p->picture.bands && kd_frame_band_lit(j, i); i++)
@@ -79,7 +79,7 @@ done:
     return status;
 }
 
-/* A kernel that makes one grid from another, or its variant that reads texels. */
+/* Finds the kernel that makes one grid from another, or its variant for texels. */
 static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel, const uint32_t *constants, size_t n,
                                   const struct kd_vk_binding *from, const struct kd_vk_pipeline **out)
 {
@@ -87,7 +87,7 @@ static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel,
                           constants, n, out, j->error);
 }
 
-/* Dispatches a slice of rows, or the rest if `all`. */
+/* Dispatches a slice of rows, or all remaining rows if `all`. */
 static enum kd_status slice(struct kd_frame_job *j, const struct kd_vk_dispatch *d, bool all)
 {
     enum kd_status status;
@@ -137,7 +137,7 @@ done:
     return status;
 }
 
-/* push: complete except for columns and slice. rows: rows of the result. */
+/* push: complete except for columns and slice. rows: number of rows of the result. */
 static enum kd_status spline(struct kd_frame_job *j, struct kd_beam_spline_push push, uint32_t rows,
                              struct kd_vk_binding from, struct kd_vk_binding to)
 {
@@ -159,8 +159,8 @@ done:
     return status;
 }
 
-/* Sums rows of cells (one row for each row of pixels) to the grid. The grid's cell i begins (i - 1) cells below the
- * upper edge of the picture. */
+/* Sums rows of cells to the grid. There is one row of cells for each row of pixels. The grid's cell i begins (i - 1)
+ * cells below the upper edge of the picture. */
 static enum kd_status down(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
 {
     const struct kd_beam_grid *b = &j->plan->picture.beam;

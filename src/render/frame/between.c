@@ -1,4 +1,4 @@
-/* Interpolates rays of listed pixels from those of the grid instead of tracing them (comp/between.comp). */
+/* Interpolates rays of listed pixels from the rays of the grid instead of tracing them (comp/between.comp). */
 #include "render/frame/lens.h"
 
 #include "render/view/critical_pixels.h"
@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-/* Marks as many pixels as fit one buffer together with their result words, which are copied to the host. */
+/* Marks as many pixels as fit in one buffer together with their result words. The words are copied to the host. */
 static enum kd_status mark_part(struct kd_frame_job *j, const struct kd_frame_part *part, struct kd_vk_buffer *host,
                                 uint8_t *marks)
 {
@@ -84,7 +84,7 @@ done:
     return status;
 }
 
-#define MARKED_AT_ONCE (1u << 18) /* pixels of a dispatch, which takes some milliseconds */
+#define MARKED_AT_ONCE (1u << 18) /* pixels of one dispatch, which takes some milliseconds */
 
 enum kd_status kd_frame_mark_between(struct kd_frame_job *j, const struct kd_critical_pixels *pixels, uint8_t *marks)
 {

@@ -50,7 +50,7 @@ static enum kd_status brighten(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
     enum kd_status status = KD_OK;
-    if (j->lit < p->picture.height) /* clears the blocks that are not written */
+    if (j->lit < p->picture.height) /* clears blocks whose light is not complete */
         KD_TRY(kd_vk_fill(j->r->vk, kd_passes[KD_PASS_BLOOM].name, j->store->bloom, p->picture.bloom.blocks,
                           16 * kd_bloom_blocks(&p->picture.bloom), 0, j->error));
     for (uint32_t band = 0; band < p->picture.bands && kd_frame_band_lit(j, band); band++) {
@@ -64,8 +64,8 @@ done:
     return status;
 }
 
-/* Maximum number of blocks along an axis that a pair of adjacent cells reads. The pair reads blocks in four cells. A
- * narrow last block brings centres of blocks closer together, which adds up to two blocks. */
+/* Maximum number of blocks along an axis that two adjacent cells read together. They read blocks in four cells. A
+ * narrow last block moves the centres of blocks closer together, which adds up to two blocks. */
 static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool around)
 {
     return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1) + (around ? 1 : 0);
@@ -106,7 +106,7 @@ static enum kd_status gather(struct kd_frame_job *j)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* Runs a kernel that makes all cells of a grid. Its variant that reads cells as texels is the next one in the list. */
+/* Runs a kernel that makes all cells of a grid. Its variant for texels is the next kernel in the list. */
 static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32_t level, float share,
                            float coarse_share, const struct kd_vk_binding bindings[3])
 {
@@ -139,8 +139,8 @@ static enum kd_status down(struct kd_frame_job *j, uint32_t level)
     return make(j, KD_KERNEL_BLOOM_DOWN, level, 0, 0, bindings);
 }
 
-/* Sums a grid and all coarser ones. The coarsest grid has none beyond it: its own light is bound in place of a coarser
- * sum, with weight 0. */
+/* Adds each grid to all coarser ones. For the coarsest grid there is no sum of coarser ones, so its own light is
+ * bound in that place, with weight 0. */
 static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 {
     const struct kd_bloom *b = &j->plan->picture.bloom;

@@ -3,10 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Host memory for a pixel: the sum, and the light of one picture. */
+/* Host memory for each pixel: the sum, and the light of one picture. */
 enum { SUM = 3 * sizeof(double), LIGHT = 3 * sizeof(float) };
 
-/* Requests the linear light on the host. */
+/* Requests that the linear light be copied to the host. */
 static void bring_light(struct kd_plan *plan)
 {
     plan->picture.radiance = true;

@@ -1,12 +1,12 @@
-/* Motion blur: averages the light of several pictures, at times while a shutter is open. This comes before exposure,
- * bloom and tone curve. The average is of linear light, for each pixel, on the host, in double precision. Only the
- * thread that has the renderer. */
+/* Motion blur: averages the light of several pictures, at times while a shutter is open. The host averages the
+ * linear light of each pixel in double precision, before exposure, bloom and tone curve. Only the thread that owns
+ * the renderer. */
 #ifndef KD_RENDER_FRAME_BLUR_H
 #define KD_RENDER_FRAME_BLUR_H
 
 #include "render/frame/frame.h"
 
-enum { KD_BLUR_SAMPLES = 64 }; /* pictures in one mean, at most */
+enum { KD_BLUR_SAMPLES = 64 }; /* largest number of pictures in one mean */
 
 /* The pictures of a mean. Sample 0 has its own scene and plan; the scenes of the others come from the callback. */
 struct kd_blur {
@@ -16,14 +16,14 @@ struct kd_blur {
     enum kd_status (*scene)(const struct kd_blur *blur, unsigned sample, struct kd_scene *out, struct kd_error *error);
 };
 
-/* Adapts a picture's plan to motion blur: bytes, time, and the description in its file. KD_EINVAL at a field of a
- * scene that cannot be blurred (a pair of eyes, a map of numbers); KD_ETOOBIG if the host lacks memory for the
+/* Adapts a picture's plan to motion blur: bytes, time, and the description in its file. Returns KD_EINVAL at a field
+ * if the scene cannot be blurred (a pair of eyes, a map of numbers), and KD_ETOOBIG if the host lacks memory for the
  * light. */
 enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_capacity *capacity, struct kd_plan *plan,
                             struct kd_error *error);
 
-/* Parameters for kd_render or, if `background`, kd_render_in_background. preview: shows sample 0, which is rendered
- * last, without the other samples. */
+/* Parameters for kd_render, or for kd_render_in_background if `background`. preview: shows sample 0 without the
+ * other samples; sample 0 is rendered last. */
 struct kd_blurred {
     struct kd_renderer *renderer;
     const struct kd_blur *blur;

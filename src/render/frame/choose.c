@@ -30,7 +30,8 @@ enum kd_status kd_choice_add(struct kd_choice *c, struct kd_pixel pixel, uint32_
     return KD_OK;
 }
 
-/* The largest second difference through a pixel. above, below: the adjacent rows; pixels beyond the edge are dark. */
+/* The largest second difference through a pixel. above, below: the adjacent rows. Pixels beyond the edge count as
+ * dark. */
 static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *below, uint32_t x, uint32_t width)
 {
     const int left = x > 0 ? -CHANNELS : 0, right = x + 1 < width ? CHANNELS : 0;
@@ -69,8 +70,8 @@ static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_cho
     return status;
 }
 
-/* The threshold of second differences: at most `least`, and low enough that the pixels left out hold at most
- * KD_CHOOSE_LEFT of the squares. */
+/* The threshold of second differences. It is at most `least`, and low enough that pixels below it have at most
+ * KD_CHOOSE_LEFT of the sum of squares. */
 static double threshold(const struct kd_choice *c, double floor, double least, double sum)
 {
     double squares[BINS] = { 0 }, left = sum;

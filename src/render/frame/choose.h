@@ -1,12 +1,12 @@
-/* Chooses the pixels that need more rays, from the displayed values. Pure; any thread. */
+/* Chooses the pixels that need more rays, from their displayed values. Pure; any thread. */
 #ifndef KD_RENDER_FRAME_CHOOSE_H
 #define KD_RENDER_FRAME_CHOOSE_H
 
 #include "base/error.h"
 #include "render/view/critical_pixels.h"
 
-/* A displayed picture, 16 bits a channel, three channels; and the kind of each pixel. Kinds from `done` on are never
- * chosen. */
+/* A displayed picture with three channels of 16 bits, and the kind of each pixel. Pixels whose kind is `done` or
+ * greater are never chosen. */
 struct kd_shown {
     const uint16_t *pixels;
     const uint8_t *kinds;
@@ -14,7 +14,7 @@ struct kd_shown {
     uint32_t width, height;
 };
 
-/* Pixels row by row, and a score for how much each needs more rays. */
+/* Pixels row by row, each with a score for how much it needs more rays. */
 struct kd_choice {
     struct kd_critical_pixels list;
     uint32_t *scores;
@@ -26,23 +26,25 @@ void kd_choice_finish(struct kd_choice *choice);
 
 /* Chooses pixels whose second difference reaches twice pixel_error of white in any channel, across, down or diagonally.
  * The second difference decides because on a linear gradient one ray at the pixel's centre is already exact, whatever
- * the slope. Outside the picture is taken as dark, because light may end at the edge.
+ * the slope. Pixels outside the picture count as dark, because light may end at the edge.
  *
  * In a smooth picture the remaining pixels may hold more than KD_CHOOSE_LEFT of the sum of squares of all second
- * differences, which is proportional to the sum of squares of errors. Then the pixels with the next largest differences
- * are chosen as well, until only that much remains, down to KD_CHOOSE_FLOOR of the bound. KD_ENOMEM. */
+ * differences, which is proportional to the sum of squares of errors. Then the pixels with the next largest
+ * differences are chosen as well, until only that much remains, but none with less than KD_CHOOSE_FLOOR of the
+ * bound. KD_ENOMEM. */
 #define KD_CHOOSE_LEFT 2e-4
 #define KD_CHOOSE_FLOOR 0.1
 enum kd_status kd_choose_bent(const struct kd_shown *now, double pixel_error, struct kd_choice *out,
                               struct kd_error *error);
 
-/* For the pixels in n lists that changed by pixel_error or more, chooses their neighbours: a feature that one ray a
- * pixel missed may continue there. before: the earlier picture, as now->pixels. KD_ENOMEM. */
+/* Chooses the neighbours of pixels that changed by pixel_error or more, because a feature that one ray a pixel
+ * missed may continue there. n lists contain the pixels that may have changed. before: the earlier picture, like
+ * now->pixels. KD_ENOMEM. */
 enum kd_status kd_choose_beside(const struct kd_shown *now, const uint16_t *before,
                                 const struct kd_critical_pixels *lists, size_t n, double pixel_error,
                                 struct kd_choice *out, struct kd_error *error);
 
-/* Keeps the `most` pixels with the largest scores; of equal scores, the first. */
+/* Keeps the `most` pixels with the largest scores. Among equal scores the first pixels are kept. */
 void kd_choose_largest(struct kd_choice *choice, uint64_t most);
 
 #endif

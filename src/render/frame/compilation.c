@@ -12,8 +12,8 @@ struct kd_compilation {
     struct kd_renderer *renderer;
     bool picture; /* the kernels are those of a whole picture, so the scene is rendered by its plan */
     struct kd_scene scene;
-    struct kd_dynamic_bodies *dynamic; /* the scene's bodies of a playground, by a reference of our own: the requester
-                                        * may be gone by then */
+    struct kd_dynamic_bodies *dynamic; /* the scene's bodies of a playground; a counted reference, because the
+                                        * requester may end before the compilation */
     struct kd_plan plan;
     struct kd_kernel_requests wishes;
     kd_progress_fn progress;
@@ -65,15 +65,15 @@ struct kd_compilation *kd_compilation_begin(struct kd_renderer *r, const struct 
     c->dynamic = (struct kd_dynamic_bodies *)scene->dynamic.at;
     kd_dynamic_bodies_keep(c->dynamic);
     c->plan = *plan;
-    c->plan.lens.audit = 0; /* a device that computes nothing has nothing to audit */
+    c->plan.lens.audit = 0; /* a device that only compiles has no results to audit */
     return c;
 }
 
 /* Dispatches each kernel once, without workgroups. Bound buffers are of the right kinds but have no contents. */
 static enum kd_status dispatch_each(struct kd_compilation *c, struct kd_renderer *own, struct kd_error *error)
 {
-    static const uint32_t push[128 / 4]; /* the size of push constants that Vulkan guarantees */
-    const uint64_t bytes = 16384;        /* size of a uniform buffer that every device accepts */
+    static const uint32_t push[128 / 4]; /* Vulkan guarantees this size of push constants */
+    const uint64_t bytes = 16384;        /* every device accepts a uniform buffer of this size */
     struct kd_vk_buffer *any = NULL;
     enum kd_status status;
     KD_TRY(kd_vk_buffer_create(own->vk, bytes, KD_VK_DEVICE, "of nothing", &any, error));
@@ -113,7 +113,7 @@ static void *rehearse(void *user)
                                : dispatch_each(c, own, &c->error);
     kd_frame_finish(&frame);
     if (own && kd_renderer_hangs(own))
-        return NULL; /* a hanging device can never be closed */
+        return NULL; /* not closed, because a hanging device can never be closed */
     if (c->status == KD_EDEVICE)
         c->status = KD_EIO; /* this is not KD_EDEVICE, because the picture's own device may be working */
     if (own)

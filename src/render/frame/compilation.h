@@ -1,10 +1,9 @@
 /* Compiles kernels while other work uses the device.
  *
  * A driver compiles a kernel when its pipeline is created, or at its first dispatch on the device's queue (lavapipe:
- * half a second to some seconds). So pipelines are created concurrently with the device's work. For a driver of the
- * second kind, the picture is also rendered (or other work that needs the kernels dispatched) on a second device
- * that computes nothing (kd_vk_params.compiles_only). That fills the driver's cache on disk, from which the first
- * device then reads. */
+ * half a second to some seconds). So pipelines are created while the device works. For a driver of the second kind,
+ * the work that needs the kernels is also run on a second device that computes nothing (kd_vk_params.compiles_only).
+ * That fills the driver's cache on disk, from which the first device then reads. */
 #ifndef KD_RENDER_FRAME_COMPILATION_H
 #define KD_RENDER_FRAME_COMPILATION_H
 
@@ -15,28 +14,29 @@ struct kd_compilation;
 /* Requests kernels exactly as the work that needs them will (kd_kernels_note). */
 typedef enum kd_status (*kd_kernels_ask_fn)(struct kd_renderer *renderer, const void *user);
 
-/* Makes a compilation of the requested kernels that the device lacks; NULL if it has all of them. Only the thread
- * that has the device. */
+/* Makes a compilation of the requested kernels that the device lacks; NULL if the device has all of them. Only the
+ * thread that owns the device. */
 struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernels_ask_fn ask, const void *user);
-/* As kd_compilation_of, for the kernels of a picture that take long to compile. */
+/* Like kd_compilation_of, for the kernels of a picture that take long to compile. */
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
                                             const struct kd_plan *plan);
-/* Any thread; the renderer must not be closed or reopened meanwhile. Errors of kernels are left to the render that
- * needs them. progress returns false to stop soon. KD_EDEVICE: the second device hangs, as in kd_renderer_hangs. */
+/* Compiles the kernels. Any thread; the renderer must not be closed or reopened meanwhile. An error of a kernel is
+ * reported by the render that needs the kernel. progress returns false to stop soon. KD_EDEVICE: the second device
+ * hangs, as in kd_renderer_hangs. */
 enum kd_status kd_compilation_run(struct kd_compilation *compilation, kd_progress_fn progress, void *user,
                                   struct kd_error *error);
-/* Adds the kernels to the renderer's cache, and frees the compilation. Only the thread that has the device. */
+/* Adds the kernels to the renderer's cache, and frees the compilation. Only the thread that owns the device. */
 void kd_compilation_end(struct kd_compilation *compilation);
 
-/* During a picture, while nothing is recorded: has missing kernels compiled through kd_renderer_params.lacks.
+/* Has missing kernels compiled through kd_renderer_params.lacks. Called during a picture, while nothing is recorded.
  * KD_ECANCELLED: the picture must start again. */
 struct kd_frame_job;
 enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_fn ask, const void *user);
 
 void kd_compilation_drop(struct kd_compilation *compilation); /* frees a compilation that was not run; any thread */
 
-/* Whether compiling in advance helps with this device. If it does not, but the user can change that, the log says
- * why. */
+/* Whether compiling in advance helps with this device. If it does not help but the user can change that, the log
+ * says how. */
 bool kd_compilation_helps(const struct kd_renderer *renderer);
 
 #endif

@@ -33,7 +33,7 @@ done:
     return status;
 }
 
-/* The log2 luminance that only the brightest `share` of the pixels with light exceed. */
+/* The log2 luminance that only the brightest pixels exceed; `share` is their fraction of the pixels with light. */
 static double luminance_quantile(const uint32_t *counts, double share)
 {
     uint64_t lit = 0, above = 0;
@@ -49,10 +49,10 @@ static double luminance_quantile(const uint32_t *counts, double share)
     return log2(ldexp(1 + (code & 7) / 8.0, (code >> 3) - 127));
 }
 
-/* sRGB clips at 1: the brightest pixels, without the top four in a thousand of those with light, are exposed to 1.
- * The film-like curve has a long shoulder: the wider the range from the median up, the further above white the
- * brightest pixels may be, so that a beamed disk keeps its dim side. all: no pixels are left out, because light
- * smoothed by a beam has its true maximum in a pixel. */
+/* Computes the exposure for "auto". sRGB clips at 1, so the brightest pixels are exposed to 1; the top four in a
+ * thousand of the pixels with light are ignored. The film-like curve has a long shoulder. So the larger the range
+ * from the median up, the further above white the brightest pixels may be, and a beamed disk keeps its dim side
+ * visible. all: no pixels are ignored, because light smoothed by a beam reaches its true maximum in a pixel. */
 static double auto_exposure(const uint32_t *counts, int tone_map, bool all)
 {
     double white = luminance_quantile(counts, all ? 0 : 0.004), median = luminance_quantile(counts, 0.5);

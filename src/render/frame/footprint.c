@@ -29,7 +29,7 @@ static enum kd_status dispatch(struct kd_frame_job *j, const struct kd_footprint
     d->pass = kd_passes[KD_PASS_FOOTPRINT].name;
     d->push = &area->push;
     d->bindings[0] = (struct kd_vk_binding) { area->lens, 0, 0, true };
-    /* the binding is read only if there are counts */
+    /* the kernel reads this binding only if there are counts */
     d->bindings[KD_FOOTPRINT_PLACES].buffer = d->counts ? d->counts : j->store->undecided;
     d->bindings[2] = (struct kd_vk_binding) { area->lens, 0, 0, false };
     const enum kd_status status = kd_frame_footprint_kernel(j, area->lattice, &d->pipeline);

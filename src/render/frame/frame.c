@@ -16,8 +16,8 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
 {
     struct kd_renderer *r = j->r;
     enum kd_status status;
-    /* A quarter of the memory is for the renderer's cached maps, so that background renders fit beside these. A
-     * background render keeps its own lens map only. */
+    /* A quarter of the memory is reserved for the renderer's cached maps, so that background renders fit beside
+     * them. A background render keeps only its own lens map. */
     j->store->memory_bytes = j->background ? j->plan->cost.device_bytes : c->memory_bytes / 4;
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
     KD_TRY(kd_store_frame(j->store, j->plan, j->plan->lens.adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
@@ -47,7 +47,7 @@ done:
     return status;
 }
 
-/* The lattices of rays that a picture uses: on the grid, at the critical curve, and those of refinement. */
+/* The lattices of rays that a picture uses: that of the grid, that of the critical curve, and those of refinement. */
 static size_t lattices_of(const struct kd_plan_lens *lens, struct kd_critical_lattice out[5])
 {
     size_t n = 0;
@@ -94,7 +94,7 @@ done:
     return status;
 }
 
-/* Makes the missing kernels that take long, concurrently, while emitters work on the host. */
+/* Makes the missing kernels that take long on several threads, while emitters work on the host. */
 static enum kd_status make_kernels(struct kd_frame_job *j)
 {
     kd_kernels_note(&j->r->kernels);
@@ -106,7 +106,7 @@ static enum kd_status make_kernels(struct kd_frame_job *j)
     return status;
 }
 
-/* Audits and caches a lens map that was just made. */
+/* Audits and caches a lens map that has just been made. */
 static enum kd_status judge_map(struct kd_frame_job *j)
 {
     double start = kd_clock_ms();
@@ -122,7 +122,7 @@ done:
     return status;
 }
 
-/* Copies the accuracy of the lens map into the frame's accuracy, which has that of pixels and volumes already. */
+/* Adds the accuracy of the lens map to the frame's accuracy, which already has that of pixels and volumes. */
 static void report_accuracy(struct kd_frame_job *j)
 {
     const struct kd_accuracy_report own = j->frame->accuracy;
@@ -144,7 +144,7 @@ static const struct kd_plan_pass *pass_of(const struct kd_plan_cost *cost, enum 
     return NULL;
 }
 
-/* The number of rows traced and lit in the time that refinement is estimated to take. */
+/* Number of rows that are traced and lit in the time that refinement is estimated to take. */
 static double rows_of_refining(const struct kd_frame_job *j, double rows)
 {
     const struct kd_plan_pass *refine = pass_of(&j->plan->cost, KD_PASS_REFINE),
@@ -154,7 +154,7 @@ static double rows_of_refining(const struct kd_frame_job *j, double rows)
     return refine && ms > 0 ? rows * refine->estimate_ms / ms : 0;
 }
 
-/* Refines the picture. Pixels are chosen at the exposure that the picture would have now. */
+/* Refines the picture. Pixels are chosen at the exposure that the picture would have at this point. */
 static enum kd_status refine(struct kd_frame_job *j)
 {
     const struct kd_plan_pass *pass = pass_of(&j->plan->cost, KD_PASS_REFINE);
@@ -163,13 +163,13 @@ static enum kd_status refine(struct kd_frame_job *j)
     KD_TRY(kd_frame_expose(j));
     j->refine_rays = pass ? (double)pass->invocations : 0;
     KD_TRY(kd_frame_refine(j));
-    KD_TRY(kd_frame_report(j, j->refine_rows)); /* fewer rays than planned were needed */
+    KD_TRY(kd_frame_report(j, j->refine_rows)); /* reported as done, because fewer rays than planned were needed */
     j->refine_rays = j->refine_rows = 0;
 done:
     return status;
 }
 
-/* Empties the lists of stopped rays for this picture. */
+/* Empties the lists of stopped rays before this picture. */
 static enum kd_status forget_lost(struct kd_frame_job *j)
 {
     enum kd_status status = KD_OK;
@@ -228,7 +228,7 @@ done:
     return status;
 }
 
-/* Drops all cached buffers after a defect of the program, which may have corrupted them. The device is idle. */
+/* Drops all cached buffers after an error of the program, which may have corrupted them. The device is idle. */
 static void begin_anew(struct kd_frame_job *job)
 {
     kd_log(KD_LOG_ERROR, "a fault in kerrd: %s", job->error ? job->error->message : "no details");

@@ -1,4 +1,4 @@
-/* Renders pictures of scenes, on the thread that has the renderer. */
+/* Renders pictures of scenes, on the thread that owns the renderer. */
 #ifndef KD_RENDER_FRAME_FRAME_H
 #define KD_RENDER_FRAME_FRAME_H
 
@@ -19,16 +19,16 @@ struct kd_frame {
     uint32_t width, height;
     struct kd_layer layers[KD_FRAME_MAX_LAYERS];
     size_t n_layers;
-    char credit[KD_CREDIT]; /* credits of the picture's sources, as their authors ask to be named; "": none */
+    char credit[KD_CREDIT]; /* credits of the picture's sources, in the form that their authors request; "": none */
     double exposure;        /* exposure applied, in stops */
     bool lens_reused;       /* the trace pass was skipped because the lens map was cached */
-    uint32_t others_traced; /* lens maps traced for the other pictures of a mean (frame/blur.h) */
+    uint32_t others_traced; /* number of lens maps traced for the other pictures of a mean (frame/blur.h) */
     struct kd_accuracy_report accuracy;
     struct kd_light_report light;
-    double density_scale;         /* factor applied to the density (volume.normalise_to_jy); 1: none */
+    double density_scale;         /* factor that was applied to the density (volume.normalise_to_jy); 1: none */
     struct kd_probed_pixel *told; /* light of the pixel that the plan names (frame/probe.h); NULL: none */
-    /* times of the passes that ran, by the names of plan/pass.h; of "upload" and "fill"; of "kernels" if some had
-     * to be made; and "total" */
+    /* times of the passes that ran, by the names of plan/pass.h, and of "upload", "fill" and "total"; also of
+     * "kernels" if some had to be made */
     struct kd_timing timings[KD_FRAME_MAX_TIMINGS];
     size_t n_timings;
 };
@@ -41,24 +41,24 @@ static inline int kd_frame_bit_depth(const struct kd_frame *frame)
     return frame->layers[0].type == KD_LAYER_U16 ? 16 : 8;
 }
 
-/* Renders a valid scene by its plan, which was made with this renderer's capacity. */
+/* Renders a valid scene by its plan, which must have been made with this renderer's capacity. */
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error);
 
 /* Preview of a long picture, which is drawn from the top some rows at a time. Its functions are called between these
- * rows. */
+ * steps. */
 struct kd_preview_hook {
     bool (*wanted)(void *user);
-    /* frame: has full size, is black from row `rows` on, has an exposure of its own if that is "auto", and has
-     * neither timings nor accuracy. Its layers are valid only during the call. */
+    /* Called with a frame of full size that is black from row `rows` on. The frame has its own exposure if that is
+     * "auto", and has neither timings nor accuracy. Its layers are valid only during the call. */
     void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
 };
 
-/* Renders as kd_render, with separate buffers. progress, called about every 100 ms, may let other threads use the
- * renderer for anything in this header before it returns; the picture's bytes do not depend on that. At most
- * KD_BACKGROUND_RENDERS may run concurrently, and the callers must limit their total memory, the plans' device_bytes.
- * Cached lens maps of finished ones are evicted to make room. Timings exclude the time spent in progress. preview:
- * NULL, or both functions, called with `user`. */
+/* Renders like kd_render, with separate buffers. progress is called about every 100 ms. Before it returns, other
+ * threads may use the renderer for anything in this header; the picture's bytes do not depend on that. At most
+ * KD_BACKGROUND_RENDERS may run concurrently, and the callers must limit their total memory, the sum of the plans'
+ * device_bytes. Cached lens maps of finished background renders are evicted to make room. Timings exclude the time
+ * spent in progress. preview: NULL, or both functions, called with `user`. */
 enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struct kd_scene *scene,
                                        const struct kd_plan *plan, kd_progress_fn progress,
                                        const struct kd_preview_hook *preview, void *user, struct kd_frame *out,
@@ -68,12 +68,11 @@ enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struc
  * top. */
 struct kd_light_sum {
     double *sum;
-    unsigned n, traced; /* traced: lens maps that were traced for these pictures */
+    unsigned n, traced; /* traced: number of lens maps that were traced for these pictures */
 };
-/* As kd_render (or kd_render_in_background if `background`), for a picture whose light is averaged with that of others;
- * called by frame/blur.h. plan->picture.radiance must be true, and plan->picture.eyes 1. The error of refined pixels is
- * not measured.
- */
+/* Like kd_render (or kd_render_in_background if `background`), for a picture whose light is averaged with that of
+ * others. Called by frame/blur.h. plan->picture.radiance must be true, and plan->picture.eyes 1. The error of
+ * refined pixels is not measured. */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool background, kd_progress_fn progress,
                               const struct kd_preview_hook *preview, void *user, struct kd_frame *out,

@@ -13,33 +13,34 @@ struct kd_frame_job {
     struct kd_renderer *r;
     struct kd_store *store;
     struct kd_prepared *prepared;
-    bool background;                           /* progress may render other pictures */
+    bool background;                           /* during `progress`, other pictures may be rendered */
     struct kd_vk_time times[KD_VK_MAX_PASSES]; /* if `background`: device times of finished work */
     size_t n_times;
     double away_ms; /* time spent in progress */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     const struct kd_light_sum *others; /* pictures with which the light is averaged; NULL: none */
-    struct kd_vk_buffer *marched;      /* light of the sample, as in the picture and followed more finely; NULL: none */
+    /* light of the sampled pixels, as in the picture and traced more finely; NULL: none */
+    struct kd_vk_buffer *marched;
     struct kd_lens_map *lens;
     struct kd_star_key star_key;   /* key of the light of stars in this frame */
-    bool stars_kept;               /* whether that light is cached */
-    uint64_t undecided;            /* rays of the lens map that were given up */
+    bool stars_kept;               /* whether the cached light of stars is valid */
+    uint64_t undecided;            /* number of rays of the lens map whose tracing was given up */
     uint64_t traced, interpolated; /* as in kd_accuracy_report */
-    double listed_ms, audit_ms; /* the host's time in ms: listed_ms for tracing listed rays, audit_ms for the audit */
-    double kernels_ms;          /* the host's time for making missing kernels before they first run */
+    double listed_ms, audit_ms; /* time on the host in ms: listed_ms for tracing listed rays, audit_ms for the audit */
+    double kernels_ms;          /* time on the host for making missing kernels before they first run */
     kd_progress_fn progress;
     const struct kd_preview_hook *preview;
     void *user;
-    double done, weight; /* done: rows done so far, over all passes; weight: rows in total */
-    /* refine_rows: the rows that represent refinement in the progress and are not reported yet; refine_rays: the
+    double done, weight; /* done: number of rows done so far, summed over all passes; weight: number of all rows */
+    /* refine_rows: rows that stand for refinement in the progress and are not reported yet; refine_rays: number of
      * rays that refinement is expected to trace */
     double refine_rows, refine_rays;
-    uint32_t lit;                   /* rows of pixels from the top whose light is complete */
+    uint32_t lit;                   /* number of rows of pixels, from the top, whose light is complete */
     bool looking;                   /* a preview is being made */
     uint8_t *kinds;                 /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
-    bool teaches;                   /* whether the job's times are measurements of the passes' costs */
-    struct kd_cpu_pressure waiting; /* time that the job's threads waited for a core, which is subtracted */
+    bool teaches;                   /* whether the job's times count as measurements of the passes' costs */
+    struct kd_cpu_pressure waiting; /* time that the job's threads waited for a core; it is subtracted */
     struct kd_frame *frame;
     struct kd_error *error;
 };
@@ -48,7 +49,7 @@ struct kd_frame_job {
 void kd_frame_learn_begin(struct kd_frame_job *job);
 void kd_frame_learn(struct kd_frame_job *job, const struct kd_frame *frame);
 
-/* Reports `rows` more rows as done. KD_ECANCELLED if cancelled. */
+/* Reports `rows` more rows as done. Returns KD_ECANCELLED if the picture was cancelled. */
 enum kd_status kd_frame_report(struct kd_frame_job *job, double rows);
 
 static inline uint32_t kd_frame_band_first(const struct kd_frame_job *j, uint32_t band)
@@ -60,13 +61,13 @@ static inline uint32_t kd_frame_band_rows(const struct kd_frame_job *j, uint32_t
     uint32_t left = j->plan->picture.height - kd_frame_band_first(j, band);
     return left < j->plan->picture.band_rows ? left : j->plan->picture.band_rows;
 }
-/* The rows of a band whose light is complete. */
+/* Number of rows of a band whose light is complete. */
 static inline uint32_t kd_frame_band_lit(const struct kd_frame_job *j, uint32_t band)
 {
     uint32_t first = kd_frame_band_first(j, band), rows = kd_frame_band_rows(j, band);
     return j->lit < first ? 0 : j->lit - first < rows ? j->lit - first : rows;
 }
-/* The displayed light of a band: its radiance, or the radiance after the beam. */
+/* The light of a band that is displayed: its radiance, or its radiance after the beam. */
 static inline struct kd_vk_buffer *kd_frame_band_light(const struct kd_frame_job *j, uint32_t band)
 {
     return j->plan->picture.beam.cell ? j->store->beamed.buffers[band] : j->store->radiance.buffers[band];
@@ -88,82 +89,84 @@ enum kd_status kd_frame_run(struct kd_frame_job *job, struct kd_frame *out);
 /* Collects the times of all passes that ran, in the order of the list of passes. */
 void kd_frame_collect_timings(struct kd_frame_job *job, struct kd_frame *frame, double total_ms);
 
-/* The passes, one file each. */
+/* The passes, one in each file. */
 
 /* Uploads the cameras of the grid and of the pixels at the critical curve. */
 enum kd_status kd_frame_send_cameras(struct kd_frame_job *job);
 /* Makes the lens map, unless it is reused, and from it the radiance of all bands. */
 enum kd_status kd_frame_light(struct kd_frame_job *job, bool reused);
-/* Listed pixels whose light is computed anew, row by row in the list, by a number of rays each
- * (view/critical_pixels.h). Earlier light of these pixels is overwritten. */
+/* Listed pixels whose light is computed anew, with several rays in each pixel (view/critical_pixels.h). Earlier
+ * light of these pixels is overwritten. */
 struct kd_frame_list {
     const struct kd_critical_pixels *pixels;
     struct kd_critical_lattice lattice;  /* the rays in each pixel */
-    int camera;                          /* the camera that counts in steps of the lattice (view/layout.h) */
-    uint64_t most;                       /* pixels whose lens map fits one buffer */
-    struct kd_vk_buffer *const *buffers; /* the first buffer is for the first `most` pixels, the next for the next ones,
-                                          * ... */
-    bool again;                          /* one buffer is reused for all pixels: no map is kept */
-    bool between;     /* rays are interpolated instead of traced, on pixels where that is accurate (frame/lens.h) */
-    bool layers;      /* layers of light are computed as well, not only the picture */
-    const char *pass; /* pass to which the time of these pixels counts; NULL: the usual passes */
+    int camera;                          /* the camera whose unit is the lattice's step (view/layout.h) */
+    uint64_t most;                       /* number of pixels whose lens map fits in one buffer */
+    struct kd_vk_buffer *const *buffers; /* the first buffer is for the first `most` pixels, the second for the next
+                                          * `most`, ... */
+    bool again;                          /* one buffer is reused for all pixels, so no map is kept */
+    /* rays of pixels where interpolation is accurate are interpolated instead of traced (frame/lens.h) */
+    bool between;
+    bool layers;      /* layers of light are computed in addition to the picture */
+    const char *pass; /* pass to which the time of these pixels is assigned; NULL: the usual passes */
 };
 /* Computes the light of a list. needed: the lens map must be made first. */
 enum kd_status kd_frame_light_list(struct kd_frame_job *job, const struct kd_frame_list *list, bool needed);
-/* Footprints for rows of rays of a buffer, or for a range of rays on listed pixels; all of these and their
- * neighbours must be traced. Recorded, not submitted. Does nothing if the plan has no footprints. */
+/* Records footprints for rows of rays of a buffer, or for a range of rays on listed pixels. All of these rays and
+ * their neighbours must be traced. Nothing is submitted. Does nothing if the plan has no footprints. */
 struct kd_footprint_area {
     struct kd_vk_buffer *lens;
     const struct kd_critical_lattice *lattice; /* NULL: rays of the grid */
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
-/* Like the function above, for a sampled map whose rows from `traced` on have just been sampled; row0: the
- * picture's row of rays at the buffer's first row. Covers rays that were traced singly, and earlier rays marked as
+/* Like the function above, for a sampled map whose rows from `traced` on have just been sampled. row0: the picture's
+ * row of rays that is the buffer's first. The rays are those traced singly, and earlier rays that are marked as
  * incomplete. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
 /* The kernel of footprints. lattice: of listed pixels; NULL: the grid. *out is NULL if no light needs footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
-/* Spreads the light of stars over the pixels of a band. The stars are the ones that the band's rays see; if the whole
- * map is cached, also the ones that rays of adjacent rows see. Does nothing if that light is cached. The band's map
- * must be complete. Call for the bands of a frame from first to last. */
+/* Spreads the light of stars over the pixels of a band. The stars are those that the band's rays see; if the whole
+ * map is cached, also those that rays of adjacent rows see. Does nothing if that light is cached. The band's map
+ * must be complete. Call this for the bands of a frame from first to last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
 /* Gets all kernels of kd_frame_stars. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *job);
-/* Determines whether the light of stars is cached; call as soon as the emitters' numbers are set. */
+/* Determines whether the light of stars is cached. Call this as soon as the emitters' numbers are set. */
 void kd_frame_begin_stars(struct kd_frame_job *job);
 /* kd_frame_find_rim finds the rim of the job's lens map, if there is one (view/rim.h). kd_frame_trace_rim traces the
- * rim's rays, unless that was done before. */
+ * rim's rays, unless they are already traced. */
 void kd_frame_find_rim(struct kd_frame_job *job);
 enum kd_status kd_frame_trace_rim(struct kd_frame_job *job);
-/* Computes the layers of light that the march stored with the radiance (kd_plan_gathers), for rows whose light is
- * complete. Recorded, not submitted. */
+/* Records the layers of light that the march stored with the radiance (kd_plan_gathers), for rows whose light is
+ * complete. Nothing is submitted. */
 enum kd_status kd_frame_gather(struct kd_frame_job *job);
 
-/* kd_frame_probe describes the light of the plan's pixel if the pixel is in this band, whose lens map must exist.
- * kd_frame_probe_pixel describes the pixel's result; call it when all light is complete. */
+/* kd_frame_probe describes the light of the plan's pixel if that pixel is in this band. The band's lens map must
+ * exist. kd_frame_probe_pixel describes the pixel's result; call it when all light is complete. */
 enum kd_status kd_frame_probe(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_probe_pixel(struct kd_frame_job *job);
 /* Requests the kernels that record the pixel's steps, if the plan asks for steps. */
 enum kd_status kd_frame_probe_ask(struct kd_frame_job *job);
 
-/* Follows rays through volumes again on a sample of this band's pixels, as in the picture and more finely. After all
- * bands, writes the differences into the frame's accuracy. Do nothing without volumes. */
+/* kd_frame_sample_march traces rays through volumes again for a sample of this band's pixels, both as in the picture
+ * and more finely. The other function is called after all bands and writes the differences into the frame's
+ * accuracy. Both do nothing without volumes. */
 enum kd_status kd_frame_sample_march(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_march_error(struct kd_frame_job *job);
 
 /* kd_frame_add_light sums the light of all bands and copies the sums to the host. kd_frame_read_light waits for the
- * sums and computes the frame's flux and centroid. */
+ * sums, and computes the frame's flux and centroid. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 enum kd_status kd_frame_read_light(struct kd_frame_job *job);
-/* Replaces the light of all bands by the mean with j->others; waits for the device. */
+/* Replaces the light of all bands by its mean with j->others. Waits for the device. */
 enum kd_status kd_frame_mean(struct kd_frame_job *job);
-/* Convolves the completed light with a telescope's beam, for the passes that follow; does nothing if the plan has no
+/* Convolves the completed light with a telescope's beam, for the passes that follow. Does nothing if the plan has no
  * beam. */
 enum kd_status kd_frame_beam(struct kd_frame_job *job);
-/* Sets the exposure from the completed light; waits for the device if it is "auto". */
+/* Sets the exposure from the completed light. Waits for the device if the exposure is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
 /* kd_frame_refine traces more rays for the pixels that need them, at the frame's exposure; j->kinds records which.
  * kd_frame_residual measures the remaining error of the picture into the frame's accuracy; it overwrites the light of
@@ -178,10 +181,10 @@ enum {
 };
 enum kd_status kd_frame_refine(struct kd_frame_job *job);
 enum kd_status kd_frame_residual(struct kd_frame_job *job);
-/* Copies the displayed picture to the host row by row, at 16 bits without dither, bloom, beam or palette; waits for
+/* Copies the displayed picture to the host row by row, at 16 bits without dither, bloom, beam or palette. Waits for
  * the device. */
 enum kd_status kd_frame_bare(struct kd_frame_job *job, uint16_t *to);
-/* Computes the bloom of the completed light in j->store->bloom, at the frame's exposure; does nothing if the plan
+/* Computes the bloom of the completed light in j->store->bloom, at the frame's exposure. Does nothing if the plan
  * has no bloom. */
 enum kd_status kd_frame_bloom(struct kd_frame_job *job);
 /* Makes pixels of the completed light and copies them to the host. */
@@ -189,8 +192,8 @@ enum kd_status kd_frame_post(struct kd_frame_job *job);
 enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out); /* the kernel */
 /* Runs the passes from light to pixels, in order. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
-/* kd_frame_add_layers allocates the layers of a plan after the picture; the other copies them to the host as far as
- * light is complete. A single requested layer replaces the picture, in false colour. */
+/* kd_frame_add_layers allocates the layers of a plan other than the picture. The other function copies them to the
+ * host, as far as light is complete. A single requested layer replaces the picture, in false colour. */
 enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_picture *picture,
                                    struct kd_error *error);
 enum kd_status kd_frame_layers(struct kd_frame_job *job);

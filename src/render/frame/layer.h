@@ -1,7 +1,7 @@
-/* Layers of a frame, each with one value or a few for every pixel. The first is "rgb", the displayed picture; if a
- * single map is requested, "rgb" shows that map in false colour. Further ones may be "radiance", linear sRGB in units
- * of the disk's largest surface brightness at g = 1, and maps by their names (plan/layer_kinds.h), where NaN means no
- * value. */
+/* Layers of a frame, each with one value or a few for every pixel. The first layer is "rgb", the displayed picture;
+ * if a single map is requested, "rgb" shows that map in false colour. Further layers may be "radiance" and maps by
+ * their names (plan/layer_kinds.h). "radiance" is linear sRGB in units of the disk's largest surface brightness at g
+ * = 1. In maps NaN means no value. */
 #ifndef KD_RENDER_FRAME_LAYER_H
 #define KD_RENDER_FRAME_LAYER_H
 
@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_FRAME_MAX_LAYERS 18 /* the picture, its linear light, and as many maps as image.layers may name */
+#define KD_FRAME_MAX_LAYERS 18 /* the picture, its linear light, and the largest number of maps in image.layers */
 
 struct kd_layer {
     char name[40];
@@ -30,7 +30,7 @@ struct kd_frame;
 enum kd_status kd_frame_add_layer(struct kd_frame *frame, const char *name, uint32_t channels, enum kd_layer_type type,
                                   struct kd_error *error);
 const struct kd_layer *kd_frame_layer(const struct kd_frame *frame,
-                                      const char *name); /* NULL: there is none of that name */
+                                      const char *name); /* returns NULL if there is no layer of that name */
 void kd_frame_drop_layers(struct kd_frame *frame);       /* frees the layers and nothing else */
 
 #endif

@@ -22,7 +22,7 @@ enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_
     return status;
 }
 
-/* Reads one band of a layer, as far as light is complete. */
+/* Reads one band of a layer, up to the last row whose light is complete. */
 static enum kd_status read_band(struct kd_frame_job *j, uint32_t band, struct kd_vk_buffer *from, uint64_t offset,
                                 const struct kd_layer *to)
 {
@@ -53,8 +53,8 @@ static enum kd_status read_all(struct kd_frame_job *j)
     return status;
 }
 
-/* Returns the least and the largest value; on a logarithmic scale only values above 0 count. If there are no
- * values: 0 and 1, or 1 and 10 if logarithmic. */
+/* Returns the least and the largest value. On a logarithmic scale only values above 0 count. If there are no values,
+ * returns 0 and 1, or 1 and 10 if the scale is logarithmic. */
 static struct kd_map_scale extent_of(const float *values, size_t n, bool logarithmic)
 {
     struct kd_map_scale extent = { INFINITY, -INFINITY, false };
@@ -68,7 +68,7 @@ static struct kd_map_scale extent_of(const float *values, size_t n, bool logarit
 }
 
 /* Ends of the colour scale: from the scene's fields, else from the kind of layer, else from the values. A diverging
- * map is centred at 0, or at 1 if it is logarithmic, with both ends equally far. */
+ * map is centred at 0, or at 1 if it is logarithmic, with both ends equally far from the centre. */
 static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct kd_layer_kind *kind, const float *values,
                                     size_t n)
 {
@@ -82,8 +82,8 @@ static struct kd_map_scale scale_of(const struct kd_scene *scene, const struct k
     scale.high = !isnan(scale.high) ? scale.high : about_one ? fmax(most, 1.01) : about_zero ? far : extent.high;
     scale.low = isfinite(scene->image.layer_min) ? scene->image.layer_min : scale.low;
     scale.high = isfinite(scene->image.layer_max) ? scene->image.layer_max : scale.high;
-    /* An end set by the scene may be beyond all values. Then all values have the colour of that end; the scale is not
-     * reversed. */
+    /* An end that the scene sets may be beyond all values. In that case all values have the colour of that end, and
+     * the scale is not reversed. */
     if (scale.low > scale.high && isfinite(scene->image.layer_min))
         scale.high = scale.low + fabs(scale.low) + 1;
     else if (scale.low > scale.high)
@@ -133,8 +133,8 @@ static enum kd_status show(struct kd_frame_job *j)
     return KD_OK;
 }
 
-/* Checks that a layer's values are finite, as light is: an infinite value has overflowed. The layer is then refused,
- * because no 32-bit number would be right. */
+/* Checks that a layer's values are finite, as light must be. An infinite value has overflowed; no 32-bit number
+ * would be right, so the layer is refused. */
 static enum kd_status check_light(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-/* Updates the cost of an item of a pass, both the pass's figure and the cost of the picture's class. */
+/* Updates the cost of an item of a pass, both in general and for the picture's class. */
 static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const struct kd_plan_pass *pass, double ms)
 {
     const double ns = ms * 1e6 / (double)pass->invocations;
-    if (!(ms > 0 && pass->invocations >= 4096)) /* a small picture measures only the overhead */
+    if (!(ms > 0 && pass->invocations >= 4096)) /* a small picture measures only the overhead of the pass */
         return;
     if (!job->r->probing)
         kd_cost_learn(c, job->plan->cost.class, (enum kd_pass_id)(kd_pass_find(pass->name) - kd_passes), ns);
@@ -29,10 +29,10 @@ static double timing(const struct kd_frame *frame, const char *pass)
     return 0;
 }
 
-/* Whether the device is the host's processor, which other programs slow down. Costs are cached between starts and used
- * for planning: an hour of load must not make pictures look too expensive on an idle machine. So the time that threads
- * waited for a core is subtracted. Examining every thread takes 0.1 to 0.3 ms; therefore only one short frame in eight
- * is measured. */
+/* Whether the device is the host's processor, which other programs slow down. Costs are stored between starts and
+ * used for planning. After an hour of load, pictures must not look too expensive on a machine that is idle again, so
+ * the time that threads waited for a core is subtracted. It takes 0.1 to 0.3 ms to examine all threads; therefore
+ * only one short frame in eight is measured. */
 static bool on_the_host(const struct kd_renderer *r) { return kd_vk_info(r->vk)->type == KD_VK_CPU; }
 
 void kd_frame_learn_begin(struct kd_frame_job *job)

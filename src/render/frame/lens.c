@@ -14,10 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct kd_critical_lattice on_grid; /* all 0: the grid */
+static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
 
-/* Rows of pixels of a band, from `row` on, that one submission processes. Slices of a sampled map end at its blocks if
- * they reach a block's end, so that no block is traced twice. */
+/* Number of rows of pixels of a band, from `row` on, that one submission processes. If a slice of a sampled map
+ * reaches the end of a block, it ends there, so that no block is traced twice. */
 static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint32_t row, double ns_per_row, bool maps)
 {
     const struct kd_plan *p = j->plan;
@@ -34,7 +34,7 @@ static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint3
 
 /* Kernels are looked up for each slice, because other work may have evicted a kernel meanwhile. */
 
-/* *out is NULL if no kernel is needed. l: lattice of the listed pixels; all 0: the grid. */
+/* *out is NULL if no kernel is needed. l: lattice of the listed pixels; all members 0: the grid. */
 enum kd_status kd_frame_trace_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l,
                                      const struct kd_vk_pipeline **out)
 {
@@ -75,8 +75,8 @@ static bool is_layer_of(const struct kd_plan_picture *picture, int makes, enum k
     return makes >= 0 && kd_layer_kinds[picture->layers[makes].kind].of == of;
 }
 
-/* Whether the march makes this light or layer. Layers of a crossing need the march too, because a body may hide the
- * crossing. */
+/* Whether the march makes this light or layer. Layers of a crossing need the march as well, because a body may hide
+ * the crossing. */
 static bool marches(const struct kd_plan *p, int makes)
 {
     return p->light.march.steps && makes != KD_MAKES_RAYS &&
@@ -86,7 +86,7 @@ static bool marches(const struct kd_plan *p, int makes)
 
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes)
 {
-    return makes < 0 && marches(plan, makes) ? rays : 1; /* a layer follows at most one ray */
+    return makes < 0 && marches(plan, makes) ? rays : 1; /* a layer needs at most one ray */
 }
 
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l, int makes,
@@ -169,7 +169,8 @@ static struct kd_slice slice_of(const struct kd_frame_job *j, uint32_t band)
     };
 }
 
-/* Records a kernel over a slice. Invocations are rays if it makes rays, otherwise pixels. */
+/* Records a kernel over a slice. There is one invocation for each ray if the kernel makes rays, otherwise one for
+ * each pixel. */
 static enum kd_status record(struct kd_frame_job *j, const struct slice *s, struct kd_vk_dispatch *d, int makes)
 {
     const bool rays = makes == KD_MAKES_RAYS, columns = makes == KD_MAKES_PICTURE && in_columns(j->plan);
@@ -189,7 +190,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
-    /* the march before is slow, and waiting for it must not count as time for these rays */
+    /* waits for the march, which is slow, so that its time does not count as time for these rays */
     enum kd_status status = j->plan->light.march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK;
     double start = kd_clock_ms();
     if (!status)
@@ -253,8 +254,9 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     };
     kd_prepared_buffers(j->prepared, &j->plan->light, own);
     own[KD_OWN_point_light] =
-        j->plan->light.points ? j->lens->star_light.buffers[band] : NULL; /* made by stars.c, band by band */
-    for (int i = 0; i < KD_OWN_COUNT; i++)                                /* unused bindings need some buffer */
+        j->plan->light.points ? j->lens->star_light.buffers[band] : NULL; /* stars.c makes it, band by band */
+    for (int i = 0; i < KD_OWN_COUNT; i++)                                /* any buffer can be bound where none is
+                                                                           * used */
         d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
     if (makes >= 0) {
         d.bindings[3].buffer = j->store->layers.buffers[band];
@@ -266,8 +268,8 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     return d;
 }
 
-/* The rows that can be completed after a slice was traced. Footprints need the row of rays below as well, or two rows
- * at the upper edge: rows without them are held back until more are traced or the band ends. */
+/* The rows that can be completed after a slice was traced. Footprints also need the row of rays below, and at the
+ * upper edge two rows. Rows that lack these wait until more rows are traced or the band ends. */
 static struct slice complete(const struct kd_frame_job *j, const struct slice *s)
 {
     if (!kd_plan_has_footprints(&j->plan->lens))
@@ -277,8 +279,8 @@ static struct slice complete(const struct kd_frame_job *j, const struct slice *s
     return (struct slice) { s->band, from, (end == first + kd_frame_band_rows(j, s->band) ? end : to) - from };
 }
 
-/* Makes footprints. s: rows that can be completed; traced: those of them that were just traced. In a sampled map
- * the footprints are those of rays traced singly and, in rows that were held back, of marked rays. */
+/* Makes footprints. s: rows that can be completed; traced: those of them that were just traced. In a sampled map,
+ * footprints are made for rays traced singly, and for marked rays in rows that had to wait. */
 static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s, const struct slice *traced)
 {
     const struct kd_plan *p = j->plan;
@@ -382,8 +384,8 @@ static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
     return kd_frame_follow_lost(j, &d, &push, &on_grid, turns);
 }
 
-/* Lights rows whose map is recorded or made, and reports on them. A slice of a sampled map has at least the rows of a
- * block, whose light may take several submissions. map_ns, light_ns: per row of pixels. */
+/* Lights rows whose map is recorded or made, and reports their progress. A slice of a sampled map has at least the
+ * rows of a block, whose light may take several submissions. map_ns and light_ns: for each row of pixels. */
 static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *whole, double map_ns, double light_ns)
 {
     struct slice part = *whole;
@@ -403,7 +405,7 @@ done:
     return status;
 }
 
-/* Lights a band slice by slice, so that a long picture can be previewed. ns: per ray. */
+/* Lights a band slice by slice, so that a long picture can be previewed. ns: time of a ray. */
 static enum kd_status light_band(struct kd_frame_job *j, uint32_t band, bool needed, double light_ns)
 {
     const struct kd_plan *p = j->plan;
@@ -461,8 +463,8 @@ done:
     return status;
 }
 
-/* Lights all bands. Points of light need the complete map of a band before its light is made, and of the adjacent bands
- * if all are cached. */
+/* Lights all bands. Points of light need the complete map of a band before the light of that band is made; if all
+ * maps are cached, they also need those of the adjacent bands. */
 static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double transfer_ns)
 {
     const struct kd_plan *p = j->plan;

@@ -50,8 +50,8 @@ static double refined_rows(struct kd_frame_job *j, uint64_t rays)
     return rows;
 }
 
-/* Runs a kernel over pixels `from` to `to` of a part in slices: one invocation a ray if it makes rays, otherwise one a
- * pixel. base: the dispatch without its pipeline and size. */
+/* Runs a kernel over pixels `from` to `to` of a part in slices. There is one invocation for each ray if the kernel
+ * makes rays, otherwise one for each pixel. base: the dispatch without its pipeline and size. */
 static enum kd_status run_part(struct kd_frame_job *j, const struct kd_frame_part *part, uint64_t from, uint64_t to,
                                const struct kd_vk_dispatch *base, int makes, double ns_per_ray)
 {
@@ -156,7 +156,7 @@ done:
 static enum kd_status trace_part(struct kd_frame_job *j, const struct kd_frame_part *part)
 {
     enum kd_status status = kd_frame_upload_pixels(j, part);
-    if (status || !j->plan->lens.planes) /* if all light is marched, the march traces its own rays */
+    if (status || !j->plan->lens.planes) /* if the march makes all light, it traces its own rays */
         return status;
     if (part->list->between)
         return kd_frame_between(j, part);

@@ -1,5 +1,5 @@
-/* Measures the error of light from volumes: the first ray of each pixel of a lattice is followed again as in the
- * picture, and KD_MARCH_FINER times as finely, by the same kernel into a separate buffer. */
+/* Measures the error of light from volumes. The first ray of each pixel of a lattice is traced again by the same
+ * kernel into a separate buffer, once as in the picture and once KD_MARCH_FINER times as finely. */
 #include "render/frame/lens.h"
 
 #include <math.h>
@@ -14,10 +14,10 @@ static uint32_t above(const struct kd_march_sample *s, uint32_t row)
     return n < s->rows ? n : s->rows;
 }
 
-/* Lights the sample's pixels of a band, to the buffer from index `to` on, and submits. */
+/* Lights the sample's pixels of a band, writes to the buffer from index `to` on, and submits. */
 static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct kd_march *march, uint32_t to)
 {
-    static const struct kd_critical_lattice on_grid; /* all 0: the grid */
+    static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
     const struct kd_plan *p = j->plan;
     const struct kd_march_sample *s = &p->light.march.sample;
     const uint32_t first = kd_frame_band_first(j, band), from = above(s, first),
@@ -80,11 +80,11 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Whether light is finite and the ray was not given up; a ray that was given up is marked by -1. */
+/* Whether light is finite and the ray was not given up. A ray that was given up has the mark -1. */
 static bool right(const float c[3]) { return isfinite(c[0] + c[1] + c[2]) && c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
 
-/* Relative differences of the light of n rays, sorted. Returns their number: rays that meet no volume have no
- * difference. A ray without valid light counts as 1. */
+/* Relative differences of the light of n rays, sorted. Returns their number. Rays that meet no volume have no
+ * difference; a ray without valid light counts as 1. */
 static uint32_t compare(const float *light, const float *finer, uint32_t n, double off[KD_MARCH_SAMPLED])
 {
     double most = 0;

@@ -1,4 +1,4 @@
-/* Replaces the light of a picture by the mean of its light and that of others, before any later pass. */
+/* Replaces the light of a picture by the mean of its light and that of other pictures, before any later pass. */
 #include "render/frame/job.h"
 
 #include <string.h>

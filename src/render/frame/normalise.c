@@ -7,20 +7,22 @@
 #include <math.h>
 #include <string.h>
 
-/* FIRST, CLOSE: pixels along a side, at first and later; MOST: largest number of pictures */
+/* FIRST, CLOSE: pixels along a side of the first pictures and of the later ones; MOST: largest number of pictures */
 enum { FIRST = 48, CLOSE = 128, MOST = 60 };
-#define NEAR 1e-3 /* the fluxes of pictures of 48 and of 128 pixels differ by less than this, relative to the flux */
-#define HELD 5e-5 /* remaining relative error; a flux is a sum of floats, accurate to 1e-6 */
-/* First guess of d ln(flux)/d ln(scale). Light is proportional to density times field, and the field grows at least as
- * the square root of the density, so that the slope is at least 1.5. */
+/* relative difference between the fluxes of a picture of 48 pixels and one of 128, an upper bound */
+#define NEAR 1e-3
+#define HELD 5e-5 /* relative error that may remain; a flux is a sum of floats, accurate to 1e-6 */
+/* First estimate of d ln(flux)/d ln(scale). Light is proportional to density times field, and the field grows at
+ * least as the square root of the density, so the slope is at least 1.5. */
 #define THIN 2.0
-#define LONGEST 6.9  /* largest step of ln scale: a factor of a thousand */
-#define MARGIN 0.05  /* fraction of a bracket: estimates that are nearer to its ends than this are replaced */
+#define LONGEST 6.9 /* largest step of ln scale: a factor of a thousand */
+/* margin at both ends of a bracket, as a fraction of the bracket; an estimate within it is replaced */
+#define MARGIN 0.05
 #define DENSEST 1e30 /* the range of the fields */
 
 struct search {
     struct kd_renderer *r;
-    struct kd_scene scene; /* the scene to be rendered; each picture sets its density and size */
+    struct kd_scene scene; /* the scene to be rendered; its density and size are set for each picture */
     double target, most;   /* target: the requested flux, Jy; most: ln of the largest scale */
     double slope;          /* d ln flux / d ln scale, from the last pictures */
     kd_progress_fn progress;
@@ -74,8 +76,8 @@ static enum kd_status refuse(const struct search *s, const char *why, double jy)
                           s->target, why, jy);
 }
 
-/* The next estimate of ln scale: by the secant through the ends of a bracket, or by the slope. If it is too near to an
- * end of the bracket, the bracket's middle instead. */
+/* The next estimate of ln scale, by the secant through the ends of a bracket or by the slope. If it is too near to
+ * an end of the bracket, the bracket's middle is used instead. */
 static double guess(const struct search *s, double x, double y, const double at[2], const double off[2])
 {
     if (!isfinite(at[0]) || !isfinite(at[1]))
@@ -115,7 +117,7 @@ done:
     return status;
 }
 
-/* A device that computes nothing gives no light: one picture of each size is rendered, to compile its kernels. */
+/* For a device that only compiles and gives no light: renders one picture of each size, to compile its kernels. */
 static enum kd_status rehearse(struct search *s, double *scale)
 {
     double none;
@@ -140,7 +142,7 @@ done:
     return status;
 }
 
-/* The scene reduced to what the flux depends on. */
+/* Reduces the scene to what the flux depends on. */
 static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;
@@ -161,8 +163,8 @@ static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_l
     return bare;
 }
 
-/* Computes both keys: hashes of the reduced scene with the picture's shape and the flux, and without camera and
- * shape. */
+/* Computes both keys. Each is a hash of the reduced scene and the flux; the first includes the camera and the
+ * picture's shape, the second does not. */
 static enum kd_status keys_of(const struct search *s, struct kd_normal *out)
 {
     struct kd_scene key = s->scene, plain;
@@ -181,7 +183,7 @@ done:
     return status ? kd_error_set(s->error, status, "out of memory while hashing the scene") : KD_OK;
 }
 
-/* The latest scale found for this scene or, if `held`, for this matter; 0 if there is none. */
+/* The latest scale that was found for this scene, or for this matter if `held`; 0 if there is none. */
 static double known(const struct kd_normalised *cache, const struct kd_normal *wanted, bool held)
 {
     const uint32_t n = cache->n < KD_NORMALISED ? cache->n : KD_NORMALISED;

@@ -16,7 +16,7 @@ static bool go_on(void *user, double fraction)
     return !h->progress || h->progress(h->user, h->done + 0.5 * fraction);
 }
 
-/* The right eye has the exposure of the left one. */
+/* Renders one eye's picture. The right eye has the exposure of the left one. */
 static enum kd_status render_eye(const struct kd_parted *pair, int side, double exposure, struct kd_frame *out,
                                  struct kd_error *error)
 {
@@ -59,7 +59,8 @@ static enum kd_status join(const struct kd_frame eyes[2], struct kd_frame *out, 
     frame.width = 2 * eyes[0].width;
     frame.n_layers = 0;
     memset(frame.layers, 0, sizeof frame.layers);
-    frame.light = (struct kd_light_report) { 0 }; /* flux and centroid would belong to neither picture */
+    /* cleared, because flux and centroid of both pictures together mean nothing */
+    frame.light = (struct kd_light_report) { 0 };
     frame.told = NULL;
     kd_frame_probe_both(&frame, &eyes[1]);
     for (size_t i = 0; i < eyes[0].n_layers; i++) {
@@ -76,7 +77,7 @@ done:
     return status;
 }
 
-/* Hands over the description of the plan's pixel, which is in one eye's picture only. */
+/* Moves the description of the plan's pixel to the result. Only one eye's picture contains that pixel. */
 static void hand_over_told(struct kd_frame eyes[2], struct kd_frame *to)
 {
     for (int i = 0; i < 2; i++)

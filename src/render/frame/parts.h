@@ -1,5 +1,5 @@
-/* Pictures made of parts, which are rendered one after the other (render/plan/parts.c): a pair of eyes, a tile with its
- * margin, strips. Render thread only. */
+/* Pictures made of parts that are rendered one after the other (render/plan/parts.c): a pair of eyes, a tile with
+ * its margin, strips. Render thread only. */
 #ifndef KD_RENDER_FRAME_PARTS_H
 #define KD_RENDER_FRAME_PARTS_H
 
@@ -10,13 +10,13 @@ struct kd_parted {
     struct kd_renderer *renderer;
     const struct kd_scene *scene;
     const struct kd_plan *plan;
-    bool background; /* as kd_render_in_background; there are no previews */
+    bool background; /* as in kd_render_in_background; there are no previews */
     kd_progress_fn progress;
     void *user;
 };
 
-/* Whether a plan consists of parts. kd_render_parts renders such a plan into *out, the whole picture. In a pair the
- * left eye's picture is on the left, and both pictures have its exposure. */
+/* kd_plan_is_parted: whether a plan consists of parts. kd_render_parts: renders such a plan into *out, the whole
+ * picture. In a pair the left eye's picture is on the left, and both pictures have its exposure. */
 static inline bool kd_plan_is_parted(const struct kd_plan_picture *picture)
 {
     return picture->eyes == 2 || picture->cut.width || picture->strips;
@@ -28,8 +28,8 @@ enum kd_status kd_frame_render_part(const struct kd_parted *parted, const struct
                                     const struct kd_plan *plan, kd_progress_fn progress, void *user,
                                     struct kd_frame *out, struct kd_error *error);
 
-/* Merges the report of another part (times, accuracy, whether its lens map was cached) into that of a part: counts
- * are added, and of two errors the larger is kept. */
+/* Merges the report of a further part (times, accuracy, whether its lens map was cached) into *to. Counts are added;
+ * of two errors the larger is kept. */
 void kd_frame_probe_both(struct kd_frame *to, const struct kd_frame *from);
 
 enum kd_status kd_frame_pair(const struct kd_parted *parted, struct kd_frame *out, struct kd_error *error);

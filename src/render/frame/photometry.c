@@ -11,8 +11,8 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
     const struct kd_plan *p = j->plan;
     const struct kd_vk_pipeline *light;
     bool finite = !isinf(j->scene->camera.r);
-    const uint64_t sums = kd_light_bytes(p) / p->picture.bands; /* the sums are bound band by band, because all may
-                                                                 * exceed one binding */
+    const uint64_t sums = kd_light_bytes(p) / p->picture.bands; /* the sums are bound band by band, because together
+                                                                 * they may exceed one binding */
     const struct kd_spec_photometry spec = { .SEPARATE_PHOTOMETRY = p->light.apart,
                                              .FINITE = finite,
                                              .STOKES = p->light.stokes_words > 0,
@@ -38,7 +38,7 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
             light,
             { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } },
             &push,
-            { per_band }, /* the same number for the last band, which is smaller: surplus groups write zeros */
+            { per_band }, /* also for the last band, which is smaller: its surplus groups write zeros */
         };
         KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     }

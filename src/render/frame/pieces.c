@@ -1,9 +1,9 @@
-/* Completes rays through volumes that were stopped by a driver's limit on loops: the march lists them, and they
- * continue in pieces, one dispatch each. */
+/* Completes rays through volumes that a driver's limit on loops has stopped. The march lists these rays, and they
+ * continue in pieces, each in one dispatch. */
 #include "render/frame/compilation.h"
 #include "render/frame/lens.h"
 
-/* Reads the counters of rays, at their places before the end of the light's buffer. */
+/* Reads the counters of rays, which are stored at the end of the light's buffer. */
 static enum kd_status read_counts(struct kd_frame_job *j, const struct kd_vk_dispatch *base,
                                   uint32_t counts[KD_LOST_WAITING])
 {
@@ -28,7 +28,7 @@ static enum kd_status forget(struct kd_frame_job *j, const struct kd_vk_dispatch
                       j->error);
 }
 
-/* Continues the ray number push->ray of each listed pixel, piece by piece, until none of these rays is left. */
+/* Continues ray number push->ray of each listed pixel, piece by piece, until all these rays have ended. */
 static enum kd_status follow(struct kd_frame_job *j, struct kd_vk_dispatch *d, struct kd_slice *push,
                              const struct kd_critical_lattice *l)
 {

@@ -35,8 +35,8 @@ static void draw_scales(struct kd_frame_job *j)
 {
     const struct kd_frame *frame = j->frame;
     const struct kd_canvas canvas = { kd_frame_pixels(frame), frame->width, frame->height, kd_frame_bit_depth(frame) };
-    /* The light of volumes alone has a temperature; that of a disk, also at one frequency, is relative to its hottest
-     * place. */
+    /* the light of a volume has a temperature; the light of a disk is relative to its hottest place, even at one
+     * frequency */
     const bool kelvin = j->scene->disk.model == KD_DISK_NONE && kd_scene_is_radio_alone(j->scene);
     const struct kd_legend legend = {
         .title = kelvin ? "brightness, 1e9 K" : "I / I_max of the disk",
@@ -49,8 +49,8 @@ static void draw_scales(struct kd_frame_job *j)
         kd_sky_scale_draw(&canvas, &(struct kd_sky_scale) { width / frame->width, j->scene->style.beam_uas });
 }
 
-/* How light is converted: to pixels of 8 or 16 bits, with or without dither and bloom. bare: the completed light
- * without beam and palette; otherwise the light as requested. */
+/* How light is converted to pixels of 8 or 16 bits, with or without dither and bloom. bare: the completed light
+ * without beam and palette; false: the light as requested. */
 struct look {
     bool wide, dither, bare;
     const struct kd_bloom *bloom;
@@ -79,8 +79,8 @@ static enum kd_status kernel_of(struct kd_frame_job *j, const struct look *look,
     return kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, out, j->error);
 }
 
-/* Copies the counts of a band after its pixels (KD_POST_COUNTS). Rays that were given up are counted in the buffer
- * of light before the beam. */
+/* Copies the counts of a band, which follow its pixels (KD_POST_COUNTS). Rays that were given up are counted in the
+ * light before the beam. */
 static enum kd_status count(struct kd_frame_job *j, uint32_t band, uint64_t at)
 {
     struct kd_vk_buffer *light = j->store->radiance.buffers[band];

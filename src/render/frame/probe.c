@@ -12,7 +12,7 @@
 
 enum {
     RECORDS = 8192
-}; /* about 360 kB: a march makes two records for each part of each step, at most 6144, and emitters add their own */
+}; /* about 360 kB: a march makes two records for each part of each step, at most 6144, and each emitter adds its own */
 struct record { float of, a[4], b[4], c[2]; };
 #define SIZE (sizeof(float) + (KD_PROBE_SUMS + RECORDS) * sizeof(struct record))
 _Static_assert(sizeof(struct record) == KD_PROBE_RECORD * sizeof(float), "the record of interface.h");
@@ -58,7 +58,7 @@ static struct kd_probed_stretch stretch_of(const struct record *r, uint32_t behi
     };
 }
 
-/* Makes room by joining two adjacent stretches before the same crossing. */
+/* Makes room by joining two adjacent stretches that precede the same crossing. */
 static void join(struct kd_probed_ray *told)
 {
     struct kd_probed_stretch *s = told->stretches;
@@ -147,9 +147,9 @@ static void take(struct kd_probed_ray *told, const struct record *r)
         memcpy(told->light, r->a, sizeof told->light);
 }
 
-/* The rays to be described, and the kernel that reads them. */
+/* The rays to be described, and the kernel that describes them. */
 struct source {
-    const struct kd_critical_lattice *lattice; /* all 0: the grid */
+    const struct kd_critical_lattice *lattice; /* all members 0: the grid */
     struct kd_vk_buffer *lens, *records;
     uint32_t band;
     int camera;
@@ -215,7 +215,7 @@ static enum kd_status follow_grid(struct kd_frame_job *j, struct source *s)
 
 enum kd_status kd_frame_probe(struct kd_frame_job *j, uint32_t band)
 {
-    static const struct kd_critical_lattice on_grid; /* all 0: the grid */
+    static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
     const struct kd_plan *p = j->plan;
     const uint32_t first = kd_frame_band_first(j, band);
     if (!p->report.probe.on || p->report.probe.y < first || p->report.probe.y >= first + kd_frame_band_rows(j, band))
@@ -243,7 +243,7 @@ done:
     return status;
 }
 
-/* Index of the pixel in the list; the list's length if the pixel is not in it. */
+/* Index of the pixel in the list. If the list does not have the pixel, the list's length. */
 static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_probed_pixel *told)
 {
     uint64_t i = 0;
@@ -337,7 +337,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     kd_rays_steps_finish(told->steps);
     free(told->steps);
     told->steps = NULL;
-    if (status == KD_EINVAL) /* rounding has moved the labels outside the range that light can have */
+    if (status == KD_EINVAL) /* the labels are rounded, and have left the range that light can have */
         return say_no_steps(told, error.message);
     if (j->error)
         *j->error = error;

@@ -1,5 +1,5 @@
-/* Describes the light of the pixel that the plan names, ray by ray and emitter by emitter, as the picture's own kernel
- * sums it (light/probe.glsl). Radiance is linear sRGB, in the picture's unit. */
+/* Describes the light of the plan's pixel ray by ray and emitter by emitter, as the picture's own kernel sums it
+ * (light/probe.glsl). Radiance is linear sRGB, in the picture's unit. */
 #ifndef KD_RENDER_FRAME_PROBE_H
 #define KD_RENDER_FRAME_PROBE_H
 
@@ -10,26 +10,27 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_PROBED_PLACES 32 /* places of a ray, at most */
+#define KD_PROBED_PLACES 32 /* largest number of places of a ray */
 
 /* Light of one emitter at a place. */
 struct kd_probed_glow {
     uint32_t emitter; /* index in kd_emitters */
-    float light[3];   /* light including the emitter's opacity, without absorption in front of it */
+    float light[3];   /* light with the emitter's opacity applied, before absorption in front of it */
     float opacity;
-    float through; /* fraction of this light that reaches the observer, including factors on all light at the place */
-    bool points;   /* this is the emitter's points of light, spread over the pixel */
+    /* fraction of this light that reaches the observer, including factors that apply to all light at the place */
+    float through;
+    bool points; /* the light is that of the emitter's points, spread over the pixel */
 };
 
 /* A place where something may emit or absorb light. */
 struct kd_probed_place {
     uint32_t order;                 /* image order of the crossing */
     float w, phi, slope, footprint; /* from the lens map; 0 if the map does not hold the quantity */
-    /* Three properties that gas at the place has or would have. g: redshift factor; temperature: in K; angle:
-     * between light and normal in the frame of the gas, in radians */
+    /* Properties of gas at the place, also if there is no gas. g: redshift factor; temperature: in K; angle: between
+     * light and normal in the frame of the gas, in radians */
     float g, temperature, angle;
-    float through;  /* transmission of everything in front */
-    bool polarized; /* whether the light is polarised; then the next members are Q/I and U/I */
+    float through;  /* transmission of all matter in front of the place */
+    bool polarized; /* whether the light is polarised; if so, the next members are Q/I and U/I */
     float stokes[2];
     struct kd_probed_glow glows[KD_PLAN_EMITTERS];
     size_t n_glows;
@@ -43,11 +44,11 @@ struct kd_probed_stretch {
     float delay[2];   /* delays of the light from both ends, as for a crossing; meaningless for an observer inside the
                        * horizon */
     float light[3];   /* contribution of the stretch to the arriving light */
-    float through[2]; /* transmission of everything in front, without and with this stretch */
+    float through[2]; /* transmission of all matter in front, without and with this stretch */
 };
 #define KD_PROBED_STRETCHES 256
 
-/* Contribution of one volume along the whole ray, as far as the ray was followed. */
+/* Contribution of one volume along the whole ray, as far as the ray was traced. */
 struct kd_probed_volume {
     uint32_t emitter;
     float light[3]; /* the volume's light as it arrives */
@@ -61,7 +62,8 @@ struct kd_probed_met {
     uint32_t order;          /* number of crossings of the plane before the surface */
     /* w: 1/r; u: cos(theta); phi: azimuth (source minus observer); g: redshift factor; cosine: of the emission angle */
     float w, u, phi, g, cosine;
-    float light[3], through; /* light: without absorption in front; through: transmission of everything in front */
+    /* light: before absorption in front of the surface; through: transmission of all matter in front */
+    float light[3], through;
 };
 
 struct kd_probed_ray {
@@ -70,16 +72,16 @@ struct kd_probed_ray {
     struct kd_probed_place places[KD_PROBED_PLACES];
     struct kd_probed_stretch stretches[KD_PROBED_STRETCHES];
     struct kd_probed_volume volumes[KD_PLAN_EMITTERS];
-    uint32_t steps, samples; /* number of integration steps of the march, and of its samples */
+    uint32_t steps, samples; /* number of integration steps of the march, and number of its samples */
     struct kd_probed_met met;
-    size_t n_places, n_stretches, n_volumes, lost; /* lost: records that did not fit */
-    bool transfers; /* volumes transfer polarised light; then `stokes` is Stokes Q, U and V as they arrive */
+    size_t n_places, n_stretches, n_volumes, lost; /* lost: number of records that did not fit */
+    bool transfers; /* whether volumes transfer polarised light; if so, `stokes` is Stokes Q, U and V as they arrive */
     float stokes[3];
     bool given_up; /* the engine gave the ray up, and the picture shows magenta */
-    bool ended;    /* something may shine at the ray's end, which the next three members describe */
+    bool ended;    /* whether an emitter may shine at the ray's end, which the next three members describe */
     float end_u, end_phi, end_footprint;
-    struct kd_probed_glow
-        ends[2 * KD_PLAN_EMITTERS]; /* opacity 0; through: transmission of everything before the end */
+    struct kd_probed_glow ends[2 * KD_PLAN_EMITTERS]; /* light of each emitter at the end, with opacity 0; through:
+                                                       * transmission of all matter before the end */
     size_t n_ends;
     float through;  /* transmission of all crossings and volumes together */
     float light[3]; /* light of the whole ray */
@@ -87,14 +89,14 @@ struct kd_probed_ray {
 
 struct kd_probed_pixel {
     uint32_t x, y;
-    /* the middle ray of the square grid of image.samples (or the one before the middle), for which layers are computed
-     * as well; not among `each` if the pixel has other rays */
+    /* the middle ray of the square grid of image.samples, or the one before the middle. Layers are computed for this
+     * ray as well. It is not among `each` if the pixel has other rays */
     struct kd_probed_ray middle;
     struct kd_probed_ray *each; /* malloc'd: the rays whose mean is the pixel's light */
     uint32_t rays;
     struct kd_rays_steps *steps; /* malloc'd: engine steps of the middle ray; NULL: not requested, or not available */
-    char no_steps[200];          /* the reason why `steps` is NULL, a sentence */
-    bool whole;        /* the description is complete: later renders of this job are not part of this picture */
+    char no_steps[200];          /* a sentence that gives the reason why `steps` is NULL */
+    bool whole;        /* the description is complete; later renders of this job do not belong to this picture */
     float radiance[3]; /* light of the pixel, before bloom, beam and tone curve */
 };
 void kd_probed_destroy(struct kd_probed_pixel *told);

@@ -1,21 +1,21 @@
 /* Refinement: traces more rays, in rounds, where one ray a pixel is not enough.
  *
  * One ray a pixel has an error of up to half of the change across the pixel. Where the picture is linear from pixel to
- * pixel, a ray in the middle of each is exact whatever the slope, so the criterion is the second difference of
+ * pixel, a ray in the middle of each pixel is exact whatever the slope. So the criterion is the second difference of
  * displayed values. Pixels with a large second difference are refined first. In later rounds the neighbours of pixels
- * that changed are refined, until no pixel changes. A line or a rim that one ray a pixel hit only here and there is
- * thus followed to its end.
+ * that changed are refined, until no pixel changes. So a line or rim is followed to its end, even if one ray a pixel
+ * hit it only here and there.
  *
  * A chosen pixel has a square grid of rays. Where the lens map is smooth around the pixel, its rays are interpolated
- * from existing rays; at edges of orders and fates they are traced, in total at most a quarter of the rays that 16 in
- * every pixel would need. Pixels at the critical curve have more rays already (view/critical_pixels.h). */
+ * from existing rays. At edges of orders and fates its rays are traced. The total of traced rays is at most four
+ * times the number of pixels. Pixels at the critical curve have more rays already (view/critical_pixels.h). */
 #include "render/frame/choose.h"
 #include "render/frame/lens.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* The displayed picture now, and one round before. */
+/* The displayed picture now, and before this round. */
 struct work { uint16_t *now, *before; };
 
 static void finish(struct work *w)
@@ -40,8 +40,8 @@ static void take(struct kd_frame_job *j, const struct kd_critical_pixels *list, 
         j->kinds[list->pixels[i].y * (size_t)j->plan->picture.width + list->pixels[i].x] = kind;
 }
 
-/* The pixels of a round by the source of their rays, row by row: pixels at the critical curve, which have more rays
- * already; pixels with traced rays; pixels with interpolated rays. */
+/* The pixels of a round, row by row, by the source of their rays. AT_CURVE: at the critical curve, where pixels
+ * already have more rays; FOLLOWED: traced rays; BETWEEN: interpolated rays. */
 enum { AT_CURVE, FOLLOWED, BETWEEN, WAYS };
 static const uint8_t kind_of[WAYS] = { KD_REFINED_AT_CURVE, KD_REFINED_FOLLOWED, KD_REFINED_BETWEEN };
 struct ways { struct kd_choice of[WAYS]; };
@@ -73,7 +73,7 @@ static enum kd_status light(struct kd_frame_job *j, int way, const struct kd_cri
     return kd_frame_light_list(j, &list, true);
 }
 
-/* Divides the chosen pixels by the source of their rays. marks: for which of them interpolation is accurate. */
+/* Divides the chosen pixels by the source of their rays. marks: whether interpolation is accurate for each of them. */
 static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, const uint8_t *marks, struct ways *to)
 {
     enum kd_status status = KD_OK;
@@ -143,8 +143,8 @@ done:
     return status;
 }
 
-/* A device that computes nothing would choose no pixel. So one pixel is refined by each of these ways, to compile their
- * kernels. */
+/* For a device that only compiles and so would choose no pixel: refines one pixel by each of these ways, to compile
+ * their kernels. */
 static enum kd_status rehearse(struct kd_frame_job *j)
 {
     struct kd_pixel pixel = { 0, 0 };

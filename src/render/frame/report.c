@@ -1,4 +1,4 @@
-/* Reports on a picture in progress: how far it is, previews, and the times of its passes. */
+/* Reports on a picture in progress: its completed fraction, previews, and the times of its passes. */
 #include "render/frame/compilation.h"
 #include "render/frame/job.h"
 
@@ -39,12 +39,12 @@ static void keep_times(struct kd_frame_job *j)
     }
 }
 
-/* Calls `tell`; if the picture is rendered in the background, others may use the device meanwhile. */
+/* Calls `tell`. If the picture is rendered in the background, others may use the device meanwhile. */
 static enum kd_status away(struct kd_frame_job *j, bool (*tell)(struct kd_frame_job *job, void *what), void *what,
                            bool *go_on)
 {
-    if (j->background) { /* other pictures then need not wait for this picture's work, and their times do not include it
-                          */
+    if (j->background) { /* waits, so that other pictures need not wait for this work and their times do not include
+                          * it */
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
             return status;
@@ -65,7 +65,9 @@ static bool tell_lack(struct kd_frame_job *j, void *what) { return j->r->lacks(j
 
 enum kd_status kd_frame_await_kernels(struct kd_frame_job *j, kd_kernels_ask_fn ask, const void *user)
 {
-    enum { TRIES = 4 }; /* others' kernels may evict this picture's meanwhile; after the last try they are made here */
+    /* tries, because kernels of other pictures may evict this picture's meanwhile; after the last one the kernels
+     * are made here */
+    enum { TRIES = 4 };
     struct kd_compilation *c;
     enum kd_status status;
     bool go_on = true;
@@ -88,7 +90,7 @@ static bool tell_progress(struct kd_frame_job *j, void *what)
 enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
 {
     bool go_on;
-    j->done += j->looking ? 0 : rows; /* a preview's rows do not count */
+    j->done += j->looking ? 0 : rows; /* rows of a preview do not count */
     const enum kd_status status = away(j, tell_progress, NULL, &go_on);
     if (status)
         return status;
@@ -98,7 +100,8 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
     if (!part || !j->preview->wanted(j->user))
         return KD_OK;
     const enum kd_status seen = preview(j);
-    kd_slice_begin(&j->r->slice_pace, kd_clock_ms()); /* its time is not that of the next slice */
+    /* restarts the clock, because the time of this call is not that of the next slice */
+    kd_slice_begin(&j->r->slice_pace, kd_clock_ms());
     return seen;
 }
 

@@ -23,7 +23,7 @@ static enum kd_status fill_kernel(struct kd_frame_job *j, bool of_sky, const str
                           &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* Whether smooth cells are filled with crossings, or with the ends of rays. */
+/* Whether smooth cells are filled with crossings. If not, they are filled with the ends of rays. */
 static bool fills(const struct kd_plan_lens *lens, bool of_sky)
 {
     return of_sky ? kd_plan_holds(lens, KD_LENS_SKY) : lens->orders > 0;
@@ -139,12 +139,11 @@ static enum kd_status fill(struct run *run, bool of_sky)
     return status ? status : kd_vk_dispatch(j->r->vk, &d, j->error);
 }
 
-/* Submits the recorded commands at once. A driver that compiles kernels at their first dispatch then has the whole
- * deadline of a submission for one kernel. */
+/* Submits the recorded commands at once. If a driver compiles kernels at their first dispatch, each kernel then has
+ * the whole deadline of a submission. */
 static enum kd_status submit_new(struct kd_frame_job *j) { return kd_vk_submit(j->r->vk, NULL, j->error); }
 
-/* Initialises the map: all rays cross nothing and are captured. Kernels overwrite the rays that cross something or are
- * not captured. */
+/* Initialises the map so that all rays cross nothing and are captured. Kernels overwrite all other rays. */
 static enum kd_status fill_nothing(struct run *run)
 {
     const struct kd_plan *p = run->j->plan;

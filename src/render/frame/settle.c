@@ -1,6 +1,6 @@
-/* Settles rays that the kernels leave undecided, because single precision cannot determine their fate or their
- * number of crossings. There are few such rays. They are traced again in closed form, in double on the host, and
- * written into the lens map before anything reads it. */
+/* Settles undecided rays, whose fate or number of crossings single precision cannot determine. They are few. The
+ * host traces them again in closed form in double precision, and writes them into the lens map before anything reads
+ * it. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"
@@ -13,11 +13,11 @@
 struct open_rays {
     struct kd_vk_buffer *lens;
     uint32_t n, stride;
-    uint32_t *places; /* indices in a plane of the map */
+    uint32_t *places; /* indices of the rays in a plane of the map */
     struct kd_camera_label *labels;
 };
 
-enum { READ_AT_ONCE = 255 }; /* indices; most maps have fewer */
+enum { READ_AT_ONCE = 255 }; /* number of indices that are read at once; most maps have fewer */
 
 static const char *pass_of(const struct kd_frame_part *part)
 {
@@ -77,7 +77,7 @@ static enum kd_status send(struct kd_frame_job *j, const struct open_rays *open,
     KD_TRY(kd_vk_buffer_create(j->r->vk, bytes, KD_VK_UPLOAD, "rays that were settled", &host, j->error));
     KD_TRY(
         kd_vk_buffer_create(j->r->vk, bytes, KD_VK_DEVICE, "rays that were settled, on the device", &device, j->error));
-    memset(kd_vk_buffer_map(host), 0, bytes); /* footprints are made later */
+    memset(kd_vk_buffer_map(host), 0, bytes); /* footprints are made later; 0 until then */
     KD_TRY(follow(j, open, pass, host, device));
 done:
     kd_vk_buffer_destroy(j->r->vk, host);
@@ -101,7 +101,7 @@ static void label(const struct kd_frame_job *j, struct open_rays *open, const st
     }
 }
 
-/* Settles the undecided rays. found: their number; rays beyond the list's capacity are not in the list. */
+/* Settles the undecided rays. found: their number; the list lacks those beyond its capacity. */
 static enum kd_status settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band, uint32_t found)
 {
     const struct kd_plan *p = j->plan;

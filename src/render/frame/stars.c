@@ -10,16 +10,16 @@
 #include <string.h>
 
 #define LIST_GROUPS 128 /* workgroups of kernels whose invocations share a list; with 8192 an H200 is no faster */
-/* The same number for each core, if the device is a CPU: there a group costs 15 us even if the list is done, and a rim
- * has several grids. */
+/* The same number for each core of a CPU. There a group costs 15 us even if the list is done, and a rim has several
+ * grids. */
 #define LIST_GROUPS_CORE 4
-#define RIM_TILE KD_RIM_TILE_RAYS /* rays along a side of a small tile, and of a tile of the rim */
-#define SPILL 2u                  /* rows of pixels that an image may reach into the next band */
+#define RIM_TILE KD_RIM_TILE_RAYS /* rays along a side of a small tile of the picture, and of a tile of the rim */
+#define SPILL 2u                  /* rows by which an image may extend into the next band */
 
 /* Rays among which stars are searched: some rows of a lens map, or a grid of the rim. */
 struct part {
     struct kd_vk_buffer *lens;
-    const struct kd_rim_grid *rim; /* the grid of the rim; NULL for rays of the picture */
+    const struct kd_rim_grid *rim; /* the grid of the rim; NULL: rays of the picture */
     struct kd_stars_push push;
     struct kd_vk_buffer *light;
 };
@@ -27,7 +27,7 @@ struct part {
 /* What a kernel processes: rays of a picture without a rim, rays of a picture with a rim, or rays of the rim. */
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
-/* Whether the rim is searched. A search for bright images only leaves it out. */
+/* Whether the rim is searched. A search for bright images leaves it out. */
 static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->light.bright; }
 
 static enum rays rays_of(const struct kd_frame_job *j, const struct part *part)
@@ -52,13 +52,13 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* Reading texels takes a third of the time in software. */
+/* Whether texels are read. In software that takes a third of the time. */
 static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
 {
     return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);
 }
 
-/* The number of stars is not known yet, so the catalogue's is assumed, the largest possible one. */
+/* The number of stars is not known yet. The catalogue's number is used, because no sky has more. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *j)
 {
     const bool rim = kd_rim_may_be(j->scene) && !j->plan->light.bright, texels = reads_texels(j, 1u << 17);
@@ -92,7 +92,7 @@ static struct kd_vk_binding camera(const struct kd_frame_job *j)
                                     false };
 }
 
-/* The binding of the rim. It needs some buffer even if there is no rim. */
+/* The binding of the rim. Some buffer must be bound even if there is no rim. */
 static struct kd_vk_binding rim(const struct kd_frame_job *j)
 {
     return (struct kd_vk_binding) { has_rim(j) ? j->lens->rim_lens : j->store->transfer, 0, 0, false };
@@ -107,8 +107,8 @@ static struct kd_vk_binding lens_of(const struct part *part)
                                     part->rim ? 12ull * kd_rim_grid_rays(part->rim) : 0, false };
 }
 
-/* Makes pairs of rays and stars. In a picture: for large tiles, then for small tiles and listed rays; on the rim: for
- * small tiles and rays. */
+/* Makes pairs of rays and stars. A picture is searched by large tiles, then by small tiles and listed rays; the rim
+ * is searched by small tiles and rays. */
 static enum kd_status search(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;
@@ -189,7 +189,7 @@ done:
     return status;
 }
 
-/* Push constants for the rim; those for a part's rays are not set yet. */
+/* Push constants for the rim. The constants for a part's rays are not set yet. */
 static struct kd_stars_push push_of(const struct kd_frame_job *j)
 {
     const struct kd_rim *r = &j->lens->rim;
@@ -213,8 +213,8 @@ static struct kd_stars_push push_of(const struct kd_frame_job *j)
     };
 }
 
-/* Images have places in the whole picture, so that a tile is identical to that part of the picture. This function sets
- * the conversion from such a place to a place in the light of a band. */
+/* Sets the conversion from places of images to places in the light of a band. Places of images refer to the whole
+ * picture, so that a tile is identical to that part of the picture. */
 static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, uint32_t band)
 {
     const struct kd_window window = kd_scene_window(j->scene);
@@ -223,7 +223,7 @@ static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, 
     push->rightward = 0u - window.left;
 }
 
-/* Processes rows `first` to `end` of the band `from`; their light goes to the band `to`. */
+/* Processes rows `first` to `end` of the band `from`. Their light is added to the band `to`. */
 static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t first, uint32_t end, uint32_t to)
 {
     const struct kd_plan *p = j->plan;
@@ -312,11 +312,12 @@ done:
     return status;
 }
 
-/* Key of the present light of stars. It is made before others use the device and may change the renderer's sky. */
+/* Key of the present light of stars. It is made before other threads use the device, because they may change the
+ * renderer's sky. */
 static struct kd_star_key key_of(const struct kd_frame_job *j)
 {
     struct kd_star_key key;
-    memset(&key, 0, sizeof key); /* keys are compared byte by byte */
+    memset(&key, 0, sizeof key); /* cleared, because keys are compared byte by byte */
     memcpy(key.lens, j->plan->lens.key, sizeof key.lens);
     key.bright = j->plan->light.bright;
     key.visible = j->scene->disk.band == KD_BAND_VISIBLE;

@@ -1,12 +1,12 @@
-/* Renders a tile of a picture with a margin that is cropped; or, in strips, a picture that does not fit in one piece
- * (render/plan/tile.h). */
+/* Renders a tile of a picture with a margin that is then cropped. Also renders, in strips, a picture that does not
+ * fit in memory as a whole (render/plan/tile.h). */
 #include "render/frame/parts.h"
 
 #include "render/plan/tile.h"
 
 #include <string.h>
 
-/* Moves the kept rows to the front, each before its source is overwritten. */
+/* Moves the kept rows to the front. Each row is copied before its source is overwritten. */
 static void cut_layer(const struct kd_layer *layer, uint32_t width, const struct kd_window *cut)
 {
     const size_t pixel = kd_layer_pixel_bytes(layer), row = cut->width * pixel;
@@ -66,7 +66,7 @@ done:
     return status;
 }
 
-/* Starts the whole frame from the first strip's report. The frame has room for all rows, none of which is filled. */
+/* Makes the whole frame with the first strip's report. The frame has room for all rows, which are still empty. */
 static enum kd_status begin(const struct kd_frame *strip, uint32_t height, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_frame frame = *strip;
@@ -107,7 +107,7 @@ enum kd_status kd_frame_strips(const struct kd_parted *p, struct kd_frame *out, 
             KD_TRY(begin(&part, p->plan->picture.height, &frame, error));
         put_rows(&part, rows, &frame);
         rows += part.height;
-        if (part.told) { /* only one strip has the description of the plan's pixel */
+        if (part.told) { /* only one strip contains the plan's pixel */
             frame.told = part.told;
             part.told = NULL;
         }

@@ -15,8 +15,8 @@ enum { ROWS = 16, COLUMNS = KD_AUDIT_RAYS / ROWS };
 struct sample {
     uint32_t rows, columns, width, height; /* rows, columns: of the sample; width, height: of the grid of rays */
     uint32_t planes;                       /* planes of the map that are compared: radii, and the fate */
-    struct kd_vk_buffer *host;             /* the sampled rows on the host: all planes of the first row, then of the
-                                            * next */
+    struct kd_vk_buffer *host;             /* the sampled rows on the host: all planes of the first row, then all
+                                            * planes of the next, ... */
     double *rays;                          /* alpha, beta */
     bool outward[ROWS * COLUMNS];
     struct kd_ray_crossing *crossings;
@@ -59,8 +59,8 @@ static bool other_fate(float fate, const struct kd_ray_end *end)
            (fate == (float)KD_FATE_ESCAPED) != (end->fate == KD_RAY_ESCAPED);
 }
 
-/* Compares the map's radii and fates with those of the list. The planes hold w of `orders` crossings at intervals of
- * `width`. */
+/* Compares the map's radii and fates with those of the list. The planes hold w of `orders` crossings; they are
+ * `width` numbers apart. */
 static void compare(const struct kd_plan_lens *lens, const struct sample *s, const uint32_t *place, uint32_t n,
                     double inner, struct kd_accuracy_report *out)
 {

@@ -38,7 +38,7 @@ static void finish(struct work *w)
 static enum kd_status init(struct work *w, const struct kd_scene *scene, const struct kd_plan *plan, size_t n,
                            struct kd_error *error)
 {
-    uint32_t orders = plan->lens.orders ? plan->lens.orders : 1; /* engines need at least one */
+    uint32_t orders = plan->lens.orders ? plan->lens.orders : 1; /* at least one, because engines need one */
     *w = (struct work) { .plan = plan, .n = n, .twist = kd_camera_twist(scene) };
     w->alpha_beta = malloc(2 * n * sizeof *w->alpha_beta);
     w->energy = malloc(n * sizeof *w->energy);
@@ -136,7 +136,7 @@ static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
 static void fill(const struct work *w, const struct kd_scene *scene, float *planes)
 {
     const struct kd_plan *plan = w->plan;
-    float *of[32] = { 0 }; /* planes by the bit of a quantity; NULL: the map does not have it */
+    float *of[32] = { 0 }; /* planes by the bit of a quantity; NULL: the map does not have the quantity */
     for (uint32_t bit = 0; bit < 32; bit++)
         if (plan->lens.quantities >> bit & 1)
             of[bit] = planes + w->n * kd_lens_plane(plan->lens.quantities, plan->lens.orders, 1u << bit);
@@ -274,7 +274,7 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
         const struct kd_null_place *p = &places[k];
         const bool inwards = places[k + 1].r < p->r;
         if (p->crossing < 0 || (uint32_t)p->crossing >= orders || (inwards && p->r <= horizon))
-            continue; /* as in the kernel, a ray on its way out may be inside the horizon */
+            continue; /* skipped as in the kernel, because a ray on its way out may be inside the horizon */
         const double twist = p->r > horizon ? kd_kerr_twist(&at.hole, p->r) : 0;
         w->crossings[i * orders + (uint32_t)p->crossing] =
             (struct kd_ray_crossing) { .r = p->r, .phi = p->phi + (reversed ? -twist : twist), .delay = p->delay };

@@ -11,8 +11,8 @@
 /* OVER, FAR_OVER, CLIMB_BELOW: fractions of the budget. CLIMB_BELOW is far enough below OVER that noise does not
  * cause a move down and up again. */
 static const double OVER = 1.1, FAR_OVER = 1.5, CLIMB_BELOW = 0.8;
-static const double MORE = 1.1; /* factor by which a target must change to count as another target, because shares of a
-                                   device fluctuate a little */
+static const double MORE = 1.1; /* factor by which a target must change to count as different, because shares of a
+                                 * device fluctuate a little */
 static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget: LEAST_ROOM as a fraction of the target,
                                                              LEAST_SHARE as a fraction of the fixed part */
 static const double COOLDOWN_MS = 1000;                   /* least time on a rung before a climb */
@@ -23,17 +23,17 @@ static const double SETTLE_MS = 50; /* reaction time: from a frame to the user's
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
 /* time for which no lens map counts as cached; doubled each time */
 static const double BLIND_MS = 2000;
-/* fraction of the requested width, whatever kd_governor_least says */
+/* narrowest width, as a fraction of the requested width, whatever kd_governor_least says */
 static const double NARROWEST = 0.25;
-/* fraction of the patience below which frames of the requested width are tried again */
+/* frames of the requested width are tried again when they would take less than this fraction of the patience */
 static const double PATIENT_AGAIN = 0.6;
 enum {
-    MOVING_AUDIT = 4, /* frames that will be refined audit one of this many rays */
+    MOVING_AUDIT = 4, /* frames that will be refined audit one in this many rays */
     /* image.critical_factor for a picture that is replaced before the eye can examine it: 4 rays instead of 16 */
     DRAGGED_CRITICAL = 2,
-    FEW = 4,    /* this many slow frames in a row show load, not a spike */
-    ENOUGH = 8, /* among this many frames two spikes are outside the middle half */
-    MISSES = 3, /* one lens map may be missing when the rung changes */
+    FEW = 4,    /* this many slow frames in a row are a sign of load instead of a spike */
+    ENOUGH = 8, /* number of frames of which the middle half contains neither of two spikes */
+    MISSES = 3, /* number of lens maps that may be missing when the rung changes */
 };
 
 /* Resets the measurements of a pace, which stays on its rung. */
@@ -80,8 +80,8 @@ static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint3
     return *least;
 }
 
-/* Mean over the middle half of the window, sorted by total: neither a spike nor a frame that had nothing to do affects
- * it. If two kinds of frames alternate, the mean lies between them; a median would be one or the other. */
+/* Mean over the middle half of the window, sorted by total time, so that spikes and empty frames do not affect it.
+ * If two kinds of frames alternate, the mean lies between them, whereas a median would be one of the two. */
 static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
 {
     const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
@@ -122,8 +122,8 @@ static double predict(const struct kd_frame_cost *cost, const struct kd_rung *fr
     return cost->rays_ms * to->rays / from->rays + cost->pixels_ms * pixels + (rest_stays ? rest : rest * pixels);
 }
 
-/* The lowest rung that a pace may take. If only brightness changes, one picture of full size is worth more than many
- * small ones. */
+/* The lowest rung that a pace may take. If only brightness changes, viewers gain more from one picture of full size
+ * than from many small ones. */
 static uint32_t last_rung(const struct kd_governor *g, const struct kd_pace *pace)
 {
     uint32_t last = (uint32_t)g->ladder.n_rungs - 1;
@@ -143,7 +143,7 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pac
 
 /* Moves up and down the ladder */
 
-/* Called when a pace leaves its rung. If the rung is left because other sessions began, it is remembered. */
+/* Called when a pace leaves its rung. If it leaves because other sessions began, the rung is remembered. */
 static void hold(struct kd_pace *pace, bool narrower)
 {
     if (!narrower && pace->rung <= pace->held) {
@@ -201,7 +201,8 @@ static bool may_climb(const struct kd_governor *g, const struct kd_pace *pace, c
            traceable(g, pace, &rungs[to], CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* Returns a rung on which frames are known to be in time with the present target; the present rung if there is none. */
+/* Returns a rung on which frames are known to be in time with the present target. If there is none, returns the
+ * present rung. */
 static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pace)
 {
     bool enough = pace->held_target > 0 && MORE * target(g) >= pace->held_target;
@@ -211,7 +212,7 @@ static uint32_t known_good(const struct kd_governor *g, const struct kd_pace *pa
                : pace->rung;
 }
 
-/* The rung to which the pace may not climb, because it was too slow with at least the present target. */
+/* The rung that the pace may not climb to, because frames there were too slow with at least the present target. */
 static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pace, double now)
 {
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
@@ -245,8 +246,8 @@ static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace
            traceable(g, pace, to, CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* Climbs as far as is safe, or else one rung on a more favourable assumption. If that rung is too slow, it is left
- * again and not climbed to soon. */
+/* Climbs as far as is safe. If no rung is safe, climbs one rung on a more favourable assumption; a rung that then
+ * turns out too slow is left again, and is not tried again soon. */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
 {
     uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);
@@ -321,7 +322,7 @@ static void compare_with_wide(struct kd_governor *g, const struct kd_frame_cost 
     if (!(g->wide_ms > 0) || !(varying(cost) > 0) || here->rays >= g->wide.rays)
         return;
     const double more = g->wide.rays / here->rays, dearer = g->wide_ms / varying(cost);
-    g->stays = fmin((more - dearer) / (more - 1), 1); /* negative if rays cost more than assumed for the rung */
+    g->stays = fmin((more - dearer) / (more - 1), 1); /* negative if rays cost more on the rung than assumed */
     g->stays_of = here->rays;
     g->wide_ms = 0;
 }
@@ -428,9 +429,10 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
     const struct kd_work work = work_of(shown);
     struct kd_scene still = *shown;
     const struct kd_scene *const asked = &still;
-    kd_scene_show(&still, NULL); /* moving content is counted in its work alone, and does not outlive the call */
-    /* If only the motion of a scene that does not move was changed, the picture shown is right already; the scene is
-     * rendered once more. */
+    /* bodies of a playground are counted only in the scene's work, and their memory may be freed after this call */
+    kd_scene_show(&still, NULL);
+    /* If the scene does not move and only its motion was changed, the picture shown is already right; the scene is
+     * rendered once more all the same. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) &&
                       !kd_emit_moves(asked);
     const bool same_work = kd_work_alike(&work, &g->work);
@@ -445,10 +447,11 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
         begin_anew(&g->paces[0]);
         g->rings = rings;
         g->paces[0].rung = at_most(g->paces[0].rung, last_rung(g, &g->paces[0]));
-        g->lens_at = -INFINITY; /* striking the hole is not a drag */
+        g->lens_at = -INFINITY; /* a ringdown that a user starts is not a drag */
     }
     g->asked = *asked;
-    if (!same_work) /* the work that measurements began with stays, so that small changes do not add up unseen */
+    if (!same_work) /* the work at the start of the measurements is kept, so that many small changes are noticed
+                     * together */
         g->work = work;
     g->revision++;
     g->changed_at = now;
@@ -510,15 +513,15 @@ struct kd_frame_decision kd_governor_decide(const struct kd_governor *g, double 
         return decision;
     double since = g->share < 1 ? fmax(g->changed_at, g->shown_at) : g->changed_at,
            left = fmax(g->params.rest_ms - (now - since), SETTLE_MS - (now - g->shown_at));
-    if (!g->shown.final && left < 1e-3) /* rounding of summed waits may end a wait slightly early */
+    if (!g->shown.final && left < 1e-3) /* the sum of rounded waits may end slightly early */
         return next_step(g, decision);
     decision.quality = g->shown;
     decision.wait_ms = g->shown.final ? INFINITY : left;
     return decision;
 }
 
-/* Counts lens maps that should have been cached. One may be missing after a change of rung. If none are cached, for
- * example because they do not fit in memory, even frames in which only time advances have to trace. */
+/* Counts lens maps that should have been cached. One may be missing after a change of rung. If no map is cached, for
+ * example because maps do not fit in memory, each frame must trace, even if only time advances. */
 static void miss(struct kd_governor *g, double now)
 {
     if (++g->missed < MISSES)

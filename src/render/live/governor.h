@@ -98,11 +98,12 @@ struct kd_frame_cost {
 };
 
 struct kd_frame_decision {
-    struct kd_quality quality; /* quality of the frame to render now; if there is none, of the picture shown */
+    /* quality of the frame to render now; if nothing is to be rendered, quality of the picture shown */
+    struct kd_quality quality;
     double wait_ms; /* 0: render now. Otherwise there is nothing to render for this long; INFINITY: the session rests */
     bool refining;  /* the scene rests, and this frame is a step upwards */
-    /* 1 or 4: audit one of this many of the sampled rays. The audit runs on one core and takes a third of a small
-     * frame */
+    /* 1 or 4: one in this many of the sampled rays is audited. The audit runs on one core and takes a third of a
+     * small frame */
     uint32_t audit;
     bool traced; /* the tracing pace is in force; this and the remaining members are for kd_governor_frame only */
     uint32_t ladder, rung, revision;
@@ -124,8 +125,8 @@ struct kd_pace {
     bool climbed;         /* the last change was upwards */
     uint32_t held;        /* a rung that was left because other sessions began */
     double held_target;   /* the target at which frames of that rung were in time; 0: there is no such rung */
-    struct kd_rung other; /* the rung before; no rays: unknown, or already used */
-    double other_ms;      /* time of the rays of frames on that rung */
+    struct kd_rung other; /* the rung before; rays 0: it is unknown or was already used */
+    double other_ms;      /* time that the rays of frames took on that rung */
     double stays;         /* estimated fraction of the rays' time that does not depend on size */
     bool tried;           /* the fraction `stays` is measured, so no trial of another rung is needed */
 };
@@ -135,7 +136,7 @@ struct kd_governor {
     struct kd_governor_params params;
     double share;
     struct kd_scene asked;
-    struct kd_work work; /* what frames cost, besides their size, when measurements began */
+    struct kd_work work; /* cost of frames, apart from their size, when measurements began */
     struct kd_ladder ladder;
     uint32_t ladders, revision;
     struct kd_pace paces[2]; /* [0]: for frames that reuse their lens map; [1]: for frames that trace it */
@@ -143,7 +144,7 @@ struct kd_governor {
      * change of the lens is no longer recent */
     double changed_at, lens_at, hold_ms;
     struct kd_frame_cost traced; /* latest average of frames that trace */
-    struct kd_rung traced_on;    /* the rung of these frames; no rays: none yet */
+    struct kd_rung traced_on;    /* the rung of these frames; rays 0: no frame yet */
     /* blind_until: until this time lens maps are assumed not to be cached, whatever changes */
     double blind_until, blind_ms;
     uint32_t missed;           /* successive frames that traced although the lens was unchanged */
@@ -168,20 +169,20 @@ void kd_governor_init(struct kd_governor *governor, const struct kd_governor_par
  * changes as other sessions stop or begin; set it before kd_governor_expect and before each kd_governor_frame. */
 void kd_governor_share(struct kd_governor *governor, double share);
 
-/* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place of
- * bounds.scale. A smaller target then reduces everything else, and after that the frame rate, down to one frame every
- * patience_ms (INFINITY: no limit).
- * If the narrowest frames were measured to take longer than patience_ms, frames become narrower after all, down to a
- * quarter. They stay so until the scene changes its kind, or until wide frames are estimated to be well within
- * patience_ms. Part of a frame's time does not depend on its size, so the estimate is the line through two
- * measurements: the last wide frames, and the first narrow ones right after them. */
+/* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place
+ * of bounds.scale. If the target is smaller, all other qualities are reduced first, and then the frame rate, down to
+ * one frame every patience_ms (INFINITY: no limit). If the narrowest frames were measured to take longer than
+ * patience_ms, frames become narrower after all, down to a quarter. They stay so until the scene changes its kind,
+ * or until wide frames are estimated to be well within patience_ms. Part of a frame's time does not depend on its
+ * size, so the estimate is the line through two measurements: the last wide frames, and the first narrow ones right
+ * after them. */
 void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
-/* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: its lens map
- * changed, that is, lens_key differs between the plans of both scenes as requested; true for a session's first scene. A
- * change of image.* or accuracy.* makes a new ladder, and starts on the rung that old averages suggest. A change of the
- * scene's kind, or of the cost of what it emits by more than a factor of two since averages started, starts averages
- * and waits again. */
+/* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: the lens
+ * map has changed, which means that lens_key differs between the plans of the two requested scenes; true for a
+ * session's first scene. A change of image.* or accuracy.* makes a new ladder, and starts on the rung that old
+ * averages suggest. A change of the scene's kind, or of the cost of what it emits by more than a factor of two since
+ * averages started, starts averages and waits again. */
 void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *shown, bool lens);
 
 /* Sets the expected cost of a frame at the requested quality, for example from its plan. The cost chooses the first

@@ -9,7 +9,7 @@ void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *a
     *out = *asked;
     out->image.width = (int32_t)quality->width;
     out->image.height = (int32_t)quality->height;
-    out->image.samples = quality->samples; /* 0: the number that each pixel needs */
+    out->image.samples = quality->samples; /* 0: as many as each pixel needs */
     if (quality->critical && out->image.critical_factor > quality->critical)
         out->image.critical_factor = quality->critical;
     out->accuracy.orders = quality->orders;
@@ -89,7 +89,7 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
         if (scales[i] >= bounds->scale && asked->image.width * scales[i] >= bounds->width &&
             add_rung(out, make_rung(asked, scales[i], samples, orders, -1)))
             scale = scales[i];
-    /* In stacked photon rings the higher orders are the subject, so they are kept. */
+    /* in a picture of stacked photon rings the higher orders are what is shown, so they are kept */
     const int32_t least = asked->camera.projection == KD_PROJECTION_RING ? orders : bounds->orders;
     while (orders > least) {
         orders = (orders + 1) / 2 > least ? (orders + 1) / 2 : least;

@@ -11,12 +11,12 @@ struct kd_cost {
     double ms;         /* time of all frames if each makes a lens map of its own */
     double trace_ms;   /* part of `ms`: time of lens maps that a sweep may share */
     double shared_ms;  /* time saved by sharing lens maps; set by kd_cost_end */
-    double file_bytes; /* for formats whose file size depends only on the picture's size */
+    double file_bytes; /* total size of the files, for formats whose file size depends only on the picture's size */
     uint64_t rays;
-    uint64_t device_bytes, host_bytes; /* bytes for the largest frame */
+    uint64_t device_bytes, host_bytes; /* bytes that the largest frame needs */
     bool guessed;                      /* some pass has no measured cost */
     struct kd_sweep_order order;       /* order of the frames of a sweep */
-    struct kd_cube_shape shape;        /* common to all scenes of a cube */
+    struct kd_cube_shape shape;        /* shape that all scenes of a cube have */
 };
 
 /* Adds a frame. sweep: the sweep that the frames' scenes belong to; NULL: none. KD_ENOMEM; KD_EINVAL if the scenes of a

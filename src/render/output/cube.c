@@ -165,7 +165,7 @@ static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct uni
     return KD_OK;
 }
 
-/* Adds the text of a card unless the list has it already. *there: whether the card exists. */
+/* Adds the text of a card unless the list already has it. *there: whether the card exists. */
 static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buffer *head, size_t size, const char *key,
                                 bool *there, struct kd_error *error)
 {

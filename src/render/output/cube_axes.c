@@ -22,7 +22,7 @@ static bool is_frequency(const struct kd_sweep_axis *axis)
 
 bool kd_cube_has_frequencies(const struct kd_sweep_axis *axis) { return is_frequency(axis) && !axis->even; }
 
-/* In Hz; the field's unit is GHz. */
+/* A frequency in Hz; the unit of its field is GHz. */
 static double world_of(const struct kd_sweep_axis *axis, size_t i)
 {
     return axis->values[i].number * (is_frequency(axis) ? 1e9 : 1);
@@ -63,7 +63,7 @@ static enum kd_status put_text(struct kd_buffer *cards, const char *name, unsign
     return kd_fits_text(cards, key, value, comment);
 }
 
-/* The alternate description: the sky's axes as in the primary one, and the frequencies by the table. */
+/* The alternate description: the sky's axes as in the primary description, and the frequencies by a table. */
 static enum kd_status put_second(struct kd_buffer *cards, unsigned number, const struct kd_wcs *wcs)
 {
     enum kd_status status;

@@ -17,7 +17,7 @@
  * alternate: "" or one letter. */
 enum kd_status kd_cube_put_line(struct kd_buffer *cards, unsigned number, const char *alternate, double first,
                                 double step);
-/* The cards of an axis of the sweep. wcs: world coordinates of the pictures; NULL if they differ. */
+/* Writes the cards of an axis of the sweep. wcs: world coordinates of the pictures; NULL if they differ. */
 enum kd_status kd_cube_put_axis(struct kd_buffer *cards, const struct kd_sweep_axis *axis, unsigned number,
                                 const struct kd_wcs *wcs);
 /* Appends a complete HDU: the axis' values, one row each. */

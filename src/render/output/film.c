@@ -16,9 +16,10 @@
 
 #define PICTURE_MAX (32u << 20) /* bytes of one frame's file: twice a 4K picture */
 #define MORE (1u << 20)         /* bytes that a film may have besides its pictures: its header */
-#define SCENE_MAX 100000        /* bytes of the scene's text: an argument of a program may have 128 KiB */
-#define IDLE_MS 30e3            /* ffmpeg is killed if it makes no progress for this long */
-#define HEAD 24                 /* bytes of a PNG file up to the end of its width and height */
+/* largest size of the scene's text in bytes, because one argument of a program may have 128 KiB */
+#define SCENE_MAX 100000
+#define IDLE_MS 30e3 /* ffmpeg is killed if it makes no progress for this long */
+#define HEAD 24      /* bytes of a PNG file up to the end of its width and height */
 
 struct film {
     const struct kd_gather_source *source;
@@ -35,7 +36,7 @@ struct film {
     off_t written;   /* size of the film's file when last checked */
 };
 
-/* Quality at which films look like the pictures: banding in a black sky is visible first. */
+/* Quality at which films look like the pictures. The first visible fault would be banding in a black sky. */
 static const char *const h264[] = { "-c:v", "libx264",   "-preset",    "medium", "-crf",
                                     "17",   "-movflags", "+faststart", NULL };
 static const char *const vp9[] = { "-c:v", "libvpx-vp9", "-crf", "24",        "-b:v", "0", "-row-mt",
@@ -273,7 +274,7 @@ static void close_film(void *state)
 static size_t holds(const struct kd_gather_source *source)
 {
     (void)source;
-    return 2 * PICTURE_MAX; /* the file of a picture, and the picture's decoded pixels */
+    return 2 * PICTURE_MAX; /* memory for the file of a picture, and for the picture's decoded pixels */
 }
 
 const struct kd_gather_format kd_gather_mp4 = {

@@ -57,8 +57,7 @@ done:
     return status;
 }
 
-/* The Stokes parameter that the layer of this name contains, for all light; NULL: the layer contains no Stokes
- * parameter. */
+/* Name of the Stokes parameter, for all light, that the layer of this name contains. NULL: the layer contains none. */
 static const char *stokes_of(const char *name)
 {
     static const char *const known[][2] = { { "intensity", "I" },    { "specific_intensity", "I" },

@@ -8,8 +8,9 @@
  * kd_scene_is_radio_alone. */
 double kd_flux_jy(const struct kd_scene *scene, const struct kd_frame *frame);
 
-/* One line: "jy=2.0412 ghz=230 kelvin=1e+10"; "" if there is no flux. kelvin: brightness temperature of light 1.
- * With volume.normalise_to_jy it ends with " density_scale=0.79", the factor applied to the density. */
+/* One line: "jy=2.0412 ghz=230 kelvin=1e+10"; "" if there is no flux. kelvin: brightness temperature of the unit of
+ * light. With volume.normalise_to_jy the line ends with the factor applied to the density, such as "
+ * density_scale=0.79". */
 #define KD_FLUX_TEXT 128
 void kd_flux_text(const struct kd_scene *scene, const struct kd_frame *frame, char out[KD_FLUX_TEXT]);
 

@@ -44,7 +44,7 @@ static enum kd_status check_layers(const struct kd_format *format, const struct 
 static enum kd_status adapt(const struct kd_format *format, struct kd_scene *scene, struct kd_error *error)
 {
     const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
-    /* the setting is stored in the file, with the scene as requested */
+    /* the file records the setting together with the requested scene */
     const bool told = format->carries & shows && format->scene;
     if (!(format->carries & KD_CARRIES_PICTURE) && !told && isinf(scene->style.exposure))
         scene->style.exposure = 0;

@@ -18,13 +18,14 @@ struct kd_picture {
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     const char *device; /* as kd_renderer_device_name */
-    unsigned number;    /* in a series, from 0 */
+    unsigned number;    /* number of the frame in a series, from 0 */
     unsigned lossy;     /* quality for a lossy format, 1 to 100; 0: KD_QUALITY */
     const char *hash;   /* hash of the scene, as kd_scene_hash; NULL or "": computed when needed */
 };
 
 enum kd_effort {
-    KD_EFFORT_LIVE,  /* for one of many frames a second, with 8 bits a channel: as fast as possible, without metadata */
+    /* for live views of many frames a second: 8 bits a channel, as fast as possible, without metadata */
+    KD_EFFORT_LIVE,
     KD_EFFORT_QUICK, /* a client waits for it */
     KD_EFFORT_KEEP,  /* a file that is kept: smaller */
 };
@@ -65,8 +66,8 @@ struct kd_format {
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
 
-/* FITS files of the scenes of a cube. They have exactly the layers that image.layers names, so that all scenes have the
- * same layers. This format is not in the table. fits.c */
+/* Format of the scenes' files that are joined to a cube: FITS with exactly the layers that image.layers names, so
+ * that all scenes have the same layers. It is not in the table. fits.c */
 extern const struct kd_format kd_format_cubed;
 
 /* The first is the default. formats.c */
@@ -74,8 +75,8 @@ extern const struct kd_format *const kd_formats[];
 extern const size_t kd_n_formats; /* at most KD_FORMATS_MAX */
 enum { KD_FORMATS_MAX = 16 };
 
-const struct kd_format *kd_format_named(const char *name); /* NULL: there is none */
-/* identifies a file by its first bytes; NULL: not possible */
+const struct kd_format *kd_format_named(const char *name); /* returns NULL if there is no such format */
+/* identifies a file by its first bytes; returns NULL if they match no format */
 const struct kd_format *kd_format_of_bytes(const void *data, size_t size);
 const struct kd_format *kd_format_live(void); /* the format of live views */
 

@@ -1,4 +1,4 @@
-/* The table of format.h. It has a file of its own so that a test may replace the table. */
+/* The table of format.h, in a file of its own so that a test can replace it. */
 #include "render/output/format.h"
 
 #define ENTRY(name) &kd_format_##name,

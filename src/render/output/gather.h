@@ -21,8 +21,9 @@ struct kd_gather_source {
     const struct kd_sweep *sweep;  /* sweep of the frames' scenes; NULL: none, allowed for a ZIP only */
     const struct kd_format *frame; /* format of the files */
     unsigned n;
-    unsigned rate;     /* frames a second of a film */
-    uint64_t *counted; /* if not NULL, a format that `counts` adds frames' bytes here instead of producing them */
+    unsigned rate; /* frames a second of a film */
+    /* if it is not NULL, a format with `counts` adds the frames' bytes to this number instead of producing them */
+    uint64_t *counted;
     bool (*size)(void *user, unsigned frame, uint64_t *out);
     /* reads exactly `size` bytes, or returns false */
     bool (*read)(void *user, unsigned frame, uint64_t at, void *to, size_t size);
@@ -36,7 +37,7 @@ struct kd_gather_format {
      * none */
     size_t (*holds)(const struct kd_gather_source *source);
     bool counts; /* the size of the gathered file can be computed: produced bytes plus *source->counted */
-    bool waits;  /* when `next` produces nothing it waits for another program: call it again some milliseconds later */
+    bool waits;  /* `next` produces nothing while it waits for another program: call it again some milliseconds later */
     enum kd_status (*open)(const struct kd_gather_source *source, void **state, struct kd_error *error);
     enum kd_status (*next)(void *state, struct kd_buffer *out, bool *over, struct kd_error *error);
     void (*close)(void *state);
@@ -75,6 +76,6 @@ enum kd_status kd_gather_open(const struct kd_gather_format *format, const struc
 /* Appends more bytes, sometimes none. *over: everything was produced. KD_ENOMEM; KD_EIO if a frame's file has
  * changed. */
 enum kd_status kd_gather_next(struct kd_gather *gather, struct kd_buffer *out, bool *over, struct kd_error *error);
-void kd_gather_close(struct kd_gather *gather); /* also accepts a gather that was never opened */
+void kd_gather_close(struct kd_gather *gather); /* may be called for a gather that was never opened */
 
 #endif

@@ -19,7 +19,7 @@ void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *
                          const char *worst);
 
 /* Gets, by index, an approximation that is known only after the picture is rendered, such as rays that were given
- * up. report NULL: all such approximations that exist. Returns false if there are fewer. */
+ * up. report NULL: lists all approximations of this kind. Returns false if there are fewer. */
 bool kd_measured_approximation(const struct kd_accuracy_report *report, size_t index, struct kd_approximation *out);
 /* Gets, by index, an approximation of a picture: first those of its plan, then those of kd_measured_approximation. */
 bool kd_picture_approximation(const struct kd_plan_report *plan, const struct kd_accuracy_report *report, size_t index,
@@ -42,10 +42,13 @@ struct kd_notes {
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);
 void kd_notes_finish(struct kd_notes *notes);
 
-/* The notes of a picture as named texts, for formats that hold such texts. Empty texts are left out. The texts
- * belong to `notes` and `picture`. Returns how many there are. */
+/* The notes of a picture as named texts, for formats that store such texts. Empty texts are left out. The texts
+ * belong to `notes` and `picture`. Returns their number. */
 enum { KD_NOTES = 11 };
-struct kd_note { const char *name, *text; /* "kerrd:scene"; "Software" and "Copyright", which other programs know */ };
+struct kd_note {
+    const char *name, *text; /* name: "kerrd:scene" and others of kerrd; "Software" and "Copyright",
+                              * which other programs know */
+};
 size_t kd_notes_list(const struct kd_picture *picture, const struct kd_notes *notes, struct kd_note out[KD_NOTES]);
 
 /* Parses the scene in a file's notes; *out is unchanged on error. */

@@ -46,7 +46,7 @@ struct kd_particle_list {
     struct kd_scene scene; /* at the requested time */
     struct kd_particle_grid grid;
     uint32_t first, stride;
-    size_t n; /* rows; 0 before settle: all */
+    size_t n; /* number of rows; 0 before settle means all */
     enum kd_particle_column columns[KD_PARTICLE_N_COLUMNS];
     size_t n_columns;
     bool orbits;             /* some column needs the orbits */

@@ -16,7 +16,7 @@ static const struct kd_series layers = {
 };
 static const struct kd_series npy = {
     .name = "npy", .noun = "array", .each = "arrays of numbers", .frame = &kd_format_npy, .wholes = files
-}; /* the same series as "layers", which is its older name */
+}; /* the same series as "layers", under its older name */
 static const struct kd_series npz = {
     .name = "npz", .noun = "NPZ file", .each = "NPZ files", .frame = &kd_format_npz, .wholes = files
 };

@@ -30,11 +30,11 @@ struct kd_series {
     bool swept; /* only for sweeps */
 };
 
-extern const struct kd_series *const kd_series_all[]; /* the first is the default */
+extern const struct kd_series *const kd_series_all[]; /* all series; the first is the default */
 extern const size_t kd_n_series;
 
-const struct kd_series *kd_series_named(const char *name); /* NULL: there is none */
+const struct kd_series *kd_series_named(const char *name); /* returns NULL if there is no such series */
 const struct kd_table_format *kd_series_table(const struct kd_series *series,
-                                              const char *name); /* NULL: it has none of that name */
+                                              const char *name); /* returns NULL if the series has no such format */
 
 #endif

@@ -15,13 +15,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define COARSE \
-    0.15 /* rad: next to the critical curve, neighbouring rays of the picture that end further apart than this are not \
-            used */
-#define INNER 0.9  /* fraction of the rim's width: nearer to the curve than this only the rim's images count */
+/* rad: limit between the ends of neighbouring rays; near the critical curve, rays whose ends are further apart are
+ * not used */
+#define COARSE 0.15
+/* fraction of the rim's width: within this distance of the curve only the images from the rim count */
+#define INNER 0.9
 #define APART 0.05 /* pixels: images of the two grids that are nearer to each other than this are the same */
 
-enum { MOST = 400 }; /* images in a file, the brightest ones */
+enum { MOST = 400 }; /* largest number of images in a file; the brightest are kept */
 
 /* An image in the picture. light: the mean radiance that it gives to a pixel, in units of kd_star_flux. */
 struct image {
@@ -150,7 +151,7 @@ static bool place_of(const struct list *list, struct kd_star_image *image)
     return image->x >= -edge && image->x < width - edge && image->y >= -edge && image->y < height - edge;
 }
 
-/* Adds an image, except those that pictures leave out. */
+/* Adds an image, unless it is one that pictures leave out. */
 static enum kd_status add(void *user, const struct kd_star_image *found)
 {
     struct list *list = user;
@@ -194,9 +195,9 @@ static int brighter(const void *a, const void *b)
     return (p < q) - (p > q);
 }
 
-/* The rays of the picture, one a pixel. around: the picture shows all directions. Then the first column is repeated
- * after the last, and a row is added beyond each pole: the adjacent row shifted by half a turn. With an odd number
- * of columns there are no such rows. */
+/* The rays of the picture, one for each pixel. around: the picture shows all directions. Its first column is then
+ * repeated after the last. If the number of columns is even, a row is also added beyond each pole: the adjacent row
+ * shifted by half a turn. */
 struct picture_map {
     const float *theta, *phi;
     double azimuth;

@@ -31,7 +31,7 @@ static struct kd_wcs plane(const struct kd_scene *scene)
     };
 }
 
-/* World coordinates in a tile, whose pixels count from its own corner, rows from below. */
+/* Moves world coordinates to a tile, whose pixels are counted from its own corner, with rows from below. */
 static struct kd_wcs in_tile(struct kd_wcs wcs, const struct kd_scene *scene)
 {
     const struct kd_window tile = kd_scene_window(scene);

@@ -2,7 +2,8 @@
 
 #include <math.h>
 
-/* full width at half maximum of a Gaussian over its standard deviation, 2 sqrt(2 ln 2) */
+/* pixels: a narrower beam changes nothing, because a neighbouring pixel gets less than exp(-50) of the weight of the
+ * pixel itself */
 #define FWHM 2.3548200450309493
 /* pixels: a narrower beam gives a neighbouring pixel less than exp(-50) of the weight of the pixel itself */
 #define LEAST 0.1

@@ -17,7 +17,7 @@
 
 struct kd_bloom {
     uint32_t columns, rows;      /* size of the finest grid, multiples of 2^(levels - 1) */
-    uint32_t levels;             /* number of grids; 0: nothing is spread */
+    uint32_t levels;             /* number of grids; 0: no light is spread */
     bool around;                 /* the picture shows all directions, so its left and right edges adjoin */
     double strength;             /* fraction of the light above white that is spread */
     double share;                /* fraction of the spread light on each grid: equal for each octave of the angle */
@@ -51,7 +51,8 @@ static inline uint64_t kd_bloom_most(const struct kd_bloom *bloom)
  * pixels may read more, or need not be in one row of the picture. */
 static inline uint32_t kd_bloom_together(const struct kd_bloom *bloom, uint32_t width)
 {
-    const uint32_t apart = (KD_POST_PIXELS - 1) * bloom->columns; /* of the first and last pixel, times the width */
+    /* distance from the first pixel to the last in cells, times the width */
+    const uint32_t apart = (KD_POST_PIXELS - 1) * bloom->columns;
     return !bloom->levels || width % KD_POST_PIXELS ? 0 : apart <= width ? 4 : apart <= 2 * width ? 5 : 0;
 }
 

@@ -21,7 +21,7 @@ struct kd_plan_cost {
     struct kd_plan_pass passes[KD_PASS_COUNT];
     size_t n_passes;
     double estimate_ms, trace_ns; /* estimate_ms: estimated time of all passes; trace_ns: of tracing one ray */
-    uint64_t class;               /* cost class of the passes (cost_class.h) */
+    uint64_t class;               /* cost class of the plan (cost_class.h) */
     /* additional time for compiling missing kernels, estimated by server/render/queue.h; 0: none are missing, or it
      * is not known */
     double kernels_ms;

@@ -46,8 +46,9 @@ enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out)
     const struct kd_section *accuracy = kd_section_find("accuracy");
     char hash[65];
     enum kd_status status;
-    const bool marches = kd_emit_along(scene) || kd_emit_met(scene); /* these determine which pixels at the curve have
-                                                                      * rays, whatever the map holds */
+    const bool marches = kd_emit_along(scene) || kd_emit_met(scene); /* hashed because these determine which pixels
+                                                                      * at the curve have rays, whatever the map
+                                                                      * holds */
     KD_TRY(kd_buffer_printf(&text, "%u, %d x %d x %d, %d %d, ", kd_needs_of(scene).quantities, scene->image.width,
                             scene->image.height, (int)kd_scene_side(scene), scene->image.critical_factor, marches));
     for (size_t i = accuracy->first; i < accuracy->first + accuracy->count; i++)

@@ -16,25 +16,25 @@ struct kd_plan_lens {
     /* rays of each pixel at the critical curve (view/critical_pixels.h); 0: as any other pixel */
     uint32_t critical;
     uint32_t critical_dense;  /* rays of each such pixel after refinement (frame/refine.c); 0: no refinement there */
-    uint64_t critical_pixels; /* number of these pixels */
+    uint64_t critical_pixels; /* number of pixels at the critical curve */
     uint64_t critical_part;   /* how many of these pixels fit one buffer of their lens map */
     uint32_t adaptive;        /* rays of a pixel after refinement (frame/refine.c); 0: no refinement */
     uint64_t listed_bytes;    /* size of the buffer for the lens map of refined pixels, filled part by part */
     enum kd_lens_path {
         KD_LENS_CLOSED, /* lens_closed.comp: closed forms, for observers outside the photon orbits */
         KD_LENS_MAP,    /* lens_map.comp: by integration steps */
-        KD_LENS_LISTED, /* as listed rays (render/rays/rays.h), by any engine in either precision */
+        KD_LENS_LISTED, /* listed rays (render/rays/rays.h), by any engine in either precision */
     } path;
     /* tolerated relative error of a map interpolated between nodes (plan/sample.h); 0: every ray is traced */
     double interpolates;
     uint32_t sample_rows;      /* rows of pixels whose map is interpolated at once, at most */
     struct kd_setting setting; /* engine, precision and steps per half period (0: closed form) */
-    bool ring;                 /* rays are listed, round the critical curve */
+    bool ring;                 /* rays are listed, in rings round the critical curve */
     bool ingoing;              /* the observer falls, in coordinates that are regular at the outer horizon */
     bool ends;                 /* some emitters shine at the ends of rays, and the lens map holds these ends */
     uint32_t quantities;       /* KD_LENS_... quantities of the lens map */
-    uint32_t orders;           /* crossings of a ray that are recorded */
-    uint32_t planes;           /* 4-byte values a ray in the lens map */
+    uint32_t orders;           /* number of crossings that are recorded for each ray */
+    uint32_t planes;           /* number of 4-byte values of each ray in the lens map */
     bool cacheable;            /* the whole lens map fits in memory and can be cached */
     uint32_t audit; /* rays of the lens map that are traced again in closed form, at most KD_AUDIT_RAYS; 0: none */
     char key[65];   /* hash of everything that the lens map depends on */
@@ -54,12 +54,12 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan_lens *lens)
 
 /* If image.samples is "auto", a pixel may have KD_PLAN_ADAPTIVE_SIDE^2 rays. */
 #define KD_PLAN_ADAPTIVE_SIDE 4
-#define KD_PLAN_TRUTH_SIDE 8       /* side of the grid of rays that measure the remaining error of a pixel, */
-#define KD_PLAN_SAMPLED_OF_EACH 48 /* on this many pixels of each of four kinds */
+#define KD_PLAN_TRUTH_SIDE 8       /* side of the grid of rays that measure the remaining error of a pixel */
+#define KD_PLAN_SAMPLED_OF_EACH 48 /* number of pixels, of each of four kinds, whose remaining error is measured */
 #define KD_PLAN_SAMPLED (4 * KD_PLAN_SAMPLED_OF_EACH * KD_PLAN_TRUTH_SIDE * KD_PLAN_TRUTH_SIDE)
 #define KD_PLAN_ROUNDS 6                            /* rounds of choosing pixels, at most */
 #define KD_PLAN_REFINING_LOOKS (1 + KD_PLAN_ROUNDS) /* number of times that the displayed picture is examined */
-#define KD_PLAN_LISTED_BYTES (15u << 20)            /* fewer rays than 65535 workgroups have */
+#define KD_PLAN_LISTED_BYTES (15u << 20)            /* so that the rays fit in 65535 workgroups */
 
 /* Pixels, with `rays` rays each, whose lens map fits the buffer of listed pixels. */
 static inline uint64_t kd_plan_listed_most(const struct kd_plan_lens *lens, uint32_t rays)

@@ -77,8 +77,8 @@ static enum kd_status make_tile(const struct kd_scene *scene, const struct kd_ne
     return status;
 }
 
-/* Sets *rest to the capacity that is left when the whole picture is on the host. It exists twice there: as pixels and
- * as the encoded file. False: nothing is left. */
+/* Sets *rest to the capacity that is left when the whole picture is on the host, both as pixels and as the encoded
+ * file. Returns false if nothing is left. */
 static bool rest_of(const struct kd_capacity *c, uint64_t host_bytes, struct kd_capacity *rest)
 {
     const uint64_t whole = 2 * host_bytes;

@@ -55,7 +55,7 @@ static struct kd_pass_cost transfer(const struct kd_plan *plan, const struct kd_
                                    kd_plan_light_figure(&plan->light) };
 }
 
-/* All volumes share one figure, which is measured only on volumes of the usual weight. */
+/* All volumes share one figure, so it is measured only on volumes of the usual weight. */
 static struct kd_pass_cost march(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const bool usual = fabs(plan->light.march.weight - 1) < 1e-9;
@@ -70,8 +70,8 @@ static struct kd_pass_cost march_error(const struct kd_plan *plan, const struct 
                                    KD_NS_NONE };
 }
 
-/* Interpolating a ray from its cell's nodes takes, on lavapipe, a quarter of the time of tracing the ray for radii
- * only, and a tenth for all quantities. */
+/* On lavapipe, interpolating a ray takes a quarter of the time of tracing it if only radii are interpolated, and a
+ * tenth if all quantities are. */
 static struct kd_pass_cost interpolate(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double ns = kd_plan_is_radii(&plan->lens) ? 0.25 * c->ns[KD_NS_RAY_RADIUS] : 0.1 * c->ns[KD_NS_RAY_FULL];
@@ -135,10 +135,11 @@ static bool is_streaked(const struct kd_scene *scene)
     return scene->disk.model == KD_DISK_PARTICLES || (scene->disk.model != KD_DISK_NONE && scene->gas.amplitude > 0);
 }
 
-/* Of the pixels at the critical curve three in four get their denser rays; elsewhere one in 300 is at an edge. How many
- * pixels lie where the map is smooth but light is not linear depends on the content: one in three for streaked disks,
- * otherwise one in thirty. At 1280 x 720 the presets gargantua and default trace 0.59 and 1.09 million rays, estimated
- * here as 0.79 and 0.91; they interpolate 34 000 and 308 000 pixels, estimated as 31 000 and 307 000. */
+/* At the critical curve three pixels in four get denser rays. Elsewhere one pixel in 300 is at an edge and gets
+ * traced rays. How many pixels lie where the map is smooth but light is not linear depends on the content: one in
+ * three for streaked disks, otherwise one in thirty. At 1280 x 720 the presets gargantua and default trace 0.59 and
+ * 1.09 million rays, estimated here as 0.79 and 0.91; they interpolate 34 000 and 308 000 pixels, estimated as 31
+ * 000 and 307 000. */
 static uint64_t refined(const struct kd_plan *plan, const struct kd_scene *scene)
 {
     const uint64_t curve = 3 * plan->lens.critical_pixels * plan->lens.critical_dense / 4,

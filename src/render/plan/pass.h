@@ -84,7 +84,7 @@ struct kd_pass {
     const char *name;
     uint64_t (*invocations)(const struct kd_plan *plan, const struct kd_scene *scene);
     struct kd_pass_cost (*by)(const struct kd_plan *plan,
-                              const struct kd_capacity *capacity); /* NULL: the cost is given by the next members */
+                              const struct kd_capacity *capacity); /* NULL: the next members give the cost */
     const char *kernel;
     enum kd_figure_id figure;
     double share;

@@ -41,7 +41,7 @@ double kd_light_fraction(const struct kd_light *light);
 double kd_light_evpa(const struct kd_light *light);
 
 /* kd_light_groups: workgroups of photometry.comp for the pixels of a band. kd_light_sums: sums of one invocation.
- * kd_light_bytes: bytes of all sums (every band has as many as the first). */
+ * kd_light_bytes: bytes of all sums; each band has as many sums as the first. */
 uint32_t kd_light_groups(uint32_t pixels);
 uint32_t kd_light_sums(const struct kd_plan_light *light);
 uint64_t kd_light_bytes(const struct kd_plan *plan);

@@ -17,15 +17,17 @@ struct kd_plan_picture {
     struct kd_window
         cut; /* for a tile: its place within the size above, which includes its margin (tile.h); width 0: not a tile */
     /* number of strips of a picture that does not fit in one piece; each is a tile with a margin. The plan's passes,
-     * times and cost.host_bytes are for all of them, cost.device_bytes for the largest. 0: in one piece */
+     * times and cost.host_bytes are for all strips, cost.device_bytes for the largest strip. 0: the picture is made
+     * in one piece */
     uint32_t strips;
-    /* 2: a pair, with a picture for each eye, side by side. The plan's passes, times and cost.host_bytes are then for
-     * both pictures, cost.device_bytes for the larger one, all else for the left one. 0: a single picture */
+    /* 2: a pair, with a picture for each eye, side by side. The plan's passes, times and cost.host_bytes are then
+     * for both pictures, cost.device_bytes for the larger one, and all other members for the left one. 0: a single
+     * picture */
     uint32_t eyes;
     /* band_rows: rows of pixels for which one set of buffers has room; bands: number of such sets */
     uint32_t band_rows, bands;
-    bool no_image; /* no pixels are made of the radiance */
-    bool numbers;  /* the frame is for a file of numbers: no processing after the light is part of it */
+    bool no_image; /* no picture is made from the radiance */
+    bool numbers;  /* the frame is for a file of numbers, so it contains the light without later processing */
     bool rgb;      /* image.layers contains the picture */
     bool radiance; /* linear light is copied to the host, too */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* layers besides the picture */

@@ -236,9 +236,9 @@ static enum kd_status may_list(const struct kd_scene *scene, const struct kd_set
                           ergosphere(scene));
 }
 
-/* Settings for a ring. Its rays pass the critical curve at 1e-10, which neither 32 bits nor few steps resolve. Unless
- * an engine or steps are named, the closed form is used: it needs no device and meets each tolerance that a picture may
- * ask for. The table's rows do not apply, because they were measured on other rays. */
+/* Settings for a ring. Its rays pass the critical curve at 1e-10, which neither 32 bits nor few steps resolve.
+ * Unless an engine or steps are named, the closed form is used, because it needs no device and meets each tolerance
+ * that a picture may request. The table's rows do not apply, because they were measured on other rays. */
 static enum kd_status ring(struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
     if (asked_accuracy->precision == KD_PRECISION_F32)
@@ -262,9 +262,9 @@ static double beyond_orbits(const struct kd_scene *scene)
 
 static bool within_horizon(const struct kd_scene *scene) { return scene->camera.r <= kd_scene_hole(scene)->outer; }
 
-/* Settings for an observer inside the horizon, where only lens_map.comp traces light. Its steps are per half turn,
- * which takes longer the nearer the observer is to the centre: w'' = 3K w^2 is faster there by sqrt(6w) than at w =
- * 1/2, for which the number of steps was chosen. */
+/* Settings for an observer inside the horizon, where only lens_map.comp traces light. Near the centre, w'' = 3K w^2
+ * is faster by sqrt(6w) than at w = 1/2, for which the number of steps per half turn was chosen. So more steps are
+ * needed there. */
 static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene,
                                   const struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
@@ -393,7 +393,7 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.picture.n_layers = needs->no_image ? 0 : plan.picture.n_layers;
     if (plan.light.bright && !plan.picture.n_layers &&
         !kd_plan_is_spread(
-            &plan.light)) /* for bright images the differences that are computed in their search are enough */
+            &plan.light)) /* the search for bright images computes its own differences, so these need no footprints */
         plan.lens.quantities &= ~(uint32_t)KD_LENS_SKY_FOOTPRINT;
     plan.picture.radiance = needs->radiance && plan.picture.rgb && !needs->no_image;
     if (!needs->no_image && !kd_plan_is_map(&plan.picture))
@@ -438,14 +438,14 @@ enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *
 {
     struct kd_plan plan;
     enum kd_status status;
-    /* limits first, because listing the pixels of a picture that is too large takes long */
+    /* checks the limits first, because listing the pixels of a picture that is too large takes long */
     KD_TRY(outline(scene, needs, capacity, &plan, error));
     KD_TRY(kd_plan_critical(&plan, scene, capacity, error));
     if (plan.lens.critical)
         KD_TRY(kd_plan_bands(&plan, scene, capacity, error));
     plan.lens.audit = plan.lens.cacheable && plan.lens.orders && !within_horizon(scene)
                           ? KD_AUDIT_RAYS
-                          : 0; /* outside the horizon used by the closed form's test */
+                          : 0; /* the audit's closed form requires an observer outside the horizon */
     passes(&plan, scene, capacity);
     kd_plan_say(&plan, scene);
     if (kd_plan_lens_key(&plan, scene))

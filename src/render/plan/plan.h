@@ -27,8 +27,8 @@ struct kd_plan {
     struct kd_plan_report report;
 };
 
-/* scene must be valid (kd_scene_validate). KD_ETOOBIG, with the size, if the picture does not fit; KD_EINVAL at
- * /accuracy/... for an engine, precision or tolerance that is impossible with this device or camera. */
+/* scene must be valid (kd_scene_validate). Returns KD_ETOOBIG, with the size, if the picture does not fit. Returns
+ * KD_EINVAL at /accuracy/... for an engine, precision or tolerance that is impossible with this device or camera. */
 enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_plan *out,
                             struct kd_error *error);
 
@@ -56,16 +56,17 @@ static inline double kd_plan_map_ns(const struct kd_plan *plan)
                : plan->cost.trace_ns;
 }
 
-/* After the light of a band there is room for a list of rays that the march could not complete, and for the state of
- * rays that continue: their number, and bytes (interface.h, KD_LOST_...). */
+/* Number of rays in a list behind the light of a band, and bytes of the list. It holds the rays that the march could
+ * not complete, and the state of rays that continue (interface.h, KD_LOST_...). */
 static inline uint32_t kd_plan_lost_most(const struct kd_plan *plan)
 {
     return plan->light.march.steps ? plan->picture.width * plan->picture.band_rows : 0;
 }
 static inline uint64_t kd_plan_lost_bytes(uint64_t most) { return most ? 4 * (KD_LOST_RAYS - 1 + most) : 4; }
 
-/* Sizes of further buffers for the light of stars, besides kd_plan_star_bytes: pairs of a ray and a star, and rays,
- * for one slice of KD_PLAN_STAR_RAYS rays or one row (frame/stars.c). A slice takes about 20 ms, and its pairs fit. */
+/* Sizes of further buffers for the light of stars, besides kd_plan_star_bytes. They hold pairs of a ray and a star,
+ * and rays, for one slice of KD_PLAN_STAR_RAYS rays or one row (frame/stars.c). A slice takes about 20 ms, and its
+ * pairs fit. */
 #define KD_PLAN_PAIRS (1u << 18)
 #define KD_PLAN_BRIGHT 8 /* searching only bright images is about this many times as fast as searching all */
 #define KD_PLAN_STAR_RAYS (1u << 17)
@@ -86,15 +87,15 @@ static inline uint64_t kd_plan_star_ray_bytes(const struct kd_plan *plan)
     return 4ull * (2 + kd_plan_star_tiles(plan) + kd_plan_star_slice(plan));
 }
 
-/* Requirements on the plan. kd_plan_make derives them from the scene; benchmarks and tests ask for more. */
+/* Requirements on the plan. kd_plan_make derives them from the scene; benchmarks and tests set further ones. */
 struct kd_needs {
-    uint32_t quantities;      /* KD_LENS_... quantities of the lens map */
-    bool light;               /* measure flux and centroid; always on if some luminance is kept separate */
-    bool no_image;            /* make no pixels and no layers, whatever image.layers says */
-    bool radiance;            /* make linear light a layer, if the picture is requested */
-    bool followed;            /* trace every ray, even if the profile would interpolate */
-    bool sketch;              /* march through volumes as coarsely as kd_march_sketch */
-    bool bright;              /* search stars as kd_plan_light.bright says */
+    uint32_t quantities; /* KD_LENS_... quantities of the lens map */
+    bool light;          /* measure flux and centroid; they are always measured if some luminance is kept separate */
+    bool no_image;       /* make no pixels and no layers, whatever image.layers says */
+    bool radiance;       /* make linear light a layer, if the picture is requested */
+    bool followed;       /* trace every ray, even if the profile would interpolate */
+    bool sketch;         /* march through volumes as coarsely as kd_march_sketch */
+    bool bright;         /* search stars as kd_plan_light.bright says */
     bool reuse_normalisation; /* for volume.normalise_to_jy, reuse the density found for the same matter from any
                                  viewpoint */
 };

@@ -149,7 +149,7 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
     const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     if (plan->lens.ring || side <= plan->lens.side ||
         !(plan->lens.orders > 1 || plan->lens.ends ||
-          plan->light.march.steps)) /* the direct image is not thin anywhere */
+          plan->light.march.steps)) /* not planned, because no part of the direct image is thinner than a pixel */
         return KD_OK;
     enum kd_status status = kd_critical_cache(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->lens.planes * side * side + 2));

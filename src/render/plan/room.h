@@ -8,8 +8,8 @@
 /* KD_ETOOBIG: the rows or the grids of a beam exceed one binding. */
 enum kd_status kd_plan_beam_fits(const struct kd_plan_picture *picture, const struct kd_capacity *c,
                                  struct kd_error *error);
-/* Plans extra rays for refined pixels. There are none if the plan's rays are a ring round the critical curve, where
- * image orders are wide already. One buffer serves all parts in turn. */
+/* Plans extra rays for refined pixels. A ring round the critical curve gets none, because its image orders are
+ * already wide. One buffer serves all parts in turn. */
 void kd_plan_adapt(struct kd_plan *plan, const struct kd_scene *scene, const struct kd_capacity *c);
 /* Plans bands: rows of pixels whose lens map, radiance and packed pixels each fit one buffer and one binding, and
  * whose workgroups fit one dispatch. KD_ETOOBIG: one row does not fit, or all of them exceed the memory. */

@@ -11,9 +11,8 @@
 enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
-#define RAYS_AT_ONCE \
-    KD_GIVEN_MOST /* all of these rays may be undecided; one dispatch then has a quarter of the 65535 workgroups of \
-                     any device */
+/* all of these rays may be undecided; one dispatch then has 16384 workgroups, a quarter of what any device allows */
+#define RAYS_AT_ONCE KD_GIVEN_MOST
 
 /* Bytes that every device can bind as one storage buffer (Vulkan 1.2, 42.1: maxStorageBufferRange). */
 #define BOUND_EVERYWHERE (UINT64_C(1) << 27)
@@ -61,7 +60,7 @@ void kd_sample_fit(struct kd_plan *plan, uint64_t bytes)
 {
     const uint64_t row = (uint64_t)plan->picture.width * plan->lens.side * plan->lens.side,
                    rows = RAYS_AT_ONCE / row > 1 ? RAYS_AT_ONCE / row : 1;
-    /* as many rows as the bits of a place can distinguish */
+    /* as many rows as the bits of a place can number */
     const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->lens.side;
     plan->lens.sample_rows = (uint32_t)least_of(least_of(rows, held), plan->picture.band_rows);
     while (plan->lens.sample_rows > 1 && !fits(plan, plan->lens.sample_rows, bytes))
@@ -78,7 +77,7 @@ uint64_t kd_sample_bytes(const struct kd_plan *plan)
     return most.list_bytes + most.index_bytes + most.node_bytes;
 }
 
-/* Error that interpolation can meet: for a smaller tolerance each ray is traced. */
+/* Error that interpolation can guarantee. For a smaller tolerance each ray is traced. */
 #define HOLDS 1e-5
 
 double kd_sample_tolerance(const struct kd_plan *plan, const struct kd_scene *scene)

@@ -57,7 +57,7 @@ enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_m
     return KD_OK;
 }
 
-#define AT_LEAST 16 /* scenes, which take a millisecond */
+#define AT_LEAST 16 /* number of scenes added in one call, which takes a millisecond */
 
 enum kd_status kd_sweep_order_go_on(struct kd_sweep_order *order, const struct kd_sweep *sweep, double until_ms)
 {
@@ -66,7 +66,8 @@ enum kd_status kd_sweep_order_go_on(struct kd_sweep_order *order, const struct k
     for (unsigned i = 1; order->n < sweep->scenes && (i % AT_LEAST || kd_clock_ms() < until_ms); i++) {
         struct kd_scene scene;
         uint64_t group = 0;
-        if (!kd_sweep_scene(sweep, order->n, &scene, NULL)) /* an invalid scene fails when it is rendered */
+        if (!kd_sweep_scene(sweep, order->n, &scene, NULL)) /* skipped here: an invalid scene fails when it is
+                                                             * rendered */
             KD_TRY(kd_plan_lens_group(&scene, &group));
         KD_TRY(kd_sweep_order_add(order, group, 0));
     }

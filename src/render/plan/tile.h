@@ -10,7 +10,7 @@
 
 struct kd_needs;
 
-/* KD_EINVAL if a tile alone cannot meet a request; the message names an alternative. */
+/* Returns KD_EINVAL if a tile cannot meet a request by itself; the message names an alternative. */
 enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs *needs, struct kd_error *error);
 
 /* The scene whose tile includes the margin; *cut, unless NULL: place of the original tile in it. */

@@ -133,7 +133,7 @@ bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, st
     return false;
 }
 
-/* Writes the observer's motion and its parameters, except parameters that have their word for INFINITY. */
+/* Writes the observer's motion and its parameters. Parameters whose value is the word for INFINITY are left out. */
 static enum kd_status json_motion(const struct kd_rays_params *p, struct kd_buffer *out)
 {
     const int of = p->observer - 1;

@@ -26,9 +26,9 @@ struct kd_rays_answer {
     double *alpha_beta; /* this and the next two are malloc'd */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
-    size_t undecided; /* this and the following members are set by kd_rays_answer_summarise */
-    /* With a tolerance. followed_again: number of rays that were traced again to meet it; beyond: number of rays
-     * that exceed it nevertheless, including undecided rays. */
+    size_t undecided; /* kd_rays_answer_summarise sets this member and all that follow */
+    /* Members used with a tolerance. followed_again: number of rays that were traced again to meet it; beyond:
+     * number of rays that exceed it nevertheless, including undecided rays. */
     size_t followed_again, beyond;
     double worst_error, median_error; /* over the rays that have an error; NaN if no ray has an error */
 };

@@ -99,7 +99,7 @@ enum kd_status kd_rays_check(const struct kd_rays_params *p, const double *alpha
         KD_TRY(check_number(beta, i, 1, error));
         if (isinf(r))
             continue;
-        /* The radial potential at the observer. Where it is negative, light with these constants cannot exist. */
+        /* The radial potential at the observer. If it is negative, no light with these constants exists there. */
         double lambda = -alpha * s, eta = (alpha * alpha - a * a) * u2 + beta * beta, w = r * r + a * a - a * lambda;
         if (w > 0 && w * w >= delta * (eta + (lambda - a) * (lambda - a)))
             continue;

@@ -11,7 +11,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#define SLICE 1024 /* rays: they take some milliseconds, little compared with the work that is worth another thread */
+#define SLICE 1024 /* rays in a slice, which takes some milliseconds; less work is not worth another thread */
 #define THREADS_MAX 16
 
 _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");
@@ -68,7 +68,8 @@ static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, 
         if (!errors)
             continue;
         crossings[k].g = redshift(p, alpha_beta, c->r, c->sense > 0);
-        end->error = fmax(end->error, fmin(c->error_r, 1)); /* fmax ignores NaN; infinite: the crossing may not exist */
+        /* fmax ignores NaN; an infinite error means that the crossing may not exist */
+        end->error = fmax(end->error, fmin(c->error_r, 1));
     }
     if (path.doubtful)
         end->error = 1;
@@ -120,7 +121,8 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     size_t n = rays->n;
     pthread_t threads[THREADS_MAX];
     size_t begun = 0, wanted = helpers(n);
-    while (begun < wanted && !pthread_create(&threads[begun], NULL, work, &share)) /* fewer threads work as well */
+    while (begun < wanted && !pthread_create(&threads[begun], NULL, work, &share)) /* if a thread cannot be created,
+                                                                                    * fewer threads do the work */
         begun++;
     while (trace_slice(&share)) {
         size_t taken = atomic_load(&share.next);
@@ -132,8 +134,8 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
 }
 
-/* Whether the photon leaves the gas outwards. Inside the ISCO the closed form gives its radial direction; a ray that
- * starts inwards and is captured never turns. */
+/* Whether the photon leaves the gas outwards. Inside the ISCO the closed form gives its radial direction, because a
+ * ray that starts inwards and is captured never turns. */
 static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                             const struct kd_ray_end *end, uint32_t crossing)
 {

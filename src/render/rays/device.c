@@ -14,9 +14,9 @@
 #include <stdlib.h>
 
 /* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few
- * rays, then as many as take TARGET_MS. A ray's cost varies by a factor of a million: from the fastest engine to
- * Tao's with the largest number of steps, and from a GPU to one core. A slice is submitted in parts of at most
- * CHUNK rays; the device traces one part while the host unpacks the part before. */
+ * rays, and later ones as many as take TARGET_MS. A ray's cost varies by a factor of a million between the fastest
+ * engine on a GPU and Tao's with the most steps on one core. A slice is submitted in parts of at most CHUNK rays;
+ * the device traces one part while the host unpacks the part before. */
 #define LEAST 32u
 #define MOST (1u << 20)
 #define CHUNK 65536u
@@ -51,15 +51,15 @@ static void put(const struct work *w, void *at, size_t i, double value)
         ((float *)at)[i] = (float)value;
 }
 
-/* Converts alpha and beta for the device. If both are tiny, their ratio is kept to rounding, since the azimuth depends
- * on it. */
+/* Converts alpha and beta for the device. If both are tiny, they are scaled so that their ratio stays exact, because
+ * the azimuth depends on it. */
 static void label(const struct work *w, const double *alpha_beta, double out[2])
 {
     double larger = fmax(fabs(alpha_beta[0]), fabs(alpha_beta[1])), least = 1e8 * KD_LEAST_FLOAT;
     bool small = !w->wide && larger > 0 && larger < least;
     for (int k = 0; k < 2; k++) {
-        out[k] =
-            small ? alpha_beta[k] / larger * least : alpha_beta[k]; /* divides first, as 1/larger may be infinite */
+        out[k] = small ? alpha_beta[k] / larger * least : alpha_beta[k]; /* divides first, because 1/larger may be
+                                                                          * infinite */
         if (!w->wide)
             out[k] = kd_lifted(out[k]);
     }
@@ -70,9 +70,9 @@ static double get(const struct work *w, const void *at, size_t i)
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
 }
 
-/* Radius from which a Cartesian ray from infinity starts. At more distant positions digits of b are lost, and phase
- * in Tao's method. A nearer start would be more accurate (from 100 M single precision has a sixth of the error that
- * it has from here), but only because Mino time (start.c) would then do the work of this engine. */
+/* Radius from which a Cartesian ray from infinity starts. From further out, digits of b would be lost, and in Tao's
+ * method also phase. A nearer start would be more accurate (from 100 M single precision has a sixth of the error),
+ * but only because Mino time (start.c) would then do this engine's work. */
 #define FAR 1e3
 /* The radius at which a ray counts as escaped: there its momentum has reached its limit within M b/r^2. Further out the
  * direction in single precision does not become more accurate, and the copies of Tao's method diverge. */

@@ -4,8 +4,8 @@
 
 #include "render/rays/rays.h"
 
-/* kd_rays_trace for any engine except KD_ENGINE_CLOSED, with checked params. g is left NaN; so are the errors of the
- * Kerr-Schild engines. */
+/* kd_rays_trace for any engine except KD_ENGINE_CLOSED, with checked params. g stays NaN; with the Kerr-Schild
+ * engines the errors do as well. */
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
@@ -13,7 +13,7 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
 /* Requests the kernel of kd_rays_device or, if `told`, of kd_rays_device_told, for kd_kernels_note. */
 enum kd_status kd_rays_device_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, bool told);
 
-/* Traces one ray and returns the records that trace.glsl describes, as doubles: room for `numbers` of them. */
+/* Traces one ray and returns the records that trace.glsl describes, as doubles. There is room for `numbers` of them. */
 enum kd_status kd_rays_device_told(struct kd_renderer *renderer, const struct kd_rays_params *params,
                                    const struct kd_ray_labels *ray, struct kd_ray_crossing *crossings,
                                    struct kd_ray_end *end, double *told, size_t numbers, struct kd_error *error);

@@ -62,7 +62,7 @@ void kd_rays_looks_see(const struct kd_rays_params *p, const double *energy, siz
         for (uint32_t k = 0; k < ends[i].n_crossings; k++) {
             struct kd_ray_crossing *c = &crossings[i * p->orders + k];
             c->phi *= sense, c->delay *= sense;
-            c->g /= energy[i]; /* for light whose energy at infinity is negative, both numbers are negative */
+            c->g /= energy[i]; /* g and energy are both negative for light whose energy at infinity is negative */
         }
     }
 }

@@ -42,9 +42,8 @@ static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_
         return end->fate == KD_RAY_ESCAPED ? angle(end, true_end) + true_end->error : NAN;
     for (uint32_t k = 0; k < end->n_crossings && k < true_end->n_crossings; k++)
         worst = fmax(worst, fabs(found[k].r / truth[k].r - 1));
-    return worst +
-           (1 + worst) * (fmax(true_end->error, 0) +
-                          2 * DBL_EPSILON); /* fmax ignores NaN, the error of a captured ray without crossings */
+    return worst + (1 + worst) * (fmax(true_end->error, 0) + 2 * DBL_EPSILON); /* fmax ignores NaN, which is the error
+                                                                                * of a captured ray without crossings */
 }
 
 #define SLICE ((size_t)16384) /* rays; they take a tenth of a second */

@@ -4,11 +4,12 @@
  * eta = Q/E^2 = (alpha^2 - a^2) cos^2 i + beta^2; the arriving photon's p^theta has the sign of beta. The ray is traced
  * back from an observer at r: INFINITY, or finite with the ray starting inwards. Crossings of the equatorial plane are
  * counted from the observer. Azimuths are Boyer-Lindquist, source minus observer. delay is t_observed - t_emitted,
- * minus r_o + 2 ln r_o for an observer at infinity. g = E_infinity / (-p.u) of gas on circular orbits outside the ISCO
- * and plunging from it inside (Cunningham 1975); a finite observer multiplies it by nu/E_infinity measured there.
+ * minus r_o + 2 ln r_o for an observer at infinity. g = E_infinity / (-p.u), where u is that of gas on circular orbits
+ * outside the ISCO and of gas that plunges from the ISCO inside it (Cunningham 1975). A finite observer multiplies g by
+ * the measured nu/E_infinity.
  *
  * If the observer's motion is given, a ray is instead a direction in the observer's frame, and g is the measured
- * energy over that in the gas's frame. */
+ * energy divided by the energy in the gas's frame. */
 #ifndef KD_RENDER_RAYS_RAYS_H
 #define KD_RENDER_RAYS_RAYS_H
 
@@ -31,7 +32,8 @@ struct kd_rays_params {
     enum kd_engine engine;
     enum kd_precision precision; /* closed: F64 only */
     uint32_t steps;              /* per half period, a multiple of 4; 0: the engine's default; closed form: 0 */
-    double tolerance;            /* > 0: rays whose own error exceeds this are traced again more finely; 0: no ray is */
+    /* > 0: rays whose own error exceeds this are traced again more finely; 0: no ray is traced again */
+    double tolerance;
     double holds; /* the tolerance that the setting meets according to the table, for the answer; 0: no tolerance was
                      requested */
     /* 0: rays are labels, for any observer at this place. Otherwise 1 + enum kd_observer: rays are directions in
@@ -63,15 +65,15 @@ struct kd_ray_end {
     uint32_t n_crossings; /* number of the requested orders that exist outside the horizon */
     double theta, phi;    /* direction of an escaping ray: polar angle and azimuth, source minus observer */
     /* Estimated relative error of the worst crossing radius; for a ray without a crossing, the error of its
-     * direction in radians. It is an upper bound for at least 999 of 1000 rays. NaN for a ray that has neither a
-     * crossing nor a direction, with every engine. A value of 1 or more means that the number of crossings may be
-     * wrong by one next to the horizon or very far out (Mino engines, closed form), or that the number or the fate
-     * differs from the closed form's (Kerr-Schild engines). */
+     * direction in radians. It is an upper bound for at least 999 of 1000 rays. With every engine it is NaN for a
+     * ray that has neither a crossing nor a direction. The meaning of a value of 1 or more depends on the engine.
+     * Mino engines and closed form: the number of crossings may be wrong by one, next to the horizon or very far
+     * out. Kerr-Schild engines: the number or the fate differs from the closed form's. */
     double error;
     /* energy at infinity, in units of the energy that the observer measures; only if the observer's motion is
      * given */
     double energy;
-    bool again; /* traced again by a finer setting, for the tolerance */
+    bool again; /* the ray was traced again by a finer setting, to meet the tolerance */
 };
 
 /* Whether two ends are equal bit for bit, ignoring padding. */

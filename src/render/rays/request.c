@@ -40,7 +40,8 @@ void kd_rays_request_finish(struct kd_rays_request *request)
 enum kd_status kd_rays_request_set(struct kd_rays_request *request, const char *name, const char *text,
                                    struct kd_error *error)
 {
-    return strchr(name, '.') ? kd_document_unknown(&kd_rays_document, name, error) /* names are without their object */
+    return strchr(name, '.') ? kd_document_unknown(&kd_rays_document, name, error) /* names of fields are relative to
+                                                                                    * their object */
                              : kd_document_set(&kd_rays_document, request, name, text, NULL, error);
 }
 

@@ -13,7 +13,7 @@ static void begin_strict(struct kd_json *json, const char *name)
     kd_json_bool(json, "additionalProperties", false);
 }
 
-/* The fields of one object. */
+/* Adds the fields of one object. */
 static void add_members(struct kd_json *json, const char *object)
 {
     for (size_t i = 0; i < kd_rays_document.n; i++)

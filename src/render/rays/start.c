@@ -8,7 +8,7 @@
  * chi: Boyer-Lindquist azimuth minus psi. The equations are those of shaders/ray/escape.glsl. */
 struct motion {
     const struct kd_hole *hole;
-    double a, l, q, k, d; /* d: a^2 Q + q^2 K */
+    double a, l, q, k, d; /* d: the sum a^2 Q + q^2 K */
 };
 struct point { double y[4], v[4], chi; };
 

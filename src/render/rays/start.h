@@ -10,8 +10,8 @@
 
 struct kd_rays_origin {
     double x[3], p[3]; /* position and momentum, E = 1 */
-    /* 1/r and azimuth (as in render/rays/rays.h) of the crossing of the equatorial plane between infinity and the
-     * start; there is at most one. w = 0: none */
+    /* 1/r and azimuth (as in render/rays/rays.h) at which the ray crosses the equatorial plane between infinity and
+     * the start. There is at most one such crossing. w = 0: none */
     double w, phi;
 };
 

@@ -81,7 +81,7 @@ static bool is_kerr_schild(const struct kd_rays_params *p) { return p->engine >=
 static void tell(struct kd_rays_steps *out, const struct constants *c, const struct record *records)
 {
     const struct kd_hole hole = kd_rays_hole(&out->params);
-    double time = 0, crossed = 0, momentum = 0; /* crossed: time of the last crossing */
+    double time = 0, crossed = 0, momentum = 0; /* time: of the current record; crossed: of the last crossing */
     unsigned number = 0, order = 0;
     for (size_t i = 0; i < out->n; i++) {
         const struct record *r = &records[i];
@@ -92,7 +92,7 @@ static void tell(struct kd_rays_steps *out, const struct constants *c, const str
                    : r->stage == KD_TRACE_END      ? KD_STAGE_END
                                                    : KD_STAGE_STEP;
         if (s->stage == KD_STAGE_END && out->steps[i - 1].stage == KD_STAGE_STEP)
-            time = crossed; /* steps towards a crossing that does not exist are discarded */
+            time = crossed; /* goes back, because steps towards a crossing that does not exist are discarded */
         s->time = time += r->h;
         if (s->stage == KD_STAGE_CROSSING)
             crossed = time;
@@ -127,10 +127,10 @@ static enum kd_status compare(struct kd_renderer *renderer, struct kd_rays_steps
 enum kd_status kd_rays_steps_ask(struct kd_renderer *renderer, const struct kd_rays_params *params)
 {
     const enum kd_status status = kd_rays_device_ask(renderer, params, true);
-    return status ? status : kd_rays_device_ask(renderer, params, false); /* the kernel of compare() */
+    return status ? status : kd_rays_device_ask(renderer, params, false); /* also requests the kernel of compare() */
 }
 
-/* Room for twice the records of the longest ray by any method. */
+/* Number of records for which there is room: twice those of the longest ray by any method. */
 static size_t room(const struct kd_rays_params *p)
 {
     return KD_TRACE_HEADER + KD_TRACE_RECORD * (size_t)(64 * p->steps + 64);

@@ -14,12 +14,12 @@ enum kd_rays_stage {
     KD_STAGE_END,      /* after the last crossing, to infinity or the horizon */
 };
 
-/* Numbers that a stage or an engine does not have are NaN. Azimuths are as in render/rays/rays.h; in START and END
- * stages they are reduced to half a turn either way. Residuals are computed in double precision from the device's
- * own numbers and constants: their deviation from 0 is the error of steps and rounding. */
+/* One record. Members that a stage or an engine does not have are NaN. Azimuths are as in render/rays/rays.h; in
+ * START and END stages they are reduced to half a turn either way. Residuals are computed in double precision from
+ * the device's own numbers and constants. They would be 0 without the errors of steps and rounding. */
 struct kd_rays_step {
     enum kd_rays_stage stage;
-    unsigned order, number;        /* order: of the next crossing; number: of the step */
+    unsigned order, number;        /* order: order of the next crossing; number: number of the step */
     double time;                   /* Mino time since the observer; Kerr-Schild engines: their s, d(lambda) = r ds */
     double r, phi, delay;          /* delay: of a crossing only */
     double w, dw, u, du, n_x, n_y; /* Mino: M/r, cos(theta), their rates, the direction in the plane; u = n_z */
@@ -40,7 +40,7 @@ struct kd_rays_steps {
     struct kd_rays_step *steps; /* malloc'd */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
-    bool same; /* the kernel without recording gives the same end, bit for bit */
+    bool same; /* whether the kernel without recording gives the same end, bit for bit */
 };
 
 /* Records the steps of one ray; params as for kd_rays_trace, with an engine that takes steps. Call

@@ -9,7 +9,8 @@
 #include <sys/utsname.h>
 #include <time.h>
 
-/* lavapipe starts one thread a core, or as many as this variable says; 0 means only the submitting thread. */
+/* lavapipe starts one thread for each core, or as many threads as this variable says. 0: only the submitting thread
+ * computes. */
 static uint32_t lavapipe_cores(void)
 {
     const char *given = getenv("LP_NUM_THREADS");

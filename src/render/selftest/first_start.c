@@ -43,7 +43,7 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
         struct kd_frame frame = { 0 };
         kd_scene_smooth(&scene);
         scene.image.width = 256;
-        scene.image.height = 144 + k; /* forces a new lens map */
+        scene.image.height = 144 + k; /* another height, so that a new lens map is needed */
         scene.camera.r = k < 4 ? INFINITY : 30;
         status = kd_plan_make(&scene, &guess, &plan, error);
         if (!status)
@@ -51,8 +51,8 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
         kd_frame_finish(&frame);
     }
     r->probing = false;
-    for (int i = 0; i < KD_FIGURE_COUNT; i++) /* figures that are not measured here: particles; without timestamps all
-                                               * of them */
+    for (int i = 0; i < KD_FIGURE_COUNT; i++) /* costs that are not measured here: those of particles, and without
+                                               * timestamps all of them */
         c->ns[i] = isfinite(c->ns[i]) ? c->ns[i] : guess.ns[i];
     return status;
 }
@@ -78,7 +78,8 @@ enum kd_status kd_first_start(struct kd_renderer *r, struct kd_error *error)
     if (s->result == KD_PASSED)
         return KD_OK;
     struct kd_error why = { 0 };
-    const struct kd_capacity before = r->capacity; /* the self-test's pictures are too small to measure costs */
+    /* restored afterwards, because the self-test's pictures are too small to measure costs */
+    const struct kd_capacity before = r->capacity;
     double begun = kd_clock_ms();
     *s = (struct kd_verdict) { .now = true };
     enum kd_status status = kd_selftest_run(r, &kd_selftest_reference, judge, s, &why);

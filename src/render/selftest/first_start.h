@@ -6,9 +6,9 @@
 
 #include "base/error.h"
 
-/* If the device is unknown: tests it and measures the costs of passes. A failed check is logged as an error and
- * tested again at the next start; the result is still KD_OK, because the user may know better. An error only if the
- * device is lost. For kd_renderer_params.prove. */
+/* If the device is unknown: tests it and measures the costs of passes. A failed check is logged as an error and run
+ * again at the next start. The result is still KD_OK, so that the user may decide to use the device. Returns an
+ * error only if the device is lost. For kd_renderer_params.prove. */
 enum kd_status kd_first_start(struct kd_renderer *renderer, struct kd_error *error);
 
 #endif

@@ -77,8 +77,8 @@ static enum kd_status brightness(const struct kd_selftest *test)
     return kd_selftest_end(test, &row);
 }
 
-/* Greys through the post kernel alone, four of each because an invocation makes four pixels; words[6 i] starts grey
- * i. */
+/* Encodes greys by the post kernel alone, each grey four times because an invocation makes four pixels. words[6 i]
+ * starts grey i. */
 static enum kd_status encode(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance,
                              struct kd_vk_buffer *words)
 {

@@ -25,9 +25,9 @@ static const struct engine engines[] = {
 };
 enum { ENGINES = sizeof engines / sizeof *engines };
 
-/* The unit of allowed error. A number results from some tens of operations, each with an error up to the unit roundoff.
- * To this the steps of a method of order 6 add (pi/steps)^6 a half turn times the method's error constant. The constant
- * was measured for these rays and has a margin of about ten. */
+/* The unit of allowed error. A number results from some tens of operations, each with an error up to the unit
+ * roundoff. The steps of a method of order 6 add the method's error constant times (pi/steps)^6 for each half turn.
+ * The constant was measured for these rays and has a margin of about ten. */
 static double unit_of(const struct engine *e)
 {
     double roundoff = e->precision == KD_PRECISION_F32 ? FLT_EPSILON / 2 : DBL_EPSILON / 2;
@@ -181,9 +181,9 @@ static enum kd_status deflection(const struct kd_selftest *test, const struct en
 
 #define NEAREST 60 /* number of distances, which differ by a quarter of a power of ten each */
 
-/* Traces rays at 1 +- 10^(-k/4) of the distance of a point of the critical curve, and finds the ray furthest from the
- * curve with the wrong fate. Rays just inside and outside diverge by e^pi each half turn. An error of one unit in the
- * constants, in E^2 = 1 or in a step shifts the curve by about one unit of b. */
+/* Traces rays near a point of the critical curve, at 1 +- 10^(-k/4) of its distance, and finds the ray furthest from
+ * the curve that has the wrong fate. Rays just inside and just outside diverge by a factor of e^pi each half turn.
+ * An error of one unit in the constants, in E^2 = 1 or in a step shifts the curve by about one unit of b. */
 static enum kd_status critical(const struct kd_selftest *test, const struct engine *e,
                                const struct kd_selftest_critical *p)
 {

@@ -44,8 +44,9 @@ struct kd_selftest_critical {
     double spin, inclination_deg, alpha, beta;
 };
 
-/* A bound orbit between p/(1+e) and p/(1-e) whose inclination to the plane has the cosine x. It has constants of
- * motion, and rates in Mino time: of the radial and polar cycles, azimuth, time and proper time. */
+/* A bound orbit between p/(1+e) and p/(1-e) whose inclination to the plane has the cosine x. Members: its constants
+ * of motion, and its rates in Mino time, namely those of the radial and polar cycles, of azimuth, of time and of
+ * proper time. */
 struct kd_selftest_bound {
     double spin, p, e, x, energy, momentum, carter, mino_r, mino_theta, mino_phi, mino_t, mino_proper;
 };

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Odd sizes, so that pieces end inside a workgroup; a sky, so that every ray is traced to its end. */
+/* The sizes are odd, so that pieces end inside a workgroup. The scene has a sky, so that every ray is traced to its
+ * end. */
 static struct kd_scene scene_of(void)
 {
     struct kd_scene scene;

@@ -14,7 +14,7 @@ void kd_selftest_begin(struct kd_selftest_row *row, const char *source, const ch
     snprintf(row->by, sizeof row->by, "%s", by);
 }
 
-/* The error as a fraction of its bound; if the bound is 0, all or nothing. */
+/* The error as a fraction of its bound. If the bound is 0, the result is 0 for no error, and infinite for any other. */
 static double share(double error, double bound) { return error <= 0 ? 0 : error / bound; }
 
 void kd_selftest_compare(struct kd_selftest_row *row, double error, double bound)

@@ -10,24 +10,23 @@
 #include "render/device/renderer.h"
 #include "render/selftest/reference.h"
 
-/* One line of the table, which stands for many comparisons. It shows the one closest to its bound, or the one furthest
- * beyond it. */
+/* One line of the table, for many comparisons. It shows the comparison with the largest ratio of error to bound. */
 struct kd_selftest_row {
     char what[64], by[32]; /* "rays, bulk: r (relative)", "mino-rkn6 f32" */
     const char *source;    /* the reference in a few words */
     unsigned compared;
     double error, bound; /* error is INFINITY if a number was missing or NaN */
-    bool ok;             /* there were comparisons, and all are within their bounds */
+    bool ok;             /* whether there were comparisons, and all are within their bounds */
 };
 void kd_selftest_begin(struct kd_selftest_row *row, const char *source, const char *by, const char *what, ...)
     __attribute__((format(printf, 4, 5)));
 void kd_selftest_compare(struct kd_selftest_row *row, double error, double bound);
 
-/* Called with each finished row; return false to stop the test: KD_ECANCELLED. */
+/* Called with each finished row. It returns false to stop the test, which then ends with KD_ECANCELLED. */
 typedef bool (*kd_selftest_fn)(void *user, const struct kd_selftest_row *row);
 
-/* Runs the whole test, also in double precision if the device has it. KD_OK even if rows failed; an error only if
- * the test could not run. Render thread. */
+/* Runs the whole test, also in double precision if the device has it. Returns KD_OK even if rows failed, and an
+ * error only if the test could not run. Render thread. */
 enum kd_status kd_selftest_run(struct kd_renderer *renderer, const struct kd_selftest_reference *reference,
                                kd_selftest_fn row, void *user, struct kd_error *error);
 

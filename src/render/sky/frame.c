@@ -103,7 +103,8 @@ static struct kd_rotation oriented(const struct kd_scene *scene)
                   kd_rotate(&galactic, pole));
         break;
     }
-    /* Directions behind the hole, above it and right of it, as an unturned camera sees them (render/view/camera.c). */
+    /* Directions behind the hole, above it and to the right of it, as seen by a camera that is not turned
+     * (render/view/camera.c). */
     const struct axes from = { { -s, 0, -c }, { -c, 0, s }, { 0, 1, 0 } };
     return between(from, to);
 }

@@ -109,7 +109,7 @@ enum kd_status kd_sky_image(const void *data, size_t size, struct kd_sky_picture
     struct kd_error why = { 0 };
     enum kd_status status;
     *out = (struct kd_sky_picture) { 0 };
-    KD_TRY(kd_png_look(data, size, &about, &why)); /* reads the size before memory is allocated */
+    KD_TRY(kd_png_look(data, size, &about, &why)); /* reads only the size, before memory is allocated */
     if (!kd_asset_is_panorama(about.width, about.height))
         KD_TRY(kd_error_set(
             &why, KD_EINVAL,

@@ -1,9 +1,10 @@
 /* The procedural Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, from noise with a seed.
  *
- * The profiles are fits by eye to photographs. The dust absorbs 1.35 times as much of blue light as of green, and 0.72
- * times as much of red (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as the real one:
- * some 21 magnitudes a square arcsecond at its brightest place, and a tenth of that light 30 degrees from there (C.
- * Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture correspond to nothing in the real sky. */
+ * The profiles are fits by eye to photographs. The dust absorbs 1.35 times as much of blue light as of green, and
+ * 0.72 times as much of red (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as the
+ * real one: some 21 magnitudes per square arcsecond at its brightest place, and a tenth as bright 30 degrees from
+ * there (C. Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture correspond to nothing in the
+ * real sky. */
 #include "render/sky/panorama.h"
 
 #include "base/random.h"
@@ -37,7 +38,7 @@ static float noise(const struct clouds *c, const float p[3])
     return mix(low, high, w);
 }
 
-/* Filaments: largest where noise passes through 0. */
+/* Filaments: the value is largest where noise passes through 0. */
 static float ridge(float value) { return 0.5f - 2 * fabsf(value); }
 
 /* Octaves from `first` up to but not including `end`, each rotated against the one before to hide the lattice.
@@ -88,8 +89,9 @@ static struct across across_of(float b)
                              0.018f * expf(-above / 26) };
 }
 
-/* Smooth components. Noise of few cells changes little from texel to texel. So it is computed at every STEP-th column
- * and row, at least five of them a cell, and interpolated. FIRST, SECOND: octaves of the filaments, before `ridge`. */
+/* Smooth components. Noise with few cells changes little from texel to texel. So it is computed at every STEP-th
+ * column and row, which gives at least five nodes in each cell, and interpolated between them. FIRST, SECOND:
+ * octaves of the filaments, before `ridge`. */
 enum { STEP = 4, FEW = 2, NODES = KD_MILKY_WAY_WIDTH / STEP };
 enum smooth { CLOUDS, BENT, WARP_X, WARP_Y, PATCHES, FIRST, SECOND, SMOOTH };
 #define DUSTY 32.0f /* degrees from the plane: there is no dust beyond */
@@ -126,7 +128,8 @@ static void starlight(const struct clouds *c, const float n[3], const float smoo
         b->contrast > 0.1f
             ? expf(b->contrast * (smooth[CLOUDS] + octaves(c, n, &more_clouds)) - 0.17f * b->contrast * b->contrast)
             : 1;
-    const float bulge = bulge2 < 40 ? 1.25f * expf(-powf(bulge2, 0.75f)) : 0; /* 1e-7 at the cut */
+    /* smaller than 1e-7 where it is cut off */
+    const float bulge = bulge2 < 40 ? 1.25f * expf(-powf(bulge2, 0.75f)) : 0;
     for (int k = 0; k < 3; k++)
         rgb[k] = band[k] * (thin * star_clouds + b->halo) + old[k] * bulge * (0.6f + 0.4f * star_clouds);
 }

@@ -49,7 +49,7 @@ static bool is_ours(int32_t seed, const uint32_t *words)
 {
     static const uint32_t rows[] = {
         5, 301, 422, 483, 512, 561, 702, 1022
-    }; /* rows at the poles, in clouds, in dust, at nodes and between nodes */
+    }; /* rows of five kinds: at the poles, in clouds, in dust, at nodes, and between nodes */
     enum { N = sizeof rows / sizeof *rows };
     float *texels = malloc(sizeof(float) * 3 * N * KD_MILKY_WAY_WIDTH);
     bool same = texels && !kd_milky_way_rows(seed, rows, N, texels, NULL);

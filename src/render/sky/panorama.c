@@ -31,7 +31,8 @@ static float power(int exponent)
     return x;
 }
 
-/* Rounds x, at least 0 and below 2^22, to the nearest whole number: a float above 2^23 has no fraction bits. */
+/* Rounds x, which is at least 0 and below 2^22, to the nearest whole number. The addition makes the float larger
+ * than 2^23, where floats have no fraction bits. */
 static uint32_t rounded(float x) { return bits_of(x + 0x1p23f) & 0x7fffff; }
 
 /* Written without frexpf, ldexpf and lrintf, because these are function calls and there are millions of texels. */

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SLACK 0.05 /* rays: images this far outside a grid's part are examined as well */
-#define BESIDE 4.0 /* pixels: images this far outside the picture are examined as well */
+#define SLACK 0.05 /* rays: images this far outside a grid's part are also examined */
+#define BESIDE 4.0 /* pixels: images this far outside the picture are also examined */
 
 /* The rays of one grid's part and their neighbours, as a map that begins at the grid's `column` and `row`. */
 struct rim_map {
@@ -106,7 +106,7 @@ static void cubic(double t, double w[4], double by[4])
     by[3] = (a * b + a * c + b * c) / 6;
 }
 
-/* The ray before a place, if the grid has one more before it and two after it; false otherwise. */
+/* Finds the ray before a place. Returns false unless the grid has one more ray before it and two after it. */
 static bool cell_of(double place, uint32_t all, uint32_t *first, double *part)
 {
     const double low = floor(place);
@@ -140,8 +140,8 @@ static bool between(const void *of, double column, double row, struct kd_sky_tan
     return true;
 }
 
-/* Whether a place is at a border or beyond it. The tolerance is larger than the difference between the results of
- * Newton's method from both sides of the border. */
+/* Whether a place is at a border or beyond it. The tolerance exceeds the difference between the two places that
+ * Newton's method finds when it starts on either side of the border. */
 static bool is_from(double place, double border) { return place > border - 1e-8; }
 
 /* Whether a place is in the grid's own part, and in the picture or close to it. */

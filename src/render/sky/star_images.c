@@ -5,8 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SAME 1e-3  /* in ray spacings: roots of a star nearer than this are one image, unless only one is mirrored */
-#define FOLDED 0.2 /* rad: only cells up to this size are searched for folds */
+/* in ray spacings: roots of a star that are nearer to each other than this are one image, unless only one of them is
+ * mirrored */
+#define SAME 1e-3
+#define FOLDED 0.2 /* rad: size of the largest cells in which folds are searched */
 #define REACH \
     0.5 /* fraction of a cell's size: where the map folds, stars this near to a corner or the middle of the cell are \
          * searched for */
@@ -78,7 +80,8 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
     s->told[s->n_told++] = (struct told) { x, y, image.mirrored, s->last[image.star] };
     s->last[image.star] = s->n_told;
     kd_sky_steps_to(t, (struct kd_vec) { star->n.y, -star->n.x, 0 }, &image.x_by_azimuth,
-                    &image.y_by_azimuth); /* when the observer's azimuth grows, the sky turns the other way round */
+                    &image.y_by_azimuth); /* negated, because the sky turns the other way when the observer's azimuth
+                                           * grows */
     return s->found(s->user, &image);
 }
 
@@ -104,7 +107,7 @@ struct cell {
     struct corner c[4];
     double side[4], across, size, pixels;
     bool folds;
-    double area, beside[2][2]; /* if the cell folds: its largest area, and places on both sides of the fold */
+    double area, beside[2][2]; /* if the cell folds: its largest area, and one place on each side of the fold */
 };
 
 /* Whether a star may be bright enough where the map takes a cell to a solid angle `area`. */
@@ -172,10 +175,10 @@ done:
     return status;
 }
 
-/* Four rows of rays with the cells between the middle two; NULL: the row does not exist. */
+/* Four rows of rays; the cells are between the middle two. NULL: the row does not exist. */
 struct rows { const struct kd_vec *of[4]; };
 
-/* The difference between the rays after and before a ray, over two steps. If one of them is missing, twice the
+/* The difference between the rays on both sides of a ray, two steps apart. If one of them is missing, twice the
  * difference between the ray and the other one. */
 static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
 {
@@ -202,7 +205,7 @@ static void find_fold(const struct kd_sky_map *map, const struct rows *rows, uin
                  d = area_at(map, rows, 2, next);
     const double mean = 0.25 * (a + b + c + d), gx = 0.5 * (b + d - a - c), gy = 0.5 * (c + d - a - b),
                  slope = hypot(gx, gy), off = -mean / slope;
-    cell->folds = fabs(off) < KD_STAR_ROOT_NEAR; /* the result is also false if any number is a NAN */
+    cell->folds = fabs(off) < KD_STAR_ROOT_NEAR; /* also false if any number is NAN */
     cell->area = 0.25 * fmax(fmax(fabs(a), fabs(b)), fmax(fabs(c), fabs(d)));
     for (int k = 0; k < 2; k++) {
         const double by = (off + (k ? BESIDE : -BESIDE)) / slope;

@@ -29,7 +29,7 @@ struct kd_sky_map {
     /* for each star the largest solid angle of a pixel, sr, at which an image must be reported; NULL: all are
      * reported */
     const double *most;
-    /* how many pixels the square of four rays about a place covers; NULL: 1 */
+    /* number of pixels that the square of four rays about a place covers; NULL: 1 */
     double (*pixels)(const void *of, double x, double y);
     const void *of;
     /* directions from which the rays of a row come, unit vectors; NAN where one does not escape */
@@ -37,8 +37,8 @@ struct kd_sky_map {
     bool (*exact)(const void *of, double x, double y,
                   struct kd_vec *out); /* direction from which any single ray comes; false: unknown. NULL: no ray can be
                                         * followed */
-    /* The linearised map at a place between rays, except `area`, accurate to 1e-3 of a ray. It saves following exact
-     * rays where there is no image. False: unknown. NULL: unknown everywhere. */
+    /* The linearised map at a place between rays, except `area`, accurate to 1e-3 of a ray. Thanks to it, exact rays
+     * need not be traced where there is no image. False: unknown. NULL: unknown everywhere. */
     bool (*between)(const void *of, double x, double y, struct kd_sky_tangent *out);
     bool (*wanted)(const void *of, double x,
                    double y); /* whether an image near this place must be reported, to 0.01 rays; NULL: always */
@@ -55,7 +55,7 @@ struct kd_star_image {
                                 * about the place */
     struct kd_star_stencil by; /* how solid_angle was measured */
     double x_by_azimuth, y_by_azimuth; /* change of the place per radian of the observer's azimuth */
-    bool mirrored;                     /* left and right are exchanged */
+    bool mirrored;                     /* whether left and right are exchanged in the image */
 };
 
 /* Reports each image of n stars (unit vectors in the frame of the map) once, row by row. KD_ENOMEM; another status

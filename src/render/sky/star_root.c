@@ -3,9 +3,9 @@
 #define NUDGE 1e-3   /* rays: step of the differences for the derivative */
 #define EXACT 1e-7   /* rays: convergence; the next step would be 1e-10 */
 #define BETWEEN 1e-4 /* rays: convergence on the interpolated map, which is not more accurate than this */
-#define STEADY 0.02  /* rays: the derivative is kept after a step that is shorter than this */
-/* The derivative is kept only if the step is also shorter than the step before by this factor, because the next step
- * shrinks by as much. */
+#define STEADY 0.02  /* rays: after a shorter step than this the derivative is not computed again */
+/* The derivative is kept only if the step is also shorter by this factor than the step before. The next step then
+ * shrinks by the same factor. */
 #define SHRINKS 0.1
 #define DOUBTFUL \
     1e-3 /* rad: next to a fold, a star may have an image if the interpolated map comes this near to it; the image is \

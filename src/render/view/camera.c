@@ -104,8 +104,8 @@ double kd_camera_pixel(const struct kd_scene *scene)
     return (isinf(c->r) ? c->field_m : 2 * tan(0.5 * c->fov_deg * (M_PI / 180))) / scene->image.width;
 }
 
-/* Bound on (sum of the terms' sizes) - (size of their sum): twice the constant, and twice the smaller of the other two
- * terms, which may cancel. */
+/* Upper bound on the sum of the terms' sizes minus the size of their sum: twice the constant, plus twice the smaller
+ * of the other two terms, which may cancel. */
 static double more_than_sum(double constant, double across, double up)
 {
     return 2 * (fabs(constant) + fmin(fabs(across), fabs(up)));
@@ -260,8 +260,8 @@ void kd_camera_label_towards(const struct kd_camera_exact *c, const double k[3],
                        c->dw_t - (c->dw_r * k[0] + c->dw_theta * k[1] + c->dw_phi * k[2]) * n < 0, out);
 }
 
-/* Labels cannot express E = 0. So |E| is at least 1e-12 of the energy that the observer measures, which changes a ray
- * by 1e-12. */
+/* Labels cannot express E = 0. So |E| is made at least 1e-12 of the energy that the observer measures, which changes
+ * a ray by 1e-12. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out)
 {
     double e = fabs(energy) < 1e-12 ? copysign(1e-12, energy) : energy;

@@ -9,9 +9,9 @@
 #include <stdlib.h>
 
 enum { DEEPEST = 14, PIECES = 16, TILE = 64 };
-static const double straight = 0.05; /* largest distance, in pixels, of a chord's midpoint from the curve */
+static const double straight = 0.05; /* largest distance between the midpoint of a chord and the curve, in pixels */
 
-struct tile { uint64_t rows[TILE]; }; /* a bit a pixel; the lowest bit is leftmost */
+struct tile { uint64_t rows[TILE]; }; /* one bit for each pixel; the lowest bit is the leftmost pixel */
 
 /* Tiles of pixels exist only where the curve passes, so that work and memory grow with the length of the curve and not
  * with the picture. */
@@ -107,8 +107,8 @@ static void mark(struct work *w, struct spot a, struct spot b)
         }
 }
 
-/* Whether the curve between two spots may enter the picture; that piece of the curve is not much longer than their
- * distance. */
+/* Whether the curve between two spots may enter the picture, given that this piece is not much longer than the
+ * distance between the spots. */
 static bool meets(const struct work *w, struct spot a, struct spot b)
 {
     double room = KD_CRITICAL_NEAR + hypot(a.x - b.x, a.y - b.y);
@@ -126,7 +126,8 @@ static void draw(struct work *w, double half, double from, struct spot a, double
     struct spot m = project(w, middle, half);
     bool whole = a.seen && m.seen && b.seen;
     if (depth == DEEPEST && whole && hypot(b.x - a.x, b.y - a.y) > 0.5 * w->whole)
-        return; /* the curve jumps here: from one edge of a sphere to the other, or across the part behind a dome */
+        return; /* not drawn, because the curve jumps here: from one edge of a sphere to the other, or across the
+                 * part behind a dome */
     if (whole && (depth == DEEPEST || (fabs(m.x - 0.5 * (a.x + b.x)) < straight &&
                                        fabs(m.y - 0.5 * (a.y + b.y)) < straight && hypot(b.x - a.x, b.y - a.y) < 24))) {
         mark(w, a, m);
@@ -248,7 +249,7 @@ struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays)
     return camera;
 }
 
-/* Squared distance between the nearest two points of the lattice, where the pixel is repeated periodically. */
+/* Squared distance between the two nearest points of the lattice, which continues periodically in all pixels. */
 static uint32_t apart(uint32_t rays, uint32_t generator)
 {
     uint32_t least = rays * rays;

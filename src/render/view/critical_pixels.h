@@ -26,7 +26,7 @@ struct kd_critical_pixels {
 /* Lists the pixels of a valid scene whose projection is plane or pinhole. KD_ENOMEM. */
 enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out,
                                      struct kd_error *error);
-uint64_t kd_critical_pixels_made(void); /* lists made by this process so far, for tests */
+uint64_t kd_critical_pixels_made(void); /* number of lists that this process has made so far, for tests */
 void kd_critical_pixels_finish(struct kd_critical_pixels *pixels);
 
 /* Number of listed pixels above row y. */

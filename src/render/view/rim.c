@@ -18,9 +18,9 @@ static void scale(double a[3], double by)
 /* fraction of half the curve: within this distance of the curve's ends, `up` loses digits, and the curve is replaced by
  * a parabola */
 #define ENDS 3e-4
-#define MIDST \
-    1e-9 /* Fraction of ENDS: no point is nearer to an end, because light there stays in the observer's plane, which \
-            null_bend.h does not follow. */
+/* Fraction of ENDS: no point is nearer to an end than this, because light there stays in the observer's plane, for
+ * which null_bend.h is not made. */
+#define MIDST 1e-9
 
 /* A point of the upper half of the curve, along = 0 to 1. Near both ends all components are even functions of the
  * distance to the end, except up and beta, which are odd. */
@@ -122,8 +122,8 @@ static bool set_edges(struct kd_rim *o, double d[KD_RIM_ANGLES][3], double *leas
     return true;
 }
 
-/* How differently the sky shifts at neighbouring points of the curve while a ray comes e times nearer to the curve. The
- * shift is larger where light leaves its orbit more slowly (photon_shell.h). */
+/* Measures how much the shift of the sky differs between neighbouring points of the curve, while a ray comes e times
+ * nearer to the curve. The shift is larger where light leaves its orbit more slowly (photon_shell.h). */
 static double winding(const struct kd_critical *curve)
 {
     enum { PLACES = 32 };

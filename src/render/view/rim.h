@@ -27,25 +27,25 @@
  * observer can make stars brighter. */
 #define KD_RIM_SEEN 0.1
 #define KD_RIM_PIXELS 14.0 /* width of the rim in pixels; within it neighbouring pixels end far apart on the sky */
-#define KD_RIM_NOISE \
-    1.3e-3 /* The width of the rim is at least this times its radius in pixels: beyond that width the rounding of 32 \
-            * bits, 7e-6 over the distance, is less than half a percent of the step from pixel to pixel. */
+/* The width of the rim is at least this times its radius in pixels. Beyond that width the rounding of 32 bits, 7e-6
+ * divided by the distance, is less than half a percent of the step from pixel to pixel. */
+#define KD_RIM_NOISE 1.3e-3
 #define KD_RIM_MOST 1.0 /* the width of the rim is at most this fraction of its radius */
 
 struct kd_rim {
     bool there;
-    /* relative distances from the curve: beyond `none`, images come from the picture's grid alone; within `full`, from
-     * the rim alone; between the two they share the light */
+    /* relative distances from the curve: beyond `none`, all images come from the picture's grid; within `full`, all
+     * come from the rim; between the two, both share the light */
     double none, full;
     double last; /* the least relative distance from the curve of the rim's rays */
-    /* rough estimate in rad: the largest change, from one point of the curve to the next, of the shift of the sky
-     * between the outermost and the innermost ray */
+    /* rough estimate in rad of how the shift of the sky between the outermost and the innermost ray varies along the
+     * curve: its largest change from one point to the next */
     double winds;
     double pixel; /* size of a pixel on the plane */
     bool flat;
     double ahead[3], right[3],
         up[3]; /* axes of the plane in the observer's frame; at infinity `ahead` is (alpha, beta) of the middle */
-    float edge[KD_RIM_EDGES]; /* distance of the curve from the middle, by the angle from `right`; to 1e-4 */
+    float edge[KD_RIM_EDGES]; /* distance of the curve from the middle, accurate to 1e-4, for each angle from `right` */
     struct kd_critical curve;
 };
 

@@ -15,9 +15,9 @@ enum { ROUND = 64, ACROSS = 20 };
 #define OVERHEAD 1000.0 /* rays: the fixed cost of a grid */
 #define LONGEST_L 0.5   /* largest step of l from row to row */
 #define NUDGE 1e-4
-#define SLOW 0.6   /* rad: if a rim's `winds` is less, every second cell is measured */
+#define SLOW 0.6   /* rad: a rim whose `winds` is less is measured in every second cell only */
 #define BESIDE 0.2 /* fraction of a cell's size in the picture by which it may extend beyond its corners */
-#define FEW 6.0    /* rad: if a rim's `winds` is less, its grids never exceed the limit of rays */
+#define FEW 6.0    /* rad: the grids of a rim whose `winds` is less never exceed the limit of rays */
 #define SPREAD 4.0 /* pixels: an image this far outside the picture may light some of it */
 
 /* by_u, by_l: shift of the sky per unit of u and of l. most_u, most_l: the largest of these shifts in this cell and
@@ -66,7 +66,7 @@ static void measure(struct layout *o, int i, int j, int apart)
     const double u = (i + 0.5 * apart) * o->du, l = o->first - (j + 0.5 * apart) * o->dl;
     struct sample at, beside, below;
     if (!sample_at(o, u, l, &at) || !sample_at(o, u + NUDGE, l, &beside) || !sample_at(o, u, l - NUDGE, &below))
-        return; /* a ray that does not escape: kd_rim_sky reports it */
+        return; /* skipped, because the ray does not escape; kd_rim_sky reports it */
     const double area = (beside.place[0] - at.place[0]) * (below.place[1] - at.place[1]) -
                         (beside.place[1] - at.place[1]) * (below.place[0] - at.place[0]);
     for (int k = 0; k < apart * apart; k++) {
@@ -172,7 +172,7 @@ static void look_at_cells(struct layout *o, const struct kd_scene *scene)
         set_most(o, k / ACROSS, k % ACROSS);
 }
 
-/* A pixel shows no solid angle on caustics, so the mean of nine cells decides. */
+/* The mean of nine cells decides, because on caustics a pixel shows no solid angle. */
 static void choose_cells(struct layout *o, double faintest)
 {
     for (int i = 0; i < ROUND; i++)
@@ -286,7 +286,7 @@ static void divide(const struct layout *o, struct part p)
         return;
     }
     const struct kd_rim_grid g = grid_of(o, &p);
-    /* a part that exceeds the limit counts as too many rays */
+    /* a part over the limit counts as too many rays */
     o->out->rays += kd_rim_grid_rays(&g) <= KD_RIM_GRID_RAYS ? kd_rim_grid_rays(&g) : KD_RIM_RAYS + 1;
     if (o->out->n < KD_RIM_GRIDS)
         o->out->of[o->out->n] = g;

@@ -12,12 +12,11 @@
 #include "render/view/rim.h"
 
 #define KD_RIM_STEP 0.1      /* rad */
-#define KD_RIM_STEP_MOST 0.3 /* used where KD_RIM_STEP would take more than KD_RIM_RAYS */
-#define KD_RIM_RAYS \
-    (1u << 19) /* rays in all grids together, at most; if they are too few even with KD_RIM_STEP_MOST, only images \
-                * that are brighter are searched for */
+#define KD_RIM_STEP_MOST 0.3 /* step for pictures in which KD_RIM_STEP would take more than KD_RIM_RAYS */
+/* limit of rays in all grids together; if even KD_RIM_STEP_MOST exceeds it, only brighter images are searched */
+#define KD_RIM_RAYS (1u << 19)
 #define KD_RIM_GRIDS 192            /* at most */
-#define KD_RIM_GRID_RAYS (1u << 16) /* rays of one grid, at most */
+#define KD_RIM_GRID_RAYS (1u << 16) /* limit of rays of one grid */
 #define KD_RIM_TILE_RAYS 3          /* side of a tile of the star search on a grid */
 #define KD_RIM_HALO 3               /* extra rays on each side of the part */
 #define KD_RIM_REACH 0.601          /* steps from a ray to the images that it finds (star_images.comp, share) */

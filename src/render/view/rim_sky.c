@@ -12,8 +12,8 @@ enum {
     LEAST = 9, /* least number of intervals along a side of a grid */
     MOST = 96,
     ASIDE = 4, /* lines across the grid on which a number of intervals is tried */
-    SHARED = 4 /* up to this many grids the threads work together on each grid; if there are more, each thread takes
-                * whole grids */
+    SHARED = 4 /* up to this number of grids, all threads work on one grid at a time; with more grids, each thread
+                * takes whole grids */
 };
 
 /* A ray has four angles: turn, drag, t_theta, t_phi. */
@@ -122,8 +122,8 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
                 sum.of[q] += w[j] * at[j].of[q];
         if (!follow_on(f, along_u, place, line, &want))
             return -1;
-        if (apart(&sum, &want) >
-            0.1 * KD_RIM_EXACT) /* between the lines the error is larger; so is the error of images next to a caustic */
+        if (apart(&sum, &want) > 0.1 * KD_RIM_EXACT) /* stricter, because the error is larger between the lines, and
+                                                      * next to a caustic for images */
             return 0;
     }
     return 1;
@@ -145,7 +145,7 @@ static void try_line(void *user, size_t k)
 }
 
 /* Finds how many intervals are enough along one side, tested on lines at both ends of the other side and between
- * them; more than MOST if even MOST are too few. False if a ray does not escape. */
+ * them; the result exceeds MOST if even MOST are too few. Returns false if a ray does not escape. */
 static bool enough(const struct follower *f, struct side *s, const struct side *other, bool along_u)
 {
     struct trial trial = { .f = f, .side = s, .other = other, .along_u = along_u };

@@ -53,9 +53,9 @@ static void write_picture(struct kd_json *json, const struct kd_asset_about *abo
     kd_json_number(json, "channels", about->channels);
 }
 
-/* Writes {"sha256", "type", "bytes", "created"}. Further members: of a picture "width", "height", "bit_depth" and
- * "channels"; of a grid "nodes", "spin" and "charge"; of an observation "visibilities" and "stations". The client that
- * has uploaded the asset also gets its token. */
+/* Writes {"sha256", "type", "bytes", "created"}. A picture also has "width", "height", "bit_depth" and "channels"; a
+ * grid has "nodes", "spin" and "charge"; an observation has "visibilities" and "stations". The client that has uploaded
+ * the asset also gets its token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -77,7 +77,7 @@ struct putting {
     struct kd_asset_put put;
 };
 
-/* Answers. Runs on the HTTP thread, which does not wait for the disk. */
+/* Sends the answer. Runs on the HTTP thread, so it must not wait for the disk. */
 static void finish(struct kd_task *task)
 {
     struct putting *p = (struct putting *)task;
@@ -185,8 +185,8 @@ static enum MHD_Result put(struct kd_request *request)
     return p ? kd_task_submit(&p->task) : refused;
 }
 
-/* Writes the hash of the operator's photograph of the sky, or null if there is none. It has been removed if a client
- * has uploaded the same file before, and has deleted it. */
+/* Writes the hash of the operator's photograph of the sky, or null if there is none. There is none if a client had
+ * uploaded the same file before the start and has deleted it. */
 static void write_sky(struct kd_json *json, const struct kd_server *server)
 {
     const char *hash = server->sky ? kd_asset_about(server->sky)->hash : NULL;
@@ -231,7 +231,7 @@ enum MHD_Result kd_handle_assets(struct kd_request *request)
     return kd_reply_json(request, kd_json_finish_line(&json), &text, KD_JSON_TYPE);
 }
 
-/* An answer that sends the bytes from memory and holds a reference to the asset. */
+/* An answer that is sent from memory and holds a reference to the asset. */
 struct sending {
     struct kd_asset_store *store;
     struct kd_asset *asset;
@@ -274,7 +274,7 @@ static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *a
                                                .cls = s });
 }
 
-/* State of a deletion. It runs on a worker, so that the files are deleted when the request is answered. */
+/* State of a deletion. A worker deletes the files, so that they are gone when the request is answered. */
 struct removing {
     struct kd_task task; /* must be the first member */
     struct kd_asset *asset;

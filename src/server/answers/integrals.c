@@ -14,7 +14,8 @@
 /* estimated time of one product on one core; a product combines one pixel, or one image order of a pixel, with a
  * baseline */
 #define NS_A_PRODUCT 1.2
-#define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26)) /* including the number's text */
+/* bytes of an answer for each row, including the number's text */
+#define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26))
 
 static const char *const types[] = { [KD_INTEGRAL_JSON] = KD_JSON_TYPE,
                                      [KD_INTEGRAL_CSV] = KD_CSV_TYPE,
@@ -30,10 +31,10 @@ struct job {
     bool malformed;
     enum { NEW, RENDERS, SUMS } stage;
     struct kd_integral_run run;
-    struct kd_render_job picture; /* it is in the render queue in the stage RENDERS */
+    struct kd_render_job picture; /* in the render queue while the job is in the stage RENDERS */
     struct kd_buffer text;
-    double planned_ms; /* of the pictures up to the present one */
-    /* the first pictures, one of each size, as begin() has planned them */
+    double planned_ms; /* planned time of the pictures up to the present one */
+    /* the first picture of each size, as begin() has planned it */
     struct {
         struct kd_scene scene;
         struct kd_plan plan;
@@ -97,8 +98,8 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     KD_TRY(kd_integral_check_format(&job->request, job->format, error));
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->scheduled.client, bytes, &task->held, &task->quota, error));
-    /* An integral without pictures is computed in one slice, which pauses for others (base/pause.h): mostly in some
-     * hundredths of a second, lines and echoes of a corona off the axis in up to some seconds. */
+    /* An integral without pictures is computed in one slice, which pauses for others (base/pause.h). Most take some
+     * hundredths of a second; lines and echoes of a corona off the axis take up to some seconds. */
     KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
 done:
     return status;
@@ -119,7 +120,7 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     struct kd_render_queue *renders = request->server->renders;
     const unsigned at = job->run.picture;
     struct kd_capacity capacity;
-    /* Only the first picture needs admission. The later ones take its place, so that a request is not refused
+    /* Only the first picture needs admission. The later ones take its place, so that a request is never refused
      * halfway. */
     enum kd_status status = at ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
@@ -140,7 +141,7 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     else
         KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
     job->planned_ms += job->picture.plan.cost.estimate_ms;
-    /* begin() estimated all sets by their first picture, but a set may change what a picture costs. */
+    /* begin() estimated the pictures of all sets by the first one, but a set may change the cost of its pictures. */
     if (job->request.what == KD_INTEGRAL_SETS && job->planned_ms > request->server->longest_s * 1e3)
         KD_TRY(
             kd_error_set(error, KD_ETOOBIG,
@@ -153,7 +154,7 @@ done:
     return status;
 }
 
-/* Runs one slice. *end: whether there is more to do or a picture is being rendered. */
+/* Runs one slice. *end is KD_SLICE_LAST at the end, KD_SLICE_AWAY while a picture is rendered, else KD_SLICE_MORE. */
 static enum kd_status piece(struct job *job, double until_ms, enum kd_slice_result *end, struct kd_error *error)
 {
     enum kd_status status = KD_OK;

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define OFFERED KD_JSON_TYPE ", " KD_NDJSON_TYPE ", " KD_CSV_TYPE ", " KD_NPY_TYPE
-/* unsent bytes of a stream at which the integration pauses; it continues when a quarter of this is left */
+/* The integration pauses when a stream has this many unsent bytes, and continues when a quarter of them is left. */
 #define FULL (1u << 20)
 #define BYTES_PER_SAMPLE 220 /* estimated size of a sample as text */
 #define BYTES_PER_ORBIT 2400
@@ -23,13 +23,13 @@ static const char *const types[] = { [KD_ORBIT_JSON] = KD_JSON_TYPE,
                                      [KD_ORBIT_CSV] = KD_CSV_TYPE,
                                      [KD_ORBIT_NPY] = KD_NPY_TYPE };
 
-/* A job with two owners, the request and the scheduler; the last one to release it frees it. */
+/* A job with two owners, the request and the scheduler. The last owner that releases the job frees it. */
 struct kd_orbits_job {
     struct kd_scheduler_job scheduled; /* must be the first member */
     struct kd_server *server;
     _Atomic unsigned holders;
     enum kd_orbit_format format;
-    struct kd_request *owner; /* valid in the first slice only, while the request is suspended */
+    struct kd_request *owner; /* the request, valid only in the first slice, while it is suspended */
     struct kd_orbit_request request;
     struct kd_orbit_feed feed;
     double submitted_ms, begun_ms, deadline_ms, queue_ms, run_ms;
@@ -67,7 +67,7 @@ void kd_orbits_job_abandon(struct kd_orbits_job *job)
     job->mhd = NULL;
     bool wake = !job->finished;
     pthread_mutex_unlock(&job->lock);
-    if (wake) /* the job is still in the scheduler; if it is about to finish, it is not parked */
+    if (wake) /* the job is still in the scheduler and must not be parked */
         kd_scheduler_wake(job->server->scheduler, &job->scheduled);
     unref(job);
 }
@@ -217,7 +217,7 @@ static void say_in_stream(struct kd_orbits_job *job)
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct kd_orbits_job *job = cls;
-    (void)position; /* the library reads in order */
+    (void)position; /* the library reads in order, so the position is not needed */
     pthread_mutex_lock(&job->lock);
     if (job->finished && job->status)
         say_in_stream(job);
@@ -270,7 +270,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->error, job->malformed, job->quota);
     if (job->format == KD_ORBIT_NDJSON) {
         response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 32u << 10, produce, job, NULL);
-        /* sets the deadline for the answer to that of the integration */
+        /* sets the deadline of the answer to that of the integration */
         request->reply_bytes = (unsigned long)job->server->longest_s << 24;
         if (response)
             MHD_add_response_header(response, "Content-Type", types[job->format]);
@@ -311,7 +311,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     pthread_mutex_init(&job->lock, NULL);
     kd_orbit_request_init(&job->request);
     request->orbits = job;
-    /* Suspend first, because the job may be done before push returns. */
+    /* suspended first, because the job may be done before push returns */
     MHD_suspend_connection(request->mhd);
     kd_scheduler_push(server->scheduler, &job->scheduled);
     return MHD_YES;

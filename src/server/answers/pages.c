@@ -14,9 +14,8 @@ static const struct kd_served *find(const char *name)
     return NULL;
 }
 
-/* Whether a file needs a Content-Security-Policy. A policy applies to documents (HTML, SVG) only. Sent with scripts
- * and styles it would have no effect, and all these headers together would have as many bytes as the largest of the
- * files. */
+/* Whether a file needs a Content-Security-Policy. The policy has an effect on documents only (HTML, SVG). With
+ * scripts and styles it would have none, and all these headers together would be as large as the largest file. */
 static bool document(const struct kd_served *file)
 {
     return strncmp(file->type, "text/javascript", strlen("text/javascript")) &&
@@ -54,8 +53,8 @@ static enum MHD_Result signed_in(struct kd_request *request, const char *token)
     return kd_reply_send(request, MHD_HTTP_SEE_OTHER, response);
 }
 
-/* blob: lets a script show in an <img> a picture that the script has fetched in order to read its headers, and in a
- * <video> a film in which it seeks. */
+/* blob: lets a script show pictures and films that it has fetched itself. It fetches a picture to read its headers,
+ * and a film so that the <video> can seek in it. */
 static const char *const guarded[] = {
     "Content-Security-Policy",
     "default-src 'self'; img-src 'self' blob:; media-src 'self' blob:; base-uri 'none'; "
@@ -80,8 +79,8 @@ static const char *file_of(const struct kd_request *request)
     return request->target.path + strlen("/web/");
 }
 
-/* Handles "/", "/story", "/storia", "/lesson" and files below "/web/". The files are small and may change with the next
- * version, so browsers revalidate them each time. */
+/* Handles "/", "/story", "/storia", "/lesson" and files below "/web/". Browsers revalidate these files each time,
+ * because they are small and may change with the next version. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
 {
     if (!*request->target.path)

@@ -25,7 +25,7 @@ struct outgoing {
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct outgoing *out = cls;
-    (void)position; /* the library reads in order */
+    (void)position; /* the library reads in order, so the position is not needed */
     size_t n = kd_rays_stream_read(&out->stream, to, size);
     return n ? (ssize_t)n : MHD_CONTENT_READER_END_OF_STREAM;
 }
@@ -57,7 +57,7 @@ static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_for
     return NULL;
 }
 
-/* Adds headers. They hold the first members of the JSON form, and are sent with both forms. */
+/* Adds the headers that both forms of the answer have. They hold the first members of the JSON form. */
 static void describe(struct MHD_Response *response, const struct kd_rays_job *job, const struct kd_rays_answer *answer)
 {
     struct kd_buffer text = { 0 };

@@ -1,5 +1,5 @@
-/* Computes requests for rays. Workers parse a request. They trace its rays in slices on all free threads, or the render
- * queue lets it trace them on the device from time to time. Workers then add up the results. */
+/* Computes requests for rays. Workers parse a request. They trace its rays in slices on all free threads, or the
+ * device traces them when the render queue permits. Workers then add up the results. */
 #ifndef KD_SERVER_ANSWERS_RAYS_WORK_H
 #define KD_SERVER_ANSWERS_RAYS_WORK_H
 
@@ -11,9 +11,9 @@
 
 struct kd_rays_job {
     struct kd_task task;            /* must be the first member */
-    struct kd_rays_request request; /* initialised; a JSON body is merged into it */
+    struct kd_rays_request request; /* initialised by the job; a JSON body is merged into it */
     bool npy;                       /* the body is an array in NPY */
-    /* results, in addition to those of the task */
+    /* results beside those of the task */
     bool malformed; /* KD_EINVAL because the body is not JSON */
     struct kd_rays_answer answer;
     double read_ms, trace_ms;
@@ -22,7 +22,7 @@ struct kd_rays_job {
     double traced_from_ms;
     _Atomic size_t begun; /* number of rays that workers have begun */
     struct kd_render_job device;
-    size_t traced, turn; /* rays on the device: finished, and in the next call */
+    size_t traced, turn; /* numbers of rays on the device: finished, and in the next call */
 };
 
 /* Makes a job. Set `request` and `npy`, then submit it. Returns NULL with *refused if it is not admitted. */

@@ -144,7 +144,7 @@ static enum kd_status add_address(const struct kd_request *request, struct kd_js
     return status;
 }
 
-/* Adds the address of a shared scene, signed with the server's key for that (--share-key). */
+/* Adds the address of a shared scene, signed with the server's key for shared scenes (--share-key). */
 static enum kd_status add_signed(const struct kd_request *request, const char *code, struct kd_json *json)
 {
     const struct kd_server *server = request->server;
@@ -163,9 +163,9 @@ done:
     return status;
 }
 
-/* Adds the address to share, and the address for frames if there are origins that may embed it. If the server has
- * access tokens and no key for shared scenes, the address to share is that of the page, because the page asks for a
- * token. */
+/* Adds the address to share. Also adds the address for frames, if there are origins that may embed it. If the server
+ * has access tokens but no key for shared scenes, the address to share is that of the page, because the page asks
+ * for a token. */
 static enum kd_status add_addresses(const struct kd_request *request, const struct kd_shared *shared,
                                     struct kd_json *json)
 {
@@ -212,8 +212,8 @@ enum MHD_Result kd_handle_share(struct kd_request *request)
     return result;
 }
 
-/* Returns the code (malloc'd) in the address of a shared scene of this server, without query and fragment. NULL:
- * another address, or out of memory. */
+/* Returns the code (malloc'd) in the address of a shared scene of this server, without query and fragment. Returns
+ * NULL for any other address, or when out of memory. */
 static char *code_in(const struct kd_request *request, const char *url)
 {
     struct kd_buffer home = { 0 };

@@ -11,10 +11,11 @@
 
 #include <string.h>
 
-/* STYLE, ICON and SEEN (the picture): queries that sign these files. URL: the address as the value of a parameter. */
+/* Numbers of the page's placeholders. STYLE, ICON and SEEN (the picture): queries that sign these files. URL: the
+ * address as the value of a parameter. */
 enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, STYLE, ICON, SEEN, TEXTS };
 
-/* Writes the elements that are useful only to visitors with access, or on a server that needs none: the link to
+/* Writes the elements that are useful only to visitors with access, or on a server that requires none: the link to
  * oEmbed, which other sites read, and the script that opens the page with the live view. */
 static enum kd_status write_live(const char *const t[TEXTS], struct kd_buffer *page)
 {
@@ -117,8 +118,8 @@ static enum MHD_Result reply(struct kd_request *request, const struct kd_shared 
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Makes the page that other sites embed in a frame. It uses the link that the code decodes to, and the code of this
- * link instead of the code as received. */
+/* Makes the page that other sites embed in a frame, from the link that the code decodes to. The page contains the
+ * code of this link, not the code as received. */
 static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffer *page)
 {
     struct kd_buffer texts[3] = { 0 };

@@ -1,6 +1,6 @@
 /* Sign-in page for browsers without a valid access token. It works without scripts: its form passes the token in the
- * page's address. The form has no action, because only then the browser keeps the fragment of the address, which names
- * a lesson or a scene. In one of the page's languages, by Accept-Language; else in English. */
+ * page's address. The form has no action, because only then does the browser keep the fragment of the address, which
+ * names a lesson or a scene. The language is chosen by Accept-Language, and is English if none matches. */
 #include "server/http/reply.h"
 
 #include <string.h>

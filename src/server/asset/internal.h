@@ -7,9 +7,9 @@
 #include <pthread.h>
 
 enum kd_asset_state {
-    KD_ASSET_WRITING, /* its files are being written */
-    KD_ASSET_READY,   /* it can be found */
-    KD_ASSET_LEAVING, /* its files are being removed */
+    KD_ASSET_WRITING, /* the asset's files are being written */
+    KD_ASSET_READY,   /* the asset can be found */
+    KD_ASSET_LEAVING, /* the asset's files are being removed */
 };
 
 struct kd_asset {

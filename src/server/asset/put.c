@@ -1,6 +1,7 @@
-/* Stores an asset in steps, one in each slice: hash it, look for the same bytes, check it, reserve room, write it.
- * Nothing is checked twice. While a grid is checked, its unpacked bytes count towards the limit. A check that runs
- * alone may exceed the limit, because no asset is evicted for bytes that may turn out not to be a grid. */
+/* Stores an asset in steps, one in each slice: hash the bytes, look for the same bytes, check them, reserve room,
+ * write them. No bytes are checked twice. While a grid is checked, its unpacked bytes count towards the limit. When
+ * only one check runs, it may exceed the limit, because no asset is evicted for bytes that may turn out not to be a
+ * grid. */
 #include "server/asset/internal.h"
 
 #include "base/clock.h"
@@ -30,7 +31,7 @@ struct kd_asset_putting {
                            struct kd_error *error);
 };
 
-/* Finds the least recently used asset, if it may be evicted; NULL: none. Called with the lock. */
+/* Finds the least recently used asset. Returns NULL if it may not be evicted. Called with the lock. */
 static struct kd_asset *oldest(const struct kd_asset_store *store, bool any_age)
 {
     struct kd_asset *best = NULL;
@@ -86,7 +87,7 @@ static enum kd_status is_full(struct kd_asset_put *put, struct kd_error *error)
                         limits->most, (unsigned long long)limits->bytes);
 }
 
-/* Removes the evicted asset and decides how to continue. Called without the lock. */
+/* Removes the evicted asset and returns what the caller does next. Called without the lock. */
 static enum kd_status after_room(struct kd_asset_put *put, enum room room, struct kd_asset *leaves,
                                  enum kd_asset_progress *how, struct kd_error *error)
 {
@@ -124,7 +125,7 @@ static void end_check(struct kd_asset_putting *p)
     p->reserved = 0;
 }
 
-/* Writes the files of an asset that is inserted already. After this the asset can be found. */
+/* Writes the files of an asset that is already in the list. After this the asset can be found. */
 static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asset, struct kd_error *error)
 {
     enum kd_status status = store->folder >= 0 ? kd_asset_folder_write(store->folder, &asset->about, error) : KD_OK;
@@ -162,8 +163,7 @@ static enum kd_status is_beyond_share(const struct kd_asset_store *store, struct
                         store->limits.client_most, (unsigned long long)store->limits.client_bytes);
 }
 
-/* Finds room and stores the asset. When there is room the bytes are copied without the lock; therefore the room is
- * checked again afterwards. */
+/* Finds room and stores the asset. The bytes are copied without the lock, so the room is checked again afterwards. */
 static enum kd_status place(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
                             struct kd_error *error)
 {

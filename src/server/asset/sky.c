@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Runs all steps of storing a file. Nobody else uses the store yet, so no step has to wait. *created: the store did not
- * have the file. */
+/* Runs all steps of storing a file. No other thread uses the store yet, so no step has to wait. *created: the store
+ * did not have the file before. */
 static enum kd_status put(struct kd_asset_store *store, const struct kd_buffer *file, struct kd_asset **out,
                           bool *created, struct kd_error *error)
 {

@@ -5,8 +5,8 @@
 #include "server/asset/store.h"
 
 /* Stores the PNG file of a panorama as an asset. The caller keeps the reference, so that the asset is never evicted,
- * and releases it before the store is closed. It waits for the disk, so it is for the start. KD_EINVAL: the file cannot
- * be read or is not a panorama; the error names it. */
+ * and releases it before the store is closed. Call it at the start only, because it waits for the disk. Returns
+ * KD_EINVAL if the file cannot be read or is not a panorama; the error names the file. */
 enum kd_status kd_asset_sky_open(struct kd_asset_store *store, const char *path, struct kd_asset **out,
                                  struct kd_error *error);
 

@@ -127,7 +127,7 @@ void kd_asset_store_close(struct kd_asset_store *store)
     if (!store)
         return;
     while (store->first) {
-        /* its removal did not run before the server ended */
+        /* the server ended before it removed the asset */
         if (store->first->state == KD_ASSET_LEAVING && store->folder >= 0)
             kd_asset_folder_remove(store->folder, store->first->about.hash);
         kd_asset_take_out(store, store->first);
@@ -154,7 +154,7 @@ struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *h
 
 void kd_asset_leave(struct kd_asset_store *store, struct kd_asset *asset)
 {
-    if (store->folder >= 0) /* deleted here, before the same bytes can be stored again */
+    if (store->folder >= 0) /* deleted here, so that this is done before the same bytes can be stored again */
         kd_asset_folder_remove(store->folder, asset->about.hash);
     pthread_mutex_lock(&store->lock);
     kd_asset_take_out(store, asset);
@@ -186,7 +186,7 @@ static enum kd_slice_result removal_turn(struct kd_scheduler_job *job)
     return KD_SLICE_LAST;
 }
 
-/* Called after the removal; it may free the asset, which contains the job. */
+/* Called after the removal. The call may free the asset, which contains the job. */
 static void removal_done(struct kd_scheduler_job *job)
 {
     struct kd_asset *asset = (struct kd_asset *)((char *)job - offsetof(struct kd_asset, removal));

@@ -21,11 +21,11 @@ struct kd_asset;
 #define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* most pixels of one picture */
 
 struct kd_asset_limits {
-    /* most: largest number of assets; client_most: largest number of one client's assets */
+    /* most: largest number of assets; client_most: the same for one client */
     unsigned most, client_most;
     uint64_t bytes,
-        /* bytes: total size of all assets, including the unpacked bytes of grids that are being checked; client_bytes:
-         * of those of one client */
+        /* bytes: largest total size of all assets, including the unpacked bytes of grids that are being checked;
+         * client_bytes: the same for one client */
         client_bytes;
     double keep_s; /* an asset unused for this long may be evicted for a new one */
 };
@@ -44,21 +44,21 @@ const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store 
 /* Adds a copy of a client's bytes, in pieces (put.c). Runs in slices of workers, on one thread at a time.
  *
  *     kd_asset_put_begin(&put, store, data, size, client)        data must stay valid
- *     status = kd_asset_put_go_on(&put, until_ms, &how, &error)  repeat until it is over or fails
+ *     status = kd_asset_put_go_on(&put, until_ms, &how, &error) repeat until it is over or fails
  *     kd_asset_put_finish(&put)                                  may be called at any time
  *
- * put.asset: a reference for the caller; put.created: the bytes were not stored before. KD_EINVAL: unsupported content.
- * KD_EBUSY with put.quota: the client's share is used up. KD_EFULL: the disk is full, or, if put.full is set, the
- * store. */
+ * put.asset: a reference for the caller; put.created: the bytes were not stored before. KD_EINVAL: unsupported
+ * content. KD_EBUSY with put.quota: the client's share is used up. KD_EFULL: the disk is full, or, if put.full is
+ * set, the store. */
 struct kd_asset_put {
     struct kd_asset *asset;
     bool created, quota, full;
-    bool any_age; /* set by the caller after the beginning: may evict assets however recently they were used */
-    struct kd_asset_putting *own; /* internal state until it is finished */
+    bool any_age; /* set by the caller after kd_asset_put_begin: an asset may be evicted even if it was used recently */
+    struct kd_asset_putting *own; /* internal state; freed by kd_asset_put_finish */
 };
 enum kd_asset_progress {
     KD_ASSET_MORE, /* call again */
-    KD_ASSET_WAIT, /* another thread works on the same bytes or on room: call again a little later */
+    KD_ASSET_WAIT, /* another thread works on the same bytes or makes room: call again a little later */
     KD_ASSET_OVER,
 };
 enum kd_status kd_asset_put_begin(struct kd_asset_put *put, struct kd_asset_store *store, const void *data, size_t size,
@@ -69,14 +69,15 @@ void kd_asset_put_finish(struct kd_asset_put *put);
 /* Finds an asset by its hash. Returns a reference, or NULL. The search counts as a use, so that the asset is not
  * evicted soon. */
 struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *hash);
-/* Removes an asset. When this returns the asset cannot be found any more, and its files are deleted. It waits for the
- * disk, so it is for workers. The memory is freed with the last reference. Returns false if another thread has removed
- * the asset. */
+/* Removes an asset. When this returns, the asset cannot be found any more, and its files are deleted. Call it on
+ * workers only, because it waits for the disk. The memory is freed with the last reference. Returns false if another
+ * thread has removed the asset. */
 bool kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
-/* Like kd_asset_store_remove, but on a worker; for callers that must not wait. */
+/* Like kd_asset_store_remove, but a worker does it; for callers that must not wait. */
 void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_scheduler *workers);
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
-/* Counts the assets that can be found and their bytes, without those whose files are being written or removed. */
+/* Counts the assets that can be found, and their bytes. Assets whose files are being written or removed are left
+ * out. */
 void kd_asset_store_count(struct kd_asset_store *store, unsigned *assets, uint64_t *bytes);
 
 /* Description of an asset; immutable while a reference is held. */
@@ -85,7 +86,7 @@ struct kd_asset_about {
     uint32_t width, height; /* size of a picture */
     int bit_depth, channels;
     enum kd_observation_kind observation; /* NONE: not an observation */
-    uint32_t visibilities, stations;      /* numbers of both, for an observation */
+    uint32_t visibilities, stations;      /* numbers of visibilities and stations of an observation */
     struct kd_asset_grid grid;
     double created; /* seconds since 1970 */
     size_t size;

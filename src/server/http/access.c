@@ -29,7 +29,8 @@
 struct entry {
     struct kd_visitor visitor;
     uint8_t hash[SHA256_DIGEST_SIZE]; /* hash of the token or key, which itself is not stored */
-    struct hmac_sha256_ctx key;       /* of a key: the state from which signatures begin */
+    struct hmac_sha256_ctx key;       /* of a key: the HMAC state that already contains the key; each signature
+                                       * starts from a copy of it */
 };
 
 struct kd_access {
@@ -196,14 +197,14 @@ void kd_access_free(struct kd_access *access)
     free(access);
 }
 
-/* How many cookies of our name are checked. A browser sends several if paths are nested or an old cookie is left.
- * The limit prevents a request from testing many tokens at once. */
+/* Number of our cookies that are checked. A browser sends several if paths are nested or an old cookie is left. The
+ * limit prevents a request from testing many tokens at once. */
 enum { COOKIES = 4 };
 
 /* Tokens found in a request. */
 struct brought {
-    /* alone: the token in the page's address or in Kerrd-Access; if it is set, no other is checked. bearer: the token
-     * in Authorization. Each may be NULL. */
+    /* alone: the token in the page's address or in Kerrd-Access; if it is not NULL, it is the only token checked.
+     * bearer: the token in Authorization. Each may be NULL. */
     const char *alone, *bearer;
     const char *cookies[COOKIES]; /* checked after bearer if alone is NULL */
     size_t n_cookies;
@@ -243,21 +244,22 @@ static const struct kd_visitor *visitor_of(struct kd_request *request, const str
     return visitor;
 }
 
-/* Tokens of sessions have 32 hexadecimal digits. An access token of that form cannot be found by guessing. */
+/* Whether a bearer token may be a session's token, which has 32 hexadecimal digits. An access token of that form
+ * cannot be found by guessing. */
 static bool may_be_sessions(const char *bearer)
 {
     return strlen(bearer) == 32 && strspn(bearer, "0123456789abcdef") == 32;
 }
 
-/* Returns the seconds until tokens from this address are checked again; 0: they are checked now, or the request has no
- * token. Must be called while request->client still holds the address. */
+/* Returns the seconds until tokens from this address are checked again. Returns 0 if they are checked now, or if the
+ * request has no token. Must be called while request->client still holds the address. */
 static unsigned guesses_wait_s(const struct kd_request *request, const struct brought *brought)
 {
     struct kd_auth_throttle *auth_throttle = request->server->auth_throttle;
     const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer };
-    uint64_t hash = KD_HASH_BEGIN; /* so that a token has the same hash in every part of a request */
-    /* The visitor may be known by a cookie alone. A wrong token in Authorization then counts as a guess, unless it may
-     * be a session's token. */
+    uint64_t hash = KD_HASH_BEGIN; /* set now, so that a token has the same hash in every part of a request */
+    /* A valid cookie alone may identify the visitor. A wrong token in Authorization then counts as a guess, unless
+     * it may be a session's token. */
     if (request->visitor) {
         const bool tried = brought->bearer && !brought->alone && !request->spent && !may_be_sessions(brought->bearer);
         const unsigned wait =
@@ -290,7 +292,7 @@ bool kd_role_may(enum kd_role role, const struct kd_route *route, unsigned metho
     return role == KD_ROLE_RENDER || method == KD_GET || (method == KD_POST && route->question);
 }
 
-/* Whether the request comes by a signed link. Its signature alone decides then. */
+/* Whether the request comes by a signed link. If so, only the link's signature authorises it. */
 static bool has_link(const struct kd_request *request)
 {
     return request->route && kd_role_may(KD_ROLE_LINK, request->route, kd_route_method(request->method)) &&

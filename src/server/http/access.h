@@ -10,11 +10,11 @@
 
 #define KD_ACCESS_HEADER "Kerrd-Access"
 #define KD_ACCESS_COOKIE "kerrd_access"
-#define KD_ACCESS_QUERY "access" /* query parameter of pages (route.h), which answer by setting the cookie */
+#define KD_ACCESS_QUERY "access" /* query parameter of pages (route.h); the server answers it by setting the cookie */
 #define KD_ACCESS_TOKEN_MIN 16   /* characters */
 #define KD_ACCESS_TOKEN_MAX 256
 #define KD_ACCESS_NAME_MAX 32
-/* characters of a key; everybody who has a link can test guesses of its key, so a key must be long */
+/* minimum characters of a key; everybody who has a link can test guesses of its key, so a key must be long */
 #define KD_ACCESS_KEY_MIN 32
 #define KD_ACCESS_SIGNATURE 32 /* bytes of a signature, HMAC-SHA256 */
 
@@ -23,7 +23,7 @@ struct kd_request;
 struct kd_route;
 
 /* Roles. view: requests that store nothing on the server except a pupil's answer. render: all requests. link: the
- * entry is a key that signs addresses (link.h), not a token; everybody who has a signed address may GET it. */
+ * entry is not a token but a key that signs addresses (link.h). Everybody who has a signed address may GET it. */
 #define KD_ROLES(X) X(VIEW, "view") X(RENDER, "render") X(LINK, "link")
 enum kd_role {
 #define KD_ROLE_ENUM(name, word) KD_ROLE_##name,

@@ -23,7 +23,8 @@ static size_t find(const struct kd_allowance *all, const char *client)
     return i;
 }
 
-/* Finds or makes the place of a client. A new client replaces the fullest bucket, which holds the least history. */
+/* Finds the client's bucket, or makes one. A new client replaces the fullest bucket, because that one has been used
+ * least. */
 static struct kd_allowance_place *place_of(struct kd_allowance *all, const char *client, double now_ms)
 {
     const size_t known = find(all, client);

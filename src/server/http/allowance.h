@@ -6,12 +6,12 @@
 
 #include "server/http/shares.h"
 
-#define KD_ALLOWANCE_CLIENTS \
-    256u /* number of buckets that can be stored; full ones are not stored. If all places are taken, the fullest \
-            bucket is dropped */
+/* number of buckets that can be stored; a full bucket is not stored. If all places are taken, the fullest bucket is
+ * dropped */
+#define KD_ALLOWANCE_CLIENTS 256u
 
 struct kd_allowance {
-    /* seconds of device time that a client may use in a minute; 0: no limit. Initialise all other members to 0 */
+    /* time until the bucket holds 1 ms of device time */
     unsigned seconds;
     struct kd_allowance_place {
         char client[KD_CLIENT];
@@ -24,14 +24,14 @@ struct kd_allowance {
 double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, double now_ms);
 /* Subtracts device time that work of a client has used. */
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms);
-/* Milliseconds until the bucket holds at least 1 ms after a further owed_ms is subtracted; 0: it does now. */
+/* Milliseconds until the bucket holds at least 1 ms after a further owed_ms is subtracted; 0 if it already does. */
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
-/* Quota for display and headers, in seconds: how much a client may use in a minute, how much of that is left after
- * owed_ms is subtracted, and the time until the bucket is full. Valid only if there is a limit. */
+/* Quota for display and headers, in seconds: the device time that a client may use in a minute, how much of it is
+ * left after owed_ms is subtracted, and the time until the bucket is full. Valid only if there is a limit. */
 struct kd_quota { unsigned seconds, left_s, whole_in_s; };
 struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
-/* Whether waiting work of a client may run. patient: work in the background, which may use only the upper half of the
- * bucket; the rest is left to interactive requests. */
+/* Whether waiting work of a client may run. patient: the work is in the background and may use only the upper half
+ * of the bucket; the lower half is reserved for interactive requests. */
 bool kd_allowance_may(const struct kd_allowance *all, const char *client, bool patient, double now_ms);
 
 #endif

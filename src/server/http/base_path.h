@@ -9,7 +9,7 @@
 
 struct kd_base_path {
     char path[KD_BASE_PATH_MOST + 1];
-    /* Details of the two kinds of 404. outside: the path is outside the base path. unknown: no route has the path. */
+    /* Details of the two 404 answers. outside: the path is outside the base path. unknown: no route has the path. */
     char outside[KD_BASE_PATH_MOST + 160], unknown[KD_BASE_PATH_MOST + 100];
 };
 

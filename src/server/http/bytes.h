@@ -21,14 +21,14 @@ struct kd_bytes_params {
     /* reserve: bytes beyond max for bodies or answers of at most `small` bytes; a client's share of it is share /
      * max */
     size_t reserve, small;
-    bool lone; /* a client that holds nothing may exceed share, and may exceed max if no client holds anything */
+    bool lone; /* a client that holds nothing may exceed share, and may also exceed max if no client holds anything */
 };
-struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params); /* NULL: out of memory */
+struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params); /* returns NULL when out of memory */
 void kd_bytes_destroy(struct kd_bytes *bytes);                          /* accepts NULL */
 
-/* Reserves n more bytes of a body or answer whose full length is `size`. Returns KD_EBUSY and reserves nothing if that
- * exceeds a limit; *quota is true if the limit is this client's share. n = 0 tests whether a limit is exceeded
- * already. */
+/* Reserves n more bytes of a body or answer whose full length is `size`. Returns KD_EBUSY and reserves nothing if
+ * that exceeds a limit; *quota is then true if the exceeded limit is this client's share. n = 0 tests whether a
+ * limit is already exceeded. */
 enum kd_status kd_bytes_take(struct kd_bytes *bytes, const char *client, size_t n, size_t size, bool *quota);
 /* Counts bytes that are already allocated, even beyond the limits. */
 void kd_bytes_add(struct kd_bytes *bytes, const char *client, size_t n);

@@ -15,33 +15,35 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define IDLE_MS 60e3    /* longer than libmicrohttpd's idle timeout, so it ends only connections that trickle bytes */
-#define CROWDED_MS 2e3  /* time for the header of a connection that is accepted beyond the limit */
-#define REPLY_MS 30e3   /* time that a client has to read an answer, ... */
-#define BYTES_PER_MS 32 /* ... plus the time that its bytes take at 32 kB/s, the speed of a poor mobile line */
+#define IDLE_MS 60e3   /* longer than libmicrohttpd's idle timeout, so it ends only connections that trickle bytes */
+#define CROWDED_MS 2e3 /* time that a connection beyond the limit has to send its header */
+#define REPLY_MS 30e3  /* time that a client has to read an answer; the next constant adds to it */
+/* bytes of an answer for each further millisecond: 32 kB/s, the speed of a poor mobile line */
+#define BYTES_PER_MS 32
 
-#define STALL_MS 2e3  /* a client that reads takes some bytes within this time, on nearly any line */
-#define LINGER_MS 2e3 /* time for several round trips and a few MiB; a client that sends more is reset */
+#define STALL_MS 2e3 /* a client that reads at all takes some bytes within this time, on nearly any line */
+/* time in which a socket is drained: enough for several round trips and a few MiB; a client that sends more is reset */
+#define LINGER_MS 2e3
 #define LINGER_BYTES ((size_t)16 << 20)
 #define LINGERING 64 /* limit of sockets being drained */
-#define SILENT 32    /* limit of connections that may wait without having sent anything, when all others are in use */
+#define SILENT 32    /* limit of connections that have not sent anything, when all others are in use */
 
 struct kd_connection {
     struct kd_connection *previous, *next;
     int socket;
     char client[KD_CLIENT];
-    bool linger, handed_on, health, cut; /* cut: shut down to make room */
+    bool linger, handed_on, health, cut; /* cut: the socket was shut down to make room */
     size_t discarded;
     enum kd_stage stage;
-    double deadline;   /* a time on kd_clock_ms; 0: none */
+    double deadline;   /* time on kd_clock_ms; 0: no deadline */
     int unsent;        /* unsent bytes in the socket at the last check */
-    double stalled_ms; /* when `unsent` last changed; 0: not checked yet */
+    double stalled_ms; /* time at which `unsent` last changed; 0: not checked yet */
 };
 
 struct kd_connections {
     pthread_mutex_t lock;
     struct kd_connection *first;
-    unsigned count, limit, share; /* count: open connections, not counting those to the health routes */
+    unsigned count, limit, share; /* count: open connections except those to the health routes */
     unsigned n_handed_on, n_health;
     struct kd_connection *lingering; /* removed connections whose sockets are being drained; singly linked */
     unsigned n_lingering;
@@ -109,7 +111,7 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     one->socket = socket;
     snprintf(one->client, sizeof one->client, "%s", client);
     pthread_mutex_lock(&all->lock);
-    /* The library has closed this socket without a callback. Otherwise its number could not be in use again. */
+    /* The library closed this socket without a callback; otherwise its number could not be in use again. */
     struct kd_connection *stale = find(all, socket);
     if (stale) {
         unlink_one(all, stale);
@@ -126,8 +128,8 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     return one;
 }
 
-/* Shuts down the oldest connection to the health routes. A real health check sends its request at once, so the oldest
- * has long been answered. */
+/* Shuts down the oldest connection to the health routes. A real health check sends its request at once, so the
+ * oldest connection was answered long ago. */
 static void cut_oldest_health(struct kd_connections *all)
 {
     struct kd_connection *oldest = NULL;
@@ -142,8 +144,8 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-/* Counts the connections of the client of `one`, including `one` itself. handed_on: omits those that have not sent
- * anything yet. */
+/* Counts the connections of the client of `one`, including `one` itself. handed_on: counts only those that have been
+ * handed to a daemon. */
 static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
 {
     unsigned n = 0;
@@ -261,7 +263,7 @@ bool kd_connections_crowded(struct kd_connections *all, const struct kd_connecti
     return crowded;
 }
 
-/* The daemon accepts more connections than are served; the excess get an answer that says why they are refused. */
+/* The daemon accepts more connections than are served, so that an excess connection gets an answer with the reason. */
 unsigned kd_connections_most(unsigned limit) { return limit + limit / 4 + 16; }
 
 bool kd_connections_full(struct kd_connections *all)
@@ -272,8 +274,8 @@ bool kd_connections_full(struct kd_connections *all)
     return full;
 }
 
-/* Answers a request that is late with 408. In these stages nothing of an answer has been sent, so a complete answer can
- * be written to the socket directly. */
+/* Answers a late request with 408. In these stages no part of an answer has been sent, so the whole answer can be
+ * written directly to the socket. */
 static void answer_late(const struct kd_connection *one)
 {
     if (one->stage == KD_STAGE_HEADER)

@@ -33,9 +33,10 @@ void kd_connections_destroy(struct kd_connections *all);
 
 /* Registers an accepted connection. Returns NULL when out of memory. */
 struct kd_connection *kd_connections_add(struct kd_connections *all, int socket, const char *client);
-/* Marks a connection as handed to a daemon of libmicrohttpd. health: to the daemon of the health routes; the connection
- * then leaves the count, and if too many of these are open the oldest is shut down. KD_OVER_LIMIT and KD_OVER_SHARE:
- * the caller must refuse the connection, because the daemon's limit or the client's share is reached. */
+/* Marks a connection as handed to a daemon of libmicrohttpd. health: to the daemon of the health routes; the
+ * connection then leaves the count, and if too many of these are open the oldest is shut down. The caller must
+ * refuse the connection if the result is KD_OVER_LIMIT (the daemon's limit is reached) or KD_OVER_SHARE (the
+ * client's share is reached). */
 enum kd_handed { KD_HANDED_ON, KD_OVER_LIMIT, KD_OVER_SHARE };
 enum kd_handed kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health);
 /* Finds the connection of an open socket. */
@@ -43,8 +44,8 @@ struct kd_connection *kd_connections_find(struct kd_connections *all, int socket
 bool kd_connection_is_health(const struct kd_connection *one);
 void kd_connections_remove(struct kd_connections *all, struct kd_connection *one);
 /* Call it when the client still sends a body that the server will not read. If the socket were closed at once, the
- * kernel would answer these bytes with a reset, and the client would lose the refusal that it has not read yet. So
- * after removal the socket is kept open and drained for a while. */
+ * kernel would answer these bytes with a reset, and the client would lose the refusal before reading it. So after
+ * removal the socket stays open and is drained for a while. */
 void kd_connection_linger(struct kd_connection *one);
 int kd_connection_socket(const struct kd_connection *one);
 
@@ -57,13 +58,13 @@ void kd_connections_stage(struct kd_connections *all, struct kd_connection *one,
  * request is still arriving. Only the thread that works on the connection. */
 void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_problem_type type, const char *detail);
 
-/* Whether a new request of this connection must be refused, because more connections are open than the limit. A client
- * with few connections (at most limit - share) is served nevertheless. */
+/* Whether a new request of this connection must be refused because more connections are open than the limit. A
+ * client with few connections (at most limit - share) is not refused. */
 bool kd_connections_crowded(struct kd_connections *all, const struct kd_connection *one);
 /* Whether connections that have not sent anything yet must be closed to make room. */
 bool kd_connections_full(struct kd_connections *all);
-/* Capacity of the main daemon for a limit: some more than limit, so that the excess connections get an answer that says
- * why they are refused. */
+/* Capacity of the main daemon for a limit. It is larger than the limit, so that an excess connection gets an answer
+ * with the reason. */
 unsigned kd_connections_most(unsigned limit);
 
 /* Shuts down connections past their deadline, with a 408 if a request had begun, and drains lingering sockets. Call it

@@ -20,20 +20,20 @@
 #define FULL_MS 10 /* pause between two checks for a free descriptor */
 #define BATCH 64   /* events handled, and connections accepted, in one iteration */
 
-/* A connection that is not handed to a daemon yet. It has the deadline of a header (connections.h). */
+/* A connection that has not been handed to a daemon yet. It has the deadline of a header (connections.h). */
 struct guest {
     struct guest *previous, *next;
     struct kd_connection *connection;
     int socket;
     struct sockaddr_storage address;
     socklen_t address_size;
-    bool spare; /* it uses the reserved descriptor: only health routes are served */
+    bool spare; /* the connection uses the reserved descriptor, so only health routes are served */
 };
 
 struct kd_front {
     struct kd_front_params params;
-    int epoll, stop, reserve;   /* reserve: a descriptor to release when none is left; -1: released */
-    struct guest *first, *last; /* all guests; `first` is the latest */
+    int epoll, stop, reserve;   /* reserve: a descriptor that is released when none is left; -1: it is released */
+    struct guest *first, *last; /* list of all guests; `first` is the latest */
     pthread_t thread;
 };
 
@@ -46,7 +46,7 @@ static void unlink_guest(struct kd_front *front, struct guest *guest)
 static void send_away(struct kd_front *front, struct guest *guest)
 {
     unlink_guest(front, guest);
-    /* A lingering socket stays open by another descriptor. If it were still watched, epoll would report events for a
+    /* The socket may linger, open by another descriptor. If it were still watched, epoll would report events for a
      * guest that is freed. */
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     kd_connections_remove(front->params.connections, guest->connection);
@@ -77,15 +77,15 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
         return;
     }
     unlink_guest(front, guest);
-    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* ignored if it is not watched yet */
+    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* fails harmlessly if the socket is not watched yet */
     /* If this fails, the library has closed the socket. */
     if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)
         kd_connections_remove(front->params.connections, guest->connection);
     free(guest);
 }
 
-/* Hands a new connection to its daemon once its first bytes show which daemon this is. gone: no more bytes will come.
- * Returns true while the connection is not handed over. */
+/* Hands a new connection to its daemon once its first bytes show which daemon this is. gone: no more bytes will
+ * come. Returns true if the connection is not handed over yet. */
 static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
 {
     char begin[KD_BEGINS_BYTES];
@@ -138,7 +138,7 @@ static void make_room(struct kd_front *front)
 {
     struct pollfd waiting = { .fd = front->params.listener, .events = POLLIN };
     if (poll(&waiting, 1, 0) < 1)
-        return; /* nobody waits: accept failed only for lack of a descriptor */
+        return; /* no connection waits: accept failed only for lack of a descriptor */
     if (front->last)
         send_away(front, front->last);
     else if (front->reserve >= 0) {
@@ -170,7 +170,7 @@ static bool accept_one(struct kd_front *front)
     guest->spare = front->reserve < 0;
     while (front->last != guest && kd_connections_full(front->params.connections))
         send_away(front, front->last);
-    /* most requests arrive together with their connection, which then needs no watching */
+    /* most requests arrive together with their connection, which then need not be watched */
     if (look_at(front, guest, false))
         watch(front, guest);
     return true;

@@ -1,6 +1,6 @@
 /* Accepts connections on the listening socket, on a thread of its own. It peeks at the first bytes of each and hands
- * it to one of two libmicrohttpd daemons: one for the health routes, one for everything else. So neither a busy HTTP
- * thread nor a full connection limit delays /healthz, /readyz and /metrics, although they share the port. */
+ * it to one of two libmicrohttpd daemons: one for the health routes, one for everything else. So a busy HTTP thread
+ * or an exhausted connection limit does not delay /healthz, /readyz and /metrics, although they share the port. */
 #ifndef KD_SERVER_HTTP_FRONT_H
 #define KD_SERVER_HTTP_FRONT_H
 
@@ -20,7 +20,7 @@ struct kd_front_params {
 };
 
 enum kd_status kd_front_create(const struct kd_front_params *params, struct kd_front **out, struct kd_error *error);
-/* Stops listening and closes the connections that are not handed on yet. Accepts NULL. */
+/* Stops listening, and closes the connections that are not handed over yet. Accepts NULL. */
 void kd_front_destroy(struct kd_front *front);
 
 #endif

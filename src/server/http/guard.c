@@ -16,7 +16,7 @@ struct scan {
 static bool parse_length(const char *text, uint64_t *out)
 {
     uint64_t value = 0;
-    if (!*text || strlen(text) > 18) /* the number fits in 64 bits */
+    if (!*text || strlen(text) > 18) /* at most 18 digits, so that the number fits in 64 bits */
         return false;
     for (; *text; text++) {
         if (*text < '0' || *text > '9')
@@ -50,7 +50,7 @@ static size_t trim(const char *value, size_t size)
     return size;
 }
 
-/* Stores Host. If it is truncated, it is longer than any name served, and is refused. */
+/* Stores Host. A truncated Host is longer than any name served, so it is refused. */
 static void keep_host(struct kd_header *header, const char *value, size_t n)
 {
     snprintf(header->host_text, sizeof header->host_text, "%.*s",

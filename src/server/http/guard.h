@@ -17,10 +17,10 @@ struct kd_header {
     bool has_length, chunked;
 };
 
-/* authority: host of a target in absolute form, which takes precedence over Host (RFC 9112 3.2.2); NULL if the target
- * has none. hosts: NULL-terminated list of the names served. hostless: admits HTTP/1.0 without Host, as load balancers
- * send it to the health routes. Returns true with *header filled, or false with *problem, which closes the connection.
- * HTTP threads. */
+/* authority: host of a target in absolute form, which takes precedence over Host (RFC 9112 3.2.2); NULL if the
+ * target has none. hosts: NULL-terminated list of the names served. hostless: HTTP/1.0 without Host is accepted, as
+ * load balancers send it to the health routes. Returns true with *header filled, or false with *problem filled; that
+ * problem closes the connection. HTTP threads. */
 bool kd_guard_check(struct MHD_Connection *connection, const char *version, const char *authority,
                     const char *const *hosts, bool hostless, struct kd_header *header, struct kd_problem *problem);
 

@@ -20,7 +20,7 @@ void kd_histogram_add(struct kd_histogram *histogram, double ms);
 bool kd_histogram_is_empty(const struct kd_histogram *histogram);
 /* Writes # HELP and # TYPE. Call it once before all histograms of one name. */
 enum kd_status kd_histogram_head(struct kd_buffer *out, const char *name, const char *help);
-/* Writes the samples of one histogram. labels: `a="b",c="d"`, already escaped. */
+/* Writes the samples of one histogram. labels: text such as `a="b",c="d"`, already escaped. */
 enum kd_status kd_histogram_write(const struct kd_histogram *histogram, struct kd_buffer *out, const char *name,
                                   const char *labels);
 

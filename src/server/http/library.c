@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define SAYS_STATUS "HTTP response code is " /* text in libmicrohttpd 0.9.75 and 1.0.1 */
+#define SAYS_STATUS "HTTP response code is " /* the library's log text in libmicrohttpd 0.9.75 and 1.0.1 */
 
 static _Thread_local int current = -1;
 

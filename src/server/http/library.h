@@ -1,8 +1,9 @@
-/* Replaces libmicrohttpd's own error pages by problem documents. The library itself answers what it cannot parse as
- * HTTP, before it calls a handler or in the middle of a body. It has no hook that names the connection; it only logs a
- * line. Its thread works on one connection at a time. So the connection at fault is the last one that the library read
- * from or called us about. That connection is sent a problem document. Its socket then takes no more bytes, so that the
- * library's page is dropped. docs/decisions/0006-answers-of-the-library.md has the reasons. */
+/* Replaces libmicrohttpd's own error pages by problem documents. The library itself answers input that it cannot
+ * parse as HTTP, before it calls a handler or in the middle of a body. It has no hook that names the connection; it
+ * only logs a line. Its thread works on one connection at a time. So the connection at fault is the one from which
+ * the library read last, or for which it last called one of our callbacks. That connection is sent a problem
+ * document. Its socket then takes no more bytes, so that the library's page is dropped.
+ * docs/decisions/0006-answers-of-the-library.md has the reasons. */
 #ifndef KD_SERVER_HTTP_LIBRARY_H
 #define KD_SERVER_HTTP_LIBRARY_H
 

@@ -91,8 +91,8 @@ static bool read_signature(const char *text, uint8_t out[KD_ACCESS_SIGNATURE])
     return true;
 }
 
-/* Reads the terms. They are read before the signature is checked, so that the error for a truncated link says that
- * it is truncated. */
+/* Reads the link's terms before its signature is checked, so that the error for a truncated link says that the link
+ * is truncated. */
 static enum kd_status read_terms(const struct kd_target *target, struct kd_link *out, uint8_t signature[],
                                  struct kd_error *error)
 {

@@ -1,10 +1,10 @@
 /* Signed links: addresses that need no access token until they expire. `kerrd sign` makes them with a key of the token
  * file, and the server makes them for shared scenes (--share-key).
  *
- * The query of a link ends with signer=NAME&expires=SECONDS&budget_ms=MS&signature=HEX; budget_ms may be missing. The
- * signature is HMAC-SHA256 (RFC 2104) of the link's text: the path below the base path, then a line for each parameter
- * but the signature, NAME=VALUE, in the query's order. Paths, names and values are percent-encoded in the text
- * (base/percent.h), whatever the request's encoding was. */
+ * The query of a link ends with signer=NAME&expires=SECONDS&budget_ms=MS&signature=HEX; budget_ms may be missing.
+ * The signature is HMAC-SHA256 (RFC 2104) of the link's text: the path below the base path, then a line NAME=VALUE
+ * for each parameter except the signature, in the query's order. Paths, names and values are percent-encoded in the
+ * text (base/percent.h), whatever the request's encoding was. */
 #ifndef KD_SERVER_HTTP_LINK_H
 #define KD_SERVER_HTTP_LINK_H
 
@@ -13,7 +13,7 @@
 
 #include <stdint.h>
 
-#define KD_LINK_LEEWAY_S 60u          /* a link works this long after it has expired, because clocks differ */
+#define KD_LINK_LEEWAY_S 60u          /* seconds that a link still works after it has expired, because clocks differ */
 #define KD_LINK_LATEST_S 253402300799 /* last second of the year 9999 */
 #define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
 #define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
@@ -21,20 +21,20 @@
 /* What a link permits, and until when. */
 struct kd_link_terms {
     uint64_t expires_s; /* Unix time */
-    uint64_t budget_ms; /* limit of the device time of all its pictures together; 0: no limit */
+    uint64_t budget_ms; /* limit of the device time of all the link's pictures together; 0: no limit */
 };
 
 /* The link of a request. */
 struct kd_link {
-    bool on; /* the request came by a link, and the link is valid */
+    bool on; /* the request came by a valid link */
     char signer[KD_ACCESS_NAME_MAX + 1];
     struct kd_link_terms terms;
     uint64_t id; /* the first bytes of its signature */
 };
 
 /* Appends the parameters "signer=...&signature=..." that turn an address into a signed link. path: below the base
- * path; decoded. target: its pairs are the address's parameters; may be NULL. KD_EINVAL if the token file has no
- * key of this name. Any thread. */
+ * path; decoded. The pairs of target are the address's parameters; target may be NULL. KD_EINVAL if the token file
+ * has no key of this name. Any thread. */
 enum kd_status kd_link_sign(const struct kd_access *access, const char *name, const char *path,
                             const struct kd_target *target, const struct kd_link_terms *terms, struct kd_buffer *out,
                             struct kd_error *error);

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The file: this text, then the places, in the byte order of the machine. */
+/* The file consists of this text and then the places, in the byte order of the machine. */
 static const char HEAD[24] = "kerrd link budgets 1\n";
 
 struct place {
@@ -22,9 +22,9 @@ _Static_assert(sizeof(struct place) == 24, "places in the file have no padding")
 
 struct kd_link_budgets {
     pthread_mutex_t lock;  /* guards the places; held for some 10 us */
-    pthread_mutex_t write; /* held while a place is written, so that an older state does not replace a newer one */
+    pthread_mutex_t write; /* held while a place is written, so that an older state never overwrites a newer one */
     int fd;                /* -1: no file */
-    bool failed;           /* a failure to write was logged; guarded by `write` */
+    bool failed;           /* a write failure has been logged; guarded by `write` */
     struct place places[KD_LINK_BUDGETS];
 };
 
@@ -55,7 +55,8 @@ static bool is_sound(const struct place *p)
     return p->expires_s <= KD_LINK_LATEST_S && p->ms >= 0 && isfinite(p->ms);
 }
 
-/* Reads the places, or writes the head of a new file. Returns false with errno; EILSEQ: it is another file. */
+/* Reads the places, or writes the head of a new file. Returns false with errno, which is EILSEQ if the file is not a
+ * file of link budgets. */
 static bool read_places(struct kd_link_budgets *all)
 {
     char head[sizeof HEAD];

@@ -1,5 +1,5 @@
-/* Device time that signed links with a budget have used, until they expire. With a state folder it is kept in a file
- * there, and is known after a restart. Any thread. */
+/* Stores how much device time each signed link with a budget has used, until the link expires. With a state folder,
+ * a file there keeps the figures over a restart. Any thread. */
 #ifndef KD_SERVER_HTTP_LINK_BUDGETS_H
 #define KD_SERVER_HTTP_LINK_BUDGETS_H
 
@@ -10,18 +10,18 @@
 
 struct kd_link_budgets;
 
-struct kd_link_budgets *kd_link_budgets_create(void);      /* NULL: out of memory */
+struct kd_link_budgets *kd_link_budgets_create(void);      /* returns NULL when out of memory */
 void kd_link_budgets_destroy(struct kd_link_budgets *all); /* accepts NULL */
-/* Reads the file in the folder `state`, and keeps it up to date from now on. Creates it if there is none. KD_EINVAL: it
- * is another file, or cannot be read. Call before the first request. */
+/* Reads the file in the folder `state`, and keeps it up to date from now on. Creates the file if there is none.
+ * Returns KD_EINVAL if the file cannot be read or is not a file of link budgets. Call before the first request. */
 enum kd_status kd_link_budgets_open(struct kd_link_budgets *all, const char *state, struct kd_error *error);
 
 enum kd_link_left { KD_LINK_LEFT, KD_LINK_SPENT, KD_LINK_CROWDED };
-/* Whether the link has device time left. KD_LINK_CROWDED: too many links with a budget are in use. Never waits for the
- * disk. */
+/* Whether the link has device time left. Returns KD_LINK_CROWDED if too many links with a budget are in use. Never
+ * waits for the disk. */
 enum kd_link_left kd_link_budget(struct kd_link_budgets *all, const struct kd_link *link, uint64_t now_s);
-/* Writes to the file, without waiting for the disk: the data survive any end of the server, but not a crash of the
- * system. Not on the HTTP thread. */
+/* Writes to the file without waiting for the disk. The data survive any end of the server, but not a crash of the
+ * system. Must not run on the HTTP thread. */
 void kd_link_charge(struct kd_link_budgets *all, const struct kd_link *link, double ms, uint64_t now_s);
 
 #endif

@@ -11,7 +11,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define MOST 64 /* limit of names; a machine with more addresses can add the others by --host */
+#define MOST 64 /* limit of names; a machine with more addresses can be given the others by --host */
 
 bool kd_names_any(const char *listen)
 {

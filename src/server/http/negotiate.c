@@ -26,7 +26,8 @@ static bool equals(struct span s, const char *text)
     return s.size == strlen(text) && !strncasecmp(s.at, text, s.size);
 }
 
-/* Returns the text before the separator and moves *rest behind it, or sets it to NULL at the end. Skips quoted text. */
+/* Returns the text before the separator and moves *rest behind the separator, or sets *rest to NULL at the end.
+ * Separators in quoted text are skipped. */
 static struct span take(const char **rest, char separator)
 {
     const char *start = *rest, *p = start;
@@ -201,9 +202,9 @@ bool kd_host_listed(const char *host, const char *const *names)
     const char *port = host + size;
     if (*port && (*port != ':' || strlen(port) > 6 || port[1 + strspn(port + 1, "0123456789")]))
         return false;
-    const size_t plain =
-        size - (size > 1 && host[size - 1] == '.' &&
-                !isdigit((unsigned char)host[size - 2])); /* "localhost." is the same name (RFC 1034 3.1) */
+    const size_t plain = size - (size > 1 && host[size - 1] == '.' &&
+                                 !isdigit((unsigned char)host[size - 2])); /* "localhost." is the same name as
+                                                                            * "localhost" (RFC 1034 3.1) */
     for (; *names; names++)
         if (equals((struct span) { host, size }, *names) || equals((struct span) { host, plain }, *names))
             return true;

@@ -26,7 +26,7 @@ bool kd_etag_matches(const char *if_match, const char *etag);
 /* Whether a Content-Type value is this media type; parameters are ignored. */
 bool kd_media_type_is(const char *content_type, const char *type);
 
-/* Whether a Host value is well formed: a non-empty host and optionally a port (RFC 3986 3.2.2). */
+/* Whether a Host value is well formed: a non-empty host, optionally followed by a port (RFC 3986 3.2.2). */
 bool kd_host_is_sound(const char *host);
 /* Whether the host of a Host value is one of the NULL-terminated names. The port and a final dot are ignored. IPv6
  * literals have brackets. */

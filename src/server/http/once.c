@@ -75,7 +75,7 @@ static bool is_under_way(const struct kd_request *request)
 
 enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier, enum MHD_Result *refused)
 {
-    /* the request has no key, or kd_once_begin has decided already */
+    /* the request has no key, or kd_once_begin has already decided about it */
     if (!*request->once.key || *request->once.request)
         return KD_ONCE_FIRST;
     digest(&request->taken, request->once.request);

@@ -30,9 +30,10 @@ bool kd_once_read(struct kd_request *request, struct kd_problem *problem, char t
 /* Adds the next part of the body to the hash. */
 void kd_once_take(struct kd_request *request, const void *data, size_t size);
 
-/* Decides about a request. earlier: the key of an object made before; NULL if there is none. KD_ONCE_FIRST: create the
- * object. KD_ONCE_AGAIN: answer with the earlier object. KD_ONCE_REFUSED: return *refused, which is 409 while a request
- * with the same key is under way, and 422 if the earlier request was a different one. */
+/* Decides about a request. earlier: the key of an object made before; NULL if there is none. KD_ONCE_FIRST: the
+ * caller creates the object. KD_ONCE_AGAIN: the caller answers with the earlier object. KD_ONCE_REFUSED: the caller
+ * returns *refused, which is 409 while a request with the same key is under way, and 422 if the earlier request was
+ * a different one. */
 enum kd_once_verdict { KD_ONCE_FIRST, KD_ONCE_AGAIN, KD_ONCE_REFUSED };
 enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier, enum MHD_Result *refused);
 void kd_once_end(struct kd_request *request); /* call it when the request has been answered */

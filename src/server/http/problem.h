@@ -64,24 +64,24 @@ struct kd_problem {
     const char *detail;        /* one sentence for this occurrence */
     const char *pointer;       /* RFC 6901 pointer into the scene; NULL or "" for none */
     const char *offered;       /* 406, 415: the media types that are accepted */
-    const char *allow;         /* 405: the methods that are accepted */
+    const char *allow;         /* 405: the methods that the route accepts */
     const char *content_range; /* 416: the value of Content-Range, which has the length */
     const char *request_id;    /* NULL or "" for none */
     unsigned retry_after;      /* Retry-After in seconds; 0: no such header */
-    /* close the connection, because the rest of what the client sends is not wanted or cannot be parsed safely */
+    /* close the connection, because the rest of the request is not read or cannot be parsed safely */
     bool close;
 };
 
 /* Makes the problem of a status. pointer and detail point into *error. */
 struct kd_problem kd_problem_from(const struct kd_error *error);
 
-/* Completes a result of kd_problem_from if a limit may be the reason. quota: the limit is that of one client, so the
+/* Completes a result of kd_problem_from whose reason may be a limit. quota: the limit is that of one client, so the
  * status is 429. Retry-After is the number of seconds in the error for KD_EBUSY, else otherwise_s. */
 void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s);
 
 unsigned kd_problem_status(enum kd_problem_type type);
 const char *kd_problem_title(enum kd_problem_type type);
-/* The document's type, "urn:kerrd:problem:..."; NULL beyond the last. */
+/* The document's type, "urn:kerrd:problem:..."; NULL if `type` exceeds the last type. */
 const char *kd_problem_uri(size_t type);
 
 /* Writes the document, application/problem+json. */

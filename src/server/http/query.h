@@ -1,4 +1,4 @@
-/* Limits of query parameters. The parser uses them and openapi.json prints them, so they are literals. */
+/* Limits of query parameters. They are literals, because the parser uses them and openapi.json prints them. */
 #ifndef KD_SERVER_HTTP_QUERY_H
 #define KD_SERVER_HTTP_QUERY_H
 
@@ -12,6 +12,6 @@
  * 1 */
 #define KD_ORDER_MAX 9007199254740992
 #define KD_SENTENCES_MAX 4294967295  /* largest value of the parameter sentences: 32 bits */
-#define KD_DEPRECATION "@1795910400" /* since when the former names of parameters are deprecated: 2026-11-29 */
+#define KD_DEPRECATION "@1795910400" /* date since when the former names of parameters are deprecated: 2026-11-29 */
 
 #endif

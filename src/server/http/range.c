@@ -7,7 +7,7 @@
 #define BLANKS " \t"
 #define DIGITS "0123456789"
 
-/* Reads at least one digit and moves *at behind the number; saturates beyond 64 bits. */
+/* Reads a number of at least one digit and moves *at behind it. Numbers beyond 64 bits become the largest. */
 static bool number(const char **at, uint64_t *out)
 {
     const size_t n = strspn(*at, DIGITS);
@@ -48,7 +48,8 @@ enum kd_byte_range kd_range_read(const char *value, uint64_t size, uint64_t *fir
     struct spec spec;
     if (!value || strncasecmp(value, unit, strlen(unit)) || !read_spec(value + strlen(unit), &spec))
         return KD_RANGE_WHOLE;
-    if (spec.suffix && spec.last && !size) /* an empty file has no Content-Range that could describe the failure */
+    if (spec.suffix && spec.last && !size) /* RFC 9110 has no Content-Range that could describe this failure for an
+                                            * empty file */
         return KD_RANGE_WHOLE;
     if (spec.suffix ? !spec.last : spec.first >= size)
         return KD_RANGE_BEYOND;

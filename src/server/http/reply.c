@@ -22,8 +22,8 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
     return response;
 }
 
-/* A shorter text gains less than gzip's header costs. A longer one would block the HTTP thread for more than some 20
- * ms. */
+/* A text shorter than PACK_LEAST gains less than gzip's header costs. A text longer than PACK_MOST would block the
+ * HTTP thread for more than some 20 ms. */
 enum { PACK_LEAST = 1 << 10, PACK_MOST = 1 << 20 };
 
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type)
@@ -45,7 +45,7 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
     union {
         const void *in;
         void *out;
-    } bytes = { data }; /* libmicrohttpd only reads them */
+    } bytes = { data }; /* libmicrohttpd only reads the bytes */
     struct MHD_Response *response = MHD_create_response_from_buffer(size, bytes.out, MHD_RESPMEM_PERSISTENT);
     if (response && type)
         MHD_add_response_header(response, "Content-Type", type);

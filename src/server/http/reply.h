@@ -14,7 +14,7 @@
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
 /* Like kd_reply_take, for text. It is compressed by gzip if the client accepts that and the text is long enough. */
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
-/* Makes a response of bytes that outlive the response. type NULL: no content, so no Content-Type. */
+/* Makes a response of bytes that stay valid as long as the response. type NULL: no content, so no Content-Type. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
 /* Makes a response without a body for HEAD and 304 where the length of GET's answer is unknown. Closes the
  * connection. */
@@ -32,8 +32,8 @@ void kd_reply_location(const struct kd_request *request, struct MHD_Response *re
 /* Queues the response and drops the reference. response NULL: sends kd_reply_no_memory. */
 enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struct MHD_Response *response);
 
-/* kd_reply_bare and kd_reply_no_memory send 503 when memory has run out, without allocating, and close the
- * connection. kd_reply_bare works without a request. */
+/* kd_reply_bare and kd_reply_no_memory send 503 without allocating when memory has run out, and close the
+ * connection. kd_reply_bare needs no request. */
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
@@ -58,7 +58,7 @@ struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *na
 /* Calls kd_accept_best with the request's Accept. */
 size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list),
                          const void *list);
-/* Appends a name to the value of a header that is a List of Tokens (RFC 9651). */
+/* Appends a name to a header value that is a List of Tokens (RFC 9651). */
 enum kd_status kd_reply_item(struct kd_buffer *out, const char *name);
 
 /* Sends a generated document, or the problem if status is an error. Empties the buffer. */

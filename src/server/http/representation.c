@@ -84,8 +84,8 @@ static bool names(struct kd_request *request, const char *header, const char *et
     return yes;
 }
 
-/* Whether If-Range holds for the ETag, by strong comparison. A date never holds, because we send no Last-Modified (RFC
- * 9110 13.1.5). */
+/* Whether If-Range holds for the ETag, by strong comparison. A date never holds, because the server sends no
+ * Last-Modified (RFC 9110 13.1.5). */
 static bool is_of(struct kd_request *request, const char *etag)
 {
     const char *tag = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "If-Range");
@@ -191,7 +191,8 @@ enum MHD_Result kd_reply_served(struct kd_request *request, const struct kd_serv
         request, &(struct kd_representation) { .type = file->type,
                                                .etag = form->etag,
                                                .hashed = true,
-                                               /* Browsers may fetch a page's icon whenever its address changes. */
+                                               /* Browsers may fetch a page's icon whenever the page's address
+                                                * changes. */
                                                .cache_control = picture ? "private, max-age=86400" : "no-cache",
                                                .coding = gzip ? "gzip" : NULL,
                                                .negotiated = true,

@@ -1,5 +1,5 @@
-/* Sends bytes of a known length that have an ETag: all of them, a range, 304 or 416, by the request's preconditions and
- * its Range (RFC 9110 13.2.2). Ranges are handled nowhere else in the server. HTTP thread only. */
+/* Sends bytes of a known length that have an ETag. By the request's preconditions and its Range the answer has all
+ * bytes, some bytes, 304 or 416 (RFC 9110 13.2.2). No other part of the server handles ranges. HTTP thread only. */
 #ifndef KD_SERVER_HTTP_REPRESENTATION_H
 #define KD_SERVER_HTTP_REPRESENTATION_H
 
@@ -9,14 +9,14 @@
 struct kd_representation {
     const char *type;
     const char *etag; /* strong, with its quotes: changes whenever the bytes change */
-    /* the ETag without its quotes is the SHA-256 of the bytes, and is also sent as digests */
+    /* the ETag without its quotes is the SHA-256 of the bytes, which is also sent as a digest */
     bool hashed;
     const char *cache_control; /* NULL: "private, no-cache", so that caches revalidate each time */
     const char *coding;        /* Content-Encoding; NULL: none */
-    bool negotiated;           /* the coding was chosen by Accept-Encoding, so Vary is sent */
+    bool negotiated;           /* Accept-Encoding selected the coding, so Vary is sent */
     const char *const *fields; /* further headers: name, value, name, ..., NULL; NULL: none */
     uint64_t size;
-    /* Source of the bytes: `fd`, `data` or `read`, the first of them that is set. It stays valid and unchanged until
+    /* Source of the bytes: the first of `fd`, `data` and `read` that is set. It stays valid and unchanged until
      * `release`. */
     int fd;                         /* a file, closed at the end; -1: none */
     const void *data;               /* bytes in memory; NULL: none */

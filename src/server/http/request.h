@@ -24,15 +24,16 @@ struct kd_request {
     char id[KD_REQUEST_ID_MAX + 1]; /* X-Request-Id; set when the header has arrived */
     struct kd_traceparent trace;    /* trace that the request belongs to */
     char *raw;                      /* the target as received, without scheme and host if it came in absolute form */
-    char *authority;                /* host of a target in absolute form; NULL: it has another form */
+    char *authority;                /* host of a target in absolute form; NULL for other forms */
     struct kd_target target;
     struct kd_header header;
     const struct kd_route *route;
-    /* route of its path, set also if the request is refused; NULL: no route has the path */
+    /* route of the path, set also if the request is refused; NULL: no route has the path */
     const struct kd_route *matched;
-    const struct kd_visitor *visitor; /* owner of the access token; NULL: none was needed */
+    const struct kd_visitor *visitor; /* owner of the access token; NULL: the request needed none */
     struct kd_link link;              /* the signed link by which it came */
-    bool spent;                       /* Authorization holds the access token, so it holds no other token */
+    bool spent;                       /* Authorization holds the access token, so it cannot also hold a session's
+                                       * token */
     const char *method, *rest;        /* rest: the segment of the path that the route has in braces */
     bool head, begun, body_announced, close;
     struct kd_once once;          /* hashes of the request's Idempotency-Key and content */
@@ -40,18 +41,18 @@ struct kd_request {
     struct kd_request *once_next; /* next request under way that has a key */
     struct kd_buffer body;
     size_t body_mark;                              /* size of body when its deadline was last extended */
-    unsigned quality;                              /* of a lossy format; 0: its default */
+    unsigned quality;                              /* quality of a lossy format; 0: the format's default */
     const struct kd_format *format;                /* requested format of the picture; NULL: any, or no picture */
     const struct kd_format *accepts[16];           /* all formats that Accept takes, the preferred first; `format` is
                                                     * the first that can hold the scene, or accepts[0] */
     struct kd_render_job *job;                     /* the render under way for this request; owned */
     struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */
     bool waited;                                   /* it has waited for a thumbnail */
-    struct kd_orbits_job *orbits;                  /* orbits being computed; a counted reference */
+    struct kd_orbits_job *orbits;                  /* orbits being computed for the request; a counted reference */
     struct kd_particles_job *particles;            /* list of particles being made; owned */
     struct kd_task *task;                          /* work of the task scheduler; owned */
-    struct kd_viewer *viewer;                      /* the request's wait for a session's next frame; owned */
-    struct kd_playground_session_watcher *watcher; /* the request's wait for a playground's next tick; owned */
+    struct kd_viewer *viewer;                      /* the request waits for a session's next frame; owned */
+    struct kd_playground_session_watcher *watcher; /* the request waits for a playground's next tick; owned */
     char etag[120];
     char file[96];      /* Content-Disposition if the answer is 200 (kd_reply_file) */
     size_t reply_bytes; /* size of a large reply, which extends its deadline */

@@ -1,4 +1,4 @@
-/* Logs each finished request as one line of level info. HTTP threads only. */
+/* Logs each finished request as one line at level info. HTTP threads only. */
 #ifndef KD_SERVER_HTTP_REQUEST_LOG_H
 #define KD_SERVER_HTTP_REQUEST_LOG_H
 
@@ -6,9 +6,10 @@
 
 /* Call it when the request begins: it records the connection's byte count. */
 void kd_request_log_begin(struct kd_request *request);
-/* Writes the line. As text: method, target, status, time, client. As JSON: id, method, route, status, ms, bytes,
- * client, visitor, cut_off. bytes: those written to the socket, including the header, where the system counts them.
- * JSON has the route instead of the target, because ids of sessions and jobs are capabilities. */
+/* Writes the line. A text line has method, target, status, time and client. A JSON line has id, method, route,
+ * status, ms, bytes, client, visitor and cut_off. `bytes` are those written to the socket, including the header, if
+ * the system counts them. JSON has the route instead of the target, because ids of sessions and jobs are
+ * capabilities. */
 void kd_request_log_end(const struct kd_request *request, double ms, bool cut_off);
 
 #endif

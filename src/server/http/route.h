@@ -1,5 +1,5 @@
-/* The table of routes. Each line of server/http/routes.def describes one route completely. From that line are made:
- * /openapi.json, docs/routes.md, the Allow header, the required role, and the size limit of the body. */
+/* The table of routes. Each line of server/http/routes.def describes one route completely. /openapi.json,
+ * docs/routes.md, the Allow header, the required role and the size limit of the body are made from that line. */
 #ifndef KD_SERVER_HTTP_ROUTE_H
 #define KD_SERVER_HTTP_ROUTE_H
 
@@ -24,7 +24,7 @@ extern const struct kd_method kd_methods[KD_METHODS];
 
 enum kd_takes {
     KD_TAKES_NOTHING,
-    KD_TAKES_SCENE, /* a scene, in the body, or with GET in the query */
+    KD_TAKES_SCENE, /* a scene in the body; with GET, a scene in the query */
     KD_TAKES_PLAN,  /* a scene, or a scene with axes of a sweep, in the body */
     KD_TAKES_RAYS,  /* rays, in the body, as JSON or NPY */
     KD_TAKES_ORBITS,
@@ -48,10 +48,10 @@ struct kd_json;
 struct cJSON;
 struct kd_route;
 struct kd_taken {
-    const char *about, *what;     /* the request in a few words; name of its body */
-    size_t most;                  /* limit of the body, bytes; 0: KD_BODY_MAX */
-    const char *types;            /* media types of the body, "a/b c/d"; NULL: application/json. A PATCH may also be
-                                   * a merge patch */
+    const char *about, *what;     /* about: the request in a few words; what: name of its body */
+    size_t most;                  /* largest size of the body in bytes; 0: KD_BODY_MAX */
+    const char *types;            /* media types of the body, "a/b c/d"; NULL: application/json. A PATCH may also
+                                   * send a merge patch */
     const char *schema, *changes; /* schema: JSON Schema of a body, as text; changes: the same for PATCH */
     bool may_lack;                /* the body may be missing */
     /* body writes the member "requestBody", instead of `schema`; parameters writes entries of "parameters". May be
@@ -64,7 +64,7 @@ extern const struct kd_taken kd_taken[KD_TAKES];
 
 /* Where an answer's media types are listed. */
 enum kd_gives {
-    KD_GIVES_ITS_ANSWER, /* the members `answer` and `also` list them */
+    KD_GIVES_ITS_ANSWER, /* in the members `answer` and `also` */
     KD_GIVES_PICTURE,    /* every format of a picture: render/output/format.h */
     KD_GIVES_RESULT,     /* every result of a job: job/formats.h */
 };
@@ -74,7 +74,7 @@ struct kd_query {                     /* a query parameter that is not a field o
     const char *name, *schema, *help; /* schema: JSON Schema as text; NULL: the names of the formats of jobs */
     unsigned methods;
     bool required;
-    const char *was; /* its former name, which is deprecated; NULL: none */
+    const char *was; /* the parameter's former name, which is deprecated; NULL: none */
 };
 struct kd_route {
     const char *path; /* at most one segment is in braces; it matches any text, which becomes request->rest */
@@ -87,25 +87,26 @@ struct kd_route {
                       (access.h) */
     bool open;     /* needs no access token */
     bool signable; /* GET may come by a signed link instead of an access token (link.h) */
-    bool page;     /* a page of a browser: takes the access token in its address, and asks for it (access.h) */
+    bool page;     /* a page for browsers: takes the access token in its address, and asks for the token if it has
+                    * none (access.h) */
     bool once;     /* POST takes Idempotency-Key (once.h) */
     bool parts;    /* GET may answer with a range, 206 (representation.h) */
-    bool folders;  /* the parameter at the end of the path may have slashes */
+    bool folders;  /* the parameter at the end of the path may contain slashes */
     bool owner;    /* POST needs the token of the object, as PATCH and DELETE always do */
     bool brief;    /* PATCH takes Prefer: return=minimal */
-    bool changes;  /* not every answer has an ETag, because unfinished ones change */
-    unsigned status[2]; /* success statuses; { 0 }: 200; DELETE answers 204 */
+    bool changes;  /* some answers have no ETag, because unfinished objects change */
+    unsigned status[2]; /* success statuses; { 0 }: 200. DELETE answers 204 */
     /* The handler. Called when the body is complete, and again when the work that it started is done. */
     enum MHD_Result (*handle)(struct kd_request *request);
     const struct kd_query *queries; /* ends with a NULL name; NULL: none */
     struct {
         unsigned methods;
         const char *text;
-    } schemas[2]; /* of JSON answers, as text */
+    } schemas[2]; /* JSON Schema of JSON answers, as text */
     struct {
         unsigned methods, status;
         const char *headers;
-    } tells[3];                                  /* headers of answers, "A B" */
+    } tells[3];                                  /* names of the answers' headers, "A B" */
     struct { unsigned methods, status; } may[2]; /* problems that the other members do not imply */
 };
 
@@ -118,12 +119,14 @@ static inline bool kd_route_for(unsigned methods, unsigned method) { return !met
 /* Whether the route has a query parameter of this name or former name; route may be NULL. */
 bool kd_route_has_query(const struct kd_route *route, const char *name);
 
-/* Value of the route's own query parameter, or NULL: it is not given, or the route has no such parameter. *given: the
- * name that the query has, which may be the former one. KD_EINVAL if it has both. */
+/* Value of the route's own query parameter. NULL if the query does not have it, or if the route has no such
+ * parameter. *given: the name in the query, which may be the former one. Returns KD_EINVAL if the query has both
+ * names. */
 enum kd_status kd_route_query(const struct kd_request *request, const char *name, const char **given,
                               const char **value, struct kd_error *error);
-/* Whether the query has only parameters of the route and method, each once, and "token"; KD_EINVAL if not. Queries that
- * the handler reads by itself, as fields of a scene or parameters of a quantity, and those of pages are not checked. */
+/* Returns KD_OK if the query has only parameters of the route and method, each at most once, and "token"; else
+ * KD_EINVAL. Three kinds of queries are not checked: fields of a scene, parameters of a quantity (both are read by
+ * the handler), and queries of pages. */
 enum kd_status kd_route_only(const struct kd_request *request, struct kd_error *error);
 bool kd_route_checks_query(const struct kd_route *route);
 /* Whether the query has a former name of a parameter. */
@@ -136,8 +139,8 @@ enum kd_status kd_route_path(const struct kd_route *route, const char *rest, str
 const struct kd_route *kd_route_of(char *path, const char **rest);
 
 /* Finds the route of the request's path. Sets request->route, ->matched and ->rest. `rest` points into the target's
- * path, from which the base path is removed. The base path alone, without a slash, leads to the page. Returns false
- * with *problem filled: 404, or 405 with request->route set. */
+ * path, from which the base path is removed. The base path without a slash at its end leads to the page. Returns
+ * false with *problem filled: 404, or 405 with request->route set. */
 bool kd_route_find(struct kd_request *request, struct kd_problem *problem);
 /* Value of Allow: the route's methods and OPTIONS; NULL: methods of all routes. Valid until the next call on this
  * thread. */

@@ -22,9 +22,9 @@
 
 #define KD_BODY_MAX KD_SCENE_JSON_MAX     /* bytes of one body, except KD_RAYS_BODY_MAX and KD_ORBIT_BODY_MAX */
 #define KD_BODIES_MAX ((size_t)192 << 20) /* limit of bytes of all bodies being received */
-/* limit of KD_BODIES_MAX for one client; leaves room for the largest body of another client */
+/* one client's limit of these bytes; the rest suffices for the largest body of another client */
 #define KD_BODIES_SHARE ((size_t)96 << 20)
-#define KD_BODIES_SMALL ((size_t)16 << 20) /* reserve beyond KD_BODIES_MAX for bodies of at most KD_BODY_MAX */
+#define KD_BODIES_SMALL ((size_t)16 << 20) /* reserve beyond KD_BODIES_MAX for bodies of at most KD_BODY_MAX bytes */
 /* limit of bytes of all answers not yet sent; a single answer may exceed it */
 #define KD_REPLIES_MAX (512u << 20)
 #define KD_REPLIES_RESERVE ((size_t)64 << 20) /* reserve beyond KD_REPLIES_MAX for small answers */
@@ -34,12 +34,12 @@
 #define KD_SESSION_IDLE_MS 60000u             /* a session without viewers ends after this time */
 #define KD_PLAYS_BYTES ((size_t)1 << 30)      /* limit of the memory of all playgrounds */
 #define KD_JOBS_KEPT 64u                      /* limit of jobs stored, including finished ones */
-#define KD_JOB_LONGEST_S (24 * 3600.0)        /* largest estimated time of all frames of a job */
+#define KD_JOB_LONGEST_S (24 * 3600.0)        /* largest estimated time of all frames of a job together */
 #define KD_JOB_KEEP_S (24 * 3600.0)           /* a finished job is deleted after this time */
 #define KD_JOB_BYTES ((uint64_t)16 << 30)     /* limit of the disk space of all jobs */
 #define KD_ASSETS 64u                         /* limit of assets stored */
 #define KD_ASSETS_BYTES ((uint64_t)256 << 20) /* limit of the bytes of all assets */
-#define KD_ASSET_KEEP_S (24 * 3600.0)         /* an asset unused for this long may be evicted for a new one */
+#define KD_ASSET_KEEP_S (24 * 3600.0)         /* an asset that is unused for this long may be evicted for a new one */
 
 #define KD_STATUS_CLASSES 6
 
@@ -47,7 +47,7 @@
 enum kd_phase {
     KD_SERVING,
     KD_DRAINING, /* /readyz fails; everything else is served */
-    KD_REFUSING, /* new renders are refused; those accepted before finish */
+    KD_REFUSING, /* new renders are refused; accepted renders finish */
     KD_CLOSING,  /* the server does not listen any more; answers under way are sent */
     KD_STOPPED,
 };
@@ -92,17 +92,17 @@ struct kd_server {
     struct kd_asset *sky; /* the operator's photograph of the sky; NULL: none */
     struct kd_cached_documents *documents;
     struct kd_thumbnails *thumbnails;
-    char etag_tail[20]; /* part of a picture's ETag besides the scene: version and device */
+    char etag_tail[20]; /* part of a picture's ETag that does not depend on the scene: version and device */
 
     _Atomic int phase;
-    _Atomic unsigned requests;              /* number of requests that are begun and not completely answered */
+    _Atomic unsigned requests;              /* number of requests that have begun and are not completely answered */
     struct kd_bytes *bodies, *replies;      /* memory budgets: bodies being received; answers not yet sent */
     struct kd_access *access;               /* access tokens; NULL: everybody may send every request */
     struct kd_link_budgets *links;          /* device time that signed links have used; used with access */
     const char *share_key;                  /* name of the key that signs shared scenes, in access; NULL: none */
     struct kd_auth_throttle *auth_throttle; /* throttle of wrong tokens, used with access */
     struct kd_cors *cors;                   /* origins permitted besides our own; NULL: none */
-    /* whether pages of other sites may send requests whose answers they cannot read */
+    /* whether pages of other sites may send requests, although they cannot read the answers */
     bool cross_site;
     struct kd_measures *measures; /* durations of requests */
     /* Numbers of answers by the first digit of the status; 0: the connection was cut before a status. */
@@ -111,8 +111,8 @@ struct kd_server {
     int stop_fd; /* eventfd that wakes the reaper */
     pthread_t reaper;
     bool reaper_runs;
-    _Atomic bool abandon; /* the server is destroyed without having been stopped: do not wait */
-    /* set drain_s after a stop request: remaining work is cancelled and its clients get an answer */
+    _Atomic bool abandon; /* the server is destroyed without having been stopped, so it must not wait */
+    /* set drain_s after a stop request: remaining work is cancelled, and its clients are answered */
     _Atomic bool ended;
     pthread_mutex_t lock;                      /* protects all members below */
     struct kd_sessions_counts sessions_counts; /* the counts that were last read */

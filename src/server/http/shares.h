@@ -26,9 +26,8 @@
 #define KD_SHARE_CLIENTS 64u /* limit of clients that are tracked at once; beyond it, clients share an entry */
 
 /* Classes of work and their weights within a client. PIXEL runs as soon as it arrives, because a user points at the
- * picture and waits. While a view is moved by hand (LIVE), a job (JOB) gets a fifth of the time. Beside a job,
- * which a user requested, a view that animates by itself (IDLE) and REFINEMENT get a twentieth, so that they still
- * visibly advance. */
+ * picture and waits. While a user moves a view (LIVE), a job (JOB) gets a fifth of the time. Beside a job, which a
+ * user requested, an animated view (IDLE) and REFINEMENT get a twentieth, so that they still visibly advance. */
 #define KD_CLASSES(X) X(PIXEL, 64) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(JOB, 2) X(REFINEMENT, 0.1) X(IDLE, 0.1)
 enum kd_class {
 #define KD_CLASS_ENUM(name, weight) KD_CLASS_##name,
@@ -42,7 +41,7 @@ struct kd_claim {
     /* set before kd_shares_add */
     char client[KD_CLIENT];
     enum kd_class class;
-    double left_ms; /* estimated time left; kd_shares_charge subtracts the time that was used */
+    double left_ms; /* estimated time left; kd_shares_charge subtracts the time used */
     /* private to the scheduler */
     double paid; /* virtual time: the flow's `now` when the work was added, plus what the work was charged */
     struct kd_share_client *owner;
@@ -50,8 +49,8 @@ struct kd_claim {
 };
 
 struct kd_share_flow { /* work of one class of one client */
-    /* paid: virtual time charged to the flow. now: virtual time that each of the flow's works would have received
-     * if they ran side by side */
+    /* paid: virtual time charged to the flow. now: virtual time that each work of the flow would have received if
+     * all ran side by side */
     double paid, now;
     unsigned claims;
     struct kd_claim *first; /* the flow's work, in order of arrival */

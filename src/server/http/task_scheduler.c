@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define WORKERS_MAX 16
-#define THREADS_MAX (4 * WORKERS_MAX) /* including threads that are suspended in a slice */
+#define THREADS_MAX (4 * WORKERS_MAX) /* limit of threads, including threads that are suspended in a slice */
 #define PIECE_MS 15.                  /* time that a slice runs before other jobs go first */
 
 /* A suspended slice; the struct is on the stack of its thread. It is listed among the jobs, and is resumed when it
@@ -39,7 +39,7 @@ struct kd_scheduler {
 static _Thread_local struct kd_scheduler *mine;
 static _Thread_local struct kd_scheduler_job *under_way;
 static _Thread_local double piece_ms; /* when the current slice began or was last resumed */
-static _Thread_local bool stops;      /* the job of the current slice is unwanted */
+static _Thread_local bool stops;      /* nobody wants the result of the current slice's job */
 
 static void append(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
@@ -156,7 +156,7 @@ static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *j
     kd_watch_turn_begins();
     enum kd_slice_result turn = job->turn(job);
     kd_watch_turn_ends();
-    under_way = NULL; /* done may free the job, and never suspends */
+    under_way = NULL; /* `done` may free the job, and is never suspended */
     stops = false;
     pthread_mutex_lock(&scheduler->lock);
     job->workers--;
@@ -179,8 +179,8 @@ static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *j
     scheduler->unfinished--;
 }
 
-/* Runs the first entry of the list: resumes the thread of a suspended slice, or runs a job's slice on this thread.
- * Locked on entry and exit. */
+/* Runs the first entry of the list: resumes the thread of a suspended slice, or runs a slice of a job on this
+ * thread. Locked on entry and exit. */
 static void go_on(struct kd_scheduler *scheduler)
 {
     struct kd_scheduler_job *job = scheduler->first;
@@ -226,7 +226,7 @@ static bool start_thread(struct kd_scheduler *scheduler)
     return true;
 }
 
-/* Suspends the current slice until its place in the list is reached. Locked on entry and exit. */
+/* Suspends the current slice until the list reaches its place. Locked on entry and exit. */
 static void pause_turn(struct kd_scheduler *scheduler)
 {
     struct paused me = { .resumed = PTHREAD_COND_INITIALIZER };
@@ -235,15 +235,15 @@ static void pause_turn(struct kd_scheduler *scheduler)
     pthread_cond_signal(&scheduler->changed);
     while (me.place.listed && !scheduler->closing)
         pthread_cond_wait(&me.resumed, &scheduler->lock);
-    if (me.place.listed) { /* shutdown: no worker resumes it any more */
+    if (me.place.listed) { /* at shutdown a suspended slice is still in the list, because no worker resumes it */
         take_out(scheduler, &me.place);
         scheduler->busy++;
     }
     pthread_cond_destroy(&me.resumed);
 }
 
-/* Hook of base/pause.h: suspends this thread's slice until the other listed jobs have had theirs. If no other thread
- * can run these, the slice continues. */
+/* Hook of base/pause.h: suspends this thread's slice until the other listed jobs have each had a slice. If no other
+ * thread can run them, the slice continues. */
 static bool let_others_go_first(void)
 {
     struct kd_scheduler *scheduler = mine;

@@ -1,7 +1,7 @@
-/* Cooperative task scheduler: a few workers run slices of long tasks in turn, so that a short task does not wait for a
- * long one. A slice returns after some 10 ms. A function that a slice calls may also be suspended in the middle
- * (base/pause.h). A suspended function keeps its thread; another thread replaces that thread, so that the number of
- * running workers stays the same. */
+/* Cooperative task scheduler: a few workers run slices of long tasks in turn, so that a short task need not wait for
+ * a long one. A slice returns after some 10 ms. A function that a slice calls may also be suspended in the middle
+ * (base/pause.h). A suspended function occupies its thread; another thread then replaces that thread, so that the
+ * number of running workers stays the same. */
 #ifndef KD_SERVER_HTTP_TASK_SCHEDULER_H
 #define KD_SERVER_HTTP_TASK_SCHEDULER_H
 
@@ -12,9 +12,9 @@
 
 /* Result of a slice of a job. */
 enum kd_slice_result {
-    KD_SLICE_MORE, /* there is more to do */
+    KD_SLICE_MORE, /* the job has more to do */
     KD_SLICE_PARK, /* wait for kd_scheduler_wake, kd_scheduler_cancel or the job's due_ms, then continue */
-    KD_SLICE_AWAY, /* wait for kd_scheduler_wake alone: another thread uses the job meanwhile */
+    KD_SLICE_AWAY, /* wait for kd_scheduler_wake alone, because another thread uses the job meanwhile */
     KD_SLICE_LAST, /* the job has no further slice */
 };
 
@@ -22,12 +22,12 @@ struct kd_scheduler_job {
     enum kd_slice_result (*turn)(struct kd_scheduler_job *job); /* runs one slice; on a worker */
     void (*done)(
         struct kd_scheduler_job *job); /* called once on a worker when every slice has returned; may free the job */
-    /* whether nobody waits for the job's result any more, so that kd_pause is true to the end of its slice; called by a
+    /* whether nobody waits for the job's result any more; kd_pause is then true until the slice ends. Called by the
      * slice's thread without a lock; NULL: never */
     bool (*unwanted)(struct kd_scheduler_job *job);
-    /* time on kd_clock_ms at which the job is resumed if it is parked; 0: there is none */
+    /* time on kd_clock_ms at which a parked job is resumed; 0: none */
     double due_ms;
-    /* several workers may run slices of the job at once, from the next slice on; a slice may set it */
+    /* several workers may run slices of the job at once, from the next slice on; a slice may set this */
     bool shared;
     char client[KD_CLIENT]; /* the client that was passed to kd_scheduler_admit */
     /* private to the scheduler */
@@ -53,8 +53,8 @@ void kd_scheduler_push(struct kd_scheduler *scheduler, struct kd_scheduler_job *
 void kd_scheduler_wake(struct kd_scheduler *scheduler, struct kd_scheduler_job *job);
 unsigned kd_scheduler_unfinished(struct kd_scheduler *scheduler);
 
-/* Makes kd_scheduler_cancelled true, which jobs poll in their slices. Resumes all parked jobs except those of
- * KD_SLICE_AWAY. Any thread. */
+/* Makes kd_scheduler_cancelled return true. Jobs poll it in their slices. Resumes all parked jobs except those that
+ * returned KD_SLICE_AWAY. Any thread. */
 void kd_scheduler_cancel(struct kd_scheduler *scheduler);
 bool kd_scheduler_cancelled(struct kd_scheduler *scheduler);
 

@@ -1,7 +1,7 @@
 /* Films of playgrounds. While one frame is rendered, workers move the bodies on to the next frame.
  *
- * What a frame shows depends on all frames before it. So a frame that is rendered again, and a film that is resumed
- * after a restart, are computed from the request on; the motion is reproduced to the bit. One film is made at a time
+ * What a frame shows depends on all frames before it. So when a frame is rendered again, or a film is resumed after
+ * a restart, the motion is computed again from its beginning; it is the same to the bit. One film is made at a time
  * while others wait, so that only one uses memory and slices of the workers. */
 #include "server/job/internal.h"
 
@@ -71,7 +71,7 @@ static bool go_on(struct stride *s, double until_ms)
     return film->at == s->to;
 }
 
-/* Whether this server still has to do the job. Called with the lock. */
+/* Whether this server still has to finish the job. Called with the lock. */
 static bool wanted(const struct kd_job *job) { return kd_job_is_active(job) && !job->all->closed; }
 
 static enum kd_slice_result turn(struct kd_scheduler_job *scheduled)

@@ -20,7 +20,7 @@ struct kd_job_stored_film {
     uint64_t bytes;
 };
 
-/* Opens a film, given its format and its frame rate in 1/s. out->mark is the SHA-256 of the film. Returns false if the
+/* Opens the film of this format and frame rate (in 1/s). out->mark is the SHA-256 of the film. Returns false if the
  * film does not exist. */
 bool kd_job_film_open(struct kd_job *job, const char *format, unsigned rate, struct kd_job_file *out);
 
@@ -33,13 +33,14 @@ struct kd_job_film_writer {
     struct sha256_ctx hash;
     struct kd_job_stored_film film;
 };
-/* Claims a job for encoding a film. Returns false if the film exists, or another one is being written. */
+/* Claims a job for encoding a film. Returns false if the film exists, or if another film of the job is being
+ * written. */
 bool kd_job_film_claim(struct kd_job_film_writer *w, struct kd_job *job, const char *format, unsigned rate);
 enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data, size_t size, struct kd_error *error);
 /* Publishes the film, so that it can be opened. Returns KD_EFULL if the files of all jobs would then exceed their
  * limit. */
 enum kd_status kd_job_film_keep(struct kd_job_film_writer *w, struct kd_error *error);
-/* Deletes an unpublished film and releases the claim. Either may be absent. */
+/* Deletes an unpublished film and releases the claim, if they exist. */
 void kd_job_film_end(struct kd_job_film_writer *w);
 
 /* Finds films that were written before a restart. Call it before any other thread uses the job. */

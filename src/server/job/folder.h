@@ -16,7 +16,7 @@ bool kd_job_folder_is_new(const char *name); /* the name has the form ID.new */
 
 void kd_job_folder_frame(unsigned frame, char name[20]); /* "000000.png" */
 
-/* Name of a film: "film-024-HASH.mp4", with its frame rate in 1/s and the SHA-256 of its bytes. */
+/* Name of a film: "film-024-HASH.mp4". 024 is the frame rate in 1/s, and HASH the SHA-256 of the bytes. */
 enum { KD_JOB_FILM_NAME = 5 + 3 + 1 + 64 + 1 + 4 + 1 };
 struct kd_job_film_name {
     unsigned rate;
@@ -30,11 +30,11 @@ void kd_job_folder_new_film(const char *format, unsigned rate, char name[KD_JOB_
 /* Opens a job's folder. Returns a descriptor, or -1 with errno; ELOOP or ENOTDIR if it is not a folder. */
 int kd_job_folder_open(int jobs, const char *name);
 
-/* Removes at most `most` of a job's files; job.json goes last, because it identifies the job. Then removes the folder,
- * unless it holds other files. Returns true when no removable file is left. */
+/* Removes at most `most` of a job's files. job.json is the last of them, because it identifies the job. Then removes
+ * the folder, unless it holds other files. Returns true when no removable file is left. */
 bool kd_job_folder_remove(int jobs, const char *name, unsigned most);
 
-/* Removes files of a job that a killed server has left half written. Removes no others, even if their names begin
+/* Removes a job's files that a killed server left half written. All other files stay, even if their names begin
  * alike. */
 void kd_job_folder_tidy(int folder);
 /* Removes all jobs in a folder, then its lock. */

@@ -24,13 +24,13 @@ struct kd_job_preview_hook {
 
 /* State of the playground of a film (film.c). */
 struct kd_job_film {
-    /* The members up to spent_ms belong to the worker, without the lock, while `moving` is set. Otherwise the lock
-     * protects them. */
+    /* While `moving` is set, the worker owns the members up to spent_ms and uses them without the lock. Otherwise
+     * the lock protects them. */
     struct kd_playground *p; /* NULL: not created yet */
-    unsigned at;             /* frame that the playground has reached, or from which it moves on */
+    unsigned at;             /* frame that the playground has reached or is leaving */
     double begin;            /* the playground's time at frame 0 */
     double spent_ms;         /* computing time spent on moving the bodies */
-    /* The lock always protects these. */
+    /* the lock always protects the members from here on */
     bool moving;
     unsigned to;                       /* target frame */
     struct kd_dynamic_bodies *dynamic; /* bodies at the target frame, a reference; NULL: not reached yet */
@@ -38,7 +38,8 @@ struct kd_job_film {
 
 /* Common exposure of all frames. It is measured before the first frame is rendered (job/exposure.h). */
 struct kd_job_exposure {
-    unsigned n, done; /* numbers of pictures needed, and of those measured; n 0: the exposure is not measured */
+    unsigned n, done; /* n: number of pictures needed, 0 if the exposure is not measured; done: number of pictures
+                       * measured */
     unsigned frames[KD_JOB_EXPOSURE_FRAMES];
     double stops[KD_JOB_EXPOSURE_FRAMES];
 };
@@ -51,22 +52,23 @@ struct kd_job {
     struct kd_sweep_order order;
     struct kd_job_film film;
     struct kd_job_exposure exposure;
-    bool unordered; /* after a restart the order of frames is being computed again (watch.c); no frame begins before */
+    bool unordered; /* after a restart watch.c computes the order of frames again; no frame begins before that is
+                     * done */
     const struct kd_series *series;
-    /* next: in the order of rendering, all frames before this place are done or under way */
+    /* next: all frames before this place in the order of rendering are done or under way */
     unsigned frames, next, finished;
     unsigned char *have; /* one flag for each frame: its file exists */
     double fraction;     /* fraction of the present frame that is rendered */
     double estimate_ms;  /* estimated time of all frames, from their plans */
-    double began_ms;     /* when this server began the job; 0: it has not */
-    double due_ms;       /* no frame begins before this time; on kd_clock_ms */
+    double began_ms;     /* time at which this server began the job; 0: not yet */
+    double due_ms;       /* no frame begins before this time on kd_clock_ms */
     double delay_ms;     /* length of the next delay after a shortage; 0: no shortage */
     double counted_ms;   /* when the number of lens maps was last written to the record */
-    /* when the job ended; on kd_clock_ms, so that changes of the system clock have no effect */
+    /* time at which the job ended, on kd_clock_ms because that ignores changes of the system clock */
     double ended_ms;
     char delayed[160]; /* why the job waits until due_ms */
     bool begun_here;   /* this server has begun a frame of the job, or moved its bodies */
-    bool struck;       /* this server has counted an attempt in the record */
+    bool struck;       /* this server has counted an attempt in the job's record */
     unsigned finished_here;
     struct kd_job_stored_film films[KD_JOB_FILMS]; /* oldest first */
     unsigned n_films;
@@ -76,10 +78,10 @@ struct kd_job {
     unsigned revision;      /* incremented when its status changes */
     char client[KD_CLIENT]; /* client that requested the job; "": unknown, after a restart */
     bool listed;
-    bool creating;  /* the job's files are being created; no frame begins */
+    bool creating;  /* the job's files are being created, so no frame begins */
     bool unwritten; /* the record has changed since it was written to disk */
-    bool keeping;   /* no frame begins before the record is written */
-    bool measured;  /* the reason for `keeping` is that the exposure was measured */
+    bool keeping;   /* no frame begins before the record is on disk */
+    bool measured;  /* `keeping` was set because the exposure has been measured */
     bool forgotten; /* the job's request is deleted from disk */
     struct kd_job_preview_hook preview;
     struct kd_job_watcher *watchers;
@@ -95,7 +97,7 @@ struct kd_jobs {
      * lock. */
     pthread_mutex_t lock;
     struct kd_scheduler_job writer;  /* scheduler job that writes records (records.c) */
-    bool writes, begun;              /* writes: the writer is under way; begun: other threads use the jobs */
+    bool writes, begun;              /* writes: the writer is running; begun: other threads use the jobs */
     struct kd_job *first;            /* oldest first */
     struct kd_job *gone;             /* jobs whose files are to be removed */
     struct kd_job_render *rendering; /* frame that is in the render queue, or being planned */
@@ -115,20 +117,20 @@ static inline bool kd_job_is_active(const struct kd_job *job)
 {
     return job->listed && job->record.state == KD_JOB_ACTIVE;
 }
-/* records.c: requests that a worker writes the job's record; failures are logged. */
+/* records.c: requests that a worker write the job's record. Failures are logged. */
 void kd_job_write(struct kd_job *job);
-void kd_jobs_begin_writing(struct kd_jobs *all); /* starts the writer if any record is to be written */
-/* Like kd_job_write, and no frame of the job begins before the record is written. */
+void kd_jobs_begin_writing(struct kd_jobs *all); /* starts the writer if any record has changed */
+/* Like kd_job_write; in addition, no frame of the job begins before the record is on disk. */
 void kd_job_keep(struct kd_job *job);
 /* Writes all changed records. Call it when no other thread uses the jobs. */
 void kd_jobs_write_all(struct kd_jobs *all);
-/* Counts an attempt, because the work may crash the server. Only the first call for a job in a server's run counts. */
+/* Counts an attempt, because the work may crash the server. Each server counts at most one attempt for each job. */
 void kd_job_strike(struct kd_job *job);
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
 /* Delays a job after a shortage that may pass. Each delay is longer than the one before. */
 void kd_job_delay(struct kd_job *job, const char *why);
-/* Removes the job from the list; the caller gets the list's reference. The job's files are deleted with the last
- * reference, beginning with the request (kd_jobs_bury). */
+/* Removes the job from the list; the caller gets the list's reference. When the last reference is dropped, the job's
+ * files are deleted, the request first (kd_jobs_bury). */
 void kd_job_unlist(struct kd_job *job);
 void kd_job_wake(struct kd_job *job, double now); /* resumes watchers that have news */
 
@@ -145,20 +147,22 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files);
 
 /* run.c: begins the next frame if possible. A worker plans it and pushes it to the render queue. */
 void kd_jobs_pump(struct kd_jobs *all);
-/* Frees the frame that waits to be planned. Call it when no other thread uses the jobs. */
+/* Frees the frame that waits to be planned. Call it only when no other thread uses the jobs. */
 void kd_jobs_drop_unplanned(struct kd_jobs *all);
 /* Finds the job of a frame from the user pointer of kd_job_preview_hook; number may be NULL. Any thread. */
 struct kd_job *kd_job_of_frame(const void *render, unsigned *number);
 extern const struct kd_preview_hook kd_job_preview_hook;
-/* Handles the failure of a frame or its scene: delays the job if memory or disk space is short, else ends it. */
+/* Handles the failure of a frame or its scene. If memory or disk space is short, the job is delayed; otherwise it
+ * ends. */
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error);
 /* film.c: gets the bodies that a frame of a film shows; the job owns them. *out is NULL if the film has not reached
- * the frame yet, or if another film is being made; kd_jobs_pump is called when the bodies exist. KD_ENOMEM. */
+ * the frame yet, or if another film is being made; kd_jobs_pump is then called when the bodies exist. Returns KD_OK
+ * or KD_ENOMEM. */
 enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_dynamic_bodies **out,
                               struct kd_error *error);
-/* Frees the playground, except while a worker owns it, and lets another film begin. */
+/* Frees the playground unless a worker owns it, and lets another film begin. */
 void kd_job_film_drop(struct kd_job *job);
-/* Cancels the frame of this job that is being rendered, if any; job NULL: of any job. */
+/* Cancels the frame of this job that is being rendered, if any. job NULL: the frame of any job. */
 void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job);
 
 #endif

@@ -40,7 +40,7 @@ void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why)
            state == KD_JOB_DONE ? "is done" : "has failed: ", why);
 }
 
-#define DELAY_MS 1e3 /* length of the first delay; each further one is twice as long, up to ... */
+#define DELAY_MS 1e3 /* length of the first delay; each further delay is twice as long, up to the limit below */
 #define DELAY_MAX_MS 60e3
 
 void kd_job_delay(struct kd_job *job, const char *why)
@@ -72,7 +72,7 @@ static void unref(struct kd_job *job)
     job->all->gone = job;
 }
 
-/* Called without the lock, by one thread at a time; it takes the lock itself. */
+/* Called without the lock, by one thread at a time; the function takes the lock itself. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files)
 {
     pthread_mutex_lock(&all->lock);
@@ -85,7 +85,8 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files)
     if (!job || !kd_job_store_remove(all->store, job->record.id, files))
         return;
     pthread_mutex_lock(&all->lock);
-    struct kd_job **link = &all->gone; /* searched again, because others may have been added before it */
+    struct kd_job **link = &all->gone; /* the list is searched again, because other jobs may have been added before
+                                        * this one */
     while (*link != job)
         link = &(*link)->link;
     *link = job->link;
@@ -132,7 +133,7 @@ struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
     job->references = 1; /* the list's reference */
     job->have = have;
     kd_dynamic_bodies_release(
-        spec->first); /* planning is done, so the bodies of the first frame are not needed any more */
+        spec->first); /* planning is done, so the bodies of the first frame are no longer needed */
     spec->first = NULL;
     job->spec = *spec;
     job->frames = spec->frames;
@@ -194,7 +195,7 @@ void kd_jobs_destroy(struct kd_jobs *all)
     free(all);
 }
 
-/* Whether another job is accepted. A finished job may be deleted for it. Called with the lock. */
+/* Whether another job is accepted. A finished job may be deleted to make room. Called with the lock. */
 static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned unfinished = 0, stored = 0, own = 0;
@@ -394,14 +395,15 @@ static bool is_next(const struct kd_job *job)
     return other == job;
 }
 
-/* Number of frames rendered. It includes those being encoded, and the rendered fraction of the present one. Called with
- * the lock. */
+/* Number of frames rendered. It includes frames being encoded, and the rendered fraction of the present frame.
+ * Called with the lock. */
 static double drawn(const struct kd_job *job)
 {
     return fmin(job->finished + job->encoding + job->fraction, job->frames);
 }
 
-#define SURE 0.02 /* After this number of frames, elapsed time gives a better estimate than the plan. */
+/* Once this fraction of the frames is done, the elapsed time gives a better estimate than the plan. */
+#define SURE 0.02
 
 /* Estimates the time left; NAN: unknown. Called with the lock. */
 static double remaining_s(const struct kd_job *job)
@@ -411,8 +413,8 @@ static double remaining_s(const struct kd_job *job)
         return NAN;
     const double planned_ms = job->estimate_ms / job->frames, done = job->finished_here + job->encoding + job->fraction;
     const double passed_ms = job->began_ms > 0 ? kd_clock_ms() - job->began_ms : 0;
-    /* Later frames take the mean of those so far, including waiting. Before any progress, a frame is estimated to take
-     * the planned time, or the elapsed time if that is longer. */
+    /* Each later frame is assumed to take the mean time of the frames so far, including waiting. Before any
+     * progress, a frame is assumed to take the planned time, or the elapsed time if that is longer. */
     const double frame_ms = done > SURE ? passed_ms / done : fmax(planned_ms, passed_ms);
     return frame_ms > 0 ? 1e-3 * fmax(left, 0) * frame_ms : NAN;
 }
@@ -464,7 +466,7 @@ bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
         out->done += job->record.state == KD_JOB_DONE;
         out->failed += job->record.state == KD_JOB_FAILED;
     }
-    out->running = out->waiting > 0; /* of the unfinished jobs, the oldest is running */
+    out->running = out->waiting > 0; /* the oldest unfinished job is the one that runs */
     out->waiting -= out->running;
     pthread_mutex_unlock(&all->lock);
     return true;

@@ -1,8 +1,9 @@
 /* Jobs: pictures, and sequences of pictures, that take longer than a client wants to hold a connection for.
  *
- * The oldest unfinished job is rendered, one frame at a time and with the smallest share of the device. Its frames are
- * written to files. A job does not depend on its client: it ends when it is done, fails or is deleted. If the server
- * has a state folder, it continues after a restart. Any thread; functions on watchers belong to the HTTP thread. */
+ * The oldest unfinished job is rendered, one frame at a time and with the smallest share of the device. Its frames
+ * are written to files. A job does not depend on its client: it ends when it is done, fails or is deleted. If the
+ * server has a state folder, its jobs continue after a restart. Any thread; functions on watchers belong to the HTTP
+ * thread. */
 #ifndef KD_SERVER_JOB_JOBS_H
 #define KD_SERVER_JOB_JOBS_H
 
@@ -19,7 +20,7 @@ struct kd_job;
 
 /* Number of crashes without a new frame after which a job is delayed, because it may be their cause. */
 #define KD_JOB_ATTEMPTS 3
-#define KD_JOB_WAIT_MS 30e3 /* length of the first delay; it doubles with each further crash, up to ... */
+#define KD_JOB_WAIT_MS 30e3 /* length of the first delay; it doubles with each further crash, up to the limit below */
 #define KD_JOB_WAIT_MAX_MS 3600e3
 
 struct kd_jobs_params {
@@ -40,17 +41,17 @@ void kd_jobs_begin(struct kd_jobs *all);
 /* Call it after kd_jobs_close, when the render queue has finished. Accepts NULL. */
 void kd_jobs_destroy(struct kd_jobs *all);
 
-/* A requested job that is being checked: the result of kd_job_spec_parse, and the cost of the frames checked so far.
- * One thread at a time. */
+/* A requested job that is being checked: the result of kd_job_spec_parse, and the cost of the frames that are
+ * checked so far. One thread at a time. */
 struct kd_job_draft {
     struct kd_job_spec spec;
-    struct kd_cost cost; /* cost of the frames checked so far, which are cost.frames of spec.frames */
+    struct kd_cost cost; /* cost of the frames checked so far; cost.frames of spec.frames have been checked */
     struct kd_once once; /* hashes of the Idempotency-Key and the request */
     char preset[32];     /* preset with which the spec was parsed */
 };
 void kd_job_draft_finish(struct kd_job_draft *draft);
-/* Checks further frames until until_ms, at least one. After the last it computes their order. KD_EINVAL and KD_ETOOBIG
- * with a pointer into the request. */
+/* Checks further frames until until_ms, but at least one. After the last frame it computes the frames' order.
+ * Returns KD_EINVAL or KD_ETOOBIG with a pointer into the request. */
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms,
                              struct kd_error *error);
 /* Makes a job from a checked draft, and empties the draft. The caller gets a reference to the job. text: the
@@ -74,7 +75,7 @@ struct kd_job_status {
     const struct kd_series *series;
     unsigned frames, finished, place; /* place: number of unfinished jobs before this one */
     double fraction;                  /* finished fraction of the whole job */
-    double remaining_s;               /* NAN: unknown, because the job waits for others or is over */
+    double remaining_s;               /* NAN: unknown, because the job waits for others or has ended */
     double created, ended;            /* seconds since 1970 */
     unsigned traced;                  /* number of lens maps traced */
     double exposure;                  /* measured exposure of all frames in stops; NAN: none, or not yet */
@@ -91,17 +92,17 @@ bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
 /* Opens a finished frame like kd_job_store_get. */
 bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out);
-/* Gets the preview of a job of pictures, and requests that further previews are made. The frame under way is given as
- * `png`, rendered down to some row; without such a preview, `out` names the last finished frame. Returns false if there
- * is neither. */
+/* Gets the preview of a job of pictures, and requests that further previews are made. `png` is the frame under way,
+ * rendered down to some row. If there is no such preview, `out` names the last finished frame. Returns false if
+ * there is neither. */
 struct kd_job_sight {
     unsigned frame;
-    bool finished;         /* the frame is finished and in its file: see kd_job_frame */
-    uint32_t rows, height; /* of a frame under way: number of rows rendered, and of all rows */
+    bool finished;         /* the frame is finished; kd_job_frame opens its file */
+    uint32_t rows, height; /* of a frame under way: number of rendered rows, and number of all rows */
 };
 bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out);
-/* Deletes a job: it cannot be found any more, not even after a restart. Its files are deleted with the last reference.
- * Waits for the disk, so it is for workers. */
+/* Deletes a job: it cannot be found any more, not even after a restart. Its files are deleted with the last
+ * reference. Call it on workers only, because it waits for the disk. */
 void kd_job_delete(struct kd_job *job);
 /* Like kd_job_delete, without waiting. Until its files are deleted, a restart may find the job. */
 void kd_job_drop(struct kd_job *job);
@@ -110,9 +111,9 @@ void kd_job_drop(struct kd_job *job);
 struct kd_job_watcher {
     struct kd_job *job; /* a reference */
     struct MHD_Connection *mhd;
-    bool by_frame; /* true: it waits for the frame `next`; false: for any change */
+    bool by_frame; /* true: the watcher waits for the frame `next`; false: it waits for any change */
     unsigned next, revision;
-    double deadline_ms; /* end of waiting on kd_clock_ms; INFINITY: none */
+    double deadline_ms; /* end of waiting on kd_clock_ms; INFINITY: no end */
     bool waiting;       /* its connection is suspended */
     struct kd_job_watcher *previous, *next_watcher;
 };

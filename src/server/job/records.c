@@ -21,14 +21,14 @@ static void written(struct kd_job *job, enum kd_status status, const struct kd_e
         job->revision++;
         return;
     }
-    job->record.exposure =
-        NAN; /* otherwise a restart would find frames without an exposure, and give the missing frames another one */
+    job->record.exposure = NAN; /* a restart would otherwise find frames without an exposure, and render the missing
+                                 * frames with another one */
     job->exposure.done = 0;
     if (kd_job_is_active(job))
         kd_job_delay(job, error->message);
 }
 
-/* Finds a job whose record has to be written; NULL: none. Called with the lock. */
+/* Finds a job whose record has changed since it was written. Returns NULL if there is none. Called with the lock. */
 static struct kd_job *first_unwritten(const struct kd_jobs *all)
 {
     struct kd_job *job = all->first;
@@ -60,7 +60,7 @@ static enum kd_slice_result turn(struct kd_scheduler_job *writer)
     return KD_SLICE_MORE;
 }
 
-/* Called when the scheduler has finished the writer, which may now be pushed again. */
+/* Called when the scheduler has finished the writer. The writer may be pushed again after that. */
 static void done(struct kd_scheduler_job *writer)
 {
     struct kd_jobs *all = (struct kd_jobs *)((char *)writer - offsetof(struct kd_jobs, writer));

@@ -66,7 +66,8 @@ static bool open_next(struct frames *f)
     return true;
 }
 
-/* Produces more bytes, or sets f->over, or sets *wait to suspend. Returns false on failure. */
+/* Produces more bytes; or sets f->over at the end; or sets *wait if the answer must be suspended. Returns false on
+ * failure. */
 static bool advance(struct frames *f, bool *wait)
 {
     if (f->fd >= 0)
@@ -74,13 +75,14 @@ static bool advance(struct frames *f, bool *wait)
     switch (kd_job_await(&f->watcher)) {
     case KD_JOB_NEWS: return open_next(f) && f->left <= UINT32_MAX && head(f);
     case KD_JOB_LATER: *wait = true; return true;
-    case KD_JOB_LATE: return true; /* cannot happen: there is no deadline */
+    case KD_JOB_LATE: return true; /* cannot happen, because there is no deadline */
     case KD_JOB_OVER: break;
     }
     struct kd_job_status status;
     kd_job_status(f->watcher.job, &status);
     f->over = true;
-    return f->watcher.next >= status.frames; /* if frames are missing, the client must see a failure, not the end */
+    return f->watcher.next >= status.frames; /* if frames are missing, the client must see a failure instead of a
+                                              * normal end */
 }
 
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)

@@ -46,7 +46,7 @@ static void find_frames(struct kd_job *job)
     job->all->bytes += job->bytes;
 }
 
-/* Resumes a finished job that has lost frames, if this version can parse its request. */
+/* Resumes a finished job that has lost frames. It is rendered again if this version can parse its request. */
 static void reopen(struct kd_job *job)
 {
     if (job->record.state != KD_JOB_DONE || job->finished == job->frames)
@@ -57,15 +57,15 @@ static void reopen(struct kd_job *job)
     job->record.ended = 0;
 }
 
-/* Time since the job ended. It is 0 if the system clock was set back. If the clock was set forward, an hour is left to
- * download the result. */
+/* Time since the job ended; 0 if the system clock was set back. If the clock was set forward, the time is limited so
+ * that an hour remains to download the result. */
 static double age_ms(const struct kd_jobs *all, const struct kd_job_record *record)
 {
     double s = kd_job_now_s() - record->ended, most = fmax(all->params.keep_s - 3600, 0);
     return 1e3 * fmin(fmax(s, 0), most);
 }
 
-/* Delays a job that may have crashed servers. Other jobs go first (kd_job_store_load). Such a job is never given up. */
+/* Delays a job that may have crashed servers. Other jobs run first (kd_job_store_load). The job is retried for ever. */
 static void wait_after_strikes(struct kd_job *job)
 {
     unsigned n = job->record.attempts;
@@ -124,7 +124,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
         return;
     }
     wait_after_strikes(job);
-    if (*why) { /* another version may be able to parse it; until then the job waits */
+    if (*why) { /* another version may be able to parse the request, and the job waits until then */
         job->due_ms = INFINITY;
         snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
         kd_log(KD_LOG_WARN, "job %.4s... waits: %s", known->id, why);

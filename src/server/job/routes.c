@@ -134,7 +134,7 @@ static enum kd_slice_result work(struct kd_task *task, double until_ms)
                                  &d->draft.spec, &error));
     d->read = true;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
-    if (task->status) /* the client has left, or waits too long, since the turn began */
+    if (task->status) /* the client has disconnected, or the deadline has passed, since the turn began */
         return KD_SLICE_LAST;
     if (d->draft.cost.frames < d->draft.spec.frames)
         return KD_SLICE_MORE;
@@ -150,7 +150,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     enum MHD_Result result = d->task.status == KD_ECANCELLED ? kd_reply_cancelled(request)
                              : d->task.status                ? refuse(request, &d->task.error, d->task.quota)
                                                              : answer(request, d->job, true);
-    /* The client does not know the job, and without a key cannot request it again. */
+    /* the client does not know the job, and cannot request it again because it sent no key */
     if (d->job && request->status != MHD_HTTP_ACCEPTED && !*request->once.key)
         kd_job_drop(d->job);
     return result;
@@ -188,7 +188,7 @@ enum MHD_Result kd_handle_jobs(struct kd_request *request)
     return kd_task_submit(&d->task);
 }
 
-/* State of a deletion. It runs on a worker, so that the job's files are deleted when the request is answered. */
+/* State of a deletion. A worker deletes the job's files, so that they are gone when the request is answered. */
 struct removing {
     struct kd_task task; /* must be the first member */
     struct kd_job *job;  /* a counted reference */
@@ -292,7 +292,7 @@ static enum kd_status next_event(struct events *e, ssize_t *instead)
         *instead = MHD_CONTENT_READER_END_OF_STREAM;
         return KD_OK; /* the server is stopping, and the job may continue after a restart */
     case KD_JOB_LATER: *instead = 0; return KD_OK;
-    case KD_JOB_LATE: /* time for a heartbeat, which also detects clients that have vanished */
+    case KD_JOB_LATE: /* sends a heartbeat, whose failure also reveals clients that have vanished */
         e->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         return kd_buffer_printf(&e->text, ":\n\n");
     }

@@ -12,8 +12,8 @@ const char *kd_job_state_word(size_t i);
 /* Finds the job that the path names. Returns a reference, or NULL with *refused. */
 struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused);
 
-/* Refusals. Both take over the reference to the job. kd_job_not_ready: frames are missing, now or for ever. kd_job_bad:
- * the query is not valid. */
+/* Refusals. Both functions take over the reference to the job. kd_job_not_ready: frames are missing, for now or for
+ * ever. kd_job_bad: the query is not valid. */
 struct kd_job_status;
 enum MHD_Result kd_job_not_ready(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status);
 enum MHD_Result kd_job_bad(struct kd_request *request, struct kd_job *job, const char *detail);

@@ -20,7 +20,7 @@ struct kd_job_render {
     unsigned number, place;            /* place: its place in the order of rendering */
     struct kd_dynamic_bodies *dynamic; /* bodies in the scene of a film; a counted reference */
     bool rendered;
-    bool measures; /* the picture is small, measures the common exposure and is not stored */
+    bool measures; /* the picture is small; it only measures the common exposure, and is not stored */
 };
 
 static void rendered(struct kd_render_job *render);
@@ -88,7 +88,7 @@ static void finish(struct kd_job_render *frame)
     free(frame);
 }
 
-/* Marks the frame as not begun again. Called with the lock. */
+/* Marks the frame as not begun. Called with the lock. */
 static void take_back(struct kd_job_render *frame)
 {
     struct kd_job *job = frame->job;
@@ -113,8 +113,8 @@ static void push(struct kd_job_render *frame)
         kd_job_film_at(job, at_place(job, job->next), &next, &error);
 }
 
-/* Called when planning is done. Meanwhile the job may have been deleted or have failed, or the server may be
- * stopping. */
+/* Called when planning is done. While the frame was planned, the job may have been deleted or have failed, or the
+ * server may have begun to stop. */
 static void planned(struct kd_scheduler_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
@@ -137,7 +137,7 @@ static void planned(struct kd_scheduler_job *planning)
     finish(frame);
 }
 
-/* Makes the next frame of a job; it has to be planned next. */
+/* Makes the next frame of a job, which must then be planned. */
 static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, struct kd_dynamic_bodies *dynamic)
 {
     struct kd_job_render *frame = calloc(1, sizeof *frame);
@@ -229,8 +229,8 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
 
 #define COUNTED_MS 500.0 /* shortest interval between two writes of a sweep's number of lens maps to its record */
 
-/* Counts the lens map of a frame, if one was traced. A sweep's record is written now and then, so that the number
- * survives a restart. */
+/* Counts the lens map of a frame, if a map was traced. The record of a sweep is written from time to time, so that
+ * the number survives a restart. */
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
     const unsigned traced =
@@ -283,8 +283,8 @@ static void progress(struct kd_render_job *render, double fraction)
     pthread_mutex_unlock(&frame->job->all->lock);
 }
 
-/* Stores the exposure that a small picture has measured. After the last of these, all frames have the common exposure
- * as soon as it is on disk (records.c). Called with the lock. */
+/* Stores the exposure that a small picture has measured. After the last small picture, the common exposure is
+ * written to disk (records.c) and then applies to all frames. Called with the lock. */
 static void measured(struct kd_job *job, double stops)
 {
     struct kd_job_exposure *exposure = &job->exposure;
@@ -307,7 +307,7 @@ static void rendered(struct kd_render_job *render)
     frame->job->encoding += !frame->measures;
     if (frame->measures)
         measured(frame->job, render->frame.exposure);
-    frame->job->fraction = 0; /* progress of the next frame */
+    frame->job->fraction = 0; /* the next frame has made no progress yet */
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
 }
@@ -331,7 +331,7 @@ static void done(struct kd_render_job *render)
     } else
         all->rendering = NULL;
     if (frame->measures && frame->rendered)
-        status = KD_OK; /* its exposure is measured already, and its file is not needed */
+        status = KD_OK; /* the small picture's exposure is measured, and its file is not needed */
     else
         count_map(job, render);
     if (!status && !frame->measures)
@@ -359,7 +359,7 @@ static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draf
 {
     const struct kd_cost *cost = &draft->cost;
     const unsigned frames = draft->spec.frames;
-    /* Until all frames are checked, any lens map may turn out to be shared. */
+    /* Until all frames are checked, any lens map may turn out to be shared, so the time of tracing is not counted. */
     const double not_spent = cost->frames < frames ? cost->trace_ms : cost->shared_ms;
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)

@@ -25,13 +25,13 @@
 #define TEMPORARY "kerrd-jobs-"
 
 struct kd_job_store {
-    char *parent, *name; /* of a temporary store: TMPDIR, and the folder's name in it */
+    char *parent, *name; /* of a temporary store: parent is TMPDIR, and name the folder's name in it */
     int folder, lock;
 };
 
 static const char *const states[] = { [KD_JOB_ACTIVE] = "active", [KD_JOB_DONE] = "done", [KD_JOB_FAILED] = "failed" };
 
-/* Logs the path. Returns KD_EFULL or KD_ENOMEM for failures that may pass, and KD_EIO for others. */
+/* Logs the failure with its path. Returns KD_EFULL or KD_ENOMEM for failures that may pass, and KD_EIO for others. */
 enum kd_status kd_job_store_failed(struct kd_error *error, const char *what)
 {
     int cause = errno;
@@ -116,7 +116,7 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         rmdir(path);
         store->folder = -1;
         errno = cause;
-        /* otherwise another server has just removed the file, and this one tries again */
+        /* otherwise another server has just removed the file, and this server tries again */
         if (cause != EWOULDBLOCK && cause != ENOENT)
             return kd_job_store_failed(error, "cannot create a folder for jobs");
     }
@@ -127,8 +127,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
     return KD_OK;
 }
 
-/* Locks the folder, because two servers with the same jobs would do all work twice. The path to the folder may contain
- * links; the folder itself must not be one. */
+/* Locks the folder, because two servers with the same jobs would do all work twice. The path to the folder may
+ * contain symbolic links; the folder itself must not be one. */
 static enum kd_status open_state(struct kd_job_store *store, const char *state, struct kd_error *error)
 {
     if (mkdir(state, 0700) && errno != EEXIST)
@@ -232,7 +232,7 @@ static bool read_state(const cJSON *o, enum kd_job_state *out)
 static const struct kd_series *series_of(const cJSON *o)
 {
     const char *name = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "output"));
-    if (!name) /* records of older versions lack it; those versions had two series */
+    if (!name) /* records of older versions lack the series' name; those versions had two series */
         name = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(o, "curve")) ? "light-curve" : "pictures";
     return kd_series_named(name);
 }
@@ -282,8 +282,8 @@ static bool parse_record(const struct kd_buffer *text, const char *id, struct kd
     return good;
 }
 
-/* Examines a job's folder. An unreadable job may be readable later, or by another version; only a deleted job is GONE.
- */
+/* Examines a job's folder. A job that cannot be read may be readable later, or by another version. Only a deleted
+ * job is GONE. */
 static enum fate look(int folder, const char *id, struct found *out, const char **why)
 {
     struct kd_buffer text = { 0 };
@@ -331,7 +331,7 @@ static bool load(struct kd_job_store *store, const char *name, struct found *out
     return fate == KEPT;
 }
 
-/* Orders records by attempts, and among equals by age. */
+/* Orders records by attempts, then by age. */
 static int by_age(const void *a, const void *b)
 {
     const struct kd_job_record *x = &((const struct found *)a)->record, *y = &((const struct found *)b)->record;
@@ -500,7 +500,7 @@ bool kd_job_store_open_file(int folder, const char *name, struct kd_job_file *ou
         return false;
     }
     out->size = (uint64_t)about.st_size;
-    /* A file is never modified; each write replaces it by a new file. */
+    /* A file is never modified: each write replaces it by a new file. */
     snprintf(out->mark, sizeof out->mark, "%llx-%llx-%llx", (unsigned long long)about.st_ino,
              (unsigned long long)about.st_size,
              1000000000ull * (unsigned long long)about.st_mtim.tv_sec + (unsigned long long)about.st_mtim.tv_nsec);

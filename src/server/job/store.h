@@ -1,7 +1,7 @@
 /* Jobs on disk. DIRECTORY/ID/ holds request.json as it was received, job.json, and the frames: 000000.png and so on,
- * whatever their format. Each file is written atomically. A folder with a job.json of ours but without a request is
- * what is left of a deleted job. Other files and unreadable ones are left alone; links are never followed. Any thread,
- * but only one at a time for each job.
+ * whatever their format. Each file is written atomically. A folder that has our job.json but no request.json belongs to
+ * a deleted job. Other files and unreadable ones are left alone; links are never followed. Any thread, but only one at
+ * a time for each job.
  *
  * Errors contain no path, because clients see them. KD_EFULL and KD_ENOMEM (also if descriptors run out) may be
  * temporary. */
@@ -22,8 +22,8 @@ struct kd_job_record {
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     enum kd_job_state state;
     double created, ended; /* seconds since 1970; ended: 0 while active */
-    /* number of servers that had begun work on the job and crashed, since its latest frame; a shutdown by request does
-     * not count */
+    /* number of servers that had begun work on the job and crashed, since the job's latest frame; an ordinary
+     * shutdown does not count */
     unsigned attempts;
     double exposure;                /* measured exposure of all frames in stops; NAN: none, or not yet */
     unsigned traced;                /* number of lens maps traced */
@@ -44,7 +44,7 @@ void kd_job_store_close(struct kd_job_store *store); /* accepts NULL */
 /* Removes the temporary folders that killed servers have left in TMPDIR. */
 void kd_job_store_tidy(void);
 
-/* Calls `found` for each job: first those without attempts, and among equals the oldest first. Unreadable jobs are
+/* Calls `found` for each job. Jobs without attempts come first, and among equals the oldest. Unreadable jobs are
  * logged. The callback owns the request. */
 enum kd_status kd_job_store_load(struct kd_job_store *store,
                                  void (*found)(void *user, const struct kd_job_record *record,

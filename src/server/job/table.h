@@ -1,5 +1,5 @@
-/* Answers with the table of a finished job whose frames are rows (render/output/series.h). Workers read and format the
- * rows; each frame is one row. HTTP thread. */
+/* Answers with the table of a finished job whose frames are rows (render/output/series.h). Workers read and format
+ * the rows, one for each frame. HTTP thread. */
 #ifndef KD_SERVER_JOB_TABLE_H
 #define KD_SERVER_JOB_TABLE_H
 

@@ -3,8 +3,8 @@
 #include "base/clock.h"
 #include "server/job/internal.h"
 
-/* limit of files removed in one check of all jobs; this takes some milliseconds, so the thread is not late for
- * other work */
+/* limit of files removed in one check of all jobs; the removal takes some milliseconds and must not delay the
+ * thread's other work */
 #define FILES_A_SWEEP 200
 
 void kd_job_watch(struct kd_job_watcher *watcher)
@@ -50,7 +50,8 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *w)
     w->revision = w->job->revision;
     if (what == KD_JOB_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* suspended before the connection can be resumed, which needs the lock */
+        MHD_suspend_connection(w->mhd); /* suspended first, because the connection can be resumed as soon as the lock
+                                         * is released */
     }
     pthread_mutex_unlock(&w->job->all->lock);
     return what;

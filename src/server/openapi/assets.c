@@ -15,8 +15,9 @@ static const char *type(size_t i)
     return i < sizeof types / sizeof *types ? types[i] : NULL;
 }
 
-/* Writes the schema Asset. Pictures have size and depth, grids of matter nodes, spin and charge, observations
- * visibilities and stations. The token is sent only to the client that was the first to upload the asset. */
+/* Writes the schema Asset. Pictures have members for size and depth, grids of matter for nodes, spin and charge,
+ * observations for visibilities and stations. The token is sent only to the client that was the first to upload the
+ * asset. */
 void kd_openapi_asset_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member asset[] = {

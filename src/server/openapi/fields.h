@@ -11,8 +11,8 @@
 void kd_openapi_field_parameters(struct kd_json *json, const cJSON *schema);
 /* Writes the member "schema" of a preset's name. */
 void kd_openapi_preset_schema(struct kd_json *json);
-/* Write the parameters of operations that take a scene. kd_openapi_preset_parameter is for those whose scene is
- * only in the body. */
+/* Writes the parameters of operations that take a scene. kd_openapi_preset_parameter is for operations that take the
+ * scene only in the body. */
 void kd_openapi_preset_parameter(struct kd_json *json, unsigned method, const cJSON *schema);
 void kd_openapi_scene_parameters(struct kd_json *json, unsigned method, const cJSON *schema);
 /* Writes FieldPath, a member of components.schemas: the enumeration of these paths. */

@@ -1,5 +1,4 @@
-/* Headers of answers in openapi.json. Headers with a general meaning in HTTP, for caches or for browsers are left
- * out. */
+/* Headers of answers in openapi.json. Headers that HTTP, caches or browsers define in general are left out. */
 #ifndef KD_SERVER_OPENAPI_HEADERS_H
 #define KD_SERVER_OPENAPI_HEADERS_H
 

@@ -21,7 +21,7 @@
 #define PICTURES_ALONE \
     "\"not\":{\"anyOf\":[{\"required\":[\"exposure\"]},{\"required\":[\"motion_blur\"]}],\"required\":[\"output\"]," \
     "\"properties\":{\"output\":{\"enum\":[%s]}}},"
-/* Excludes members that have a meaning only with keyframes. */
+/* Excludes members that have a meaning only together with keyframes. */
 #define TAKES_KEYFRAMES \
     "\"if\":{\"not\":{\"required\":[\"keyframes\"]}},\"then\":{\"not\":{\"anyOf\":[{\"required\":[\"frames\"]},{" \
     "\"required\":[\"interpolation\"]}," \
@@ -42,8 +42,8 @@ static const char axes[] =
                      "\"pattern\":\"^" KD_SCHEMA_DECIMAL ":" KD_SCHEMA_DECIMAL "(:" KD_SCHEMA_DECIMAL
                      "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
-/* Variants of a request for a job. Each is a format string; its arguments are the list of the outputs that are not
- * pictures, and the list of all outputs. This one: a scene with axes. */
+/* Variants of a request for a job. Each is a format string with two arguments: the list of outputs that are not
+ * pictures, and the list of all outputs. This variant is a scene with axes. */
 static const char sweep[] =
     OBJECT PICTURES_ALONE "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE
                           ",\"axes\":" KD_SCHEMA_REF("SweepAxes") "," EXPOSURE("\"each\"") "," OUTPUT "}}";

@@ -8,7 +8,7 @@
 /* kd_openapi_jobs_body and kd_openapi_plan_body write an operation's requestBody. */
 void kd_openapi_jobs_body(struct kd_json *json, const struct kd_route *route);
 void kd_openapi_plan_body(struct kd_json *json, const struct kd_route *route);
-/* Writes the schemas of a job's status and of a sweep's axes. */
+/* Writes the schemas of a job's status and of the axes of a sweep. */
 void kd_openapi_job_schema(struct kd_json *json);
 
 #endif

@@ -6,6 +6,6 @@
 
 /* Writes Lesson and its parts, members of components.schemas. */
 void kd_openapi_lesson_schema(struct kd_json *json);
-extern const char kd_openapi_hand_schema[]; /* of the body of .../hands */
+extern const char kd_openapi_hand_schema[]; /* schema of the body of .../hands */
 
 #endif

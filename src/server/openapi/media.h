@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Default schema of a media type. */
+/* Schema of a media type if the route names none. */
 static inline const char *kd_openapi_schema_of(const char *type)
 {
     if (strstr(type, "json") && !strstr(type, "ndjson"))
@@ -16,7 +16,7 @@ static inline const char *kd_openapi_schema_of(const char *type)
     return text ? "{\"type\":\"string\"}" : "{\"type\":\"string\",\"format\":\"binary\"}";
 }
 
-/* Writes a member of "content". schema: JSON text; with size 0 the media type's default is used. */
+/* Writes a member of "content". schema: JSON text; if its size is 0, the media type's default is used. */
 static inline void kd_openapi_media(struct kd_json *json, const char *type, const char *schema, size_t size)
 {
     const char *plain = kd_openapi_schema_of(type);

@@ -42,7 +42,8 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
     kd_json_end(json);
 }
 
-/* Writes the parameters in an answer: a word, or a number, or for a range a list of numbers. */
+/* Writes the schema of the parameters in an answer. A parameter is a word, a number, or for a range a list of
+ * numbers. */
 static void add_asked(struct kd_json *json, const struct kd_quantity *quantity)
 {
     const char *names[KD_QUANTITY_PARAMETERS];

@@ -33,7 +33,7 @@ static void add_raw(struct kd_json *json, const char *name, const char *schema)
     kd_json_raw(json, name, schema, strlen(schema));
 }
 
-/* Writes the schema of a body. id: the body exists already and is identified by its id. */
+/* Writes the schema of a body. id: whether the body already exists and has an id. */
 static void add_body(struct kd_json *json, const char *name, bool id)
 {
     kd_json_object(json, name);

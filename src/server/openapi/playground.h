@@ -6,6 +6,6 @@
 
 /* Writes the schemas that bodies and answers refer to. */
 void kd_openapi_playground_schemas(struct kd_json *json);
-extern const char kd_openapi_step_schema[]; /* of the body of .../step */
+extern const char kd_openapi_step_schema[]; /* schema of the body of .../step */
 
 #endif

@@ -165,7 +165,7 @@ static void add_plan(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "SweepPlan", sweep);
 }
 
-/* Writes the schema of accuracy. The errors of a set are members named after its quantities. */
+/* Writes the schema of accuracy. In a set, the errors are members named after the quantities. */
 static void add_accuracy(struct kd_json *json)
 {
     static const struct kd_openapi_member errors[] = { { "median", KD_SCHEMA_NUMBER, true },

@@ -74,7 +74,7 @@ static void put_taken(struct page *page, const struct kd_route *route, unsigned 
 {
     const struct kd_taken *taken = &kd_taken[route->takes];
     const bool body = method == KD_POST || method == KD_PATCH || method == KD_PUT;
-    /* On a route with several methods, GET and DELETE take no request, except a scene in the query. */
+    /* In a route with several methods, GET and DELETE take no request, except a scene in the query. */
     const bool nothing = !body && (method == KD_DELETE || taken->changes || route->methods != method) &&
                          !(route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH));
     put_words(page, nothing ? "nothing" : taken->about);

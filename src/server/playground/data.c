@@ -1,5 +1,5 @@
-/* Sends bodies and debris of a playground session in packed form: at once, or as soon as they are newer than the
- * client's. */
+/* Sends bodies and debris of a playground session in packed form, either at once or as soon as they are newer than
+ * what the client has. */
 #include "base/clock.h"
 #include "image/npy.h"
 #include "server/http/negotiate.h"
@@ -65,8 +65,7 @@ static enum kd_status pack_bodies(const struct kd_playground_session_tick *tick,
     return status ? status : kd_buffer_append(out, tick->bodies.data, tick->bodies.size);
 }
 
-/* Packs the debris. If the tick has more pieces of debris than this client has requested, it packs evenly spaced
- * ones. */
+/* Packs the debris. If the tick has more pieces than this client has requested, it packs evenly spaced pieces. */
 static enum kd_status pack_debris(const struct kd_playground_session_tick *tick, uint32_t most, bool npy,
                                   struct kd_buffer *out)
 {

@@ -7,12 +7,12 @@
 #include "scene/scene.h"
 #include "server/playground/sessions.h"
 
-/* Moves "rate" and "paused" out of the tree into *pace. If an entry is absent, its member of *pace is unchanged.
+/* Moves "rate" and "paused" out of the tree into *pace. If one is absent, its member of *pace is unchanged. Returns
  * KD_EINVAL with a pointer. */
 enum kd_status kd_playground_session_read_pace(cJSON *tree, struct kd_playground_session_pace *pace,
                                                struct kd_error *error);
-/* Merges "scene" over *scene, and checks that the playground can be shown in the result. item NULL: "scene" is absent.
- * KD_EINVAL with a pointer. */
+/* Merges "scene" over *scene, and checks that the playground can be shown in the result. item is NULL if "scene" is
+ * absent. Returns KD_EINVAL with a pointer. */
 enum kd_status kd_playground_session_read_scene(const cJSON *item, const struct kd_playground *p,
                                                 const struct kd_assets *assets, struct kd_scene *scene,
                                                 struct kd_error *error);
@@ -25,7 +25,7 @@ struct kd_playground_session_json_options {
     const struct kd_scene *scene; /* scene of the playground's picture */
     /* whether to include the token, for the client that has just opened the session */
     bool token;
-    /* bodies with ids above this are listed as "added"; UINT32_MAX: no such list */
+    /* bodies with greater ids are listed as "added"; UINT32_MAX: no such list */
     uint32_t before;
     const struct kd_playground_progress *progress; /* progress of a step; NULL: this is not the answer to a step */
 };

@@ -1,4 +1,4 @@
-/* Event stream of a playground session. It has each new tick, and each event once, identified by its number. */
+/* Event stream of a playground session. It contains each new tick, and each event once, identified by its number. */
 #include "base/clock.h"
 #include "base/json.h"
 #include "server/http/reply.h"
@@ -11,12 +11,13 @@
 #include <sys/socket.h>
 
 #define HEARTBEAT_MS 15000.
-#define UNSENT_BYTES (64 << 10) /* limit of unsent bytes in the kernel: more would delay ticks */
+/* limit of unsent bytes in the kernel, because bytes that wait there delay newer ticks */
+#define UNSENT_BYTES (64 << 10)
 
 struct stream {
     struct kd_playground_session_watcher watcher; /* must be the first member */
-    struct kd_buffer text;                        /* text being sent ... */
-    size_t at;                                    /* ... up to this position */
+    struct kd_buffer text;                        /* the text being sent */
+    size_t at;                                    /* position up to which the text is sent */
     bool over;
 };
 
@@ -37,8 +38,8 @@ static enum kd_status add_tick(struct stream *s, struct kd_playground_session_ti
     return status;
 }
 
-/* Appends an event. If events before it have been lost, a note of that precedes it. before: number of the last event
- * sent. */
+/* Appends an event. If events before it have been lost, a note of the loss precedes it. before: number of the last
+ * event sent. */
 static enum kd_status add_event(struct stream *s, uint64_t before, const struct kd_playground_event *event)
 {
     const uint64_t now = s->watcher.event, lost = event->number ? now - 1 : now;
@@ -57,8 +58,8 @@ done:
     return status;
 }
 
-/* Writes the next part of the stream into s->text. Returns false if there is no part yet, or if the stream has ended;
- * then *end is set. */
+/* Writes the next part of the stream into s->text. Returns false if there is no part yet, or if the stream has
+ * ended; in the latter case *end is set. */
 static bool fetch(struct stream *s, ssize_t *end)
 {
     struct kd_playground_session_tick *tick = NULL;
@@ -74,7 +75,7 @@ static bool fetch(struct stream *s, ssize_t *end)
         s->over = true;
         status = kd_buffer_printf(&s->text, "event: end\ndata: {\"why\":\"%s\"}\n\n", why);
         break;
-    case KD_PLAY_LATE: /* time for a heartbeat, which also detects clients that have vanished */
+    case KD_PLAY_LATE: /* sends a heartbeat, whose failure also reveals clients that have vanished */
         s->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         status = kd_buffer_printf(&s->text, ":\n\n");
         break;

@@ -23,28 +23,28 @@ struct kd_playground_session {
     bool listed, stepping;
     const char *why; /* why the session has ended; NULL: it has not */
     struct kd_playground_session_pace pace;
-    bool anew;                 /* the clock of its slices must be restarted */
+    bool anew;                 /* the clock of the session's slices must be restarted */
     double used_ms;            /* when the session last received a request or was watched */
     double reached, slowed_ms; /* reached: achieved rate; slowed_ms: when simulated time was last skipped */
     uint64_t generation;
     struct kd_playground_session_tick *tick; /* the newest tick; NULL: none yet */
     uint32_t debris;
-    /* debris: largest number of pieces of debris that clients have requested lately; debris_ms: when */
+    /* debris: largest number of pieces of debris that clients have requested lately; debris_ms: time of that request */
     double debris_ms;
     struct kd_playground_events log;
-    uint64_t log_begin; /* number of the last event that a snapshot has included */
+    uint64_t log_begin; /* number of the last event that is included in a snapshot */
     struct kd_playground_session_watcher *watchers;
     struct kd_scene scene; /* scene of the playground's picture */
     /* session that renders the picture, a counted reference; NULL: no client has requested a picture */
     struct kd_session *picture;
     bool unshown;                                 /* the picture has no bodies yet */
-    double looked_at_ms;                          /* when a frame was last requested */
+    double looked_at_ms;                          /* time at which a frame was last requested */
     bool held;                                    /* a thread has taken the playground */
-    struct kd_playground_session_waiter *waiters; /* jobs that wait to take the playground */
-    /* the job that has taken the playground (kd_playground_session_take) owns the members from here on */
+    struct kd_playground_session_waiter *waiters; /* list of jobs that wait to take the playground */
+    /* only the job that has taken the playground (kd_playground_session_take) uses the members from here on */
     struct kd_playground_session_waiter waiter; /* entry of the session's own job in the list of waiters */
     struct kd_playground *p;
-    double looked_ms, goal, allowance; /* clock of its slices (run.c); looked_ms 0: the clock is stopped */
+    double looked_ms, goal, allowance; /* clock of the session's slices (run.c); looked_ms 0: the clock is stopped */
     double ticked_ms, measured_ms, measured_t, shown_ms;
     uint64_t shown; /* generation of the bodies that the picture shows; 0: none */
 };
@@ -63,7 +63,8 @@ struct kd_playground_sessions {
 
 /* Callers of the functions below hold all->lock. */
 struct kd_playground_session *kd_playground_session_unref(
-    struct kd_playground_session *play); /* drops a reference; returns the session if it was the last */
+    struct kd_playground_session *play); /* drops a reference; returns the session if that reference was the last,
+                                          * else NULL */
 void kd_playground_session_unlist(struct kd_playground_session *play, const char *why);
 /* whether there is a watcher or a viewer, or the last request came less than KD_PLAY_REST_MS ago */
 bool kd_playground_session_awake(const struct kd_playground_session *play, double now);

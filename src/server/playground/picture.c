@@ -1,6 +1,6 @@
-/* Pictures of playground sessions. Each is rendered by a session of server/session, which the first request for a frame
- * opens. If the bodies have changed and a viewer waits, that session gets the new bodies (run.c). Lock order: first
- * all->lock, then the lock of server/session. */
+/* Pictures of playground sessions. The first request for a frame opens a session of server/session, which renders
+ * the picture. If the bodies have changed and a viewer waits, that session gets the new bodies (run.c). Lock order:
+ * first all->lock, then the lock of server/session. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/internal.h"
@@ -130,7 +130,7 @@ enum kd_status kd_playground_session_picture(struct kd_playground_session *play,
     if (fresh && !play->dynamic_bytes)
         status = take_bytes(play, quota, error);
     if (fresh && !status) {
-        const size_t held = play->dynamic_bytes; /* reserved for the new picture from now on */
+        const size_t held = play->dynamic_bytes; /* memory that is now reserved for the new picture */
         if (play->picture)
             kd_session_go_on_from(fresh, play->picture);
         play->dynamic_bytes = 0;

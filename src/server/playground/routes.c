@@ -25,7 +25,8 @@ struct play_task {
     struct kd_playground_session *play; /* a counted reference; for OPEN, the session that was opened */
     struct kd_playground_session_waiter waiter;
     struct kd_buffer out;
-    bool conflict, steps, begun, told; /* steps: this task steps the session; told: the client has received the token */
+    bool conflict, steps, begun, told; /* steps: this task steps the session; told: the client has received the
+                                        * session's token */
     double by;
     struct kd_playground_run run;
 };
@@ -115,7 +116,7 @@ static enum kd_status make_room(struct play_task *t, const struct kd_playground 
 {
     const cJSON *capacity = cJSON_GetObjectItemCaseSensitive(tree, "debris_capacity");
     if (!cJSON_IsNumber(capacity) || !(capacity->valuedouble >= 0 && capacity->valuedouble <= KD_PLAYGROUND_DEBRIS_MAX))
-        return KD_OK; /* the capacity is not valid, and is refused when the settings are parsed */
+        return KD_OK; /* an invalid capacity is refused later, when the settings are parsed */
     return capacity->valuedouble > p->params.debris_capacity
                ? kd_playground_session_room(t->play, (uint32_t)capacity->valuedouble, &t->task.quota, error)
                : KD_OK;
@@ -140,7 +141,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     KD_TRY(kd_playground_session_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
     struct kd_scene old;
     kd_playground_session_scene(t->play, &old);
-    if (look) { /* this comes before all other changes, because it can fail and can be reverted */
+    if (look) { /* done before all other changes, because it can fail and can be reverted */
         KD_TRY(kd_playground_session_set_scene(t->play, &scene, error));
         kd_playground_session_moved(t->play);
     }
@@ -151,7 +152,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
             kd_playground_session_set_scene(t->play, &old, &(struct kd_error) { 0 });
         kd_playground_session_room(
             t->play, (*p)->params.debris_capacity, &quota,
-            &(struct kd_error) { 0 }); /* reserves the memory for the capacity that resulted; the rest is released */
+            &(struct kd_error) { 0 }); /* keeps the memory for the resulting capacity and releases the rest */
         KD_TRY(status);
         kd_playground_session_moved(t->play);
     }

@@ -71,7 +71,7 @@ void kd_playground_session_unlist(struct kd_playground_session *play, const char
     while (*link != play)
         link = &(*link)->next;
     *link = play->next;
-    kd_scheduler_wake(play->all->scheduler, &play->scheduled); /* so that it runs its last slice */
+    kd_scheduler_wake(play->all->scheduler, &play->scheduled); /* wakes the job, so that it runs its last slice */
     play->listed = false;
     play->why = why;
     kd_playground_session_hide(play);
@@ -117,7 +117,7 @@ static struct kd_playground_session *make(struct kd_playground_sessions *all,
     play->scheduled = (struct kd_scheduler_job) { .turn = kd_playground_session_turn, .done = done };
     snprintf(play->scheduled.client, sizeof play->scheduled.client, "%s", client);
     play->all = all;
-    play->references = 2; /* one for the job, one for the caller */
+    play->references = 2; /* one reference for the job, one for the caller */
     play->pace = *pace;
     play->used_ms = kd_clock_ms();
     play->generation = 1;

@@ -21,7 +21,7 @@
 #include <stdatomic.h>
 
 #define KD_PLAY_REST_MS 5000.
-#define KD_PLAY_RATE_MAX 1e9  /* unit: M for each second of the clock */
+#define KD_PLAY_RATE_MAX 1e9  /* largest rate, in M for each second of the clock */
 #define KD_PLAY_DEBRIS 20000u /* pieces of debris in an answer, unless the client requests another number */
 
 struct kd_playground_sessions;
@@ -65,7 +65,8 @@ void kd_playground_session_release(struct kd_playground_session *play); /* accep
 void kd_playground_session_promise(struct kd_playground_session *play, const struct kd_once *once);
 struct kd_playground_session *kd_playground_sessions_find_once(struct kd_playground_sessions *all, const char *key);
 const struct kd_once *kd_playground_session_once(
-    const struct kd_playground_session *play); /* for a session that was found by its key; HTTP thread only */
+    const struct kd_playground_session *play); /* reads the key of a session that was found by its key; HTTP thread
+                                                * only */
 const char *kd_playground_session_id(const struct kd_playground_session *play);
 const char *kd_playground_session_token(const struct kd_playground_session *play);
 bool kd_playground_session_owned(const struct kd_playground_session *play,
@@ -74,9 +75,9 @@ bool kd_playground_session_owned(const struct kd_playground_session *play,
 void kd_playground_session_end(struct kd_playground_session *play, const char *why);
 
 /* Takes the playground. The caller owns it until it calls kd_playground_session_give with it, or with another
- * playground in its place. Returns NULL if another job has taken it. Then the waiter's job must end its slice with
- * KD_SLICE_AWAY; it is woken when the playground is returned. A slice that has taken the playground may be suspended
- * (base/pause.h), because no thread blocks for it. For workers. */
+ * playground in its place. Returns NULL if another job has taken it. The waiter's job must then end its slice with
+ * KD_SLICE_AWAY; it is woken when the playground is given back. A slice that has taken the playground may be
+ * suspended (base/pause.h), because no thread blocks to wait for it. Call it on workers only. */
 struct kd_playground_session_waiter {
     struct kd_scheduler *scheduler;
     struct kd_scheduler_job *job;
@@ -87,14 +88,14 @@ struct kd_playground_session_waiter {
 struct kd_playground *kd_playground_session_take(struct kd_playground_session *play,
                                                  struct kd_playground_session_waiter *waiter);
 void kd_playground_session_give(struct kd_playground_session *play, struct kd_playground *p);
-/* For the job that has taken the playground. kd_playground_session_log copies new events into the session's log.
- * kd_playground_session_moved records that the playground has changed. kd_playground_session_pieces returns the
- * number of sub-steps to compute between two checks of the clock. */
+/* Functions for the job that has taken the playground. kd_playground_session_log copies new events into the
+ * session's log. kd_playground_session_moved records that the playground has changed. kd_playground_session_pieces
+ * returns the number of sub-steps to compute between two checks of the clock. */
 void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p);
 void kd_playground_session_moved(struct kd_playground_session *play);
 uint32_t kd_playground_session_pieces(const struct kd_playground *p);
-/* Reserves the memory for a new debris capacity instead of the present one. At a limit it returns KD_EBUSY and changes
- * nothing. */
+/* Reserves the memory for a new debris capacity in place of the present one. At a limit it returns KD_EBUSY and
+ * changes nothing. */
 enum kd_status kd_playground_session_room(struct kd_playground_session *play, uint32_t capacity, bool *quota,
                                           struct kd_error *error);
 
@@ -107,7 +108,7 @@ struct kd_playground_session_state {
 };
 struct kd_playground_session_state kd_playground_session_state(struct kd_playground_session *play);
 void kd_playground_session_set_pace(struct kd_playground_session *play, const struct kd_playground_session_pace *pace);
-/* Fails if a frame of the scene would take too long, or cannot be made. */
+/* Returns an error if a frame of the scene would take too long or cannot be made. */
 enum kd_status kd_playground_sessions_takes(struct kd_playground_sessions *all, const struct kd_scene *scene,
                                             struct kd_error *error);
 /* Gets the scene of the playground's picture. A session of server/session renders it, with the bodies and debris, once
@@ -145,10 +146,10 @@ struct kd_playground_session_watcher {
     struct MHD_Connection *mhd;
     int socket;
     bool stream;
-    uint64_t least;     /* it waits for a tick of this generation or a later one */
+    uint64_t least;     /* the watcher waits for a tick of this generation or a later one */
     uint32_t debris;    /* number of pieces of debris that the tick must have room for; 0: none */
     uint64_t event;     /* number of the last event sent */
-    double deadline_ms; /* when waiting ends, on kd_clock_ms */
+    double deadline_ms; /* time on kd_clock_ms at which waiting ends */
     bool waiting;       /* its connection is suspended */
     struct kd_playground_session_watcher *previous, *next;
 };

@@ -79,8 +79,8 @@ static enum kd_status pack_debris(struct kd_playground_session_tick *tick, const
     return KD_OK;
 }
 
-/* Fall-back rate: the mass that falls back for each M of time. It is that of the last complete bin, summed over all
- * sources; NAN if there is none. */
+/* Fall-back rate: the mass that falls back in each M of time. It is taken from the last complete bin and summed over
+ * all sources; NAN if there is none. */
 static double fallback_rate(const struct kd_playground_debris *debris)
 {
     double sum = NAN;

@@ -25,7 +25,7 @@ static enum kd_playground_session_news news(const struct kd_playground_session_w
         return KD_PLAY_OVER;
     if (has_tick(w))
         return KD_PLAY_TICK;
-    const bool comes = !w->stream && play->generation >= w->least; /* its tick is being made and comes soon */
+    const bool comes = !w->stream && play->generation >= w->least; /* the tick is being made and will come soon */
     return now > w->deadline_ms && !comes ? KD_PLAY_LATE : KD_PLAY_LATER;
 }
 
@@ -50,7 +50,7 @@ bool kd_playground_session_awaited(const struct kd_playground_session *play)
     return false;
 }
 
-/* Takes the first event that is still in the log after the last one sent. The number in *event shows how many were
+/* Takes the first event in the log after the last one sent. Its number in *event shows how many events between were
  * discarded. */
 static void take_event(struct kd_playground_session_watcher *w, struct kd_playground_event *event)
 {
@@ -67,7 +67,7 @@ void kd_playground_session_watch(struct kd_playground_session_watcher *w, const 
     struct kd_playground_session *play = w->play;
     pthread_mutex_lock(&play->all->lock);
     w->least = after && *after <= play->generation ? *after + 1 : play->generation;
-    /* no event has had this number, so it counts as none */
+    /* no event has had this number, so the client is treated as having none */
     if (w->event > play->log.last || w->event < play->log_begin)
         w->event = play->log_begin;
     if (w->debris) {
@@ -123,7 +123,8 @@ enum kd_playground_session_news kd_playground_session_await(struct kd_playground
         what = KD_PLAY_GONE;
     } else if (what == KD_PLAY_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* suspended before the connection can be resumed, which needs the lock */
+        MHD_suspend_connection(w->mhd); /* suspended first, because the connection can be resumed as soon as the lock
+                                         * is released */
         kd_playground_session_call(play);
     }
     pthread_mutex_unlock(&play->all->lock);
@@ -144,7 +145,7 @@ void kd_playground_sessions_sweep(struct kd_playground_sessions *all)
         kd_playground_session_wake(play, now);
         for (struct kd_playground_session_watcher *w = look ? play->watchers : NULL; w; w = w->next)
             if (w->waiting && kd_socket_abandoned(w->socket))
-                resume(w); /* kd_playground_session_await then reports that the client has disconnected */
+                resume(w); /* kd_playground_session_await then reports that the client is gone */
         if (now - play->used_ms > all->params.idle_ms) {
             kd_log(KD_LOG_INFO, "playground %.4s... ends, because it has no viewer", play->id);
             kd_playground_session_unlist(play, "idle");

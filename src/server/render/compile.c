@@ -1,6 +1,6 @@
-/* Compiles kernels while others use the device. As soon as a job waits, the scheduler looks for kernels that it lacks.
- * A thread compiles them, and the scheduler passes them to the renderer. So the renderer's kernels are touched only by
- * the owner of the device, or under the lock while the device has no owner. */
+/* Compiles kernels while others use the device. As soon as a job waits, the scheduler looks for kernels that the job
+ * lacks. A thread compiles them, and the scheduler passes them to the renderer. So only the owner of the device
+ * touches the renderer's kernels, or a thread that holds the lock while the device has no owner. */
 #include "base/clock.h"
 #include "base/nice.h"
 #include "server/render/internal.h"
@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#define COMPILE_MS 2000.0 /* estimate before the first compilation: the time of some kernels on lavapipe */
+#define COMPILE_MS 2000.0 /* estimate before the first compilation: lavapipe compiles some kernels in this time */
 #define NICE 3 /* half the weight of live frames, so that compilations advance beside them with a smaller share */
 
 /* limit of how often a job starts again for missing kernels; after that they are compiled while it owns the device */
@@ -92,7 +92,7 @@ bool kd_render_lacks(void *user, struct kd_compilation *compilation, bool backgr
     } else if (background) {
         put_off(queue, job, compilation);
         kd_render_give_way(queue, job);
-        kd_render_forget_kernels(queue, job); /* the job was resumed for another reason */
+        kd_render_forget_kernels(queue, job); /* the job was resumed for a reason other than compiled kernels */
         go_on = !queue->failed;
     } else {
         job->lacks++;
@@ -146,8 +146,8 @@ static bool is_any(const struct kd_claim *claim, void *user)
     return !atomic_load(&job_of((struct kd_claim *)claim)->drop);
 }
 
-/* Adds the time that the job has waited to kernels_ms. It does not count towards queue_ms, the time in which others
- * owned the device. */
+/* Adds the time that the job has waited to kernels_ms. This time is not part of queue_ms, in which others owned the
+ * device. */
 static void end_waiting(struct kd_render_job *job)
 {
     const double now = kd_clock_ms();

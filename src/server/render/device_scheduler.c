@@ -5,11 +5,11 @@
 
 /* limit of the bytes of all frames that are rendered and not yet encoded; a single frame may exceed it */
 #define FRAME_BYTES ((size_t)256 << 20)
-#define SHORT_BYTES ((size_t)64 << 20) /* room beyond FRAME_BYTES for frames that are encoded soon */
+#define SHORT_BYTES ((size_t)64 << 20) /* room beyond FRAME_BYTES for frames that are encoded quickly */
 #define BRIEF_MS 3000.0                /* estimated time of a picture that counts as brief */
-#define BRIEF_LANES 2                  /* number of lanes reserved for brief pictures; one client may have that many */
+#define BRIEF_LANES 2                  /* number of lanes reserved for brief pictures; one client may use all of them */
 #define AHEAD_MS 1000.0                /* between two looks for kernels of pixels; a look takes about a millisecond */
-#define LARGE 32                       /* a picture that needs less than one LARGE-th of the memory is not counted */
+#define LARGE 32                       /* a picture that needs less than the memory divided by LARGE is not counted */
 
 /* The functions below access the queue's members. They are called with the lock unless a comment says otherwise. */
 
@@ -60,9 +60,9 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
 }
 
 /* Whether the client has enough device time left for the work. Work that a client waits for was checked when it
- * arrived, and frames of jobs when they were pushed (kd_render_queue_may_push). Other work begins when its client has
- * enough; kd_render_queue_sweep checks that ten times a second. Work that has begun continues, because others wait for
- * its lane and memory. */
+ * arrived, and frames of jobs when they were pushed (kd_render_queue_may_push). Other work begins as soon as its
+ * client has enough; kd_render_queue_sweep checks that ten times a second. Work that has begun always continues,
+ * because others wait for its lane and memory. */
 static bool may_be_paid(const struct kd_render_queue *queue, const struct kd_claim *claim)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
@@ -82,7 +82,7 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
-    if (queue->failed) /* after a failure only jobs that are inside the renderer run, to leave it */
+    if (queue->failed) /* after a failure, only jobs that are inside the renderer run, so that they leave it */
         return job->inside;
     if (job == &queue->rest && (queue->compiling || queue->inside)) /* freeing memory may close the device */
         return false;
@@ -93,7 +93,7 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
             (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
 }
 
-/* Finds a cancelled job. It goes first, because ending it takes no time and needs no lane. */
+/* Finds a cancelled job. It runs first, because ending it takes no time and needs no lane. */
 static struct kd_render_job *first_dropped(const struct kd_render_queue *queue)
 {
     struct kd_render_job *job = queue->jobs.first;
@@ -170,7 +170,7 @@ static bool between_slices(void *user, double fraction)
     if (choose(queue) != job)
         kd_render_give_way(queue, job);
     kd_pulse_beat(&queue->pulse);
-    const bool failed = queue->failed; /* the device failed while others owned it */
+    const bool failed = queue->failed; /* the device failed while other jobs owned it */
     pthread_mutex_unlock(&queue->lock);
     if (failed)
         return false;
@@ -191,8 +191,8 @@ static bool go_on(void *user, double fraction)
     return !kd_render_unwanted(job->queue, job);
 }
 
-/* Describes the device anew, because the renderer measures its speeds and they change. Only the owner of the device may
- * call the renderer. Called without the lock. */
+/* Updates the description of the device, because the renderer measures the device's speeds and they change. Only the
+ * owner of the device may call the renderer. Called without the lock. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue)
 {
     struct kd_buffer json = { 0 }, old = { 0 };

@@ -54,7 +54,7 @@ void *kd_render_encode_main(void *user)
         pthread_mutex_lock(&queue->lock);
         queue->frame_bytes -= bytes;
         queue->encoding_long &= !takes_long;
-        kd_render_next(queue); /* some jobs may have waited for the memory of frames */
+        kd_render_next(queue); /* some jobs may have waited for memory for frames */
         pthread_mutex_unlock(&queue->lock);
         kd_render_finish(queue, job);
         pthread_mutex_lock(&queue->lock);

@@ -9,7 +9,7 @@
 
 #include <pthread.h>
 
-#define KD_LONG_FRAME ((size_t)16 << 20) /* larger frames, in bytes, occupy an encoder for some tenths of a second */
+#define KD_LONG_FRAME ((size_t)16 << 20) /* a frame of more bytes occupies an encoder for some tenths of a second */
 
 struct kd_render_list { struct kd_render_job *first, **end; };
 
@@ -45,14 +45,14 @@ struct kd_render_queue {
     unsigned limit, client_limit, unfinished;
     bool lost;
     struct kd_error lost_error;
-    bool hangs; /* a call into the driver hangs, so threads cannot be joined */
+    bool hangs; /* a call into the driver hangs, so its thread cannot be joined */
     /* failed: the device has failed, and is reopened once `inside` is 0; reopening: it is being reopened */
     bool failed, reopening;
     struct kd_error failure;       /* why the device failed */
     unsigned inside;               /* number of jobs that are using the renderer */
     unsigned reopenings, reopened; /* reopenings: limit within KD_REOPENINGS_S; reopened: number since the start */
-    unsigned spent;                /* number of reopenings in the present period, ... */
-    double spent_from_ms;          /* ... which began at this time */
+    unsigned spent;                /* number of reopenings in the period that began at spent_from_ms */
+    double spent_from_ms;          /* time at which the present period of reopenings began */
     bool compiles;                 /* the compiler thread runs */
     struct kd_shares missing;      /* fair queueing of compilations */
     /* compiling: kernels being compiled; compiled: kernels that are compiled but not yet passed to the renderer */
@@ -106,19 +106,19 @@ void kd_render_rest_if_idle(struct kd_render_queue *queue);
 /* rest.c: trims the heap at most once in rest_ms, while there is work. Called without the lock. */
 void kd_render_trim_if_due(struct kd_render_queue *queue);
 
-/* compile.c; called with the lock. The first two are called only while no other thread owns the device.
- * kd_render_ask_kernels looks for kernels that waiting jobs lack. kd_render_take_kernels passes compiled kernels to the
- * renderer. kd_render_has_kernels: whether a job lacks no kernel. kd_render_tell_kernels records in the job's frame how
- * long it waited for kernels. */
+/* Functions of compile.c, called with the lock. The first two are called only while no other thread owns the device.
+ * kd_render_ask_kernels looks for kernels that waiting jobs lack. kd_render_take_kernels passes compiled kernels to
+ * the renderer. kd_render_has_kernels: whether a job lacks no kernel. kd_render_tell_kernels records in the job's
+ * frame how long it waited for kernels. */
 void kd_render_ask_kernels(struct kd_render_queue *queue);
 void kd_render_take_kernels(struct kd_render_queue *queue);
 bool kd_render_has_kernels(const struct kd_render_queue *queue, const struct kd_render_job *job);
 void kd_render_tell_kernels(struct kd_render_job *job);
-/* The callback lacks of struct kd_renderer_params; its user is the queue. The owner of the device calls it, without the
- * lock. */
+/* The callback `lacks` of struct kd_renderer_params, whose user is the queue. The owner of the device calls it
+ * without the lock. */
 bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool background);
-/* Called after a job's turn. Returns whether the job starts again because kernels were missing. If so its result is
- * cleared. */
+/* Called after a job's turn. Returns whether the job starts again because kernels were missing. If so, the job's
+ * result is cleared. */
 bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
 /* called when the job leaves the queue */
 void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
@@ -127,20 +127,21 @@ void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilatio
 /* Main function of the compiler thread; the argument is the queue. Returns when the queue is closing. */
 void *kd_render_compile_main(void *queue);
 
-/* reopen.c. All functions but the first are called with the lock. */
+/* Functions of reopen.c. All but the first are called with the lock. */
 /* Records that the device has failed. Called without the lock. */
 void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *error);
-/* Called after a job's turn. Returns whether the job starts again because the device failed. If so its result is
- * cleared. */
+/* Called after a job's turn. Returns whether the job starts again because the device failed. If so, the job's result
+ * is cleared. */
 bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job);
 /* records that the device hangs and cannot be closed */
 void kd_render_hung(struct kd_render_queue *queue, const struct kd_error *error);
 /* Reopens a failed device if no job is inside the renderer; otherwise does nothing. Releases the lock while it
  * works. */
 void kd_render_reopen(struct kd_render_queue *queue);
-/* Removes a job from the list of those that want the device. Called with the lock. */
+/* Removes a job from the list of jobs that want the device. Called with the lock. */
 void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job);
-/* Calls done(), after which the job may be freed. Its connection must stay open until `unfinished` has decreased. */
+/* Calls done(), after which the job may be freed. The job's connection must stay open until `unfinished` has
+ * decreased. */
 void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* device_scheduler.c: if nobody owns the device, chooses the next owner. Called with the lock. */

@@ -13,7 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Ratio of rays along the side of a pixel at the critical curve to those along the side of any other pixel. */
+/* Number of rays along a side of a pixel at the critical curve, divided by the number along a side of any other
+ * pixel. */
 static unsigned critical_side(const struct kd_plan_lens *lens)
 {
     return lens->critical ? (unsigned)lround(sqrt(lens->critical)) / lens->side : 1;

@@ -25,13 +25,13 @@ struct kd_live_frame {
     unsigned revision;                        /* revision of the session's scene */
     double time;                              /* time of the scene, in M */
     double azimuth_deg;                       /* azimuth of the camera at that time */
-    bool final;                               /* no refinement will follow for this revision */
-    bool last;                                /* no other frame will follow either; such a frame is lossless only */
+    bool final;                               /* no refinement follows for this revision */
+    bool last;                                /* no other frame follows; such a frame is lossless only */
     struct kd_live_file files[KD_LIVE_FILES]; /* existing entries do not change */
     unsigned n_files;                         /* grows under the lock of sessions */
     struct kd_frame picture;                  /* pixels of the frame, unless it is the last */
     struct kd_buffer approximations;          /* text of the header Kerrd-Approximations */
-    /* hash of the approximations: clients that have that text are not sent it again */
+    /* hash of the approximations; a client that has this text is not sent it again */
     uint32_t sentences;
     struct kd_buffer event; /* data of the frame's event: JSON on one line */
     char accuracy[KD_ACCURACY_TEXT], timing[400], quality[200], clock[KD_CLOCK_TEXT], flux[KD_FLUX_TEXT];
@@ -41,7 +41,7 @@ struct kd_live_frame {
 struct kd_live_note {
     uint64_t number;
     unsigned revision;
-    bool final, last; /* final: no refinement will follow for this revision; last: no other frame will follow either */
+    bool final, last; /* final: no refinement follows for this revision; last: no other frame follows */
     double fps;       /* recent frame rate */
 };
 

@@ -122,7 +122,7 @@ static enum kd_status paint_once(struct kd_painter *painter, struct kd_painting 
     struct kd_frame frame = { 0 };
     struct kd_error *error = &work->error;
     enum kd_status status;
-    kd_buffer_finish(&work->png); /* bytes of a failed attempt */
+    kd_buffer_finish(&work->png); /* drops bytes of a failed attempt */
     KD_TRY(open_device(painter, error));
     kd_renderer_capacity(painter->renderer, &capacity);
     KD_TRY(kd_format_plan(kd_formats[0], &work->scene, &capacity, &plan, error));
@@ -135,12 +135,12 @@ done:
     kd_frame_finish(&frame);
     if (status == KD_EDEVICE && painter->renderer) {
         atomic_store(&painter->hangs, kd_renderer_hangs(painter->renderer));
-        close_device(painter); /* paint may reopen it */
+        close_device(painter); /* paint() may reopen the device */
     }
     return status;
 }
 
-/* Renders a picture; reopens a failed device once. */
+/* Renders a picture. If the device has failed, it is reopened once. */
 static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work)
 {
     enum kd_status status = paint_once(painter, work);
@@ -208,7 +208,7 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
         return kd_error_set(error, KD_ENOMEM, "out of memory for the renderer of small pictures");
     }
     *painter = (struct kd_painter) { .params = *params, .device_name = device_name, .kept_at = kept_at };
-    painter->params.prove = NULL; /* the render queue has tested the device already */
+    painter->params.prove = NULL; /* no test: the render queue has already tested the device */
     painter->params.asset_read = NULL;
     painter->params.passing = true;
     if (!params->memory_bytes || params->memory_bytes > KD_PAINTER_BYTES)

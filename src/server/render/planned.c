@@ -78,7 +78,7 @@ static struct kd_planned *outcome(struct kd_request *request, struct kd_planned 
         request->format = p->format;
         return p;
     }
-    if (!p->problem.detail) /* the request was given up between the steps */
+    if (!p->problem.detail) /* the client gave up the request between the two steps */
         p->problem = kd_problem_from(&p->task.error);
     *result = p->task.status == KD_ECANCELLED ? kd_reply_cancelled(request) : kd_reply_problem(request, &p->problem);
     return NULL;
@@ -93,7 +93,7 @@ struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *re
     if (!(p = kd_task_create(request, request->server->scheduler, &kind, result)))
         return NULL;
     if (request->body.size <= SMALL) {
-        /* Checks the limits here, so that a scene that is too large is refused without a worker. */
+        /* Checks the limits here, so that a scene that is too large is refused without using a worker. */
         if (!read_scene(p) || !make_plan(p, !few_pixels(&p->scene)) || few_pixels(&p->scene))
             return outcome(request, p, result);
     }

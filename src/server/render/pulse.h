@@ -10,14 +10,15 @@
 #include <stdatomic.h>
 #include <stdint.h>
 
-#define KD_DEADLINE_MS 60000u /* deadline of a submission, if none is set (vk/vk.h) */
+#define KD_DEADLINE_MS 60000u /* default deadline of a submission (vk/vk.h) */
 /* A thread counts as hanging after this many submission deadlines without a beat. Eight cover a submission on a busy
  * machine; one is added. */
 #define KD_PULSE_DEADLINES 9
 
 struct kd_pulse {
     _Atomic int64_t beat_ms; /* time of the last beat; 0: the thread is idle */
-    /* members of the observer: last beat seen, time of the last check, and how long the beat has not changed */
+    /* members of the observer: the last beat that it saw, the time of its last check, and for how long the beat has
+     * not changed */
     int64_t seen_ms, looked_ms, missing_ms;
 };
 

@@ -5,8 +5,8 @@
  *
  * http/shares.h chooses the next work, first by client, then by class. Short work owns the device until it is done. A
  * picture that is estimated to take longer than KD_MOMENT_MS, or that nobody waits for, runs in a lane: a thread with
- * its own buffers. It releases the device between slices of some 40 ms. A list of rays is divided by the code that
- * submits it (`more`). So a client waits for at most one slice, or one short work, of each client that has used the
+ * its own buffers. It releases the device between slices of some 40 ms. The code that submits a list of rays divides it
+ * into pieces (`more`). So a client waits for at most one slice, or one short work, of each client that has used the
  * device less.
  *
  * Each client has one lane for each class, and two more for pictures that take a few seconds at most. So no client can
@@ -43,7 +43,7 @@
 struct kd_render_queue;
 
 #define KD_ENCODERS 2      /* one of them takes only frames that encode quickly */
-#define KD_MOMENT_MS 100.0 /* work that takes the device no longer than this may make others wait */
+#define KD_MOMENT_MS 100.0 /* work that takes the device no longer than this may make others wait, in milliseconds */
 
 /* Stage of a job. A job in one of the last two stages has begun. */
 enum kd_render_stage {
@@ -56,21 +56,21 @@ enum kd_render_stage {
 enum kd_render_kernels { KD_KERNELS_UNKNOWN, KD_KERNELS_MISSING, KD_KERNELS_THERE };
 
 struct kd_render_job {
-    /* set by the submitter */
+    /* members set by the submitter */
     struct kd_claim claim; /* client and class for the scheduler; left_ms is set from the plan */
     struct kd_scene scene;
     struct kd_plan plan;
     const struct kd_format *format; /* format of the picture's file */
     enum kd_effort effort;
-    struct kd_blur blur;    /* samples 0, which is the default: no motion blur */
+    struct kd_blur blur;    /* motion blur; samples 0, the default: none */
     unsigned number, lossy; /* see struct kd_picture */
     char hash[65];          /* see struct kd_picture */
-    bool keeps;             /* keeps the frame's layers after it has been encoded */
-    /* NULL: the queue renders and encodes a picture. Otherwise it calls this function instead, when the job owns the
-     * device. If the function sets `more`, it is called again at the job's next turn. */
+    bool keeps;             /* the frame's layers are kept after it has been encoded */
+    /* NULL: the queue renders and encodes a picture. Otherwise the queue calls this function instead when the job
+     * owns the device. If the function sets `more`, it is called again at the job's next turn. */
     enum kd_status (*run)(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress,
                           void *progress_user);
-    /* requests the kernels of `run`; its user is the job. NULL: `run` has none that take long to compile */
+    /* requests the kernels of `run`, with the job as user; NULL: `run` needs no kernels that take long to compile */
     kd_kernels_ask_fn ask;
     bool more;
     /* The scene of a view that nobody is moving: afterwards the kernels that explain its pixels are compiled. NULL: no
@@ -80,7 +80,7 @@ struct kd_render_job {
     /* Preview of a picture that is rendered in slices; may be NULL. Its user is the job. Called by the owner of the
      * device. */
     const struct kd_preview_hook *preview;
-    _Atomic bool drop; /* set by other threads to cancel the job, which then ends with KD_ECANCELLED */
+    _Atomic bool drop; /* another thread sets this to cancel the job, which then ends with KD_ECANCELLED */
     int socket;        /* socket of the client; when the client disconnects the job is cancelled; -1: none */
     void (*rendered)(struct kd_render_job *job); /* may be NULL; called before encoding, by the owner of the device */
     void (*done)(struct kd_render_job *job);     /* called on a thread of the queue; may free the job */
@@ -89,8 +89,8 @@ struct kd_render_job {
     enum kd_status status;
     struct kd_error error;
     struct kd_buffer file;
-    struct kd_frame frame; /* it has its layers only if `keeps` is set */
-    /* queue_ms: time in which others owned the device, before the job began and between its slices */
+    struct kd_frame frame; /* has its layers only if `keeps` is set */
+    /* queue_ms: time during which others owned the device, before the job began and between its slices */
     double queue_ms, encode_ms;
     double used_ms; /* device time that the job has used */
     /* private to the queue */
@@ -98,27 +98,28 @@ struct kd_render_job {
     struct kd_render_queue *queue;
     enum kd_render_stage stage;
     enum kd_render_kernels kernels;
-    struct kd_compilation *compilation; /* kernels that the job lacks; they are being compiled, or wait to be */
-    /* Kernels that the job found missing after it had begun. It starts again when they are compiled. */
+    struct kd_compilation *compilation; /* kernels that the job lacks; they are being compiled, or wait to be
+                                         * compiled */
+    /* Kernels that were found missing after the job had begun. The job starts again when they are compiled. */
     struct kd_compilation *lacked;
     struct kd_compilation *ahead; /* kernels that explain the pixels of `settled` */
     unsigned lacks;               /* how often the job has found kernels missing */
-    struct kd_claim missing;      /* its claim in the fair queueing of compilations, while it lacks kernels */
+    struct kd_claim missing;      /* the job's claim in the fair queueing of compilations, while it lacks kernels */
     /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
     double kernels_ms, missing_ms;
     bool reads;                            /* an asset of its scene was not read yet when the job was submitted */
-    bool inside;                           /* it uses the renderer, or waits between two slices */
+    bool inside;                           /* the job uses the renderer, or waits between two slices */
     bool repeated;                         /* the device has failed once while this job owned it */
-    double submitted_ms, turn_ms, away_ms; /* turn_ms: start of its turn; away_ms: end of its last turn */
+    double submitted_ms, turn_ms, away_ms; /* turn_ms: start of its present turn; away_ms: end of its last turn */
 };
 
-#define KD_REOPENINGS 3       /* default limit of reopenings */
+#define KD_REOPENINGS 3       /* default number of times that a device may be reopened within KD_REOPENINGS_S */
 #define KD_REOPENINGS_S 600.0 /* window in which reopenings are counted */
 #define KD_REOPENINGS_NONE UINT_MAX
 
 /* Returns when the device is open, or with the error. client_limit: limit of waiting jobs of one client. client_s:
- * seconds of device time that a client may use in a minute; 0: no limit. reopenings: how often the device may be
- * reopened within KD_REOPENINGS_S; 0: KD_REOPENINGS; KD_REOPENINGS_NONE: never. */
+ * seconds of device time that a client may use in a minute; 0: no limit. reopenings: number of times that the device
+ * may be reopened within KD_REOPENINGS_S; 0 means KD_REOPENINGS, and KD_REOPENINGS_NONE means never. */
 enum kd_status kd_render_queue_create(const struct kd_renderer_params *params, unsigned limit, unsigned client_limit,
                                       unsigned client_s, unsigned reopenings, struct kd_render_queue **out,
                                       struct kd_error *error);
@@ -127,7 +128,7 @@ void kd_render_queue_destroy(struct kd_render_queue *queue);
 
 /* Sets the time without requests after which memory is freed (render/device/rest.h); default: a minute. Any thread. */
 void kd_render_queue_rest_after(struct kd_render_queue *queue, unsigned ms);
-/* Gets what the device of the queue can do (kd_renderer_capacity). Any thread. */
+/* Gets the capacity of the queue's device (kd_renderer_capacity). Any thread. */
 void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity *out);
 const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
 /* Calls kd_renderer_cache_file of the queue's renderer. */
@@ -145,17 +146,17 @@ bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error)
 /* Whether a job of this client may submit its next frame. Jobs leave half of the client's device time to interactive
  * requests. */
 bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client);
-/* Declares the device lost if its owner has not made progress for too long (pulse.h), for example in a driver call that
- * does not return. `another`: another device hangs, which has the same effect. Returns whether the device hangs;
- * waiting jobs may then never end. */
+/* Declares the device lost if its owner has not made progress for too long (pulse.h), for example in a driver call
+ * that does not return. `another`: another device hangs, which has the same effect. Returns whether a device hangs;
+ * if so, waiting jobs may never end. */
 bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another);
 unsigned kd_render_queue_reopened(struct kd_render_queue *queue); /* number of reopenings since the start */
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
-/* Estimates, from earlier compilations, how long the kernels that a picture lacks take to compile. 0: none are missing,
- * or it is not known because the device is in use. Any thread. */
+/* Estimates how long the kernels that a picture lacks take to compile, from earlier compilations. Returns 0 if none
+ * are missing, or if that is unknown because the device is in use. Any thread. */
 double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd_scene *scene,
                                   const struct kd_plan *plan);
-/* Estimated time of all work that clients wait for, without frames of sessions and jobs. */
+/* Estimated time of all work that clients wait for, excluding frames of sessions and jobs. */
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 
 /* Whether this client may begin new work. Returns KD_EBUSY if its work has used, or is estimated to use, all its device

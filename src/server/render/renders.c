@@ -21,7 +21,8 @@ static const char *type_of(size_t i, const void *formats)
     return ((const struct kd_format *const *)formats)[i]->media_type;
 }
 
-/* The formats that may answer a request: all, or if a quality is given those that have one. */
+/* The formats in which a request may be answered. If the query has a quality, only formats with a quality are
+ * offered. */
 struct offer {
     const struct kd_format *formats[KD_FORMATS_MAX];
     size_t n;
@@ -142,10 +143,10 @@ done:
 #define DAY_S 86400u
 enum { CACHING = 60 };
 
-/* Writes Cache-Control. Pictures of shared links may be cached publicly, unless the server requires access tokens.
- * A picture whose address names this version changes only with the device, within its stated error. Scenes that
- * name an asset are an exception, because the asset's name may later belong to another file. No cache keeps a
- * picture for longer than its signed link is valid. */
+/* Writes Cache-Control. Pictures of shared links may be cached publicly, unless the server requires access tokens. A
+ * picture whose address names this version may be cached for long: it can change only with the device, and only
+ * within its stated error. Scenes that name an asset are an exception, because the asset's name may later belong to
+ * another file. No cache keeps a picture for longer than its signed link is valid. */
 static void caching(const struct kd_request *request, const struct kd_scene *scene, char out[CACHING])
 {
     struct kd_error ignored;
@@ -167,7 +168,7 @@ static void caching(const struct kd_request *request, const struct kd_scene *sce
         snprintf(out, CACHING, "private, no-cache");
 }
 
-/* Adds the headers that answers with 200, with 304 and to HEAD have in common. report: zeros if nothing is rendered. */
+/* Adds the headers that 200, 304 and the answer to HEAD have in common. report: zeros if nothing is rendered. */
 static struct MHD_Response *describe(struct kd_request *request, struct MHD_Response *response,
                                      const struct kd_scene *scene, const struct kd_plan *plan,
                                      const struct kd_accuracy_report *report)
@@ -272,12 +273,13 @@ static enum MHD_Result deliver(struct kd_request *request)
 static void wake(struct kd_render_job *job)
 {
     struct kd_request *request = job->user;
-    if (request->link.on) /* before the client gets the picture and may request the next, or if it has left */
+    if (request->link.on) /* charged before the client gets the picture and may request the next one, and also if the
+                           * client has disconnected */
         kd_link_charge(request->server->links, &request->link, job->used_ms, (uint64_t)time(NULL));
     MHD_resume_connection(request->mhd);
 }
 
-/* Estimated seconds until the work that is accepted already is done. */
+/* Estimated seconds until all accepted work is done. */
 static unsigned retry_after(struct kd_server *server)
 {
     double s = ceil(kd_render_queue_backlog_ms(server->renders) * 1e-3);
@@ -304,7 +306,7 @@ static bool admitted(struct kd_request *request, const struct kd_plan_cost *cost
     bool quota;
     enum kd_status status;
     KD_TRY(kd_render_queue_admit(server->renders, request->client, &quota, error));
-    /* The size is known only after encoding; it is smaller than that of the pixels. */
+    /* The size is known only after encoding. The encoded picture is smaller than its pixels. */
     if (kd_bytes_take(server->replies, request->client, 0, cost->host_bytes, &quota))
         KD_TRY(kd_error_set(error, KD_EBUSY,
                             quota ? "too many bytes of your pictures are waiting to be read (limit for one client)"
@@ -337,8 +339,8 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_planne
     job->done = wake;
     job->user = request;
     request->job = job;
-    /* Suspended first, because the job may be done before push returns. A suspended request and its socket outlive the
-     * job. */
+    /* The request is suspended first, because the job may be done before push returns. A suspended request and its
+     * socket outlive the job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(request->server->renders, job);
     return MHD_YES;
@@ -361,7 +363,7 @@ static enum kd_status tag(struct kd_request *request, struct kd_planned *planned
     return status;
 }
 
-/* Sets the plan's pixel to the one that the query names. */
+/* Sets the plan's pixel to the pixel that the query names. */
 static enum kd_status name_pixel(const struct kd_request *request, struct kd_plan *plan, struct kd_error *error)
 {
     const char *at = kd_target_value(&request->target, "at"), *trace = kd_target_value(&request->target, "trace");
@@ -371,7 +373,7 @@ static enum kd_status name_pixel(const struct kd_request *request, struct kd_pla
     return status || !trace ? status : kd_explain_trace(trace, plan, error);
 }
 
-/* Reduces the picture to the pixel, where possible. */
+/* Reduces the picture to that pixel, if possible. */
 static enum kd_status narrow(const struct kd_request *request, struct kd_planned *planned, struct kd_error *error)
 {
     struct kd_capacity capacity;

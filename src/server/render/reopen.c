@@ -4,7 +4,7 @@
 
 #include <time.h>
 
-#define TRIES 4      /* number of attempts, because a driver that resets its device needs a moment */
+#define TRIES 4      /* number of attempts; several, because a driver that resets its device needs a moment */
 #define TRY_MS 100.0 /* pause after the first attempt; each further pause is twice as long */
 
 /* Declares the device lost. Called with the lock. */
@@ -72,7 +72,7 @@ void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *erro
     pthread_mutex_unlock(&queue->lock);
 }
 
-/* A job that was only interrupted by another job's failure has ended with KD_ECANCELLED. It does not count as having
+/* A job that was interrupted by another job's failure has ended with KD_ECANCELLED. It does not count as having
  * failed. */
 bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job)
 {

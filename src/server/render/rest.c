@@ -1,4 +1,4 @@
-/* Frees the renderer's cached memory after some time without requests, and trims the heap, even under load. */
+/* Frees the renderer's cached memory after some time without requests. Also trims the heap, even under load. */
 #include "render/device/rest.h"
 
 #include "base/allocator.h"
@@ -38,8 +38,8 @@ void kd_render_rest_if_idle(struct kd_render_queue *queue)
     kd_render_queue_push_locked(queue, &queue->rest);
 }
 
-/* Under load the renderer keeps its caches. But drivers free much of the memory in which they compile kernels: a sixth
- * of the resident memory after ten minutes (bench/soak.py). */
+/* Under load the renderer keeps its caches. But drivers free much of the memory that they used to compile kernels;
+ * after ten minutes that was a sixth of the resident memory (bench/soak.py). */
 void kd_render_trim_if_due(struct kd_render_queue *queue)
 {
     const double now = kd_clock_ms();

@@ -43,7 +43,7 @@ enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields,
     struct {
         const struct kd_row *row;
         size_t index;
-    } at[KD_TARGET_PAIRS]; /* row NULL: the name is no field */
+    } at[KD_TARGET_PAIRS]; /* row NULL: the name is not a field */
     char pointer[sizeof error->pointer];
     for (size_t i = 0; i < target->n_pairs; i++) {
         const char *name = target->pairs[i].name;

@@ -14,8 +14,8 @@ static inline int32_t kd_shared_height(int32_t width)
     return (width * KD_SHARED_HEIGHT + KD_SHARED_WIDTH / 2) / KD_SHARED_WIDTH;
 }
 
-/* Decodes and validates a scene. Returns false with *problem filled; its texts are in *error. 404: the code is
- * malformed; 422: the scene is not valid or uses an asset. */
+/* Decodes and validates a scene. Returns false with *problem filled; its texts are in *error. The status is 404 if
+ * the code is malformed, and 422 if the scene is not valid or uses an asset. */
 bool kd_shared_read(const char *code, struct kd_scene *scene, struct kd_problem *problem, struct kd_error *error);
 
 /* Builds the scene of a preview picture from the request's path and the width in its query. */

@@ -20,7 +20,7 @@ struct kd_task_kind {
     enum kd_slice_result (*work)(struct kd_task *task, double until_ms); /* runs one slice on a worker */
     void (*finish)(struct kd_task *task);                                /* frees members of the struct; may be NULL */
     void (*last)(struct kd_task *task); /* runs on a worker after the last slice; may be NULL */
-    /* Runs on the HTTP thread. For handlers with several kinds of tasks, else NULL. */
+    /* Used by handlers with several kinds of tasks to answer the request; else NULL. Runs on the HTTP thread. */
     enum MHD_Result (*answer)(struct kd_request *request);
 };
 
@@ -32,15 +32,16 @@ struct kd_task {
     size_t held; /* bytes reserved by kd_task_hold; they are released with the task */
     bool quota;  /* the limit that caused KD_EBUSY is the client's share */
     double submitted_ms, begun_ms, done_ms, deadline_ms;
-    _Atomic enum kd_status status; /* KD_ECANCELLED: the handler answers with kd_reply_cancelled */
+    _Atomic enum kd_status status; /* KD_ECANCELLED: the handler must answer with kd_reply_cancelled */
     struct kd_error error;
 };
 
-/* Makes a task if the queue admits one. Returns NULL with *refused if it does not. Members of the struct behind the
- * task are zero. HTTP thread. */
+/* Makes a task if the queue admits one; otherwise returns NULL with *refused. Members of the struct behind the task
+ * are zero. HTTP thread. */
 void *kd_task_begin(struct kd_request *request, struct kd_scheduler *queue, const struct kd_task_kind *kind,
                     enum MHD_Result *refused);
-/* Makes a task that is not admitted yet. If it turns out to take long, it calls kd_task_admit later. HTTP thread. */
+/* Makes a task that is not admitted yet. The caller calls kd_task_admit later, if the task turns out to take long.
+ * HTTP thread. */
 void *kd_task_create(struct kd_request *request, struct kd_scheduler *queue, const struct kd_task_kind *kind,
                      enum MHD_Result *refused);
 void kd_task_destroy(struct kd_task *task); /* accepts NULL */
@@ -53,12 +54,12 @@ bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const
 /* Starts an admitted task. HTTP thread. */
 enum MHD_Result kd_task_submit(struct kd_task *task);
 
-/* Whether a task must end. Returns the reason if the client is `gone`, the server is stopping, or the deadline has
- * passed; else KD_OK. Any thread. */
+/* Returns the reason for which a task must end: the client is `gone`, the server is stopping, or the deadline has
+ * passed. Returns KD_OK if there is none. Any thread. */
 enum kd_status kd_task_over(struct kd_server *server, struct kd_scheduler *queue, bool gone, double deadline_ms,
                             struct kd_error *error);
-/* Reserves bytes of an answer in server->replies. The owner of *held releases them. Returns KD_EBUSY at a limit; *quota
- * is true if that is the client's share. Any thread. */
+/* Reserves bytes of an answer in server->replies. The owner of *held releases them. Returns KD_EBUSY at a limit;
+ * *quota is true if that limit is the client's share. Any thread. */
 enum kd_status kd_task_hold(struct kd_server *server, const char *client, size_t bytes, size_t *held, bool *quota,
                             struct kd_error *error);
 /* Frees the request's body. Safe on a worker, because a suspended request has no other user. */

@@ -17,7 +17,7 @@ struct thumbnail {
     struct kd_painting painting; /* must be the first member; png is immutable once `there` is set */
     char etag[120];
     struct kd_error error;      /* error of the latest attempt */
-    bool there, busy;           /* busy: the painter owns it, and no other thread may read it */
+    bool there, busy;           /* busy: the painter owns the thumbnail, and no other thread may read it */
     struct kd_request *waiting; /* suspended requests, the newest first */
     struct kd_thumbnails *of;
 };
@@ -28,7 +28,7 @@ struct kd_thumbnails {
     pthread_mutex_t lock;
     unsigned rendered;
     size_t n;
-    struct thumbnail *all; /* one for each preset, in the order of the presets */
+    struct thumbnail *all; /* one thumbnail for each preset, in the order of the presets */
 };
 
 static void done(struct kd_painting *painting);
@@ -116,7 +116,7 @@ static void resume(struct kd_request *waiting)
     }
 }
 
-/* Does not wait for the painter, which may first have to finish the compilation of a kernel. */
+/* Does not wait for the painter, because the painter may first have to finish compiling a kernel. */
 void kd_thumbnails_cancel(struct kd_thumbnails *s)
 {
     kd_painter_cancel(s->painter);
@@ -128,7 +128,7 @@ void kd_thumbnails_cancel(struct kd_thumbnails *s)
     }
 }
 
-/* Called when a thumbnail is rendered or has failed; on the painter's thread. */
+/* Called on the painter's thread when a thumbnail is rendered or has failed. */
 static void done(struct kd_painting *painting)
 {
     struct thumbnail *t = (struct thumbnail *)painting;
@@ -172,8 +172,8 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     return kd_reply_error(request, error);
 }
 
-/* If the thumbnail is there or rendering has just failed, answers at once. Otherwise suspends the request until it is
- * there. */
+/* Answers at once if the thumbnail is ready or rendering has just failed. Otherwise suspends the request until it is
+ * ready. */
 static enum MHD_Result give(struct kd_request *request, struct kd_thumbnails *s, struct thumbnail *t)
 {
     pthread_mutex_lock(&s->lock);
@@ -208,7 +208,7 @@ enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
     if (!t) {
         struct kd_scene scene;
         struct kd_error error = { 0 };
-        kd_scene_preset(&scene, request->rest, &error); /* fails; its message lists the presets */
+        kd_scene_preset(&scene, request->rest, &error); /* called only for its error, whose message lists the presets */
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
     }

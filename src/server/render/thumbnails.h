@@ -11,13 +11,13 @@ enum { KD_THUMBNAIL_WIDTH = 192, KD_THUMBNAIL_HEIGHT = 120 };
 
 struct kd_thumbnails;
 
-/* The server outlives the thumbnails; its queue and its etag_tail must exist already. renderer: parameters of the
- * queue's device. */
+/* The thumbnails use the server, its queue and its etag_tail; these must already exist and must outlive them.
+ * renderer: parameters of the queue's device. */
 enum kd_status kd_thumbnails_create(struct kd_server *server, const struct kd_renderer_params *renderer,
                                     struct kd_thumbnails **out, struct kd_error *error);
-/* For shutdown: stops rendering, and resumes waiting requests, which are then refused. Any thread. */
+/* For shutdown: stops rendering, and resumes waiting requests, which the handler then refuses. Any thread. */
 void kd_thumbnails_cancel(struct kd_thumbnails *thumbnails);
-/* Like kd_painter_hangs. Any thread. */
+/* Calls kd_painter_hangs. Any thread. */
 bool kd_thumbnails_hang(struct kd_thumbnails *thumbnails);
 /* Accepts NULL. */
 void kd_thumbnails_destroy(struct kd_thumbnails *thumbnails);

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The same times as in the governor, which uses them to tell one drag from the next. */
+/* The governor uses the same times to tell one drag from the next. */
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
 
 void kd_budget_enter(struct kd_budget *budget, struct kd_budget_entry *entry)
@@ -73,7 +73,7 @@ static void look(struct kd_budget *budget, double now)
     }
 }
 
-/* Demand that competes with the entry's: that of another client, or that of another session of the same client. */
+/* Demand that competes with the entry's: the demand of another client, or of another session of the same client. */
 static double rival(const struct kd_budget_entry *entry, const struct kd_budget_entry *other, bool clients)
 {
     if (clients)
@@ -81,9 +81,9 @@ static double rival(const struct kd_budget_entry *entry, const struct kd_budget_
     return other != entry && same_client(entry, other) ? other->demand : 0;
 }
 
-/* Computes the max-min fair level of `whole`: the level, plus what each rival gets up to that level, makes `whole`. The
- * iteration starts from rivals that demand everything. The level only rises, because rivals with a smaller demand drop
- * out. So it ends after at most one round for each rival. */
+/* Computes the max-min fair level of `whole`: the level plus what all rivals get, each at most the level, makes
+ * `whole`. The iteration first assumes that all rivals demand everything. The level then only rises, because rivals
+ * with a smaller demand drop out. So it ends after at most one round for each rival. */
 static double fill(const struct kd_budget *budget, const struct kd_budget_entry *entry, bool clients, double whole)
 {
     for (double level = 0, next;; level = next) {

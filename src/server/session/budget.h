@@ -4,14 +4,14 @@
  *
  * Shares and demands are milliseconds of the device for each millisecond of the clock, 0 to 1. A session's demand is
  * the share that it would use if it were alone: the device time of a frame, divided by the sum of that time and the
- * pause after the frame. The pause lasts until the next frame is requested. Time spent waiting for others is in neither
- * term, so that waiting changes no demand. The demand is computed from the mean cost of the last eight frames and the
- * smallest of the last eight pauses. So a single slow frame or late request changes little, and when a user begins
- * another drag, the demand is known from the second frame on.
+ * pause after the frame. The pause lasts until the next frame is requested. Neither term includes the time spent
+ * waiting for others, so waiting does not change the demand. The demand is computed from the mean cost of the last
+ * eight frames and the smallest of the last eight pauses. So a single slow frame or late request changes little, and
+ * when a user begins another drag, the demand is known from the second frame on.
  *
  * A session that has not requested a frame for its hold time demands nothing. The hold time is 400 ms. After a longer
- * pause it becomes twice that pause, at most 2 s. Otherwise, whenever a user's hand rests within a drag, the session's
- * share would be lent to others and taken back. Sessions that are only watched or refined demand nothing.
+ * pause it becomes twice that pause, at most 2 s. Without a hold time the session's share would go to others, and come
+ * back, whenever a user's hand rests within a drag. Sessions that are only watched or refined demand nothing.
  *
  * The time is divided as in shares.h, first among clients, then among the sessions of each. The division is max-min
  * fair (Bertsekas & Gallager, Data Networks, 1992, 6.5.2): those with a small demand get their demand, and the others
@@ -34,11 +34,11 @@ enum { KD_BUDGET_FRAMES = 8 };
 
 /* One session's entry in the budget, embedded in the session. Set client, and initialise the other members to 0. */
 struct kd_budget_entry {
-    char client[KD_CLIENT]; /* the client in the claims of its frames */
+    char client[KD_CLIENT]; /* the client named in the claims of its frames */
     /* private to the budget */
     double costs[KD_BUDGET_FRAMES], pauses[KD_BUDGET_FRAMES];
     unsigned n_costs, n_pauses;
-    double ended_ms, hold_ms; /* ended_ms: when the latest frame left the device; hold_ms: hold time */
+    double ended_ms, hold_ms; /* ended_ms: time at which the latest frame left the device; hold_ms: hold time */
     bool asks;                /* a frame is queued or being rendered */
     /* Computed in each call. of_client: sum of demands over all sessions of a client, in the client's first entry; 0 in
      * its other entries. */
@@ -53,8 +53,8 @@ void kd_budget_enter(struct kd_budget *budget, struct kd_budget_entry *entry);
 void kd_budget_leave(struct kd_budget *budget, struct kd_budget_entry *entry);
 
 void kd_budget_ask(struct kd_budget_entry *entry, double now);
-/* Records that the frame has left the device. ms: device time that it used; 0: the frame was abandoned, and is no
- * measurement. */
+/* Records that the frame has left the device. ms: device time that it used; 0: the frame was abandoned, so its time
+ * is not counted. */
 void kd_budget_end(struct kd_budget_entry *entry, double now, double ms);
 
 /* Estimates the session's demand, 0 to 1. It is 0 until the second frame is requested. */

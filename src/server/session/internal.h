@@ -22,26 +22,27 @@ struct kd_session {
     struct kd_timeline path; /* path that the session has followed since since_ms; without keyframes: no path */
     struct kd_scene on_path; /* latest valid scene on the path */
     struct kd_dynamic_bodies *dynamic; /* bodies of a playground that are shown in the scene; NULL: none, or none yet */
-    /* crowded: the session shows such bodies; dynamic_moved: they differ from those in the latest frame */
+    /* crowded: the session shows bodies of a playground; dynamic_moved: they differ from those in the latest frame */
     bool crowded, dynamic_moved;
     double since_ms, used_ms;
-    char lens_key[65]; /* key of the full scene, before quality is reduced */
+    char lens_key[65]; /* key of the full scene, before its quality is reduced */
     struct kd_governor governor;
     struct kd_budget_entry demand; /* the session's entry in the budget, while the session is listed */
     unsigned revision;             /* revision of the scene */
-    double patched_ms;             /* time of the last patch, or of creation */
-    uint64_t order;                /* order of the latest patch that had one */
+    double patched_ms;             /* time of the last patch; before the first patch, of the creation */
+    uint64_t order;                /* order of the latest patch that had an order */
     uint64_t begun;                /* number of frames begun */
-    bool moved;                    /* in the latest frame the scene moved by itself */
+    bool moved;                    /* in the latest frame something in the scene moved by itself */
     bool flew;                     /* in the latest frame the camera moved by itself as well */
     bool listed;
     struct kd_session_frame *rendering; /* frame that is not rendered yet */
     unsigned encoding;
     bool adding; /* the latest frame is being encoded in a further format */
     struct kd_live_frame *latest;
-    double exposed_ms, exposure; /* when the latest frame was rendered, and its exposure in stops */
+    double exposed_ms, exposure; /* exposed_ms: time at which the latest frame was rendered; exposure: of that frame,
+                                  * in stops */
     unsigned exposed_revision;   /* revision of the scene in that frame; 0: there is no such frame */
-    /* shown_ms: when the latest frame was published; interval_ms: smoothed interval between frames */
+    /* shown_ms: time at which the latest frame was published; interval_ms: smoothed interval between frames */
     double shown_ms, interval_ms;
     enum kd_status failed; /* status of the latest render, with `error`; a patch clears it */
     struct kd_error error;
@@ -67,25 +68,26 @@ void kd_session_unlist(struct kd_session *session);
 /* Computes the scene at a time, with its own motion or on its path. Fails if the scene there is not valid. */
 enum kd_status kd_session_scene(const struct kd_session *session, double now, struct kd_scene *out,
                                 struct kd_error *error);
-/* whether it follows a path that has not ended */
+/* whether the session follows a path that has not ended */
 bool kd_session_on_its_way(const struct kd_session *session, double now);
 
 /* Begins a frame if a viewer waits, the picture would differ, and the queue has room. In run.c. */
 void kd_session_pump(struct kd_session *session);
 /* Sets the expected cost of frames to that of the plan, until a frame has been measured. */
 void kd_session_expect(struct kd_session *session, const struct kd_plan_cost *cost);
-/* Tells the governor a scene, with what of a playground is shown in it. Called with the lock. */
+/* Passes a scene to the governor, with the bodies of a playground that are shown in it. Called with the lock. */
 void kd_session_govern(struct kd_session *session, double now, const struct kd_scene *scene, bool lens);
-/* Cancels the frame that is being rendered if it is a refinement: it would take long and is obsolete. */
+/* Cancels the frame that is being rendered if it is a refinement, because a refinement takes long and is now
+ * obsolete. */
 void kd_session_drop_refinement(struct kd_session *session);
 void kd_session_drop(struct kd_session *session); /* cancels the frame that is being rendered, if any */
 
-/* Whether a viewer waits. Also true before the first frame, which is made in advance. In watch.c. */
+/* Whether a viewer waits. Also true before the first frame, which is made before anybody requests it. In watch.c. */
 bool kd_session_awaited(const struct kd_session *session);
 void kd_session_wake(struct kd_session *session); /* resumes viewers that have news */
 
-/* The functions below are in kinds.c and deal with encodings of a frame. This one sets the encoding in which the frame
- * is encoded first, by the viewers that wait. */
+/* The functions below are in kinds.c and deal with encodings of a frame. This one chooses the first encoding of the
+ * frame, from what the waiting viewers accept. */
 void kd_session_choose_kind(const struct kd_session *session, bool last, struct kd_render_job *job);
 /* Returns the frame's file in the encoding that the viewer wants; NULL: it is not encoded yet. */
 const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame);

@@ -1,10 +1,11 @@
 /* Encodings of live frames. A frame is encoded only as viewers request it. The renderer's encoder makes the first
- * encoding; others are made later, when a viewer waits for them. */
+ * encoding; others are made when a viewer waits for them. */
 #include "server/session/internal.h"
 
 #include <stdlib.h>
 
-#define PIXELS_MS 1000.0 /* time after which the latest frame's pixels are freed; later requests get the next frame */
+/* time after which the latest frame's pixels are freed; later requests for another encoding get the next frame */
+#define PIXELS_MS 1000.0
 
 struct added {
     struct kd_render_job job; /* must be the first member: the queue stores a pointer to it */
@@ -22,7 +23,8 @@ static void set_kind(struct kd_render_job *job, unsigned lossy)
     job->lossy = lossy;
 }
 
-/* The last frame is always encoded without loss first: later viewers get it when its pixels are gone. */
+/* The last frame is always encoded without loss first, because viewers that come when its pixels are freed get this
+ * file. */
 void kd_session_choose_kind(const struct kd_session *s, bool last, struct kd_render_job *job)
 {
     const struct kd_viewer *first = NULL;
@@ -42,8 +44,8 @@ static const struct kd_live_file *file_of(const struct kd_live_frame *frame, uns
         if (lossy && file->lossy && (!near || abs((int)(file->lossy - lossy)) < abs((int)(near->lossy - lossy))))
             near = file;
     }
-    /* The last slot is reserved for the lossless encoding. When the others are in use, the nearest quality is sent; the
-     * answer says which. */
+    /* The last slot is reserved for the lossless encoding. When the others are in use, the viewer gets the nearest
+     * quality, and the answer says which. */
     unsigned lossy_ones = 0;
     for (unsigned i = 0; i < frame->n_files; i++)
         lossy_ones += frame->files[i].lossy > 0;
@@ -64,8 +66,8 @@ void kd_session_forget_pixels(struct kd_session *s, double now)
 }
 
 /* Sends a frame in an encoding that was finished only after a newer frame had been published. Viewers that waited
- * for the older frame in this encoding still get it. If encoding takes longer than a frame, they would otherwise
- * never get any. */
+ * for the older frame in this encoding still get it. Otherwise they would never get a frame if encoding takes longer
+ * than a frame lasts. */
 static void hand_out(struct kd_session *s, struct kd_live_frame *frame, unsigned lossy)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
@@ -113,7 +115,7 @@ static void add(struct kd_session *s, unsigned lossy)
     added->job = (struct kd_render_job) {
         .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done
     };
-    added->job.frame = s->latest->picture; /* the frame still owns the pixels */
+    added->job.frame = s->latest->picture; /* the frame still owns these pixels */
     added->job.plan.cost.host_bytes = (uint64_t)3 * added->job.frame.width * added->job.frame.height;
     set_kind(&added->job, lossy);
     s->adding = true;

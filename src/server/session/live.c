@@ -13,8 +13,9 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define HEARTBEAT_MS 15000.0    /* interval of comments in an event stream */
-#define UNSENT_BYTES (64 << 10) /* limit of unsent bytes in the kernel: more would delay frames */
+#define HEARTBEAT_MS 15000.0 /* interval of comments in an event stream */
+/* limit of unsent bytes in the kernel, because bytes that wait there delay newer frames */
+#define UNSENT_BYTES (64 << 10)
 
 static enum MHD_Result ended(struct kd_request *request)
 {
@@ -59,8 +60,8 @@ static void describe_file(struct MHD_Response *response, const struct kd_live_fr
     MHD_add_response_header(response, "Content-Type", file->format->media_type);
 }
 
-/* Adds headers about the request: the revision that it made, and how long it waited in the server, from which the
- * client can compute the network's delay. */
+/* Adds headers about the request: the revision that it made, and how long it waited in the server. From the latter
+ * the client can compute the network's delay. */
 static void tell_request(struct MHD_Response *response, const struct kd_viewer *viewer)
 {
     char number[24];
@@ -265,7 +266,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     case KD_VIEWER_FRAME: frame_parts(s, frame); return (ssize_t)take(s, to, size);
     case KD_VIEWER_OVER: return MHD_CONTENT_READER_END_OF_STREAM;
     case KD_VIEWER_GONE: return MHD_CONTENT_READER_END_WITH_ERROR;
-    case KD_VIEWER_LATE: /* time for a heartbeat, which also detects clients that have vanished */
+    case KD_VIEWER_LATE: /* sends a heartbeat, whose failure also reveals clients that have vanished */
         s->viewer.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         memcpy(to, ":\n\n", 3);
         return 3;
@@ -300,7 +301,8 @@ static enum MHD_Result start_stream(struct kd_request *request, struct stream *s
     return result;
 }
 
-/* The number in Last-Event-ID, which an EventSource sends when it reconnects; 0 if no frame has had that number. */
+/* The number in Last-Event-ID, which an EventSource sends when it reconnects. Returns 0 if no frame of this session
+ * had that number. */
 static uint64_t last_event(struct kd_request *request, struct kd_session *session)
 {
     const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");

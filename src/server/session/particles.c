@@ -160,8 +160,8 @@ static enum MHD_Result submit(struct kd_request *request)
     };
     memcpy(job->device.claim.client, request->client, sizeof request->client);
     job->device.plan.cost.estimate_ms = (double)job->list.n * capacity.ns[KD_NS_PARTICLE] * 1e-6;
-    /* Suspended first, because the job may be done before push returns. A suspended request and its socket outlive the
-     * job. */
+    /* The request is suspended first, because the job may be done before push returns. A suspended request and its
+     * socket outlive the job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(server->renders, &job->device);
     return MHD_YES;

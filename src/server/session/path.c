@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define PATH_VALUES 50000
-/* number of positions on the path that are checked; each takes up to a quarter of a millisecond */
+/* number of positions on the path that are checked; each check takes up to a quarter of a millisecond */
 #define PATH_LOOKS 30
 
 struct path_request { struct kd_timeline_items items; };
@@ -91,8 +91,8 @@ static enum kd_status read_whole(struct path_task *p, struct kd_error *error)
     return status;
 }
 
-/* Checks the scene at one position of the path. Each frame is planned again, so a scene that is not valid between two
- * positions is found later. */
+/* Checks the scene at one position of the path. A scene that is not valid between two such positions is found later,
+ * because each frame is planned again. */
 static enum kd_status look(struct path_task *p, struct kd_error *error)
 {
     struct kd_capacity capacity;

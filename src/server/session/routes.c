@@ -61,9 +61,9 @@ done:
     return status;
 }
 
-/* Writes {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}. Optional members: "path" if
- * there is a path; "rendering" or "refining" while a frame is being made; "clock" in free fall; the token for the
- * client that has just created the session. */
+/* Writes {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}. Optional members: "path"
+ * if there is a path; "rendering" or "refining" while a frame is being made; "clock" in free fall; "token" if the
+ * client has just created the session. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token,
                               struct kd_buffer *out)
 {
@@ -151,7 +151,7 @@ static enum kd_status read_number(const struct kd_request *request, const char *
     return KD_OK;
 }
 
-/* Parses the limits of quality reduction in the query. *said: whether it has at least one. */
+/* Parses the limits of quality reduction in the query. *said: whether the query has at least one of them. */
 static enum kd_status read_pace(const struct kd_request *request, struct kd_session_pace *pace, bool *said,
                                 struct kd_error *error)
 {
@@ -223,7 +223,7 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     kd_session_promise(session, &request->once);
     kd_session_state(session, &state);
     result = answer_created(request, session, &state);
-    /* The client does not know the session, and without a key cannot request it again. */
+    /* the client does not know the session, and cannot request it again because it sent no key */
     if (request->status != MHD_HTTP_CREATED && !*request->once.key)
         kd_session_end(session);
     kd_session_release(session);
@@ -249,7 +249,7 @@ static enum kd_status read_order(const struct kd_request *request, uint64_t *ord
     return KD_OK;
 }
 
-/* Whether the request has "Prefer: return=minimal" (RFC 7240), so that the client does not need the scene. */
+/* Whether the request has "Prefer: return=minimal" (RFC 7240), which asks for an answer without the scene. */
 static bool prefers_little(struct kd_request *request)
 {
     struct kd_buffer prefer = kd_reply_header_list(request, "Prefer");
@@ -363,8 +363,8 @@ static enum kd_status ring(struct kd_scene *scene, const void *to, struct kd_err
     return KD_OK;
 }
 
-/* Parses {"amplitude": x}, {} or an empty body. If the member is absent *amplitude is unchanged. Returns KD_EINVAL
- * without a pointer if the body is no JSON object. */
+/* Parses {"amplitude": x}, {} or an empty body. If the member is absent, *amplitude is unchanged. If the body is not
+ * a JSON object, returns KD_EINVAL without a pointer. */
 static enum kd_status read_strike(const struct kd_buffer *body, double *amplitude, struct kd_error *error)
 {
     static const struct kd_row row = { .name = "amplitude", .kind = KD_KIND_REAL, .most = 1 };

@@ -8,10 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EXPOSURE_MS 2000.0 /* time constant of auto exposure: within this time it follows 63 % of a change */
-#define IDLE_MS 5e3        /* after this time without a change by the user, other work of the client goes first */
-#define SURE 0.02          /* fraction of a picture that must be done before the remaining time is estimated */
-/* Limit of a session's frames that are rendered but not encoded. One can be traced while another is encoded. */
+/* time constant of auto exposure: the exposure follows 63 % of a change within this time */
+#define EXPOSURE_MS 2000.0
+#define IDLE_MS 5e3 /* after this time without a change by the user, the client's other work goes first */
+#define SURE 0.02   /* fraction of a picture that must be done before the remaining time is estimated */
+/* limit of a session's frames that are rendered but not encoded: one frame can be traced while another is encoded */
 #define ENCODING_MAX 2
 
 struct kd_session_frame {
@@ -115,7 +116,7 @@ void kd_session_pump(struct kd_session *s)
         kd_session_govern(s, now, &scene, flies || s->flew);
     const struct kd_frame_decision decision = kd_governor_decide(&s->governor, now);
     if (decision.wait_ms > 0)
-        return; /* the regular check of sessions calls this again */
+        return; /* the regular check of sessions calls this function again */
     struct kd_session_frame *live = make_frame(s, &scene, &decision, now, &error);
     if (!live) {
         fail(s, &error);
@@ -217,7 +218,7 @@ struct kd_session_progress kd_session_progress_of(const struct kd_session *s, do
     };
 }
 
-/* Called on the render thread, without the lock. The next frame may be traced while this one is encoded. */
+/* Called on the render thread, without the lock. The next frame may be traced while this frame is encoded. */
 static void rendered(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;

@@ -69,7 +69,7 @@ enum kd_status kd_session_scene(const struct kd_session *s, double now, struct k
     return status;
 }
 
-/* Returns the present scene; if the path's scene is not valid now, the latest valid one. */
+/* Returns the present scene. If the scene of the path is not valid now, returns the latest valid one. */
 static struct kd_scene scene_now(const struct kd_session *s, double now)
 {
     struct kd_scene scene;
@@ -118,7 +118,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
         return kd_error_set(error, KD_ENOMEM, "no memory or no random numbers for a session");
     }
     s->all = all;
-    s->references = 2; /* one for the list, one for the caller */
+    s->references = 2; /* one reference for the list, one for the caller */
     s->crowded = crowded;
     snprintf(s->demand.client, sizeof s->demand.client, "%s", client);
     s->scene = *scene;

@@ -40,8 +40,9 @@ struct kd_session_pace { double min_scale, max_frame_ms; };
 #define KD_SESSION_PACE_DEFAULT { 0.25, INFINITY }
 
 /* Opens a session of a valid scene with its plan. Its frames count towards the client's share. The caller gets a
- * reference. crowded: it also shows bodies of a playground; then there is no frame before kd_session_show. pace: see
- * kd_session_keep; NULL: the default. Returns KD_EBUSY at a limit; *quota is true if it is the limit of one client. */
+ * reference. crowded: the session also shows bodies of a playground; it then renders no frame before
+ * kd_session_show. pace: see kd_session_keep; NULL: the default. Returns KD_EBUSY at a limit; *quota is true if it
+ * is the limit of one client. */
 enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *scene, const struct kd_plan *plan,
                                 const char *client, bool crowded, const struct kd_session_pace *pace, bool *quota,
                                 struct kd_session **out, struct kd_error *error);
@@ -54,9 +55,10 @@ void kd_session_keep(struct kd_session *session, const struct kd_session_pace *p
 void kd_session_put(struct kd_session *session, const struct kd_scene *scene, const struct kd_plan *plan);
 bool kd_session_watched(struct kd_session *session);     /* whether a viewer waits or reads a stream */
 unsigned kd_session_viewers(struct kd_session *session); /* number of viewers that wait or read a stream */
-/* whether a frame has shown the latest bodies, so that new ones can be passed to kd_session_show */
+/* whether a frame has shown the latest bodies; if so, kd_session_show accepts new ones */
 bool kd_session_hungry(struct kd_session *session);
-bool kd_session_over(struct kd_session *session); /* whether it has ended or failed, and publishes no more frames */
+bool kd_session_over(struct kd_session *session); /* whether the session has ended or failed, and so publishes no
+                                                   * more frames */
 /* Continues the frame numbers of another session. Call it before the session has published a frame. */
 void kd_session_go_on_from(struct kd_session *session, struct kd_session *other);
 struct kd_session *kd_session_share(struct kd_session *session); /* adds a reference */
@@ -84,7 +86,7 @@ struct kd_session_state {
     uint64_t order;           /* order of the latest patch that had one; 0: no patch had an order */
     double path_at, path_end; /* seconds since the path began, and the path's length; both 0: no path */
     struct kd_session_progress {
-        /* whether the frame being made refines a scene at rest; otherwise it is the first frame of the present scene */
+        /* whether the frame being made refines a scene at rest; if not, it is the first frame of the present scene */
         bool refines;
         /* fraction that is done, and estimated time left in s; NAN: no frame is being made, or the value is not
          * known */
@@ -92,9 +94,9 @@ struct kd_session_state {
     } progress;
 };
 void kd_session_state(struct kd_session *session, struct kd_session_state *out);
-/* Changes the scene by `edit`, whose argument is `to`. On failure nothing changes. order: among changes that are sent
- * at the same time, the one with the highest order wins. A change with a lower order than an earlier one is ignored,
- * which is not a failure. 0: the change has no order and is made. */
+/* Changes the scene by `edit`, whose argument is `to`. On failure nothing changes. order: among changes that are
+ * sent at the same time, the one with the highest order wins. A change whose order is lower than that of an earlier
+ * change is ignored, and the result is KD_OK. A change of order 0 has no order and is always made. */
 typedef enum kd_status kd_scene_edit(struct kd_scene *scene, const void *to, struct kd_error *error);
 enum kd_status kd_session_edit(struct kd_session *session, kd_scene_edit *edit, const void *to, uint64_t order,
                                struct kd_session_state *out, struct kd_error *error);
@@ -114,17 +116,18 @@ struct kd_viewer {
     int socket;
     uint64_t seen; /* number of the newest frame that it has taken */
     bool any;      /* it reads only the descriptions of frames, so any encoding will do */
-    /* qualities of lossy frames that it accepts, before the last one and for the last one, 1 to 100; 0: lossless only
-     */
+    /* qualities of lossy frames that the viewer accepts, 1 to 100; 0: lossless only. `lossy` is for all frames but
+     * the last, last_lossy for the last frame */
     unsigned lossy, last_lossy;
     const struct kd_live_file *file; /* the frame's file in the encoding of this viewer; the frame owns the file */
     /* A frame whose encoding was finished only after a newer frame had replaced it; a counted reference. */
     struct kd_live_frame *owed;
-    unsigned patched; /* revision that this request has made, as a patch; 0: it is not a patch */
-    /* Hash of the approximations that the client knows already, so that they are not sent again; above 32 bits: it
-     * knows none. */
+    unsigned patched; /* revision that this request has made if it is a patch, else 0 */
+    /* Hash of the approximations that the client already knows, so that they are not sent again. A value above 32
+     * bits: it knows none. */
     uint64_t sentences;
-    double begun_ms, deadline_ms; /* both on kd_clock_ms: start, and end of waiting; INFINITY: no end */
+    double begun_ms, deadline_ms; /* begun_ms: start of waiting; deadline_ms: end of waiting; both on kd_clock_ms.
+                                   * INFINITY: no end */
     bool waiting;                 /* its connection is suspended */
     /* why the connection was resumed. late: the deadline has passed; gone: the client has disconnected */
     bool late, gone;
@@ -141,7 +144,7 @@ enum kd_viewer_news {
     KD_VIEWER_LATE,  /* the deadline has passed; the caller may set another */
     KD_VIEWER_LATER, /* the connection is suspended, and will be resumed for one of the other results */
 };
-/* Returns the viewer's news. After KD_VIEWER_LATER the viewer belongs to the session until the connection is resumed.
+/* Returns the viewer's news. After KD_VIEWER_LATER, the session owns the viewer until the connection is resumed.
  * error may be NULL. */
 enum kd_viewer_news kd_viewer_next(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error);
 

@@ -96,12 +96,13 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
         give(viewer, owed, frame);
         return KD_VIEWER_FRAME;
     }
-    if (viewer->late && !newer) { /* if there is a newer frame, it comes as soon as its encoding is done */
+    if (viewer->late && !newer) { /* a newer frame is sent as soon as it is encoded, even after the deadline */
         viewer->late = false;
         return KD_VIEWER_LATE;
     }
     viewer->waiting = true;
-    MHD_suspend_connection(viewer->mhd); /* suspended before the connection can be resumed, which needs the lock */
+    MHD_suspend_connection(viewer->mhd); /* suspended first, because the connection can be resumed as soon as the
+                                          * lock is released */
     kd_session_add_kinds(s);
     kd_session_pump(s);
     return KD_VIEWER_LATER;

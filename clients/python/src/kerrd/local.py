@@ -112,8 +112,8 @@ class local(Client):
             *(["--device", device] if device else []),
             *args,
         ]
-        # In a process group of its own: an interrupt of a cell or a script goes to Python alone, and when a kernel
-        # ends, its atexit functions can run.
+        # The server has a process group of its own, so that an interrupt of a cell or a script reaches Python alone,
+        # and that atexit functions can run when a kernel ends.
         self.process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,

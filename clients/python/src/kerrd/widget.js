@@ -6,7 +6,7 @@ const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));
 const radians = Math.PI / 180;
 const near_r = 10; // M, within which a drag looks around
-const presence_ms = 30_000; // between two messages that tell the kernel that this view is there
+const presence_ms = 30_000; // time between two messages by which this view tells the kernel that it is still open
 
 function el(name, attributes = {}, ...children) {
   const node = document.createElement(name);
@@ -16,7 +16,7 @@ function el(name, attributes = {}, ...children) {
   return node;
 }
 
-// The kernel's scene, with the changes over it that this view has requested.
+// The kernel's scene, overlaid by the changes that this view has requested.
 function state(model, id, show) {
   const asked = new Map();
   let scene = model.get('scene'),
@@ -121,7 +121,7 @@ function hands(stage, scene) {
   const at = event => ({ x: event.clientX, y: event.clientY });
   stage.addEventListener('pointerdown', event => {
     if (event.button) return;
-    event.preventDefault(); // otherwise the notebook would take the focus
+    event.preventDefault(); // keeps the focus here; otherwise the notebook would take it
     stage.focus({ preventScroll: true });
     stage.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, at(event));

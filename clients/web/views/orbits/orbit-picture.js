@@ -268,7 +268,7 @@ export function buildPicture(root, hand) {
       );
       draw();
     },
-    // Does nothing during a drag.
+    // Has no effect during a drag.
     place: point => holding || place(point),
     // The next drag places the body again.
     free: () => (put = false),

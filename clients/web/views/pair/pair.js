@@ -258,7 +258,7 @@ function build(stage, scene) {
 
   // The controls: the field that differs, and its values.
   let drawn = null, // the path of the field whose values are shown
-    values = []; // the inputs of both sides
+    values = []; // input elements of both sides
   const fields = [...scene.fields.values()].filter(comparable),
     select = el(
       'select',

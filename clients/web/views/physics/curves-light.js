@@ -17,7 +17,7 @@ export const light = [
         hill = l => ({ spin: p.spin, l, r }),
         [along, against] = await Promise.all(
           (Number(p.spin) === 0 ? [1] : [1, -1]).map(l => physics('potential', { ...hill(l), ...charted })),
-        ); // without spin the two are equal
+        ); // without spin, light along and against the spin has the same curve
       return {
         r: along.parameters.r,
         along: along.values,

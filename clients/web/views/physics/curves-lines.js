@@ -46,7 +46,7 @@ async function echo(asked) {
   return { sources, parameters: { time, request }, values: { ...values, share } };
 }
 
-// Of each time: the share of the photons, their mean energy, the least and the largest energy.
+// For each time: the share of the photons, their mean energy, and the least and the largest energy.
 function byTime({ share }, { time, request }) {
   const wide = (request.energy_max - request.energy_min) / request.bins,
     at = i => request.energy_min + (i + 0.5) * wide;

@@ -87,7 +87,7 @@ export function course(root) {
   }
 
   async function fallback(address) {
-    // a bin that is cut off counts too little
+    // left out, because a bin that is cut off counts too little
     const list = table(await (await ask(address)).text()).filter(row => row.rate > 0 && row.whole),
       newest = Math.max(...list.map(row => row.source)),
       shown = list.filter(row => row.source === newest);
@@ -124,7 +124,7 @@ export function course(root) {
       }
       if ((tick.debris > 0 || tick.debris_back > 0) && now - asked > fallback_ms) {
         asked = now;
-        fallback(address).catch(() => {}); // the next request may succeed
+        fallback(address).catch(() => {}); // ignored, because the next request may succeed
       }
     },
   };

@@ -1,7 +1,7 @@
 // Debris as light: each piece is spread over four pixels of a picture of its own, and dense parts are brighter. This
 // costs less than as many drawn squares.
 const stages = ['violet', 'glow', 'green']; // leaving, bound, come back
-const gain = 0.9; // optical depth of one piece
+const gain = 0.9; // optical depth of one piece of debris
 const whiter = 0.5; // share of white in the densest parts
 
 const rgb = colour => [1, 3, 5].map(at => parseInt(colour.slice(at, at + 2), 16));

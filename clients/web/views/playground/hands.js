@@ -99,7 +99,8 @@ export function hands(stage, plane, told) {
     const [x, y] = aims.velocity,
       ref = told.speed(aims.from),
       size = Math.min(Math.max(Math.hypot(x, y) + longer * 0.05 * ref, 0), 0.999),
-      at = (x || y ? Math.atan2(y, x) : Math.atan2(aims.from[0], -aims.from[1])) + angle; // at first round the hole
+      // the first place is round the hole
+      at = (x || y ? Math.atan2(y, x) : Math.atan2(aims.from[0], -aims.from[1])) + angle;
     aim({ velocity: [size * Math.cos(at), size * Math.sin(at), 0], armed: true });
   }
 

@@ -35,7 +35,7 @@ export class Plane {
   scale = 4; // CSS pixels per M
   tilt = 0;
   accompanies = null; // { least, most }: limits of the reach while the view follows bodies and debris automatically
-  follows = null; // what is kept in the middle: "all", "chosen", or null
+  follows = null; // object that is kept in the middle: "all", "chosen", or null
   chosen = null; // id of the marked body
   aim = null; // { from: [x, y, z], to: [x, y, z], text, path, captured, armed }
   bodies = null;

@@ -25,6 +25,6 @@ export function buildTakes(part, running, act, begin) {
     const [file] = part.load.files;
     if (!file) return;
     await act(async () => begin({ rate: running.state?.rate, ...JSON.parse(await file.text()) }));
-    part.load.value = ''; // so that choosing the same file again is an event
+    part.load.value = ''; // cleared, so that choosing the same file again is an event
   });
 }

@@ -24,7 +24,7 @@ const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 }
 const arrow_px = 90; // length of an arrow of the reference speed, as in hands.js
 const torn = ['white-dwarf', 'disruption']; // the view follows the star and its debris
 const first = 'white-dwarf'; // something happens at once: it is torn apart within three seconds
-const roomy = matchMedia('(min-width: 75rem)'); // wide enough for both pictures
+const roomy = matchMedia('(min-width: 75rem)'); // matches a window that is wide enough for both pictures
 
 export async function openPlayground() {
   const known = await getJson('v1/playground');
@@ -52,7 +52,7 @@ export async function openPlayground() {
     chosen: null, // the body
     awaited: false, // the server has the chosen body, but no picture shows it yet
     hurries: null, // a rate that the server has not answered yet
-    given: null, // a snapshot that was loaded
+    given: null, // snapshot that was loaded
   };
   let flying = null, // a throw that the server has not answered yet
     halts = null; // { paused } that the server has not answered yet
@@ -112,7 +112,7 @@ export async function openPlayground() {
     if (same(hand.aims, mine)) {
       hand.aim({ armed: false, body: null });
       choose(id ?? null);
-    } // else somebody has aimed again meanwhile
+    } // otherwise the user has aimed again meanwhile
     const name = plane.names.get(id) ?? '';
     say(t('playground.goes-at-c', '{0} goes at {1} c.', name, number(Math.hypot(...v), 3)));
   }

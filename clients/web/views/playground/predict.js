@@ -107,7 +107,7 @@ export function predict(thrown, bodies, { softening, safety, h_max }, far) {
   return { points, captured: false };
 }
 
-// The same from the server: a test body on a geodesic.
+// The predicted path as the server computes it: a test body on a geodesic.
 export async function ask_kerr({ x, v }, spin, far) {
   const r = radius(x),
     theta = Math.acos(x[2] / r),

@@ -24,7 +24,7 @@ export async function seen(hole) {
   return { inclination: camera.inclination_deg, roll: camera.roll_deg, beam_uas: style.beam_uas };
 }
 
-// What the slider shows at 0, 1 and 2.
+// Text for each stop of the slider: 0, 1 and 2.
 export const stops = beam_uas => [
   t('eht.our-picture', 'our picture'),
   t('eht.through-a-beam-of', 'through a beam of {0} µas', number(beam_uas)),
@@ -104,7 +104,8 @@ function panel(hole) {
           'image.layers': 'intensity',
         }),
       answer = await (await ask(address, { headers: { Accept: 'application/x-npy' } })).arrayBuffer(),
-      light = new Float32Array(answer.slice(answer.byteLength - 4 * side * side)), // after the header of NPY
+      // numbers behind the header of an NPY file
+      light = new Float32Array(answer.slice(answer.byteLength - 4 * side * side)),
       { diameter, spread } = ringOf(light, side, across_uas / side, look.beam_uas);
     fitted = t(
       'eht.the-ring-of-our',
@@ -130,7 +131,8 @@ function panel(hole) {
         .filter(x => x < half * 0.75)
         .sort((a, b) => a - b)
         .at(-1),
-      ring = { cx: middle[0], cy: middle[1], r: v.ring_uas / 2 }, // its place was not measured
+      // drawn round the middle, because its place was not measured
+      ring = { cx: middle[0], cy: middle[1], r: v.ring_uas / 2 },
       text = (12 * look.width) / (stack.clientWidth || 360); // 12 pixels
     lines.setAttribute('viewBox', `${-half} ${-half} ${look.width} ${look.width}`);
     lines.replaceChildren(
@@ -235,7 +237,7 @@ async function slide(root) {
     const at = slider.valueAsNumber,
       beam = Math.min(at, 1),
       ring = Math.max(at - 1, 0);
-    root.style.setProperty('--sharp', beam < 1 ? 1 : 0); // else it would shine through the dimmed pictures
+    root.style.setProperty('--sharp', beam < 1 ? 1 : 0); // otherwise it would shine through the dimmed pictures
     root.style.setProperty('--beam', beam);
     root.style.setProperty('--ring', ring);
     const nearest = Math.round(at);

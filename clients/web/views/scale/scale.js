@@ -78,7 +78,7 @@ const shown = [
   ['fall_longest_s', t('scale.the-longest-there-is', 'the longest there is, a = 0')],
 ];
 
-// The title's words on what is shown.
+// The title: it names the hole, or states mass and distance.
 const name = (hole, v) =>
   entitle('scale', hole === 'none' ? `${number(v.mass)} M☉, ${number(v.distance)} pc` : specs[0].words[hole]);
 

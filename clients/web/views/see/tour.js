@@ -82,7 +82,7 @@ export function buildTour(stage, scene) {
   const ring = el('div', { id: 'tour-ring', 'aria-hidden': 'true', hidden: true });
   stage.append(ring);
   let here = 0,
-    before = null, // the scene and its overlays
+    before = null, // the scene and its overlays before the tour
     flight = 0;
 
   const lines = () => [...document.querySelectorAll('#overlays input:checked')].map(input => input.id.slice(5));
