@@ -105,7 +105,7 @@ double kd_shell_bend(const struct kd_shell_orbit *o) { return 4 * o->r * (o->y *
 double kd_shell_inside(const struct kd_hole *hole, const struct kd_shell_orbit *o)
 {
     const double q = o->a / o->r;
-    return q * q * o->eta + 4 * (hole->q * hole->q) * (o->y * o->y - o->n) / (o->y * o->y);
+    return q * q * o->eta + 4 * (hole->q * hole->q) * kd_hole_delta_y(hole, o->y) / (o->y * o->y);
 }
 
 /* The polar integrals with u = sqrt(z) cos x, as in null_polar.h: du/dtau^2 = (z - u^2)(n + a^2 u^2), disc = n + a^2

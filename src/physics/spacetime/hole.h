@@ -74,6 +74,12 @@ static inline double kd_hole_delta(const struct kd_hole *hole, double r)
     return (r - hole->outer) * (r - hole->inner);
 }
 
+/* Delta at r = 1 + y, for places whose distance from r = 1 is known to more digits than r. */
+static inline double kd_hole_delta_y(const struct kd_hole *hole, double y)
+{
+    return (y - hole->root) * (y + hole->root);
+}
+
 /* Delta at r = 0, the product of the horizons: a^2 + q^2. */
 static inline double kd_hole_horizons(const struct kd_hole *hole) { return hole->a * hole->a + hole->q * hole->q; }
 

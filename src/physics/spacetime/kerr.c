@@ -24,7 +24,7 @@ struct kd_kerr_ring kd_kerr_ring_at(const struct kd_hole *hole, double y)
 {
     const double a = hole->a, n = hole->root * hole->root, s = sqrt(fmax(0, y + n + a * a));
     struct kd_kerr_ring o = { .y = y, .s = s, .sigma = a > 0 ? (y + n) / (s + a) : s - a };
-    o.delta = (y - hole->root) * (y + hole->root);
+    o.delta = kd_hole_delta_y(hole, y);
     o.p2 = o.delta - o.sigma * o.sigma;
     return o;
 }
