@@ -22,14 +22,15 @@ FORMS = re.compile(
             rf"\({R} - 2(?:\.0)?\) \* {R}\b",
             rf"\b1(?:\.0)? - 2(?:\.0)? \* {W}\b",
             rf"\b1(?:\.0)? - {W} \* \(2",
-            r"\((\w+) - (\w+)\) \* \(\1 \+ \2\)",
-            r"- (?:\w+(?:->|\.))?outer\) \* \(\w+ - (?:\w+(?:->|\.))?inner\)",
+            r"\((\w+) - ([\w.>-]+)\) \* \(\1 \+ \2\)",
+            r"\b(\w[\w.>-]*) \* \3 - [\w.>-]*\bn\b",  # y^2 - N
+            r"- (?:[\w.>-]+(?:->|\.))?outer(?: / \w+)?\) \* \(\w+ - (?:[\w.>-]+(?:->|\.))?inner\b",
         ]
     )
 )
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 # The factors (x - y)(x + y) count as Delta only if y is computed from the root of 1 - a^2 - q^2.
-DIFFERENCE = re.compile(r"\((\w+) - (\w+)\) \* \(\1 \+ \2\)")
+DIFFERENCE = re.compile(r"\((\w+) - ([\w.>-]+)\) \* \(\1 \+ \2\)")
 
 
 def places(text):
@@ -40,7 +41,7 @@ def places(text):
         match = FORMS.search(line)
         if match and DIFFERENCE.fullmatch(match.group()):
             near, less = " ".join(lines[max(0, number - 3) : number]), DIFFERENCE.fullmatch(match.group())[2]
-            if not re.search(rf"\b{less} = [^;,]*\broot\b", near):
+            if not re.search(r"\broot$", less) and not re.search(rf"\b{re.escape(less)} = [^;,]*\broot\b", near):
                 continue
         if match:
             yield number, line.strip()
@@ -54,6 +55,9 @@ def self_test():
         "return 1 - w * (2 - a * a * w);",
         "precise float d = 1.0 - w, h = root * w, delta = (d - h) * (d + h);",
         "return (r - hole.outer) * (r - hole.inner);",
+        "double d = (1 - hole.outer / r) * (1 - hole.inner / r);",
+        "o.delta = (y - hole->root) * (y + hole->root);",
+        "return 4 * q2 * (o->y * o->y - o->n) / (o->y * o->y);",
     ]
     wrong = ["/* r * (r - 2) + a^2 */", "return (x - y) * (x + y);", "g = 1 - 2 * weight;", "r * (r + 2)"]
     missed = [line for line in right if not list(places(line))] + [line for line in wrong if list(places(line))]

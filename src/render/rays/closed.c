@@ -168,7 +168,7 @@ double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, b
     const struct kd_hole hole = kd_rays_hole(p);
     double a = p->spin, s = kd_sin_deg(p->inclination_deg), c = kd_cos_deg(p->inclination_deg), w2 = 1 / (r * r);
     double alpha = alpha_beta[0], beta = alpha_beta[1], j = -alpha * s - a, all = 1 - a * j * w2;
-    double d = (1 - hole.outer / r) * (1 - hole.inner / r);
+    double d = kd_hole_delta(&hole, r) * w2;
     double carter = (alpha - a) * (alpha + a) * c * c + beta * beta + j * j;
     double slope = sqrt(fmax(0, all * all - d * carter * w2));
     return leaves_outwards(p, alpha_beta, outward, end, k) ? slope : -slope;
