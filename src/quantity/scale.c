@@ -35,8 +35,10 @@
     O(photon_period_s, .unit = "s", \
       .help = "period of the circular photon orbit towards +phi, for an observer far away") \
     O(fall_s, .unit = "s", \
-      .help = "proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M") \
-    O(fall_longest_s, .unit = "s", .help = "longest proper time from horizon to singularity, a = Q = 0: pi M")
+      .help = "proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M; null with " \
+              "charge") \
+    O(fall_longest_s, .unit = "s", \
+      .help = "longest proper time from horizon to singularity, a = Q = 0: pi M; null with charge")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 
 static const char *const sources[] = {
@@ -101,8 +103,9 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->light_crossing_s = 2 * horizon * o->m_s;
     o->isco_period_s = 2 * M_PI / kd_kerr_omega(black, kd_kerr_isco(black)) * o->m_s;
     o->photon_period_s = 2 * M_PI / kd_kerr_omega(black, kd_kerr_photon_orbit(black)) * o->m_s;
-    o->fall_s = KD_SCALE_FALL * o->m_s;
-    o->fall_longest_s = KD_SCALE_FALL_LONGEST * o->m_s;
+    const double falls = kd_hole_is_charged(black) ? NAN : 1; /* neutral matter turns back within a charged hole */
+    o->fall_s = falls * KD_SCALE_FALL * o->m_s;
+    o->fall_longest_s = falls * KD_SCALE_FALL_LONGEST * o->m_s;
     return KD_OK;
 }
 

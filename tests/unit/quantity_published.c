@@ -193,6 +193,9 @@ static void fall(void **state)
     double seconds = KD_M_SUN_S * 4.3e6, rain = 0, steps = 20000, end = 0.81 / 1.4358898943540673,
            span = sqrt(3) - sqrt(end);
     published("rain, horizon to singularity", ASK("infall", "proper_time_to_end", "r=2"), 4.0 / 3, 1e-9);
+    published("rain in seconds", ASK("scale", "fall_s", "mass_msun=1") / ASK("scale", "m_s", "mass_msun=1"), 4.0 / 3,
+              1e-14);
+    assert_true(isnan(ASK("scale", "fall_s", "charge=0.5")) && isnan(ASK("scale", "fall_longest_s", "charge=0.5")));
     published("rain, 8 M to the horizon", ASK("infall", "proper_time_to_horizon", "r=8"),
               sqrt(2) / 3 * (pow(8, 1.5) - pow(2, 1.5)), 1e-12);
     published("the longest time within", ASK("infall", "proper_time_to_end", "r=1", "infall_energy=0"), 0.5 * M_PI - 1,
