@@ -8,6 +8,8 @@ r-derivative of the metric, contracted with u, vanishes, and u.u = -1. The photo
 where dE/dr = 0. The flux is the integral of Page & Thorne 1974 (eqs 11b and 12) by quadrature.
 """
 
+import math
+
 from mpmath import mp, mpf, pi, quad, sqrt
 
 mp.dps = 40
@@ -28,6 +30,8 @@ HOLES = [
     (0.8, 0.5999999999999),
 ]
 STRETCH = [1.0625, 1.25, 2.0, 4.0, 16.0, 1000.0]  # r over the ISCO
+# The half disk a^2 + q^2 < 1, q > 0: values of a^2 + q^2, and the number of directions.
+SIZES, DIRECTIONS = [0.04, 0.3, 0.6, 0.9, 0.99, 1 - 1e-4, 1 - 1e-6, 1 - 1e-9, 1 - 1e-12], 15
 
 
 def metric(a, q, r):
@@ -150,6 +154,7 @@ def main():
     print("/* Made by tests/oracle/charge_reference.py; do not edit. Orbits and disks about charged holes. */")
     print("#ifndef KD_TESTS_CHARGE_REFERENCE_H\n#define KD_TESTS_CHARGE_REFERENCE_H\n")
     print("struct charge_place_reference { double a, q, photon, impact, isco, peak; };")
+    print("struct charge_radius_reference { double a, q, photon, impact, isco; };")
     print("struct charge_orbit_reference { double a, q, r, omega, energy, momentum, ut, flux; };")
     print("struct charge_advance_reference { double q, p, e, advance; };")
     print("struct charge_bending_reference { double a, q, b, angle; };\n")
@@ -165,6 +170,15 @@ def main():
             w, energy, momentum, ut, _, _ = orbit(x, y, mpf(r))
             numbers = [w, energy, momentum, ut, flux(x, y, mpf(r), photon, isco)]
             orbits.append(f"    {{ {a.hex()}, {q.hex()}, {r.hex()}, {', '.join(text(n) for n in numbers)} }},")
+    print("};\n\nstatic const struct charge_radius_reference charge_radius_reference[] = {")
+    for size in SIZES:
+        for k in range(DIRECTIONS):
+            turn = math.pi * (k + 0.5) / DIRECTIONS
+            a, q = math.sqrt(size) * math.cos(turn), math.sqrt(size) * math.sin(turn)
+            x, y = mpf(a), mpf(q)
+            photon, isco = places(x, y)
+            numbers = [photon, 1 / omega(x, y, photon), isco]
+            print(f"    {{ {a.hex()}, {q.hex()}, {', '.join(text(n) for n in numbers)} }},")
     print("};\n\nstatic const struct charge_orbit_reference charge_orbit_reference[] = {")
     print("\n".join(orbits) + "\n};\n\nstatic const struct charge_advance_reference charge_advance_reference[] = {")
     for q in [0, 1e-3, 0.3, 0.7, 0.95, 1 - 1e-9]:

@@ -41,6 +41,26 @@ static void places(void **state)
     }
 }
 
+/* Radii, and the edge of the shadow in the plane, of 135 holes up to a^2 + q^2 = 1 - 1e-12, all over the half disk. */
+static void whole_disk(void **state)
+{
+    (void)state;
+    double worst[4] = { 0 };
+    for (size_t i = 0; i < COUNT(charge_radius_reference); i++) {
+        const struct charge_radius_reference *e = &charge_radius_reference[i];
+        const struct kd_critical_observer o = { .hole = kd_hole_charged(e->a, e->q), .radius = INFINITY };
+        const struct kd_critical c = kd_critical_of(&o);
+        const double off[] = { kd_kerr_photon_orbit(&o.hole) / e->photon - 1, kd_kerr_isco(&o.hole) / e->isco - 1,
+                               kd_kerr_critical_impact(&o.hole) / e->impact - 1,
+                               kd_critical_at(&c, M_PI).alpha / -e->impact - 1 };
+        for (int k = 0; k < 4; k++)
+            worst[k] = fmax(worst[k], isnan(off[k]) ? INFINITY : fabs(off[k]));
+    }
+    print_message("photon orbit %.1e, ISCO %.1e, impact parameter %.1e, edge of the shadow %.1e\n", worst[0], worst[1],
+                  worst[2], worst[3]);
+    assert_true(worst[0] < 1e-15 && worst[1] < 2e-15 && worst[2] < 2e-15 && worst[3] < 3e-15);
+}
+
 /* The bound: r is a double, so a number that changes by d from one double to the next is known to within d. */
 static void orbits(void **state)
 {
@@ -297,11 +317,17 @@ static void shell(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(places),        cmocka_unit_test(orbits),
-        cmocka_unit_test(small_charges), cmocka_unit_test(plunge),
-        cmocka_unit_test(frames),        cmocka_unit_test(at_rest),
-        cmocka_unit_test(rain),          cmocka_unit_test(curve),
-        cmocka_unit_test(circles),       cmocka_unit_test(edges_of_the_shadow),
+        cmocka_unit_test(places),
+        cmocka_unit_test(whole_disk),
+        cmocka_unit_test(orbits),
+        cmocka_unit_test(small_charges),
+        cmocka_unit_test(plunge),
+        cmocka_unit_test(frames),
+        cmocka_unit_test(at_rest),
+        cmocka_unit_test(rain),
+        cmocka_unit_test(curve),
+        cmocka_unit_test(circles),
+        cmocka_unit_test(edges_of_the_shadow),
         cmocka_unit_test(shell),
     };
     return cmocka_run_group_tests_name("matter and observers about charged holes", tests, NULL, NULL);
