@@ -6,7 +6,7 @@
 #include "contraction.h"
 #include "physics/null/null_geodesic.h"
 #include "physics/orbit/plunge.h"
-#include "physics/spacetime/hole.h"
+#include "physics/spacetime/kerr.h"
 #include "render/view/camera.h"
 #include "render/emit/particles.h"
 #include "render/emit/plunging.h"
@@ -108,6 +108,7 @@ static void redshift_of_light(void **state)
         struct kd_frame plain = shot(&scene, false, false), slowed = shot(&scene, false, true),
                         full = shot(&scene, true, true), moved = shot(&scene, true, false);
         const struct kd_plunge plunge = kd_plunge_of(&hole);
+        const struct plunge_by_metric gas = plunge_by_metric(hole.a, hole.q);
         for (uint32_t y = 0; y < 120; y++)
             for (uint32_t x = 0; x < 160; x++) {
                 struct ray ray = ray_of(&scene, x, y);
@@ -119,7 +120,7 @@ static void redshift_of_light(void **state)
                 double r = ray.path.crossing[0].r; /* every picture contains the near observer's own redshift */
                 int sense = ray.path.crossing[0].sense;
                 double ut = kd_plunge_velocity(&plunge, r).ut,
-                       g = redshift_of_plunge(&hole, r, ray.lambda, ray.eta, sense);
+                       g = redshift_of_plunge(&gas, r, ray.lambda, ray.eta, sense);
                 const double want[] = { 1 / ut, g, g * ut };
                 for (int k = 0; k < 3; k++) {
                     if (light[k] < 0.01)

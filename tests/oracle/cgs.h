@@ -1,7 +1,7 @@
 /* Constants in CGS (CODATA 2018): speed of light, squared electron charge, electron and proton mass, Planck and
  * Boltzmann constant, and GM of the Sun (IAU 2015). */
-#ifndef KD_TEST_CGS_H
-#define KD_TEST_CGS_H
+#ifndef KD_TESTS_CGS_H
+#define KD_TESTS_CGS_H
 
 #define C 2.99792458e10
 #define E2 (4.80320471e-10 * 4.80320471e-10)

@@ -1,8 +1,8 @@
 /* Coefficients of polarised synchrotron light in CGS, as in the papers: of I, of V, and of Q, which is along the
  * electric field and perpendicular to the magnetic field. s and c: sine and cosine of the angle to the field; turn: the
  * gyrofrequency. */
-#ifndef KD_TEST_SYNCHROTRON_CGS_H
-#define KD_TEST_SYNCHROTRON_CGS_H
+#ifndef KD_TESTS_SYNCHROTRON_CGS_H
+#define KD_TESTS_SYNCHROTRON_CGS_H
 
 #include "cgs.h"
 

@@ -1,7 +1,7 @@
 /* Rotation of a torus in equilibrium with u^t u_phi = l everywhere (L. G. Fishbone & V. Moncrief 1976, ApJ 207,
  * 962). */
-#ifndef KD_TEST_TORUS_TURNS_H
-#define KD_TEST_TORUS_TURNS_H
+#ifndef KD_TESTS_TORUS_TURNS_H
+#define KD_TESTS_TORUS_TURNS_H
 
 #include <math.h>
 

@@ -99,17 +99,17 @@ def row(a, energy_text, beside):
             first = to_turn(a, energy, l, middle, start, others)
             second = inwards(a, energy, l, middle, horizon, minimum)
             sums = [first[i].real + second[i] for i in range(2)] + [mpf(0)] * 2
-        fate = "KD_ORBIT_PLUNGE"
+        fate = "WHIRL_PLUNGE"
     elif energy < 1:  # a radial period
         outer, inner = low[0], low[1]
         middle = 1 / (1 / inner + 1) if outer < FAR else (outer + inner) / 2
         parts = [to_turn(a, energy, l, middle, x, [y for y in roots if y != x]) for x in (outer, inner)]
         sums = [2 * (p + q) for p, q in zip(*parts)]
-        fate = "KD_ORBIT_BOUND"
+        fate = "WHIRL_BOUND"
     else:
         turn = max(x for x in roots if x < minimum)
         sums = [2 * x for x in to_turn(a, energy, l, FAR, turn, [y for y in roots if y != turn])]
-        fate = "KD_ORBIT_ESCAPE"
+        fate = "WHIRL_ESCAPE"
     values = ", ".join(mp.nstr(x.real, 17, min_fixed=-3, max_fixed=17) for x in sums)
     return f"    {{ {float(a)!r}, {float(energy)!r}, {float(l)!r}, {float(beside)!r}, {1 / float(start):.17g}, {fate},\n      {values} }},"
 
@@ -117,14 +117,15 @@ def row(a, energy_text, beside):
 def main():
     print("/* Made by tests/oracle/whirl_reference.py; do not edit. Orbits that whirl, by quadrature. */")
     print(
-        '#ifndef KD_TESTS_WHIRL_REFERENCE_H\n#define KD_TESTS_WHIRL_REFERENCE_H\n\n#include "physics/orbit/timelike.h"\n'
+        "#ifndef KD_TESTS_WHIRL_REFERENCE_H\n#define KD_TESTS_WHIRL_REFERENCE_H\n\n"
+        "enum whirl_fate { WHIRL_BOUND, WHIRL_PLUNGE, WHIRL_ESCAPE };\n"
     )
     print(
         "/* beside: how far L is from that of the whirl, relative. From r = `from` to the horizon (t and phi infinite, given as 0), back to\n"
         " * r = 100, or, bound, a radial period. */"
     )
     print(
-        "struct whirl_reference {\n    double spin, energy, momentum, beside, from;\n    enum kd_orbit_fate fate;\n    double mino, proper, t, phi;\n};\n"
+        "struct whirl_reference {\n    double spin, energy, momentum, beside, from;\n    enum whirl_fate fate;\n    double mino, proper, t, phi;\n};\n"
     )
     print("static const struct whirl_reference whirl_reference[] = {")
     for a in SPINS:

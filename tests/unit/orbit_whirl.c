@@ -17,6 +17,10 @@
 #define COUNT(x) (sizeof(x) / sizeof *(x))
 #define SAMPLES 9
 
+static const enum kd_orbit_fate fates[] = { [WHIRL_BOUND] = KD_ORBIT_BOUND,
+                                            [WHIRL_PLUNGE] = KD_ORBIT_PLUNGE,
+                                            [WHIRL_ESCAPE] = KD_ORBIT_ESCAPE };
+
 struct answer {
     enum kd_orbit_fate fate;
     enum kd_orbit_end end;
@@ -69,7 +73,7 @@ static void right_or_refused(void **state)
                  "{\"spin\":%.17g,\"orbit\":{\"energy\":%.17g,\"angular_momentum\":%.17g%s},\"samples\":%d,"
                  "\"tolerance\":1e-10%s}",
                  row->spin, row->energy, row->momentum, r, SAMPLES,
-                 row->fate == KD_ORBIT_BOUND ? ",\"method\":\"closed\",\"duration\":{\"periods\":1}" : "");
+                 row->fate == WHIRL_BOUND ? ",\"method\":\"closed\",\"duration\":{\"periods\":1}" : "");
         if (ask(text, &a, &error)) {
             if (fabs(row->beside) > 1.1e-12 || !strstr(error.message, "whirls") ||
                 strcmp(error.pointer, "/orbit/angular_momentum"))
@@ -78,14 +82,14 @@ static void right_or_refused(void **state)
             continue;
         }
         double off = fmax(fabs(a.mino / row->mino - 1), fabs(a.proper / row->proper - 1));
-        if (row->fate != KD_ORBIT_PLUNGE)
+        if (row->fate != WHIRL_PLUNGE)
             off = fmax(off, fmax(fabs(a.t / row->t - 1), fabs(a.phi / row->phi - 1)));
         double bound = fmax(isnan(a.stated) ? 0 : a.stated, 1e-9);
         worst = fmax(worst, off / bound);
-        bool ended = a.end == (row->fate == KD_ORBIT_PLUNGE  ? KD_END_HORIZON
-                               : row->fate == KD_ORBIT_BOUND ? KD_END_DURATION
-                                                             : KD_END_FAR);
-        if (a.fate != row->fate || !ended || !(off <= bound) || !(a.drift < 1e-9))
+        bool ended = a.end == (row->fate == WHIRL_PLUNGE  ? KD_END_HORIZON
+                               : row->fate == WHIRL_BOUND ? KD_END_DURATION
+                                                          : KD_END_FAR);
+        if (a.fate != fates[row->fate] || !ended || !(off <= bound) || !(a.drift < 1e-9))
             fail_msg("%s: %s, ends at r = %.9g; off by %.2g, stated %.2g; drift of E %.2g", text,
                      kd_orbit_fate_name(a.fate), a.r, off, a.stated, a.drift);
     }
