@@ -5,7 +5,7 @@
  * DEVICE: makes a pipeline of each kernel for that device, which need not be present (RADV with RADV_FORCE_FAMILY). A
  * line "kernel N" on standard error is followed by the driver's statistics of it. Prints one line of JSON. kernels.py
  * runs this program and reads both. */
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/render.h"
 
 #include <argp.h>

@@ -1,5 +1,5 @@
 /* Finds the parts of a document by their names. */
-#include "document/internal.h"
+#include "document/document_internal.h"
 
 #include <string.h>
 

@@ -1,5 +1,5 @@
 /* Lists of objects. */
-#include "document/internal.h"
+#include "document/document_internal.h"
 
 #include "document/text.h"
 

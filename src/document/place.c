@@ -1,5 +1,5 @@
 /* Places in a document: pointers, and typed paths such as "spots.0.r". */
-#include "document/internal.h"
+#include "document/document_internal.h"
 
 #include "document/text.h"
 

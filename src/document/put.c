@@ -1,5 +1,5 @@
 /* Checks values against rows, stores them, and describes what a row allows. */
-#include "document/internal.h"
+#include "document/document_internal.h"
 
 #include "base/utf8.h"
 #include "document/number.h"

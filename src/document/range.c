@@ -1,5 +1,5 @@
 /* Ranges of evenly spaced numbers, typed as first:last:count. */
-#include "document/internal.h"
+#include "document/document_internal.h"
 
 #include "base/schema.h"
 #include "document/number.h"

@@ -1,5 +1,5 @@
 /* Reads documents and typed text by tables of rows. */
-#include "document/internal.h"
+#include "document/document_internal.h"
 
 #include "document/tree.h"
 

@@ -1,5 +1,5 @@
 /* Names that a document does not have. */
-#include "document/internal.h"
+#include "document/document_internal.h"
 
 #include "base/spelling.h"
 #include "document/text.h"

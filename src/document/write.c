@@ -1,5 +1,5 @@
 /* Writes documents, and their JSON Schema. */
-#include "document/internal.h"
+#include "document/document_internal.h"
 
 #include "base/schema.h"
 

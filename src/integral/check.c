@@ -1,5 +1,5 @@
 /* Checks the rules between fields of a request, and fills in fields that follow from others. */
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "integral/request.h"
 #include "integral/sets.h"
 

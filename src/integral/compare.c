@@ -1,7 +1,7 @@
 #include "integral/compare.h"
 
 #include "base/schema.h"
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "integral/pictures.h"
 #include "integral/sets.h"
 #include "document/members.h"

@@ -2,7 +2,7 @@
 #include "base/pause.h"
 #include "integral/answer.h"
 #include "integral/image_cache.h"
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/disk_stokes.h"
 #include "physics/disk/thin_disk.h"

@@ -1,6 +1,6 @@
 /* Impulse responses and lags of an echo. */
 #include "integral/answer.h"
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "physics/disk/echo.h"
 #include "physics/spacetime/scale.h"
 

@@ -1,7 +1,7 @@
 /* Simulates an observation: visibilities of a scene at the times and baselines of a file, with its errors. */
 #include "observe/simulate.h"
 #include "integral/compare.h"
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "integral/pictures.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "integral/request.h"
 #include "integral/sets.h"
 

@@ -3,7 +3,7 @@
 #include "base/clock.h"
 #include "base/pause.h"
 #include "integral/compare.h"
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "observe/scattering.h"
 #include "observe/simulate.h"
 #include "physics/math/angle.h"

@@ -1,6 +1,6 @@
 /* Reads and checks the scene of a request ("preset" and "scene"), and the fields that say which pictures are made of
  * it. */
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "integral/request.h"
 #include "integral/pictures.h"
 

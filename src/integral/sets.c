@@ -1,7 +1,7 @@
 #include "integral/sets.h"
 
 #include "base/pause.h"
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "render/plan/plan.h"
 #include "document/members.h"
 #include "document/text.h"

@@ -2,7 +2,7 @@
 
 #include "image/fits.h"
 #include "integral/image_cache.h"
-#include "integral/internal.h"
+#include "integral/integral_internal.h"
 #include "integral/request.h"
 #include "physics/disk/line_profile.h"
 #include "physics/spacetime/kerr.h"

@@ -6,7 +6,7 @@
  *     00.76805556,AA,PV,-4361512960.0000,-4470103552.0000,0.15033433,172.4572,0.00471922
  *
  * Stations are sorted alphabetically, as in the uvfits of the same data. */
-#include "observe/internal.h"
+#include "observe/observe_internal.h"
 
 #include <math.h>
 #include <stdio.h>

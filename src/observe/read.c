@@ -1,5 +1,5 @@
 /* Recognises, reads and sorts observations (observation.h). */
-#include "observe/internal.h"
+#include "observe/observe_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

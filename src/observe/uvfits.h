@@ -2,7 +2,7 @@
 #ifndef KD_OBSERVE_UVFITS_H
 #define KD_OBSERVE_UVFITS_H
 
-#include "observe/internal.h"
+#include "observe/observe_internal.h"
 
 struct hdu {
     const char *cards;

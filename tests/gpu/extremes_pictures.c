@@ -3,7 +3,7 @@
  * not negative, nothing is written beyond the last pixel, and light is where it must be. */
 #include "extremes.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* Two paths of the transfer kernel through the same rays give the same light. Pixels of one ray are processed in
  * columns, which skip crossings that no emitter reaches. Pixels of several rays visit each crossing. */
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/render.h"
 
 #include "render_support.h"

@@ -4,7 +4,7 @@
 #include "render_support.h"
 
 #include "render/selftest/first_start.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include <unistd.h>
 

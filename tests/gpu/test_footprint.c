@@ -3,7 +3,7 @@
  * singular value comes from the angle that maximises it. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/render.h"
 #include "render/view/layout.h"
 #include "render/view/ring.h"

@@ -1,7 +1,7 @@
 /* A frame runs exactly the passes of its plan, under their names; their times become the estimates of the next plan. */
 #include "render_support.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/frame/frame.h"
 #include "render/plan/cost_class.h"
 

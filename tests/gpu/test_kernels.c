@@ -1,7 +1,7 @@
 /* Kernels are recorded first, and compiled together on several threads. A frame uses exactly those that it recorded. */
 #include "render_support.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/frame/compilation.h"
 #include "render/rays/rays.h"
 #include "scene/dynamic_bodies.h"

@@ -10,7 +10,7 @@
 #include "physics/disk/thin_disk.h"
 #include "physics/spacetime/kerr.h"
 #include "render/output/format.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/view/layout.h"
 #include "scene/hole.h"
 

@@ -5,7 +5,7 @@
 
 #include "physics/spacetime/kerr.h"
 #include "render/accuracy/table.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/rays/rays.h"
 #include "interface.h"
 

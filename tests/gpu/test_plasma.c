@@ -7,7 +7,7 @@
 #include "kerr_schild.h"
 #include "integral/pictures.h"
 #include "physics/spacetime/kerr.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/output/flux.h"
 #include "scene/hole.h"
 #include "torus_turns.h"

@@ -7,7 +7,7 @@
 #include "physics/disk/returning.h"
 #include "physics/disk/scattering.h"
 #include "physics/spacetime/kerr.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/output/format.h"
 #include "render/view/camera.h"
 

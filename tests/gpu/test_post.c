@@ -2,7 +2,7 @@
  * packing; and the kernel that reads texels, compared with the one that reads storage. */
 #include "render_support.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/view/layout.h"
 
 #include <math.h>

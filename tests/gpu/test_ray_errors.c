@@ -7,7 +7,7 @@
 #include "null_series.h"
 #include "physics/null/critical.h"
 #include "render/accuracy/table.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/rays/rays.h"
 #include "render/rays/check.h"
 

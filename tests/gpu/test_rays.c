@@ -2,7 +2,7 @@
  * the Kerr-Schild oracle, and each ray's stated error with its true error. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/rays/device.h"
 
 #include "render_support.h"

@@ -3,7 +3,7 @@
 #include "render/render.h"
 #include "render/view/critical_pixels.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include "render/device/rest.h"
 #include "render_support.h"

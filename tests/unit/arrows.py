@@ -4,6 +4,7 @@
 arrows.py SRC exit 1 naming every #include in SRC that points the wrong way, after checking that it finds planted ones
 """
 
+import collections
 import pathlib
 import re
 import sys
@@ -116,6 +117,8 @@ NO_CIRCLES = {
 }
 # In these modules calls count as includes: a header may declare what several files define.
 CALLS = {"physics", "vk"}
+# Largest number of files that may share a name.
+SAME_NAME = 5
 # Headers of other projects, and who may include them.
 FOREIGN = {
     "vulkan/": {"vk"},
@@ -223,6 +226,14 @@ def circles(src):
             yield f"{module}: a circle: {' -> '.join([*found, found[0]])}"
 
 
+def crowds(src):
+    """One sentence for each name that too many files share."""
+    names = collections.Counter(path.name for path in src.rglob("*.[ch]"))
+    for name, count in sorted(names.items()):
+        if count > SAME_NAME:
+            yield f"{name}: {count} files have this name; it must be {SAME_NAME} at most"
+
+
 def self_test():
     """Each kind of wrong include is found, and a right one is not reported."""
     faults = {
@@ -278,6 +289,8 @@ def self_test():
             "vk: a circle: vk/down -> vk/up -> vk/down",
         ]:
             missed.append("a circle")
+        if not any(line.startswith("a.c: ") for line in crowds(src)):
+            missed.append("a crowd")
         false = [line for line in found if line.split(":")[0] in right]
     for line in missed:
         print("not found:", line)
@@ -290,7 +303,7 @@ def main():
     if self_test():
         return True
     src = pathlib.Path(sys.argv[1])
-    found = [*wrong(src), *circles(src)]
+    found = [*wrong(src), *circles(src), *crowds(src)]
     for line in found:
         print(line)
     return bool(found) or not any(src.rglob("*.c"))

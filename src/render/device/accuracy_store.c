@@ -3,7 +3,7 @@
 #include "base/log.h"
 #include "base/read.h"
 #include "base/replace.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -3,7 +3,7 @@
 #include "base/hash.h"
 #include "base/read.h"
 #include "base/replace.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

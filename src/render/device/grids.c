@@ -1,6 +1,6 @@
 #include "render/device/grids.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "scene/asset.h"
 #include "scene/hole.h"
 

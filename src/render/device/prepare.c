@@ -1,6 +1,6 @@
 #include "render/device/prepare.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include <stdlib.h>
 

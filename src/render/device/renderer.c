@@ -1,4 +1,4 @@
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include "base/json.h"
 #include "render/device/accuracy_store.h"

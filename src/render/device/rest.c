@@ -3,7 +3,7 @@
 #include "base/allocator.h"
 #include "base/clock.h"
 #include "base/log.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include <stdio.h>
 #include <unistd.h>

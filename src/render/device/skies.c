@@ -1,6 +1,6 @@
 #include "render/device/skies.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "faces.h"
 #include "render/emit/emission.h"
 #include "render/device/panoramas.h"

@@ -3,7 +3,7 @@
 #include "base/json.h"
 #include "base/log.h"
 #include "base/replace.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include <cjson/cJSON.h>
 #include <errno.h>

@@ -4,7 +4,7 @@
 #define KD_RENDER_FRAME_JOB_H
 
 #include "base/cpu_pressure.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/frame/frame.h"
 #include "render/view/critical_pixels.h"
 #include "render/view/layout.h"

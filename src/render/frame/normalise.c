@@ -1,6 +1,6 @@
 #include "render/frame/normalise.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/emit/radio.h"
 #include "render/frame/job.h"
 

@@ -4,7 +4,7 @@
 #ifndef KD_RENDER_LENS_AUDIT_H
 #define KD_RENDER_LENS_AUDIT_H
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/rays/rays.h"
 
 /* The map must be complete. Without plan->lens.audit, out->sampled is 0. Only radii from the ISCO to 1000 M are

@@ -4,7 +4,7 @@
 #ifndef KD_RENDER_LENS_LISTED_H
 #define KD_RENDER_LENS_LISTED_H
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/rays/rays.h"
 
 struct kd_lens_rows {

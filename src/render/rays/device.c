@@ -4,7 +4,7 @@
 #include "interface.h"
 #include "physics/math/angle.h"
 #include "physics/spacetime/kerr.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/view/layout.h"
 #include "render/rays/start.h"
 #include "base/clock.h"

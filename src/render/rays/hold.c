@@ -1,6 +1,6 @@
 #include "render/rays/hold.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/rays/device.h"
 
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 #include "render/rays/steps.h"
 
 #include "interface.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/rays/check.h"
 #include "render/rays/device.h"
 

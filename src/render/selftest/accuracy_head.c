@@ -1,6 +1,6 @@
 /* Fills in the head of an accuracy table: version, date, machine and device. */
 #include "render/selftest/accuracy_measure.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "base/cores.h"
 
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "physics/math/angle.h"
 #include "physics/null/null_geodesic.h"
 #include "physics/spacetime/kerr.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/rays/closed.h"
 #include "render/rays/device.h"
 

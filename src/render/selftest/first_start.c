@@ -2,7 +2,7 @@
 
 #include "base/clock.h"
 #include "base/log.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/frame/frame.h"
 #include "render/selftest/selftest.h"
 

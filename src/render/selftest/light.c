@@ -2,7 +2,7 @@
 #include "render/selftest/parts.h"
 
 #include "interface.h"
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 #include "render/view/layout.h"
 
 #include <float.h>

@@ -2,7 +2,7 @@
  * is captured. */
 #include "render/selftest/parts.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include <float.h>
 #include <math.h>

@@ -1,7 +1,7 @@
 /* Self-test of reproducibility: a picture must not change when it is rendered again, or in pieces. */
 #include "render/selftest/parts.h"
 
-#include "render/device/internal.h"
+#include "render/device/device_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
  * write them. No bytes are checked twice. While a grid is checked, its unpacked bytes count towards the limit. When
  * only one check runs, it may exceed the limit, because no asset is evicted for bytes that may turn out not to be a
  * grid. */
-#include "server/asset/internal.h"
+#include "server/asset/asset_internal.h"
 
 #include "base/clock.h"
 #include "render/emit/matter_grid.h"

@@ -1,4 +1,4 @@
-#include "server/asset/internal.h"
+#include "server/asset/asset_internal.h"
 
 #include "base/clock.h"
 #include "base/log.h"

@@ -3,7 +3,7 @@
  * What a frame shows depends on all frames before it. So when a frame is rendered again, or a film is resumed after
  * a restart, the motion is computed again from its beginning; it is the same to the bit. One film is made at a time
  * while others wait, so that only one uses memory and slices of the workers. */
-#include "server/job/internal.h"
+#include "server/job/job_internal.h"
 
 #include "base/clock.h"
 #include "playground/show.h"

@@ -1,7 +1,7 @@
 #include "server/job/films.h"
 
 #include "scene/sha256.h"
-#include "server/job/internal.h"
+#include "server/job/job_internal.h"
 
 #include <dirent.h>
 #include <fcntl.h>

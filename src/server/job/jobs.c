@@ -1,4 +1,4 @@
-#include "server/job/internal.h"
+#include "server/job/job_internal.h"
 
 #include "base/log.h"
 #include "base/clock.h"

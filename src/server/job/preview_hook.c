@@ -1,7 +1,7 @@
 /* Previews of a frame of a job while it is rendered, for clients that request them. */
 #include "image/png.h"
 #include "base/clock.h"
-#include "server/job/internal.h"
+#include "server/job/job_internal.h"
 
 #include <stdio.h>
 

@@ -1,6 +1,6 @@
 /* Writes records of jobs on a worker, one record in each slice, so that threads that change a record never wait for the
  * disk. */
-#include "server/job/internal.h"
+#include "server/job/job_internal.h"
 
 #include "base/log.h"
 

@@ -1,7 +1,7 @@
 /* GET /v1/jobs/{id}/result: a frame as a file, or all frames as a stream. archive.c sends archives, table.c tables. */
 #include "server/job/formats.h"
 #include "server/job/routes.h"
-#include "server/job/table.h"
+#include "server/job/job_table.h"
 #include "server/job/archive.h"
 #include "server/http/reply.h"
 #include "server/http/representation.h"

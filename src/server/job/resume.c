@@ -1,5 +1,5 @@
 /* Resumes the jobs in the state folder when the server starts. */
-#include "server/job/internal.h"
+#include "server/job/job_internal.h"
 
 #include "base/clock.h"
 #include "base/log.h"

@@ -1,5 +1,5 @@
 /* Renders jobs' frames through the render queue. */
-#include "server/job/internal.h"
+#include "server/job/job_internal.h"
 
 #include "base/clock.h"
 #include "job/frame.h"

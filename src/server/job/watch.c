@@ -1,7 +1,7 @@
 /* Watchers of jobs, and the regular check of all jobs. */
 #include "base/log.h"
 #include "base/clock.h"
-#include "server/job/internal.h"
+#include "server/job/job_internal.h"
 
 /* limit of files removed in one check of all jobs; the removal takes some milliseconds and must not delay the
  * thread's other work */

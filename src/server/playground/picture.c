@@ -3,7 +3,7 @@
  * first all->lock, then the lock of server/session. */
 #include "base/clock.h"
 #include "playground/show.h"
-#include "server/playground/internal.h"
+#include "server/playground/playground_internal.h"
 #include "server/render/queue.h"
 
 /* Memory of a picture: up to three sets of bodies at once. One waits, one is shown, and one is being made. */

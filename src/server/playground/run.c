@@ -5,7 +5,7 @@
  * setting `budget` limits the sub-steps in each beat, a thirtieth of a second. */
 #include "base/clock.h"
 #include "playground/show.h"
-#include "server/playground/internal.h"
+#include "server/playground/playground_internal.h"
 
 #include <math.h>
 

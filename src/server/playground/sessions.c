@@ -1,4 +1,4 @@
-#include "server/playground/internal.h"
+#include "server/playground/playground_internal.h"
 
 #include "base/clock.h"
 #include "base/log.h"

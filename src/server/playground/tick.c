@@ -1,6 +1,6 @@
 /* Makes ticks. A tick holds numbers as JSON, and bodies and debris as packed words. */
 #include "base/json.h"
-#include "server/playground/internal.h"
+#include "server/playground/playground_internal.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "server/http/connections.h"
-#include "server/playground/internal.h"
+#include "server/playground/playground_internal.h"
 
 #include <math.h>
 

@@ -3,7 +3,7 @@
  * touches the renderer's kernels, or a thread that holds the lock while the device has no owner. */
 #include "base/clock.h"
 #include "base/nice.h"
-#include "server/render/internal.h"
+#include "server/render/render_internal.h"
 
 #include <stddef.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Metrics of the device (name, memory in use, whether it is lost) and of the render queue. */
 #include "render/device/rest.h"
-#include "server/render/internal.h"
+#include "server/render/render_internal.h"
 
 /* Appends NAME="VALUE". Backslashes and quotes are escaped; each character outside printable ASCII becomes "?". */
 static enum kd_status add_label(struct kd_buffer *out, const char *name, const char *value)

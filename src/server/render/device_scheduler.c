@@ -1,7 +1,7 @@
 /* Schedules work on the device and runs it. */
 #include "base/clock.h"
 #include "render/explain/ahead.h"
-#include "server/render/internal.h"
+#include "server/render/render_internal.h"
 
 /* limit of the bytes of all frames that are rendered and not yet encoded; a single frame may exceed it */
 #define FRAME_BYTES ((size_t)256 << 20)

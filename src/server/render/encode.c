@@ -1,6 +1,6 @@
 /* Encoder threads. They turn rendered frames into files. */
 #include "base/clock.h"
-#include "server/render/internal.h"
+#include "server/render/render_internal.h"
 
 /* Whether a frame takes long to encode. Only one encoder at a time takes such frames, so that others do not wait. */
 static bool is_long(const struct kd_render_job *job)

@@ -1,4 +1,4 @@
-#include "server/render/internal.h"
+#include "server/render/render_internal.h"
 
 #include "render/device/accuracy_store.h"
 #include "base/clock.h"

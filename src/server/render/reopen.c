@@ -1,6 +1,6 @@
 /* Reopens a failed device and restarts interrupted work, or declares the device lost. */
 #include "base/log.h"
-#include "server/render/internal.h"
+#include "server/render/render_internal.h"
 
 #include <time.h>
 

@@ -3,7 +3,7 @@
 
 #include "base/allocator.h"
 #include "base/clock.h"
-#include "server/render/internal.h"
+#include "server/render/render_internal.h"
 
 static enum kd_status rest(struct kd_render_job *job, struct kd_renderer *renderer, kd_progress_fn progress, void *user)
 {

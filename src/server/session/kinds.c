@@ -1,6 +1,6 @@
 /* Encodings of live frames. A frame is encoded only as viewers request it. The renderer's encoder makes the first
  * encoding; others are made when a viewer waits for them. */
-#include "server/session/internal.h"
+#include "server/session/session_internal.h"
 
 #include <stdlib.h>
 

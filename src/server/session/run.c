@@ -1,6 +1,6 @@
 /* Renders sessions' frames through the render queue. */
 #include "base/clock.h"
-#include "server/session/internal.h"
+#include "server/session/session_internal.h"
 #include "server/session/sessions.h"
 #include "render/emit/motion.h"
 

@@ -1,5 +1,5 @@
 #include "base/clock.h"
-#include "server/session/internal.h"
+#include "server/session/session_internal.h"
 
 #include <math.h>
 #include <stdio.h>

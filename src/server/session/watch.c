@@ -1,7 +1,7 @@
 /* Viewers of sessions, and the regular check of all sessions. */
 #include "base/log.h"
 #include "base/clock.h"
-#include "server/session/internal.h"
+#include "server/session/session_internal.h"
 #include "server/session/sessions.h"
 
 #include <poll.h>

@@ -1,7 +1,7 @@
 /* Answers with the table of a finished job whose frames are rows (render/output/series.h). Workers read and format
  * the rows, one for each frame. HTTP thread. */
-#ifndef KD_SERVER_JOB_TABLE_H
-#define KD_SERVER_JOB_TABLE_H
+#ifndef KD_SERVER_JOB_JOB_TABLE_H
+#define KD_SERVER_JOB_JOB_TABLE_H
 
 #include "server/http/request.h"
 #include "server/job/jobs.h"

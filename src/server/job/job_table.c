@@ -1,4 +1,4 @@
-#include "server/job/table.h"
+#include "server/job/job_table.h"
 
 #include "base/clock.h"
 #include "server/http/reply.h"
