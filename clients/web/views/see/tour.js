@@ -3,7 +3,7 @@
 import { byId, el, latest, still } from '../../base/dom.js';
 import { t } from '../../words/i18n.js';
 import { startAgain } from '../../controls/presets.js';
-import { physics } from '../../base/server.js';
+import { holeOf, physics } from '../../base/server.js';
 
 const flight_ms = 1400;
 const least_ms = 60; // between two steps of a flight
@@ -127,8 +127,8 @@ export function buildTour(stage, scene) {
       [name, place] = stops[here][4],
       get = path => scene.get(path);
     ring.hidden = true;
-    if (!before || get('camera.r') !== 'infinity' || get('camera.roll_deg') || get('spacetime.charge')) return;
-    const hole = { spin: get('spacetime.spin'), inclination_deg: get('camera.inclination_deg') },
+    if (!before || get('camera.r') !== 'infinity' || get('camera.roll_deg')) return;
+    const hole = { ...holeOf(scene), inclination_deg: get('camera.inclination_deg') },
       { values } = await physics(name, { ...hole, ...place }).catch(() => ({ values: {} })),
       [alpha, beta] = [values.alpha, values.beta].map(value => [value].flat()[0]);
     if (now !== flight || !before || box.dataset.arrived !== String(here + 1) || alpha == null) return;
