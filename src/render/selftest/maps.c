@@ -124,7 +124,7 @@ done:
 static struct kd_selftest_ray by_own_azimuth(const struct kd_selftest_camera *camera)
 {
     struct kd_selftest_ray ray = camera->ray;
-    double root = sqrt((1 - ray.spin) * (1 + ray.spin)), gap = ray.radius - 1 - root;
+    double root = sqrt((1 - ray.spin) * (1 + ray.spin) - ray.charge * ray.charge), gap = ray.radius - 1 - root;
     double more = camera->observer == KD_OBSERVER_INFALL ? ray.spin / (2 * root) * log1p(2 * root / gap) : 0;
     for (int n = 0; n < ray.n_crossings; n++)
         ray.crossing[n].phi += more;
