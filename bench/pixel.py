@@ -3,15 +3,18 @@
 
     bench/pixel.py            about two minutes
     bench/pixel.py --before OTHER/build/src/kerrd
+    bench/pixel.py --new      the first pixels of views whose kernels are new: empty caches, about two minutes
 
 The script starts its own server for each row. It requests pixels of a picture of 1600 x 900 at random places, as the
-page does, after a few that compile the kernels. Writes bench/results/DATE-DEVICE-pixel.{json,md}.
+page does, after a few that compile the kernels. With --new it requests them along a row of pixels that crosses the
+photon ring, 20 s after the view has its last frame. Writes bench/results/DATE-DEVICE-pixel.{json,md}, or -pixel-new.
 """
 
 import json
 import os
 import random
 import statistics
+import tempfile
 import time
 
 import fairness
@@ -42,8 +45,12 @@ LOADS = {
 }
 
 
-def pixel(server, preset, connection):
-    x, y = random.uniform(0.2, 0.8) * WIDTH, random.uniform(0.2, 0.8) * HEIGHT
+def anywhere():
+    return random.uniform(0.2, 0.8) * WIDTH, random.uniform(0.2, 0.8) * HEIGHT
+
+
+def pixel(server, preset, connection, at=None):
+    x, y = at or anywhere()
     begun = time.monotonic()
     answer, text = server.ask(
         SOURCE, "POST", f"/v1/pixel?at={x:.2f},{y:.2f}&preset={preset}", ALONE, connection=connection
@@ -70,10 +77,34 @@ def run_one(path, preset, begin, n):
         server.stop()
 
 
+def last_frame(server, connection, preset):
+    """Watch a view until its last frame, or for half a minute if its time runs."""
+    made = json.loads(server.ask(SOURCE, "POST", f"/v1/sessions?preset={preset}", VIEW, connection=connection)[1])
+    begun, number, quality = time.monotonic(), 0, ""
+    while "final=1" not in quality and time.monotonic() - begun < 30:
+        target = f"/v1/sessions/{made['id']}/frame?after={number}&wait_ms=20000"
+        answer, _ = server.ask(SOURCE, "GET", target, connection=connection)
+        number, quality = int(answer.getheader("Kerrd-Frame")), answer.getheader("Kerrd-Quality")
+
+
+def run_new(path, preset, n):
+    with tempfile.TemporaryDirectory() as folder:
+        server = fairness.Server(path, env=fairness.empty_cache(folder))
+        try:
+            connection = server.connect(SOURCE)
+            last_frame(server, connection, preset)
+            time.sleep(20)
+            places = [(WIDTH * (0.3 + 0.4 * i / (n - 1)), HEIGHT / 2) for i in range(n)]
+            return [pixel(server, preset, connection, at) for at in places]
+        finally:
+            server.stop()
+
+
 def main():
     p = measure.parser(__doc__.splitlines()[0])
     p.add_argument("--before", help="another program, measured in turn")
     p.add_argument("--number", type=int, default=60, help="pixels a row (60)")
+    p.add_argument("--new", action="store_true", help="views whose kernels are new")
     p.add_argument("--presets", nargs="+", default=["gas", "gas-stars"])
     arguments, load = p.parse_args(), os.getloadavg()[0]
     programs = {"now": measure.binary(arguments.build, "src/kerrd")}
@@ -83,11 +114,14 @@ def main():
     device = json.loads(server.ask(SOURCE, "GET", "/v1/device")[1])
     server.stop()
     results, rows = {}, []
+    loads = {"its view, with empty caches": None} if arguments.new else LOADS
     for preset in arguments.presets:
-        for name, begin in LOADS.items():
+        for name, begin in loads.items():
             row = [preset, name]
             for which, path in programs.items():
-                took = run_one(path, preset, begin, arguments.number)
+                took = (
+                    run_one(path, preset, begin, arguments.number) if begin else run_new(path, preset, arguments.number)
+                )
                 results.setdefault(preset, {}).setdefault(name, {})[which] = took
                 row.append(f"{statistics.median(took):.0f} / {max(took):.0f}")
             rows.append([*row, f"{os.getloadavg()[0]:.1f}"])
@@ -96,7 +130,7 @@ def main():
     text = measure.head_markdown("The explanation of a pixel, beside pictures of the same client", h)
     columns = [f"{which}, ms: median / worst" for which in programs]
     text += measure.table(["preset", "beside", *columns, "load average"], rows)
-    measure.save(arguments.out, "pixel", h, {"pixels_ms": results}, text)
+    measure.save(arguments.out, "pixel-new" if arguments.new else "pixel", h, {"pixels_ms": results}, text)
 
 
 if __name__ == "__main__":
