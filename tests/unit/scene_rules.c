@@ -168,6 +168,11 @@ static const struct rule rules[] = {
     { "{\"spacetime\":{\"spin\":-0.999999999999,\"charge\":0.1}}", "/spacetime/charge", "it must be at most" },
     { "{\"spacetime\":{\"spin\":0.6,\"charge\":0.5},\"camera\":{\"r\":1.6,\"observer\":\"zamo\"}}", "/camera/r",
       "more than 1.6244998 M, the horizon of spacetime.spin 0.6 and spacetime.charge 0.5" },
+    { "{\"spacetime\":{\"spin\":0.1,\"charge\":0.9},\"camera\":{\"r\":0.576,\"observer\":\"infall\"}}", NULL, NULL },
+    { "{\"spacetime\":{\"spin\":0.1,\"charge\":0.9},\"camera\":{\"r\":0.575,\"observer\":\"infall\"}}", "/camera/r",
+      "camera.r is 0.575 M; for camera.observer \"infall\" it must be more than 0.575735932 M, the inner horizon, "
+      "where "
+      "the model ends" },
     { "{\"spacetime\":{\"spin\":0,\"charge\":0.5},\"disk\":{\"inner\":5.6}}", "/disk/inner",
       "at least 5.606643428 M, the ISCO of spacetime.spin 0 and spacetime.charge 0.5" },
     { "{\"spacetime\":{\"spin\":0,\"charge\":0.5},\"disk\":{\"inner\":5.61}}", NULL, NULL },
