@@ -18,7 +18,7 @@ struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_c
 {
     state y = { 0 };
     place(at->a, at->r, sin(at->theta), cos(at->theta), 0, (double[]) { -p[1], -p[2], -p[3] }, y);
-    return run((struct system) { at->a, p[0], 0 }, y, false, max_crossings);
+    return run((struct system) { at->a, p[0], at->q }, y, false, max_crossings);
 }
 
 /* The Hamiltonian of a body differs from that of light by a constant, so that its flow is the same. */

@@ -4,16 +4,20 @@
 
 enum { T, R, THETA, PHI };
 
+/* 2r, with charge 2r - q^2. */
+static double mass_of(const struct ks_place *at) { return 2 * at->r - at->q * at->q; }
+
 /* The inverse metric: t and phi do not mix, and all components are finite where Delta vanishes. */
 static void inverse(const struct ks_place *at, double g[4][4])
 {
-    double a = at->a, r = at->r, s = sin(at->theta), c = cos(at->theta), sigma = r * r + a * a * c * c;
+    double a = at->a, r = at->r, s = sin(at->theta), c = cos(at->theta), sigma = r * r + a * a * c * c,
+           mass = mass_of(at);
     for (int i = 0; i < 4; i++)
         for (int j = 0; j < 4; j++)
             g[i][j] = 0;
-    g[T][T] = -(1 + 2 * r / sigma);
-    g[T][R] = g[R][T] = 2 * r / sigma;
-    g[R][R] = (r * r - 2 * r + a * a) / sigma;
+    g[T][T] = -(1 + mass / sigma);
+    g[T][R] = g[R][T] = mass / sigma;
+    g[R][R] = (r * r - mass + a * a) / sigma;
     g[R][PHI] = g[PHI][R] = a / sigma;
     g[THETA][THETA] = 1 / sigma;
     g[PHI][PHI] = 1 / (sigma * s * s);
@@ -52,7 +56,7 @@ static void scale(double p[4], double by)
 static void turning(const struct ks_place *at, double p[4])
 {
     double a = at->a, r = at->r, s2 = sin(at->theta) * sin(at->theta), sigma = r * r + a * a * (1 - s2),
-           f = 2 * r / sigma;
+           f = mass_of(at) / sigma;
     p[T] = -f * a * s2, p[R] = -a * s2 * (1 + f), p[THETA] = 0, p[PHI] = s2 * (r * r + a * a + f * a * a * s2);
 }
 
@@ -73,8 +77,8 @@ static void complete(const struct ks_place *at, struct ks_frame *f)
 
 struct ks_frame ks_zamo(const struct ks_place *at)
 {
-    double delta = at->r * at->r - 2 * at->r + at->a * at->a;
-    struct ks_frame f = { .e = { { [T] = -1, [R] = 2 * at->r / delta }, { [R] = 1 } } }; /* the case p^r = 0 */
+    double mass = mass_of(at), delta = at->r * at->r - mass + at->a * at->a;
+    struct ks_frame f = { .e = { { [T] = -1, [R] = mass / delta }, { [R] = 1 } } }; /* the case p^r = 0 */
     complete(at, &f);
     return f;
 }
@@ -112,7 +116,7 @@ void ks_seen(const struct ks_frame *f, const double k[3], double p[4])
 
 void ks_constants(const struct ks_place *at, const double p[4], double out[4])
 {
-    double delta = at->r * at->r - 2 * at->r + at->a * at->a;
+    double mass = mass_of(at), delta = at->r * at->r - mass + at->a * at->a;
     out[0] = -p[T], out[1] = p[PHI], out[2] = p[THETA];
-    out[3] = delta * p[R] + 2 * at->r * p[T] + at->a * p[PHI];
+    out[3] = delta * p[R] + mass * p[T] + at->a * p[PHI];
 }

@@ -6,7 +6,7 @@
 #ifndef KD_TESTS_KERR_SCHILD_FRAME_H
 #define KD_TESTS_KERR_SCHILD_FRAME_H
 
-struct ks_place { double a, r, theta; };
+struct ks_place { double a, r, theta, q; /* q: charge */ };
 
 /* Four covectors, the legs along t, r, theta, phi, with components p_t, p_r, p_theta, p_phi. */
 struct ks_frame { double e[4][4]; };

@@ -17,6 +17,7 @@ static const struct seer {
     double spin, theta_deg, r;
     struct kd_observer_motion motion;
     double energy;
+    double charge;
 } seers[] = {
     { 0, 75, 1, { KD_OBSERVER_INFALL, { 0 }, FALL }, 1 },
     { 0, 75, 2, { KD_OBSERVER_INFALL, { 0 }, FALL }, 1 },
@@ -27,6 +28,11 @@ static const struct seer {
     { 0.9, 75, 6, { KD_OBSERVER_VELOCITY, { 0, 0.6, 0 }, FALL }, 0 },
     { 0.9, 60, 3, { KD_OBSERVER_VELOCITY, { -0.4, -0.5, 0.3 }, FALL }, 0 },
     { -0.5, 110, 15, { KD_OBSERVER_VELOCITY, { 0.3, 0.8, -0.2 }, FALL }, 0 },
+    { 0, 75, 0.9, { KD_OBSERVER_INFALL, { 0 }, FALL }, 1, 0.95 },
+    { 0.4, 75, 1.1, { KD_OBSERVER_INFALL, { 0 }, FALL }, 1, 0.85 },
+    { 0.5, 80, 1.2, { KD_OBSERVER_INFALL, { 0 }, INFINITY, 0.9, 1.2 }, 0.9, 0.7 },
+    { 0.6, 60, 3, { KD_OBSERVER_VELOCITY, { -0.4, -0.5, 0.3 }, FALL }, 0, 0.7 },
+    { -0.5, 110, 5, { KD_OBSERVER_VELOCITY, { 0.3, 0.6, -0.2 }, FALL }, 0, 0.8 },
 };
 
 static struct ks_frame frame_of(const struct seer *seer, const struct ks_place *at)
@@ -65,10 +71,10 @@ static void the_edge_is_where_it_is_seen(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof seers / sizeof *seers; i++) {
         const struct seer *s = &seers[i];
-        const struct ks_place at = { s->spin, s->r, s->theta_deg * (M_PI / 180) };
+        const struct ks_place at = { s->spin, s->r, s->theta_deg * (M_PI / 180), s->charge };
         const struct ks_frame frame = frame_of(s, &at);
-        const struct kd_critical_observer observer = { kd_hole_of(s->spin), s->r, cos(at.theta), sin(at.theta),
-                                                       s->motion };
+        const struct kd_critical_observer observer = { kd_hole_charged(s->spin, s->charge), s->r, cos(at.theta),
+                                                       sin(at.theta), s->motion };
         const struct kd_critical curve = kd_critical_of(&observer);
         assert_int_equal(curve.status, KD_CRITICAL_OK);
         assert_int_equal(curve.is_skew, s->motion.observer == KD_OBSERVER_VELOCITY);
@@ -89,8 +95,8 @@ static void the_edge_is_where_it_is_seen(void **state)
                 for (int j = 0; j < 3; j++)
                     to[j] = m[j] + side * delta * across[j] / sqrt(length);
                 if (comes_from_the_sky(&at, &frame, to) != (side > 0))
-                    fail_msg("a = %g, r = %g, observer %d, angle %g: the edge is not there, side %d", s->spin, s->r,
-                             (int)s->motion.observer, angle, side);
+                    fail_msg("a = %g, q = %g, r = %g, observer %d, angle %g: the edge is not there, side %d", s->spin,
+                             s->charge, s->r, (int)s->motion.observer, angle, side);
             }
         }
     }

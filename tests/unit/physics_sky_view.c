@@ -22,6 +22,7 @@ static const struct seer {
     double spin, inclination, r;
     struct kd_observer_motion motion;
     double energy, momentum;
+    double charge;
 } seers[] = {
     { "static", 0.9, 60, 8, { .observer = KD_OBSERVER_STATIC }, 0, 0 },
     { "static", 0, 50, 2.2, { .observer = KD_OBSERVER_STATIC }, 0, 0 },
@@ -55,12 +56,17 @@ static const struct seer {
       { .observer = KD_OBSERVER_INFALL, .fall_from = 10, .fall_energy = INFINITY },
       0.89442719099991588,
       0 }, /* sqrt(0.8) */
+    { "static", 0.4, 60, 4, { .observer = KD_OBSERVER_STATIC }, 0, 0, 0.85 },
+    { "zamo", 0.6, 80, 1.8, { .observer = KD_OBSERVER_ZAMO }, 0, 0, 0.7 },
+    { "velocity", -0.5, 70, 6, { .observer = KD_OBSERVER_VELOCITY, .velocity = { -0.5, 0.3, 0.6 } }, 0, 0, 0.8 },
+    { "rain", 0, 75, 0.8, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0, 0.95 },
+    { "rain", 0.4, 110, 1.2, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0, 0.85 },
 };
 enum { SEERS = sizeof seers / sizeof *seers };
 
 static struct ks_place place_of(const struct seer *s)
 {
-    return (struct ks_place) { s->spin, s->r, s->inclination * RADIAN };
+    return (struct ks_place) { s->spin, s->r, s->inclination * RADIAN, s->charge };
 }
 
 static struct ks_frame frame_of(const struct seer *s)
@@ -73,7 +79,8 @@ static struct ks_frame frame_of(const struct seer *s)
     if (s->energy > 0)
         ks_inwards(&at, 1, s->energy, s->momentum, 0, u);
     else if (s->motion.observer == KD_OBSERVER_STATIC) { /* the observer of velocity along d/dt, by the line element */
-        double c = cos(at.theta), f = 2 * s->r / (s->r * s->r + s->spin * s->spin * c * c), lapse = sqrt(1 - f);
+        double c = cos(at.theta), f = (2 * s->r - s->charge * s->charge) / (s->r * s->r + s->spin * s->spin * c * c),
+               lapse = sqrt(1 - f);
         u[0] = -lapse, u[1] = f / lapse, u[3] = -f * s->spin * sin(at.theta) * sin(at.theta) / lapse;
     } else
         for (int i = 0; i < 4; i++)
@@ -84,11 +91,12 @@ static struct ks_frame frame_of(const struct seer *s)
 
 static struct kd_sky_view view_of(const struct seer *s)
 {
-    struct kd_sky_view view = kd_sky_view_of(&(struct kd_critical_observer) { .hole = kd_hole_of(s->spin),
-                                                                              .radius = s->r,
-                                                                              .cos_theta = cos(s->inclination * RADIAN),
-                                                                              .sin_theta = sin(s->inclination * RADIAN),
-                                                                              .motion = s->motion });
+    struct kd_sky_view view =
+        kd_sky_view_of(&(struct kd_critical_observer) { .hole = kd_hole_charged(s->spin, s->charge),
+                                                        .radius = s->r,
+                                                        .cos_theta = cos(s->inclination * RADIAN),
+                                                        .sin_theta = sin(s->inclination * RADIAN),
+                                                        .motion = s->motion });
     assert_int_equal(view.status, KD_CRITICAL_OK);
     return view;
 }
