@@ -14,12 +14,14 @@
 
 #define RADIAN (M_PI / 180)
 
-static struct kd_place_view view_of(double a, double r, double i_deg)
+static struct kd_place_view view_about(struct kd_hole hole, double r, double i_deg)
 {
     const struct kd_observer_motion motion = kd_observer_motion_of(KD_OBSERVER_STATIC);
-    const struct kd_vantage at = { kd_hole_of(a), r, cos(i_deg * RADIAN), sin(i_deg * RADIAN) };
+    const struct kd_vantage at = { hole, r, cos(i_deg * RADIAN), sin(i_deg * RADIAN) };
     return kd_place_view_of(&motion, &at);
 }
+
+static struct kd_place_view view_of(double a, double r, double i_deg) { return view_about(kd_hole_of(a), r, i_deg); }
 
 static double turn(double phi) { return remainder(phi, 2 * M_PI); }
 
@@ -55,15 +57,19 @@ static int crosses(const struct kd_place_view *view, const struct kd_place_image
 static void test_the_plane_of_a_hole_that_spins(void **state)
 {
     (void)state;
-    const double spins[] = { 0, 0.7, -0.95 }, from[] = { INFINITY, 30 }, radii[] = { 4, 9, 25 };
-    for (int k = 0; k < 3 * 2 * 3; k++) {
-        const struct kd_place_view view = view_of(spins[k % 3], from[k / 3 % 2], k % 2 ? 70 : 120);
-        const double r = radii[k / 6];
+    const double holes[][2] = { { 0, 0 }, { 0.7, 0 }, { -0.95, 0 }, { 0, 0.99 }, { 0.5, 0.8 } }, /* spin, charge */
+        from[] = { INFINITY, 30 }, radii[] = { 4, 9, 25 };
+    for (int k = 0; k < 5 * 2 * 3; k++) {
+        const double *hole = holes[k % 5];
+        const struct kd_place_view view =
+            view_about(kd_hole_charged(hole[0], hole[1]), from[k / 5 % 2], k % 2 ? 70 : 120);
+        const double r = radii[k / 10];
         struct kd_place_image direct;
         for (int j = 0; j < 5; j++) {
             const double phi = (20 + 72 * j) * RADIAN;
             if (!kd_place_image_seen(&view, r, 0, phi, NULL, true, &direct))
-                fail_msg("a = %g, from %g: r = %g, phi = %g has no image", spins[k % 3], from[k / 3 % 2], r, phi);
+                fail_msg("a = %g, q = %g, from %g: r = %g, phi = %g has no image", hole[0], hole[1], from[k / 5 % 2], r,
+                         phi);
             assert_int_equal(crosses(&view, &direct, r, phi), 0);
         }
     }

@@ -28,11 +28,11 @@ static void within(const char *what, double a, double x, double got, double want
                  fabs(got - want), bound);
 }
 
-static struct kd_ring_image_point image_of(double a, double i_deg, double r, double phi_deg, int order)
+static struct kd_ring_image_point image_of(double a, double q, double i_deg, double r, double phi_deg, int order)
 {
     struct kd_ring_image ring;
     struct kd_ring_image_point point = { 0 };
-    if (!kd_ring_image_init(&ring, kd_hole(a), i_deg * RADIAN, r, order) ||
+    if (!kd_ring_image_init(&ring, (const struct kd_hole[]) { kd_hole_charged(a, q) }, i_deg * RADIAN, r, order) ||
         !kd_ring_image_find(&ring, phi_deg * RADIAN, &point))
         fail_msg("no image of order %d of a ring at %.17g, %.17g degrees, a = %.17g, i = %.17g", order, r, phi_deg, a,
                  i_deg);
@@ -45,7 +45,7 @@ static void without_spin(void **state)
     (void)state;
     for (size_t k = 0; k < COUNT(ring_reference); k++) {
         const struct ring_reference *f = &ring_reference[k];
-        struct kd_ring_image_point p = image_of(0, f->inclination_deg, f->r, f->phi_deg, f->order);
+        struct kd_ring_image_point p = image_of(0, 0, f->inclination_deg, f->r, f->phi_deg, f->order);
         double size = hypot(f->alpha, f->beta), lambda = -p.alpha * sin(f->inclination_deg * RADIAN);
         within("alpha", 0, f->r, p.alpha, f->alpha, 1e-12 * size);
         within("beta", 0, f->r, p.beta, f->beta, 1e-12 * size);
@@ -60,18 +60,20 @@ static void without_spin(void **state)
  * about 25 each half turn. */
 static void with_spin(void **state)
 {
-    static const double cases[][4] = {
-        /* rows of a, i, r, phi */
-        { 0.9, 60, 6, 90 },    { 0.9, 60, 6, 200 },   { 0.9, 60, 2.5, 20 }, { 0.998, 80, 1.5, 300 },
-        { -0.7, 30, 12, 150 }, { 0.5, 85, 4.5, 5 },   { 0.99, 10, 3, 250 }, { 0.999999, 45, 2, 120 },
-        { 0.3, 70, 100, 181 }, { -0.95, 75, 9, 330 },
+    static const double cases[][5] = {
+        /* rows of a, i, r, phi, and of q if there is a charge */
+        { 0.9, 60, 6, 90 },        { 0.9, 60, 6, 200 },   { 0.9, 60, 2.5, 20 },      { 0.998, 80, 1.5, 300 },
+        { -0.7, 30, 12, 150 },     { 0.5, 85, 4.5, 5 },   { 0.99, 10, 3, 250 },      { 0.999999, 45, 2, 120 },
+        { 0.3, 70, 100, 181 },     { -0.95, 75, 9, 330 }, { 0, 60, 4.5, 200, 0.99 }, { 0.6, 75, 3, 20, 0.75 },
+        { -0.5, 40, 8, 300, 0.8 },
     };
     (void)state;
     for (size_t k = 0; k < COUNT(cases); k++)
         for (int order = 0; order < 2; order++) {
             const double *c = cases[k];
-            struct kd_ring_image_point p = image_of(c[0], c[1], c[2], c[3], order);
-            struct ks_path path = ks_trace(ks_from_infinity(c[0], cos(c[1] * RADIAN), p.alpha, p.beta), order + 1);
+            struct kd_ring_image_point p = image_of(c[0], c[4], c[1], c[2], c[3], order);
+            struct ks_path path =
+                ks_trace(ks_from_infinity_charged(c[0], c[4], cos(c[1] * RADIAN), p.alpha, p.beta), order + 1);
             double magnified = order ? 1e3 : 30;
             assert_int_equal(path.crossings, order + 1);
             within("r", c[0], c[2], path.r[order], c[2], 1e-9 * magnified * c[2]);
