@@ -16,11 +16,11 @@
 
 enum { T, R, THETA, PHI, P_R, P_THETA, STATE };
 
-struct body { double a, energy, momentum; };
+struct body { double a, energy, momentum, q; };
 
 static double norm(const struct body *b, double r, double theta, double p_r, double p_theta)
 {
-    const struct ks_place at = { b->a, r, theta };
+    const struct ks_place at = { b->a, r, theta, b->q };
     const double p[4] = { -b->energy, p_r, p_theta, b->momentum };
     return ks_product(&at, p, p);
 }
@@ -38,7 +38,7 @@ static double slope(const struct body *b, const double *y, double dr, double dth
 
 static void derivative(const struct body *b, const double *y, double *d)
 {
-    const struct ks_place at = { b->a, y[R], y[THETA] };
+    const struct ks_place at = { b->a, y[R], y[THETA], b->q };
     const double p[4] = { -b->energy, y[P_R], y[P_THETA], b->momentum };
     for (int i = 0; i < 4; i++) {
         const double unit[4] = { i == 0, i == 1, i == 2, i == 3 };
@@ -63,10 +63,14 @@ static void step(const struct body *b, double h, double *y)
 
 static const struct fall {
     double a, theta_deg, r, from, energy, momentum; /* from, energy: INFINITY as in kd_observer_motion */
+    double q;
 } falls[] = {
-    { 0, 90, 8, INFINITY, INFINITY, 0 },    { 0, 30, 5, 9, INFINITY, 0 },         { 0.7, 82, 6, INFINITY, INFINITY, 0 },
-    { -0.9, 40, 5, INFINITY, INFINITY, 0 }, { 0.9, 90, 5, 5.5, INFINITY, 1.2 },   { 0.6, 90, 6, INFINITY, 1.3, -2.5 },
-    { 0.95, 0, 4, INFINITY, 1.1, 0 },       { 0.5, 90, 1.7, INFINITY, 0.4, 0.3 },
+    { 0, 90, 8, INFINITY, INFINITY, 0 },     { 0, 30, 5, 9, INFINITY, 0 },
+    { 0.7, 82, 6, INFINITY, INFINITY, 0 },   { -0.9, 40, 5, INFINITY, INFINITY, 0 },
+    { 0.9, 90, 5, 5.5, INFINITY, 1.2 },      { 0.6, 90, 6, INFINITY, 1.3, -2.5 },
+    { 0.95, 0, 4, INFINITY, 1.1, 0 },        { 0.5, 90, 1.7, INFINITY, 0.4, 0.3 },
+    { 0, 30, 5, 9, INFINITY, 0, 0.9 },       { 0.5, 50, 6, INFINITY, INFINITY, 0, 0.8 },
+    { -0.6, 90, 5, 6, INFINITY, -1.1, 0.7 }, { 0.4, 0, 4, INFINITY, 1.1, 0, 0.85 },
 };
 
 static struct kd_observer_motion motion_of(const struct fall *f)
@@ -79,7 +83,8 @@ static struct kd_observer_motion motion_of(const struct fall *f)
 static void near(const char *what, const struct fall *f, double proper_time, double got, double wanted, double bound)
 {
     if (!(fabs(got - wanted) <= bound * fmax(1, fabs(wanted))))
-        fail_msg("spin %g from %g M, after %g M: %s %.15g, wanted %.15g", f->a, f->r, proper_time, what, got, wanted);
+        fail_msg("spin %g, charge %g from %g M, after %g M: %s %.15g, wanted %.15g", f->a, f->q, f->r, proper_time,
+                 what, got, wanted);
 }
 
 /* The reference is accurate to about 1e-10. Near r = 0 its steps are too long, so it stops halfway between its last
@@ -91,15 +96,15 @@ static void what_falls_is_where_its_clock_says(void **state)
         const struct fall *f = &falls[i];
         const struct kd_observer_motion m = motion_of(f);
         const double theta = f->theta_deg * (M_PI / 180);
-        const struct kd_vantage at = { kd_hole_of(f->a), f->r, f->theta_deg == 90 ? 0 : cos(theta),
+        const struct kd_vantage at = { kd_hole_charged(f->a, f->q), f->r, f->theta_deg == 90 ? 0 : cos(theta),
                                        f->theta_deg == 0 ? 0 : sin(theta) };
-        const struct body body = { f->a, kd_observer_energy(&m, &at), f->momentum };
-        const struct ks_place place = { f->a, f->r, fmax(theta, 1e-7) };
+        const struct body body = { f->a, kd_observer_energy(&m, &at), f->momentum, f->q };
+        const struct ks_place place = { f->a, f->r, fmax(theta, 1e-7), f->q };
         double y[STATE] = { [R] = f->r, [THETA] = place.theta }, p[4];
         ks_inwards(&place, 1, body.energy, body.momentum, 0, p);
         y[P_R] = p[1];
-        const double horizon = kd_hole(f->a)->outer,
-                     all = kd_infall_proper_time(&m, &at, fmin(0.7 * horizon + 0.3 * kd_hole(f->a)->inner, f->r));
+        const double horizon = at.hole.outer,
+                     all = kd_infall_proper_time(&m, &at, fmin(0.7 * horizon + 0.3 * at.hole.inner, f->r));
         assert_true(kd_worldline_is_known(&m, &at));
         enum { STEPS = 4000, LOOKS = 8 };
         for (int n = 1; n <= STEPS; n++) {
