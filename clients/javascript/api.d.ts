@@ -7898,7 +7898,7 @@ export interface Operations {
       query?: SceneQuery & {
         /** format of the picture, instead of Accept. */
         format?: 'png' | 'jpg' | 'webp' | 'npy' | 'npz' | 'fits' | 'exr' | 'stars';
-        /** quality of a jpg or webp; without format the answer is then one of these two; default 90; 1 to 100. */
+        /** quality of a jpg or webp, default 90; without format, the answer is one of them; 1 to 100. */
         quality?: number;
         /**
          * version for which the address was made: if it is this server's, and the scene names no asset, caches may keep
@@ -7925,7 +7925,7 @@ export interface Operations {
       query?: {
         /** format of the picture, instead of Accept. */
         format?: 'png' | 'jpg' | 'webp' | 'npy' | 'npz' | 'fits' | 'exr' | 'stars';
-        /** quality of a jpg or webp; without format the answer is then one of these two; default 90; 1 to 100. */
+        /** quality of a jpg or webp, default 90; without format, the answer is one of them; 1 to 100. */
         quality?: number;
         /**
          * version for which the address was made: if it is this server's, and the scene names no asset, caches may keep
