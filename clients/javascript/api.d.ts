@@ -1077,7 +1077,7 @@ export interface OrbitAdvance {
   periastron_arcsec_per_century?: number | null;
 }
 
-/** radians per Mino time, per M, or as the member says Hz. */
+/** in radians per Mino time, in radians per M, or in Hz, by the name of the member. */
 export interface OrbitMinoFrequencies {
   r: number | null;
   theta: number | null;
@@ -1086,7 +1086,7 @@ export interface OrbitMinoFrequencies {
   tau_proper: number | null;
 }
 
-/** radians per Mino time, per M, or as the member says Hz. */
+/** in radians per Mino time, in radians per M, or in Hz, by the name of the member. */
 export interface OrbitThreeFrequencies {
   r: number | null;
   theta: number | null;
@@ -1256,8 +1256,8 @@ export interface LineProfile {
     /** innermost stable circular orbit. */
     isco: number | null;
     /**
-     * number of the line's photons, or with counts energy their energy: the integral of g^3 epsilon f, or of g^4
-     * epsilon f, over the image plane.
+     * number of the line's photons, which is the integral of g^3 epsilon f over the image plane; with counts
+     * "energy", energy of the line, the integral of g^4 epsilon f.
      */
     total: number | null;
     /** share of the line between the first and the last edge. */
@@ -4897,7 +4897,7 @@ export interface Operations {
       'application/schema+json': unknown;
     };
   };
-  /** Names of all approximations, as Kerrd-Approximations lists them, and the sentence of each. */
+  /** All approximations: their names, which Kerrd-Approximations lists, and their sentences. */
   'GET /v1/approximations': {
     takes: {};
     gives: {
@@ -7898,7 +7898,7 @@ export interface Operations {
       query?: SceneQuery & {
         /** format of the picture, instead of Accept. */
         format?: 'png' | 'jpg' | 'webp' | 'npy' | 'npz' | 'fits' | 'exr' | 'stars';
-        /** quality of a jpg or webp; without format the answer is then one of these two; default 90; 1 to 100. */
+        /** quality of a jpg or webp, default 90; without format, the answer is one of them; 1 to 100. */
         quality?: number;
         /**
          * version for which the address was made: if it is this server's, and the scene names no asset, caches may keep
@@ -7925,7 +7925,7 @@ export interface Operations {
       query?: {
         /** format of the picture, instead of Accept. */
         format?: 'png' | 'jpg' | 'webp' | 'npy' | 'npz' | 'fits' | 'exr' | 'stars';
-        /** quality of a jpg or webp; without format the answer is then one of these two; default 90; 1 to 100. */
+        /** quality of a jpg or webp, default 90; without format, the answer is one of them; 1 to 100. */
         quality?: number;
         /**
          * version for which the address was made: if it is this server's, and the scene names no asset, caches may keep

@@ -56,7 +56,7 @@ function sayRecorded() {
   say(t('app.a-recording', 'A recording'), false);
   byId('exactly-words').textContent = t(
     'app.kerrd-made-this-recording',
-    'kerrd made this recording of the first view, of 1280 × 960 pixels with four rays each. It is shown because the first picture took more than a second, or because this server makes fewer than four pictures a second now. At the first touch it goes on live.',
+    'kerrd made this recording of the first view, of 1280 × 960 pixels with four rays each. It is shown because the first picture took more than a second, or because this server makes fewer than four pictures a second now. At the first touch the view becomes live.',
   );
 }
 
@@ -340,7 +340,7 @@ async function start() {
   if (scene.unknown.length)
     byId('link-fault').textContent = t(
       'app.of-the-link-this',
-      'Of the link this was not understood: {0}.',
+      'Not understood in the link: {0}.',
       scene.unknown.join(', '),
     );
   await watch(scene);

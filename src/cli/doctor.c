@@ -232,10 +232,10 @@ const struct argp *kd_cli_doctor_argp(void)
     static const struct argp argp = {
         .options = options,
         .parser = parse,
-        .doc = "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
-               "The exit code is 0 if kerrd can work here and 1 if it cannot, or if a check of --selftest failed. The "
-               "self-test "
-               "takes a few seconds; docs/accuracy.md says what it compares with what.",
+        .doc =
+            "List the Vulkan devices, say which would be used and why, and render a tiny picture on it.\v"
+            "The exit code is 0 if kerrd can work here and 1 if it cannot, or if a check of --selftest failed. The "
+            "self-test takes a few seconds; docs/accuracy.md lists the numbers that it compares, and their references.",
         .children = kd_cli_device_children,
     };
     return &argp;

@@ -21,8 +21,8 @@ static const struct argp_option options_table[] = {
     { "tile", KEY_TILE, "WIDTHxHEIGHT+LEFT+TOP", 0,
       "part of the picture to render, as in 512x512+1024+0; sets the four fields of image.tile", 0 },
     { "asset", KEY_ASSET, "NAME=FILE", 0,
-      "give the file, a PNG or an NPZ of matter, the name that a field of the scene uses, as in sky.image=NAME or "
-      "volume.grid=NAME; may be repeated",
+      "a file that fields of the scene refer to by NAME, as in sky.image=NAME (a PNG picture) or volume.grid=NAME (a "
+      "grid of matter as NPZ); may be repeated",
       0 },
     { "from", KEY_FROM, "PICTURE.png", 0, "use the scene inside a picture that kerrd made", 0 },
     { 0 },

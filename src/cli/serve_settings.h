@@ -45,7 +45,7 @@
     S(QUEUE, "queue", 'q', "N", NUMBER, 1, 100000, "16", ANYWHERE, \
       "renders that may wait for the device (default 16)") \
     S(SESSIONS, "sessions", 's', "N", NUMBER, 1, 10000, "16", ANYWHERE, \
-      "live sessions at once, and as many playgrounds (default 16)") \
+      "limit of live sessions at once, and also of playgrounds (default 16)") \
     S(JOBS, "jobs", 'j', "N", NUMBER, 1, 1000, "16", ANYWHERE, "unfinished jobs at once (default 16)") \
     S(CLIENT_SHARE, "client-share", 'C', "PERCENT", NUMBER, 1, 100, "75", ANYWHERE, \
       "largest share in percent of each of these limits for one client, which is a token or an address (default 75)") \
@@ -56,7 +56,7 @@
     S(MEMORY, "memory", 'M', "SIZE", BYTES, 0, 0, NULL, ANYWHERE, KD_CLI_MEMORY_DOC) \
     GROUP("State and shutdown:") \
     S(STATE, "state", 'S', "DIR", TEXT, 0, 0, NULL, ANYWHERE, \
-      "folder for jobs, their frames, assets and what links have used, which then survive a restart") \
+      "folder for jobs, their frames, assets and the spent budgets of links, which then survive a restart") \
     S(DRAIN, "drain-seconds", 'g', "S", NUMBER, 1, 86400, "600", ANYWHERE, \
       "seconds after SIGTERM in which accepted requests may finish; the others are then answered with an error " \
       "(default 600)") \

@@ -59,7 +59,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 'k': a->key = text; return 0;
     case 'e':
         if (!read_when(text, &a->terms.expires_s))
-            argp_error(state, "--expires is %s; it must be " WHEN ", which is to come", text);
+            argp_error(state, "--expires is %s; it must be " WHEN ", in the future", text);
         return 0;
     case 'b': {
         char *end;

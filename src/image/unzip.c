@@ -53,7 +53,7 @@ static enum kd_status read_end(const uint8_t *data, size_t size, struct director
 {
     size_t end;
     if (!find_end(data, size, &end))
-        return damaged(error, "the file ends before its directory does, or bytes follow that");
+        return damaged(error, "the file ends before the end of its directory, or has bytes after it");
     const uint8_t *p = data + end;
     *out = (struct directory) { .n = u16(p + 10), .size = u32(p + 12), .at = u32(p + 16), .end = end };
     if (out->n == 0xffff || out->size == SATURATED || out->at == SATURATED) {

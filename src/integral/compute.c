@@ -158,10 +158,8 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_LINE] = { "relativistic line profile of a thin disk",
                            { { "isco", "M", "innermost stable circular orbit" },
                              { "total", "M^2",
-                               "number of the line's photons, or with counts energy their energy: the integral of g^3 "
-                               "epsilon f, or of "
-                               "g^4 "
-                               "epsilon f, over the image plane" },
+                               "number of the line's photons, which is the integral of g^3 epsilon f over the image "
+                               "plane; with counts \"energy\", energy of the line, the integral of g^4 epsilon f" },
                              { "inside", "1", "share of the line between the first and the last edge" },
                              { "error", "1", "estimated largest error of the cumulative share at any edge" },
                              { "strength", "1",

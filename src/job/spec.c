@@ -251,7 +251,7 @@ static const char *unblurred(const struct reader *r)
            : r->spec->sweep           ? "axes, between whose scenes nothing moves"
            : r->spec->listed          ? "scenes, between which nothing moves"
            : !r->timeline.keyframes   ? "a scene without keyframes, in which nothing moves"
-           : !makes_pictures(r->spec) ? "an output of numbers: only light has a mean that can be seen"
+           : !makes_pictures(r->spec) ? "an output of numbers, because only light can be averaged"
                                       : NULL;
 }
 

@@ -46,8 +46,10 @@ static void add_frequencies(struct kd_json *json)
         { "proper", KD_SCHEMA_REF("OrbitThreeFrequencies") },
         { "hz", KD_SCHEMA_REF("OrbitThreeFrequencies"), true },
     };
-    KD_SCHEMA_TOLD(json, "OrbitMinoFrequencies", "radians per Mino time, per M, or as the member says Hz", mino);
-    KD_SCHEMA_TOLD(json, "OrbitThreeFrequencies", "radians per Mino time, per M, or as the member says Hz", three);
+    KD_SCHEMA_TOLD(json, "OrbitMinoFrequencies",
+                   "in radians per Mino time, in radians per M, or in Hz, by the name of the member", mino);
+    KD_SCHEMA_TOLD(json, "OrbitThreeFrequencies",
+                   "in radians per Mino time, in radians per M, or in Hz, by the name of the member", three);
     KD_SCHEMA_STRICT(json, "OrbitFrequencies", all);
 }
 

@@ -255,7 +255,7 @@ static enum kd_status read_body(struct kd_playground *p, size_t i, const cJSON *
     KD_TRY(read_numbers(&p->bodies[i], body, N(body), item, pointer, error));
     const struct kd_playground_body *read = &p->bodies[i];
     if (!read->id || read->id > p->last_id || (i && read->id <= p->bodies[i - 1].id))
-        KD_TRY(bad(pointer, "id", "is not an id that a snapshot can have there", error));
+        KD_TRY(bad(pointer, "id", "must be larger than the id of the body before, and at most last_id", error));
     if (read->whole_mass != 0 &&
         !(read->whole_mass >= KD_PLAYGROUND_LEAST && read->whole_radius >= KD_PLAYGROUND_LEAST))
         KD_TRY(bad(pointer, "whole_mass", "and whole_radius do not describe a star during its passage", error));

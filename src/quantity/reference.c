@@ -12,7 +12,8 @@ static const char introduction[] =
     "62 -o ringdown.wav\n\nA value may be a range, `first:last:count`, which includes both ends. With several ranges, "
     "all combinations are computed, at\nmost 100000 points; the last parameter of the table varies fastest. In JSON a "
     "parameter with a range is an array, and so is\nevery value that depends on it. With several ranges, arrays are "
-    "flat, and `ranges` and `shape` describe them. `null`, or an\nempty field in CSV, is a number that does not exist. "
+    "flat, and `ranges` and `shape` describe them. `null`, or an\nempty field in CSV, means that the number does not "
+    "exist. "
     "`digits=6` (`--digits 6`) limits the significant digits of numbers in\nlists, and of all numbers in CSV; a "
     "plotted curve then takes a third of the bytes. Units are G = c = M = 1 if no other is\nnamed. A value outside the "
     "domain of a quantity is an error (422) that names the parameter and the reason.\n";

@@ -8,7 +8,9 @@
 #include <string.h>
 
 static const char introduction[] =
-    "# The scene document\n\nWhat to render, as JSON. Every field may be left out: `{}` is the default picture. This "
+    "# The scene document\n\nA scene describes in JSON what is rendered. Every field may be left out: `{}` is the "
+    "default "
+    "picture. This "
     "page is generated from\n`src/scene/fields.h`; do not edit it.\n\n    {\"version\": 1, \"spacetime\": {\"spin\": "
     "0.9}, \"camera\": {\"inclination_deg\": 70}, \"image\": {\"width\": 640}}\n\nA field also has a path, for the "
     "command line (`--set camera.inclination_deg=70`) and a link\n(`/v1/render?camera.inclination_deg=70`). Lengths "
@@ -140,8 +142,11 @@ enum kd_status kd_scene_reference(struct kd_buffer *out)
     for (size_t i = 0; i < kd_preset_count; i++)
         kd_write(w, "- `%s` (%s): %s.\n  `%s`%s\n", kd_presets[i].name, kd_presets[i].label, kd_presets[i].title,
                  kd_presets[i].json, kd_presets[i].smooth ? " over `smooth`" : "");
-    kd_write(w, "\n## Canonical form\n\n"
-                "Every field in the order of this page, `version` first, without spaces, each number in the fewest\n"
-                "digits that read back as the same double. Its SHA-256 is the hash of the scene.\n");
+    kd_write(
+        w,
+        "\n## Canonical form\n\n"
+        "The canonical form has every field in the order of this page, `version` first, without spaces. Each number\n"
+        "has the fewest digits that read back as the same double. The SHA-256 of this form is the hash of the "
+        "scene.\n");
     return writer.status;
 }

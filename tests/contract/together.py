@@ -192,7 +192,7 @@ TOGETHER = [
         "POST /v1/sessions|PATCH /v1/sessions/{id}(/frame)?|POST /v1/sessions/{id}/path",
         SESSION
         + (
-            "%s needs min_scale, below whose width it lets frames shrink",
+            "%s cannot be used without min_scale, because it lets frames become narrower than min_scale",
             "the query has %s, and its former name %s too",
         ),
     ),

@@ -130,7 +130,7 @@ class Damage(state.Case):
                 continue
             if mine and unseen:
                 self.assertEqual(got.status, 200)
-                word = "sent as it lies"
+                word = "sent with the damage"
                 continue
             self.assertEqual((got.status, got.body), (200, result), name)
         for data, asset in zip(self.put, self.hashes):

@@ -253,7 +253,7 @@ class Command(unittest.TestCase):
         self.assertGreater(clocks.steady_ms, 6_000_000)
         faults.record(
             "clocks",
-            "the steady one, by 10 minutes each time that kerrd render looks",
+            "the monotonic clock, by 10 minutes at each reading by kerrd render",
             ["whole picture"] * (clocks.steady_ms // 600_000),
         )
 

@@ -135,15 +135,15 @@ class Clients(state.Case):
                     if taken > 1:
                         self.assertRegex(got, rb"^HTTP/1.1 (200|202|204) ")
                     outcomes.append(
-                        "nothing is left of it"
-                        + (", an answer of less than 4000 bytes, which was all there" if len(got) < taken else "")
+                        "everything of it is released"
+                        + (", after a complete answer of less than 4000 bytes" if len(got) < taken else "")
                     )
                     daemon.vanish(s)
         self.assertTrue(daemon.eventually(lambda: server.open_files() <= files + 1, 20), (files, server.open_files()))
         self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_turns_unfinished"] == 0, 20))
         self.assertEqual(len(self.frames_of(job, server)), 6)
         self.assertEqual(self.delete(slow, server).status, 204)
-        faults.record("EPIPE", "a client goes away in the middle of an answer", outcomes)
+        faults.record("EPIPE", "a client disconnects in the middle of an answer", outcomes)
         self.assertEqual(server.stop(), 0)
 
 

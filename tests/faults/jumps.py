@@ -50,8 +50,8 @@ class Jumps(state.Case):
             time.sleep(0.4)
             self.make_by(n, server)
             self.assertEqual(server.get(self.at(job)).status, 200, n)
-        faults.record("clocks", "the one on the wall, while a server runs", ["nothing is lost"] * len(hours))
-        faults.record("clocks", "the one on the wall, over a restart", ["nothing is lost"] * len(hours))
+        faults.record("clocks", "the wall clock, while a server runs", ["nothing is lost"] * len(hours))
+        faults.record("clocks", "the wall clock, over a restart", ["nothing is lost"] * len(hours))
         self.assertEqual(server.stop(), 0)
 
     def test_the_wall_while_a_job_runs(self):
@@ -63,7 +63,7 @@ class Jumps(state.Case):
         told = self.until(job, "done", server, 60)
         self.assertEqual(len(self.frames_of(job, server)), 40)
         self.assertAlmostEqual(told["created"], time.time(), delta=600)
-        faults.record("clocks", "the one on the wall, while a job runs", ["nothing is lost"] * 9)
+        faults.record("clocks", "the wall clock, while a job runs", ["nothing is lost"] * 9)
         self.assertEqual(server.stop(), 0)
 
     def test_a_machine_that_was_held(self):
@@ -101,8 +101,8 @@ class Jumps(state.Case):
         self.until(again, "done", server, 20)
         faults.record(
             "clocks",
-            "the steady one, by 10 minutes",
-            ["goes on: a job", "goes on: a session that is watched", render_word + ": a picture under way"],
+            "the monotonic clock, by 10 minutes",
+            ["continues: a job", "continues: a session that is watched", render_word + ": a picture in progress"],
         )
         self.assertEqual(server.stop(), 0)
 

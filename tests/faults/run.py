@@ -73,7 +73,7 @@ def rows(entries):
         points, outcomes = found.setdefault((e["kind"], e["scenario"]), [0, collections.Counter()])
         found[e["kind"], e["scenario"]][0] = points + e["points"]
         outcomes.update(e["outcomes"])
-    yield "| fault | where | happened | of | what has come of it |"
+    yield "| fault | where | happened | of | outcome |"
     yield "|---|---|--:|--:|---|"
     for (kind, scenario), (points, outcomes) in sorted(found.items()):
         told = "; ".join(f"{n} × {word}" for word, n in sorted(outcomes.items(), key=lambda item: -item[1]))
@@ -83,7 +83,7 @@ def rows(entries):
     for (kind, _), (_, outcomes) in found.items():
         totals[kind] += happened(outcomes)
     yield (
-        "In all "
+        "Total: "
         + ", ".join(f"{n} of {kind}" for kind, n in sorted(totals.items()))
         + f": {sum(totals.values())} faults."
     )

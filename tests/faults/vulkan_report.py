@@ -30,21 +30,21 @@ def table(results):
     lines = [
         "# Faults of Vulkan",
         "",
-        f"{sum(total.values()) - total['not reached']} calls of Vulkan have been made to fail, one in each of as many servers: "
+        f"{sum(total.values()) - total['not reached']} calls of Vulkan were made to fail, each in a server of its own: "
         + ", ".join(f"{total[k]} {k}" for k in KINDS if total[k] and k != "not reached")
         + ".",
         "",
         f"Each call of an entry point may fail with each of the codes that the specification lets it return: {possible} faults, in the column Of. All of them were tried in these scenarios: "
-        f"{', '.join(whole) or 'none'}. In the others each call failed with one of its codes, by turns, except for calls that only name an object: every eighth of them failed. `tests/faults/vulkan.py --full` makes this "
-        "table, `--whole` chooses the scenarios in which all are tried.",
+        f"{', '.join(whole) or 'none'}. In the others each call failed with one of its codes in rotation. Of the calls that only name an object, every eighth failed. `tests/faults/vulkan.py --full` makes this "
+        "table, `--whole` selects the scenarios in which all faults are tried.",
         "",
-        "- `same`: the same bytes as without the fault; the driver was asked again, or for something that a picture can do without.",
-        "- `recovered`: the same bytes, after the device was closed and opened once more.",
-        "- `error`: an answer that says which call failed (503 `out-of-memory`), or a start that does; the next request had the same bytes as without the fault.",
-        "- `exit 3`: the process ended with exit code 3, to be started again; only where the device is lost.",
-        "- `not reached`: there was no such call, as where a slice more or less was rendered. Jobs have no `error`: where memory ran out they tried again.",
+        "- `same`: the bytes are the same as without the fault. The call was repeated, or the picture does not need its result.",
+        "- `recovered`: the bytes are the same, after the device was closed and opened again.",
+        "- `error`: the answer (503 `out-of-memory`), or the failed start, names the call that failed. The next request had the same bytes as without the fault.",
+        "- `exit 3`: the process ended with exit code 3, so that its supervisor starts it again. This is allowed only if the device is lost.",
+        "- `not reached`: the run had no such call, for example because it had one slice less. Jobs have no `error`: when memory ran out they tried again.",
         "",
-        "Where a process ends otherwise, each object of Vulkan that it made has been destroyed.",
+        "In all other outcomes the process destroyed each Vulkan object that it had made.",
         "",
         "| Scenario | Entry point | Calls | Faults | Of | " + " | ".join(KINDS) + " |",
         "|---|---|---|---|---|" + "---|" * len(KINDS),

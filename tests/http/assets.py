@@ -323,7 +323,7 @@ class Assets(Case):
             self.assertProblem(self.put(grid(2), "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         self.assertIn(
-            "the file ends before its directory does",
+            "the file ends before the end of its directory",
             self.assertProblem(self.put(data[:-40], "application/x-npz"), 422, "invalid-asset")["detail"],
         )
         elsewhere = (

@@ -233,8 +233,10 @@ class Kernels(Case):
         s = own.connect()
         self.addCleanup(s.close)
         s.sendall(f"GET {self.NEW} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
+        own.reaches("renders_unfinished", 1)
+        self.assertEqual(own.get(RENDER).status, 200)  # until then the view's kernels are compiled
         self.assertTrue(daemon.eventually(lambda: own.metrics()[kernels] >= 2048))
-        self.assertEqual(own.get(RENDER).status, 200)  # the kernels are compiled until this picture is rendered
+        self.assertEqual(own.get(RENDER + "&time=1").status, 200)  # until then those of the waiting picture
         self.assertEqual(daemon.read_answer(s).status, 200)
 
     def test_a_plan_counts_the_kernels_that_have_to_be_compiled(self):

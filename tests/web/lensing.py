@@ -730,7 +730,7 @@ class Lensing(Browser):
     def test_what_a_link_or_a_hand_gets_wrong(self):
         page = self.open("lang=en&foo=1&camera.roll=2&spacetime.spin=x&orbit.p=7")
         self.assertEqual(
-            page.inner_text("#link-fault"), "Of the link this was not understood: spacetime.spin, foo, camera.roll."
+            page.inner_text("#link-fault"), "Not understood in the link: spacetime.spin, foo, camera.roll."
         )
         self.open_groups(page)
         page.fill('[data-path="spacetime.spin"] input[type=number]', "2")
@@ -742,15 +742,13 @@ class Lensing(Browser):
         )
 
         page = self.open("lang=en&camera.r=&time=1e400&disk.slow_light=yes&spacetime.spin=0.5")
-        self.assertEqual(
-            page.inner_text("#link-fault"), "Of the link this was not understood: camera.r, disk.slow_light, time."
-        )
+        self.assertEqual(page.inner_text("#link-fault"), "Not understood in the link: camera.r, disk.slow_light, time.")
         self.assertEqual(self.field(page, "spacetime.spin"), "0.5")
 
     def test_a_link_to_no_preset(self):
         self.expected = "404"
         page = self.open("lang=en&preset=nosuch")
-        self.assertEqual(page.inner_text("#link-fault"), "Of the link this was not understood: preset.")
+        self.assertEqual(page.inner_text("#link-fault"), "Not understood in the link: preset.")
         self.assertEqual(page.input_value("#preset"), "")
         self.assertFalse(page.get_attribute("#status", "data-wrong"))
 

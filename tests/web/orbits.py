@@ -80,7 +80,7 @@ class Orbits(Browser):
         page.keyboard.press("Tab")
         page.wait_for_selector("#orbit-fault >> text=horizon")
         kept = page.inner_text("#orbit-kept")
-        self.assertRegex(kept, r"^Still shown is the last one that there was: a = 0.9 M")
+        self.assertRegex(kept, r"^The last orbit that exists is still shown: a = 0.9 M")
         self.assertEqual((self.facts(page)["Fate"], page.locator("#orbit-picture .front").count()), ("bound", 1))
         self.assertTrue(page.is_visible("#orbit-plots"))
         self.shot(page, "orbits-kept")

@@ -37,13 +37,18 @@ export function told({ octaves, pitch, short, stretch, swings, audible }) {
     stretch > 1
       ? t(
           'sound.its-fading-stretched-times',
-          'its fading stretched {0} times, by e in {1}: left as it is it would make {2} of its swings in {3}, a click.',
+          'its decay stretched {0} times, to a factor e in {1}; unstretched it has {2} oscillations in {3}, a click.',
           number(stretch),
           duration(short * stretch),
           number(swings, 2),
           duration(short),
         )
-      : t('sound.fading-by-e-in', 'fading by e in {0}: {1} of its swings.', duration(short), number(swings, 2));
+      : t(
+          'sound.fading-by-e-in',
+          'decaying by a factor e in {0}: {1} oscillations.',
+          duration(short),
+          number(swings, 2),
+        );
   return t('sound.at-hz', 'At {0} Hz, {1}', number(pitch, 3), fades) + shifted(octaves);
 }
 

@@ -28,7 +28,7 @@ export function assetRow(field, scene, id, hint) {
     about = el(
       'p',
       { class: 'help', hidden: true },
-      t('asset.no-photograph', 'This server has no photograph. A new start with one: '),
+      t('asset.no-photograph', 'This server has no photograph. To start it with one: '),
       el('code', {}, 'scripts/sky gaia && scripts/serve --sky sky-gaia.png'),
     ),
     more = grid

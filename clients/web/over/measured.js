@@ -12,10 +12,9 @@ const isMeasured = scene =>
 // is drawn round the centre of the shadow.
 export async function ring(scene, look, path) {
   const hole = scene.get('source.name');
-  if (hole === 'none')
-    throw new Error(t('measured.of-m87-and-sgr', 'of M87* and Sgr A* alone, the sources of a scene'));
+  if (hole === 'none') throw new Error(t('measured.of-m87-and-sgr', 'only for scenes of M87* and Sgr A*'));
   if (scene.get('camera.r') !== 'infinity')
-    throw new Error(t('measured.as-seen-from-the', 'as seen from the Earth alone: from infinity'));
+    throw new Error(t('measured.as-seen-from-the', 'only as seen from the Earth: from infinity'));
   const black = blackHole(scene),
     inclination_deg = scene.get('camera.inclination_deg');
   const [{ values: v }, { values: edge }] = await Promise.all([

@@ -203,7 +203,7 @@ async function orders(scene, look) {
 async function names(scene) {
   const { brightest, hasNames, nameOf } = await import('./stars.js');
   if (!hasNames(scene))
-    throw new Error(t('overlay.of-the-stars-of', 'of the stars of Hipparcos alone: choose them as the sky'));
+    throw new Error(t('overlay.of-the-stars-of', 'only for the stars of Hipparcos: choose them as the sky'));
   const stars = await brightest(scene, byId('stage'), 16);
   return {
     lines: [],

@@ -264,7 +264,7 @@ export function buildPixel(stage, scene, size) {
     const { picture } = answer.accuracy;
     error.textContent =
       picture > 0
-        ? t('pixel.its-radii-are-within', 'Its radii are within {0} of closed form.', number(picture, 2))
+        ? t('pixel.its-radii-are-within', 'Its radii are within {0} of the closed form.', number(picture, 2))
         : '';
     numbers.hidden = !rows.length && !also.length;
     inset.show(answer, scene.get('spacetime.spin'));

@@ -108,7 +108,7 @@ function lessened({ narrow, part }) {
   if (part < 1)
     return t(
       'accuracy.1-of-the-window',
-      ' (1/{0} of the window: this server takes no picture of all of it, which would be too much work)',
+      ' (1/{0} of the window: a picture of all of it would exceed this server’s limit)',
       1 / part,
     );
   return '';

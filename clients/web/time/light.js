@@ -56,7 +56,7 @@ export function buildLight(root, scene) {
       title: t('light.light-curve', 'Light curve'),
       note: t(
         'light.in-units-of-the',
-        'In units of the disk’s largest brightness times {0}. Of each frame as it comes, before exposure and tone; coarse ones are off by some tenths of a per cent.',
+        'In units of the disk’s largest brightness times {0}. Measured on each frame before exposure and tone curve; coarse frames are off by some tenths of a per cent.',
         area,
       ),
       x: { label: t('common.time-t-m', 'time t / M'), min: x[0], max: Math.max(x.at(-1), x[0] + 1) },

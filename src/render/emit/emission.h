@@ -63,7 +63,8 @@ struct kd_emit_data {
     char gap[256 - sizeof(struct kd_emission) % 256];
     struct kd_emit_tables tables;
 };
-_Static_assert(offsetof(struct kd_emit_data, tables) % 256 == 0, "no device asks for more of a binding's offset");
+_Static_assert(offsetof(struct kd_emit_data, tables) % 256 == 0,
+               "256 is the largest alignment that a device may require of a binding's offset");
 _Static_assert(sizeof(struct kd_emit_tables) / sizeof(kd_table_row) <= 65536, "texels that every device can bind");
 
 #endif

@@ -15,13 +15,13 @@ static const char introduction[] =
     "such\" are\n"
     "found while a picture is rendered, so that only the picture has them. The header `Kerrd-Approximations` has "
     "their\n"
-    "names, and `GET /v1/approximations` the sentence of each name. This page has all of them. It is generated from "
-    "the\n"
+    "names, and `GET /v1/approximations` has the sentence for each name. This page has all sentences. It is generated "
+    "from the\n"
     "emitters (`src/render/emit/emitter.h`), `src/render/plan/plan.c`, `src/render/output/notes.c` and\n"
     "`src/render/rays/answer.c`; do not edit it. The chapters on the [physics](physics/README.md) explain them.\n"
     "\n"
-    "No scene models these, so that no list has them: the motion of gas by its own forces, magnetic fields that gas "
-    "carries\n"
+    "No scene models the following effects, so no list has them: the motion of gas by its own forces, magnetic fields "
+    "that gas carries\n"
     "along, and scattering of light on its way.\n";
 
 static const char present[] = "in each scene that has it", sometimes[] = "in some scenes";

@@ -107,7 +107,7 @@ enum kd_status kd_frame_report(struct kd_frame_job *j, double rows)
 
 _Static_assert(KD_FRAME_MAX_TIMINGS >= KD_VK_MAX_PASSES + 4,
                "those of the device; kernels, listed rays and audit on the host; the total");
-_Static_assert(KD_VK_MAX_PASSES >= KD_PASS_COUNT + 4, "all passes, copies, fills, what is of no pass");
+_Static_assert(KD_VK_MAX_PASSES >= KD_PASS_COUNT + 4, "all passes, copies, fills, and commands outside every pass");
 
 static void add_timing(struct kd_frame *frame, const char *name, double ms)
 {

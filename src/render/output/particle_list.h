@@ -26,11 +26,11 @@
     COLUMN(r, "M", "Boyer-Lindquist radius") \
     COLUMN(phi, "radians", "azimuth, 0 to 2 pi") \
     COLUMN(latitude, "radians", "pi/2 - theta") \
-    COLUMN(energy, "1", "E of its guiding orbit, or of the ISCO that it fell from, a constant") \
-    COLUMN(angular_momentum, "M", "L of its guiding orbit, or of the ISCO that it fell from, a constant") \
-    COLUMN(dr_dt, "1", "by coordinate time") \
-    COLUMN(dphi_dt, "1/M", "by coordinate time") \
-    COLUMN(dlatitude_dt, "1/M", "by coordinate time")
+    COLUMN(energy, "1", "constant energy: that of the guiding orbit, or of the ISCO from which it fell") \
+    COLUMN(angular_momentum, "M", "constant L: that of the guiding orbit, or of the ISCO from which it fell") \
+    COLUMN(dr_dt, "1", "derivative of r by coordinate time") \
+    COLUMN(dphi_dt, "1/M", "derivative of phi by coordinate time") \
+    COLUMN(dlatitude_dt, "1/M", "derivative of the latitude by coordinate time")
 
 enum kd_particle_column {
 #define COLUMN(name, ...) KD_PARTICLE_##name,

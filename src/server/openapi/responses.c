@@ -93,7 +93,7 @@ static const char *about(const struct kd_route *route, unsigned status)
 {
     return status == 304   ? "The client's copy is still valid"
            : status == 206 ? "The part that Range requests"
-           : status == 303 ? "If the address had an access token"
+           : status == 303 ? "The address had an access token; the page is at Location"
                            : route->summary;
 }
 

@@ -166,7 +166,9 @@ static enum kd_status read_pace(const struct kd_request *request, struct kd_sess
         char pointer[40];
         KD_TRY(kd_route_query(request, "max_frame_ms", &name, &text, error));
         snprintf(pointer, sizeof pointer, "/%s", name);
-        KD_TRY(kd_error_field(error, pointer, "%s needs min_scale, below whose width it lets frames shrink", name));
+        KD_TRY(kd_error_field(
+            error, pointer,
+            "%s cannot be used without min_scale, because it lets frames become narrower than min_scale", name));
     }
 done:
     return status;

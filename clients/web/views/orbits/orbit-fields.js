@@ -61,7 +61,7 @@ export const specs = [
     step: 1,
     about: t(
       'orbit-fields.of-the-orbits-plane',
-      'Of the orbit’s plane to the equator; above 90° it goes against the spin',
+      'Between the orbit’s plane and the equator; above 90° the body goes against the spin',
     ),
   },
   {
@@ -82,7 +82,7 @@ export const specs = [
     min: -20,
     max: 20,
     step: 0.001,
-    about: t('orbit-fields.about-the-holes-axis', 'About the hole’s axis, a unit of the body’s mass'),
+    about: t('orbit-fields.about-the-holes-axis', 'About the hole’s axis, per unit of the body’s mass'),
   },
   {
     name: 'carter',
@@ -134,7 +134,7 @@ export const specs = [
     min: -0.99,
     max: 0.99,
     step: 0.001,
-    about: t('orbit-fields.as-the-same-one', 'As the same one tells it, along the hole’s rotation'),
+    about: t('orbit-fields.as-the-same-one', 'By the same observer, along the hole’s rotation'),
   },
   {
     name: 'periods',

@@ -134,7 +134,7 @@ export async function orbit(scene, look, path, width, signal) {
     words: [
       t(
         'orbit-lensed.its-direct-image-each',
-        '{0}: its direct image; each of {1} points within {2} M of its ray, and at most 5° of its way from the next',
+        '{0}: its direct image, by {1} points. Each is within {2} M of its ray, and at most 5° along the orbit from the next',
         name,
         off.length,
         number(worst, 1),

@@ -214,7 +214,7 @@ export async function openOrbits() {
     byId('orbits').dataset.kept = true;
     byId('orbit-kept').textContent = t(
       'orbits.still-shown-is-the',
-      'Still shown is the last one that there was: {0}.',
+      'The last orbit that exists is still shown: {0}.',
       shown,
     );
   }
@@ -253,7 +253,7 @@ export async function openOrbits() {
       y: { label: `ΔE / E / ${number(least)}` },
       series: [
         {
-          name: t('orbits.first-integral-less-its', 'first integral less its start'),
+          name: t('orbits.first-integral-less-its', 'first integral minus its initial value'),
           x: samples.t,
           y: samples.error.map(error => error / least),
         },

@@ -111,7 +111,7 @@ function linked(scene) {
   if (unknown.length)
     byId('link-fault').textContent = t(
       'pair.of-the-pair-in',
-      'Of the pair in the link this was not understood: {0}.',
+      'Not understood of the pair in the link: {0}.',
       unknown.join(', '),
     );
   return over;

@@ -46,7 +46,7 @@ export const light = [
               ? ''
               : t(
                   'curves-light.what-is-sent-out',
-                  ' What is sent out from within the hill gets to {0} M and falls back.',
+                  ' Light that is sent out inside the hill reaches {0} M and falls back.',
                   number(v.farthest),
                 )),
       x: axis(radius, { min: 0 }),

@@ -59,7 +59,7 @@ export function course(root) {
       'balance',
       t('course.energy-error', 'Energy error'),
       'ΔE / K',
-      t('course.the-books-less-their', 'the books less their start, by the largest kinetic energy'),
+      t('course.the-books-less-their', 'change of the energy balance over the largest kinetic energy'),
       balance.map(e => (e - balance[0]) / size),
     );
     const momentum = column('angular_momentum');
@@ -98,7 +98,7 @@ export function course(root) {
       title: t('course.what-falls-back', 'What falls back'),
       note: t(
         'course.mass-that-came-back',
-        'Mass that came back per time, by count. The line is t^(−5/3) for the same debris.',
+        'Mass that came back per unit of time, counted. The line is t^(−5/3) for the same debris.',
       ),
       x: { label: t('course.time-since-it-was', 'time since it was torn / M'), log: true },
       y: { label: t('course.rate-m-per-m', 'rate / M per M'), log: true },

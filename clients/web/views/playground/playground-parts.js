@@ -37,7 +37,7 @@ function clock(node) {
       : slowed && reached < 0.97 * rate
         ? t(
             'playground-parts.m-a-second-asked',
-            '{0} M a second; asked for {1}: more it cannot compute',
+            '{0} M a second instead of {1}: the server cannot compute more',
             number(reached, 3),
             pace,
           )

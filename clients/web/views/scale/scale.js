@@ -25,7 +25,7 @@ const specs = [
     value: 10,
     min: 0.001,
     max: 1e12,
-    about: t('scale.of-the-hole-of', 'Of the hole of your choice: all lengths and times go with it'),
+    about: t('scale.of-the-hole-of', 'Mass of the hole of your choice; lengths and times are proportional to it'),
   },
   {
     name: 'distance_pc',
@@ -33,7 +33,7 @@ const specs = [
     value: 1000,
     min: 0.001,
     max: 1e11,
-    about: t('scale.of-the-hole-of-your-choice-how', 'Of the hole of your choice: how large it is on the sky'),
+    about: t('scale.of-the-hole-of-your-choice-how', 'Distance of the hole of your choice, for its size on the sky'),
   },
   {
     name: 'spin',

@@ -231,7 +231,7 @@ const kinds = {
         max: 1e12,
         auto: true,
         nature: 'look',
-        about: t('integrals.empty-half-of-the', 'Empty: half of the longest that the picture’s pixels tell'),
+        about: t('integrals.empty-half-of-the', 'Empty: half of the longest that the picture’s pixels resolve'),
       },
     ],
     ask: (scene, given) => ({
@@ -258,7 +258,7 @@ const kinds = {
             : t('integrals.the-pictures-flux-jy', 'The picture’s flux: {0} Jy. ', number(values.flux_jy))) +
           t(
             'integrals.north-is-the-top',
-            'North is the top of the picture; its pixels, {0} µas wide, tell baselines to {1} Gλ.',
+            'North is the top of the picture; its pixels, {0} µas wide, resolve baselines to {1} Gλ.',
             number(values.pixel_uas, 3),
             number(values.nyquist_gl, 3),
           ) +
