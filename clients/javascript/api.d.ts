@@ -6566,7 +6566,9 @@ export interface Operations {
           isco_period_s: number | null | (number | null)[];
           /** period of the circular photon orbit towards +phi, for an observer far away. */
           photon_period_s: number | null | (number | null)[];
-          /** proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M; null with charge. */
+          /**
+           * proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M; null with charge.
+           */
           fall_s: number | null | (number | null)[];
           /** longest proper time from horizon to singularity, a = Q = 0: pi M; null with charge. */
           fall_longest_s: number | null | (number | null)[];
