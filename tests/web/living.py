@@ -298,6 +298,13 @@ class Living(Browser):
         page.keyboard.press("Enter")
         self.assertFalse(page.is_visible("#strike"), "without orders from 1 up there is nothing to ring")
 
+    def test_a_charged_hole_cannot_be_struck(self):
+        page = self.open("lang=en&preset=reissner-nordstrom")
+        page.wait_for_selector("#picture")
+        self.assertTrue(daemon.eventually(lambda: not page.is_visible("#strike")))
+        page.evaluate("location.hash = 'lang=en&preset=gas'")
+        self.assertTrue(daemon.eventually(lambda: page.is_visible("#strike")))
+
     def test_who_has_muted_it_hears_nothing(self):
         context = self.context()
         page = self.page(context)

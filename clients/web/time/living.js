@@ -10,7 +10,11 @@ const usual_rate = 8; // M a second, unless a rate was chosen
 // Properties of a scene that the server states: an emitter with separate photometry, light of higher image orders,
 // which can ring, and whether another time or azimuth would change the picture.
 export const apart = scene => scene.emitters.find(emitter => emitter.apart);
-const canRing = scene => scene.get('accuracy.orders') > 1 && scene.emitters.some(({ at }) => at === 'crossing');
+// The modes of a ringdown are known for uncharged holes only.
+const canRing = scene =>
+  scene.get('accuracy.orders') > 1 &&
+  !scene.get('spacetime.charge') &&
+  scene.emitters.some(({ at }) => at === 'crossing');
 const showsTime = scene => scene.varies.some(word => word.endsWith('_time'));
 const showsAzimuth = scene => scene.varies.includes('moves_with_azimuth');
 
