@@ -279,7 +279,7 @@ class Living(Browser):
         self.there(page, "octaves higher", "#heard")
         self.assertRegex(
             page.inner_text("#heard"),
-            r"fading stretched [\d,]+ times, .* 21 octaves higher, and faster, than the hole rings\.$",
+            r"its decay stretched [\d,]+ times, .* 21 octaves higher, and faster, than the hole rings\.$",
         )
         self.assertEqual(page.get_attribute("body", "data-view"), "lensing")
         page.click("#wave")

@@ -239,7 +239,7 @@ class Physics(Browser):
                 (206 if "content-range" in answer.headers else 200, "audio/wav"),
             )
             self.assertEqual(float(re.search("stretch=([^&]*)", answer.url)[1]) > 50, stretched)
-        self.assertRegex(page.inner_text("#curve-qnm"), r"fading stretched [\d,]+ times, by e in [45]\d\d ms")
+        self.assertRegex(page.inner_text("#curve-qnm"), r"decay stretched [\d,]+ times, to a factor e in [45]\d\d ms")
         page.fill("#in-qnm-mass_msun", "60")
         page.keyboard.press("Tab")
         page.wait_for_function('() => document.getElementById("in-qnm-octaves").value === "0"')
