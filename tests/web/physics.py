@@ -311,7 +311,7 @@ class Physics(Browser):
         page = self.open("lang=en&view=physics&null-potential.b=6", "#curve-null-potential canvas")
         note = page.locator("#curve-null-potential .plot > .help")
         self.assertIn("turns at r = 4.453 M", note.inner_text())  # Vieta's formula for r^3 - 36 r + 72 = 0
-        self.assertIn("gets to 2.37 M", note.inner_text())
+        self.assertIn("reaches 2.37 M", note.inner_text())
         page.fill("#in-null-potential-b", "5")
         page.keyboard.press("Tab")
         page.wait_for_selector("#curve-null-potential >> text=/less than 5.196 M, falls in/")

@@ -303,10 +303,12 @@ export function buildFall(scene) {
     halt: () => way && !scene.held && scene.hold(true),
     shown({ clock, shows }) {
       if (!way || !clock || shows?.camera?.observer !== 'infall') return;
-      if (scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3) return; // an older picture
+      const older = scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3; // than the pause
+      if (older && waits) where.textContent = phase(clock);
+      waits = false;
+      if (older) return;
       ({ r, proper_time_to_end: left } = clock);
       given = scene.begun('camera.r'); // the server may have changed it
-      waits = false;
       show(clock);
       if (scene.held) return;
       const now = performance.now();
