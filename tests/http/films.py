@@ -80,11 +80,14 @@ class Films(Case):
 
     def gone(self, number):
         """True if the process is gone, or is a zombie until its new parent reaps it."""
-        self.assertTrue(
-            daemon.eventually(
-                lambda: not (stat := pathlib.Path(f"/proc/{number}/stat")).exists() or ") Z " in stat.read_text()
-            )
-        )
+
+        def ended():
+            try:
+                return ") Z " in pathlib.Path(f"/proc/{number}/stat").read_text()
+            except OSError:  # it may end while the file is open
+                return True
+
+        self.assertTrue(daemon.eventually(ended))
 
 
 class Given(Films):
