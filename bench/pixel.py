@@ -94,7 +94,7 @@ def run_new(path, preset, n):
             connection = server.connect(SOURCE)
             last_frame(server, connection, preset)
             time.sleep(20)
-            places = [(WIDTH * (0.3 + 0.4 * i / (n - 1)), HEIGHT / 2) for i in range(n)]
+            places = [(WIDTH * (0.3 + 0.4 * i / max(n - 1, 1)), HEIGHT / 2) for i in range(n)]
             return [pixel(server, preset, connection, at) for at in places]
         finally:
             server.stop()

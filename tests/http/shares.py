@@ -219,7 +219,7 @@ class Kernels(Case):
 
     def test_the_kernels_of_a_views_pixels_are_compiled_ahead(self):
         """As soon as the view has its last frame, before anyone asks for a pixel. Meanwhile pictures whose kernels are
-        there are rendered, and a picture that lacks a kernel is next."""
+        there are rendered, and a picture that lacks a kernel waits."""
         own = daemon.Daemon()
         self.addCleanup(own.stop)
         kernels = 'kerrd_kept_bytes{kind="kernels"}'
