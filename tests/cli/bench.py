@@ -24,7 +24,7 @@ def serve(cache, path):
     )
     try:
         url = re.search(r"http://\S+", daemon.stdout.readline().decode())[0]
-        with urllib.request.urlopen(url + path, timeout=30) as answer:
+        with urllib.request.urlopen(url + path, timeout=600) as answer:
             return answer.status, answer.headers["Content-Type"], json.load(answer)
     except urllib.error.HTTPError as answer:
         return answer.code, answer.headers["Content-Type"], json.load(answer)

@@ -74,7 +74,7 @@ class Config(support.Case):
                 *args,
             ]
         return subprocess.run(
-            [KERRD, "serve", *args], capture_output=True, text=True, timeout=30, env={**CLEAN, **(env or {})}
+            [KERRD, "serve", *args], capture_output=True, text=True, timeout=600, env={**CLEAN, **(env or {})}
         )
 
     def shown(self, *args, **kwargs):
@@ -204,7 +204,7 @@ class Config(support.Case):
         ) as server:
             self.assertRegex(server.stdout.readline(), r"listening on http://127\.0\.0\.1:\d+/black/\n")
             server.terminate()
-            _, log = server.communicate(timeout=60)
+            _, log = server.communicate(timeout=600)
         self.assertEqual(server.returncode, 0)
         self.assertTrue([json.loads(line) for line in log.splitlines()])
 

@@ -342,7 +342,7 @@ class Files(support.Case):
         self.assertAlmostEqual(self.opened(path)["intensity"].data.astype(float).sum() / light, 1, delta=1e-9)
         if not shutil.which("fitsverify"):
             self.skipTest("fitsverify is missing")
-        done = subprocess.run(["fitsverify", path], capture_output=True, text=True, timeout=60)
+        done = subprocess.run(["fitsverify", path], capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, 0, done.stdout)
         self.assertIn("0 warning(s) and 0 error(s)", done.stdout)
 

@@ -207,7 +207,7 @@ class Bash(Case):
             cwd=self.folder,
             env=env,
             capture_output=True,
-            timeout=60,
+            timeout=600,
         )
         self.assertEqual(done.stderr.decode(), "", line)
         return sorted(done.stdout.decode().split())

@@ -501,7 +501,7 @@ class Outputs(Case):
         read = threading.Thread(target=lambda: self.assertEqual(self.read("pipe")[:4], b"\x89PNG"), daemon=True)
         read.start()
         self.good("render", *SMALL, "-o", self.path("pipe"))
-        read.join(timeout=20)
+        read.join(timeout=600)
         self.assertFalse(read.is_alive())
         self.assertTrue(stat.S_ISFIFO(os.stat(self.path("pipe")).st_mode))
 
@@ -545,7 +545,7 @@ class Outputs(Case):
         while not handled():
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=60)
+        _, errors = process.communicate(timeout=600)
         self.assertEqual(process.returncode, -signal.SIGINT, errors)
         self.assertIn(b"cancelled", errors)
         self.assertEqual(os.listdir(self.folder), [])
@@ -647,10 +647,10 @@ class Serve(Case):
     def test_signals_end_it_with_0(self):
         for number in signal.SIGTERM, signal.SIGINT:
             process, url = self.start()
-            with urllib.request.urlopen(url + "healthz", timeout=20) as answer:
+            with urllib.request.urlopen(url + "healthz", timeout=600) as answer:
                 self.assertEqual(answer.status, 200)
             process.send_signal(number)
-            self.assertEqual(process.wait(timeout=30), 0, process.stderr.read())
+            self.assertEqual(process.wait(timeout=600), 0, process.stderr.read())
 
     def test_a_base_path_by_option_or_environment(self):
         for args, env in (
@@ -660,18 +660,18 @@ class Serve(Case):
         ):
             process, url = self.start(*args, **env)
             self.assertTrue(url.endswith("/some/prefix/"), url)
-            with urllib.request.urlopen(url + "v1/device", timeout=20) as answer:
+            with urllib.request.urlopen(url + "v1/device", timeout=600) as answer:
                 self.assertEqual(answer.status, 200)
 
     def test_the_same_picture_as_render(self):
         process, url = self.start()
         scene = self.good("scene", *SMALL)
         request = urllib.request.Request(url + "v1/render", data=scene, headers={"Content-Type": "application/json"})
-        with urllib.request.urlopen(request, timeout=20) as answer:
+        with urllib.request.urlopen(request, timeout=600) as answer:
             served = answer.read()
         self.assertEqual(text(served)[b"kerrd:scene"] + b"\n", scene)
         process.terminate()
-        self.assertEqual(process.wait(timeout=30), 0)
+        self.assertEqual(process.wait(timeout=600), 0)
 
     def test_cannot_listen(self):
         with socket.create_server(("127.0.0.1", 0)) as taken:

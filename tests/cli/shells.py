@@ -169,7 +169,7 @@ class Fish(Completes, Case):
             cwd=self.folder,
             env=env,
             capture_output=True,
-            timeout=60,
+            timeout=600,
         )
         self.assertEqual(done.stderr.decode(), "", line)
         return sorted(row.split("\t")[0] for row in done.stdout.decode().splitlines())

@@ -52,7 +52,7 @@ class Case(unittest.TestCase):
 
 def main(needs_device=False):
     if needs_device:
-        doctor = subprocess.run([KERRD, "doctor"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
+        doctor = subprocess.run([KERRD, "doctor"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=600)
         if b"devices: none" in doctor.stdout:
             print(doctor.stderr.decode().strip() or "no device")
             sys.exit(77)

@@ -359,12 +359,12 @@ class Sweep(support.Case):
             self.skipTest("fitsverify is missing")
         for layers in (["r"], ["rgb", "g"]):
             self.swept("a.fits", layers=layers)
-            done = subprocess.run(["fitsverify", self.path("a.fits")], capture_output=True, text=True, timeout=60)
+            done = subprocess.run(["fitsverify", self.path("a.fits")], capture_output=True, text=True, timeout=600)
             self.assertEqual(done.returncode, 0, done.stdout)
             self.assertIn("0 warning(s) and 0 error(s)", done.stdout)
         for text in "86,230,345", "86,230":
             self.radio("a.fits", "-x", "volume.frequency_ghz=" + text, layers="rgb,specific_intensity")
-            done = subprocess.run(["fitsverify", self.path("a.fits")], capture_output=True, text=True, timeout=60)
+            done = subprocess.run(["fitsverify", self.path("a.fits")], capture_output=True, text=True, timeout=600)
             self.assertIn("0 warning(s) and 0 error(s)", done.stdout)
 
     def test_style_and_disk_take_one_lens_map(self):

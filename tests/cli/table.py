@@ -140,7 +140,7 @@ class Table(support.Case):
             time.sleep(0.01)
             size = os.stat(part).st_size if os.path.exists(part) else 0
         job.send_signal(signal.SIGINT)
-        job.communicate(timeout=60)
+        job.communicate(timeout=600)
         self.assertEqual(job.returncode, -signal.SIGINT)
         self.assertFalse(os.path.exists(self.path("a.fits")))
         with open(part, "ab") as file:

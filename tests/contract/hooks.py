@@ -94,7 +94,7 @@ def kind_of(sentence):
 
 def delete(base, path, token):
     where = urllib.parse.urlsplit(base)
-    connection = http.client.HTTPConnection(where.hostname, where.port, timeout=60)
+    connection = http.client.HTTPConnection(where.hostname, where.port, timeout=600)
     try:
         headers = {"Authorization": "Bearer " + token}
         if os.environ.get("KERRD_CONTRACT_ACCESS"):

@@ -270,7 +270,7 @@ class Command(unittest.TestCase):
             command = [daemon.COMMAND[0], "render", *DRAW, "--stats", "-o", self.one.out]
             self.assertEqual(
                 subprocess.run(
-                    ["sh", "-c", script.format(closed), "sh", *command], timeout=60, stderr=subprocess.DEVNULL
+                    ["sh", "-c", script.format(closed), "sh", *command], timeout=600, stderr=subprocess.DEVNULL
                 ).returncode,
                 code,
                 closed,
@@ -370,7 +370,10 @@ class Streams(unittest.TestCase):
 
 if __name__ == "__main__":
     daemon_command = os.path.abspath(__import__("sys").argv[2])
-    if "devices: none" in subprocess.run([daemon_command, "doctor"], capture_output=True, text=True, timeout=60).stdout:
+    if (
+        "devices: none"
+        in subprocess.run([daemon_command, "doctor"], capture_output=True, text=True, timeout=600).stdout
+    ):
         print("skipped: there is no device")
         raise SystemExit(77)
     os.environ["XDG_CACHE_HOME"] = CACHES.name

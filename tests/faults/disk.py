@@ -390,7 +390,7 @@ class Scarce(Case):
                         self.at(here, "/result"),
                         "/v1/device",
                     ):
-                        self.assertEqual(server.request("GET", path, timeout=10).status, 200, path)
+                        self.assertEqual(server.request("GET", path, timeout=600).status, 200, path)
                     self.assertEqual(answers, [], "it is answered before it is on the disk")
                 finally:
                     self.faults.set("files_slow", 0)

@@ -22,7 +22,7 @@ class Descriptors(state.Case):
         """While no descriptor is left, connected clients are answered and new ones get an error with the reason. Nothing that was
         accepted is lost, and everything works when there are some again."""
         server = self.start()
-        held = [http.client.HTTPConnection("127.0.0.1", server.port, timeout=30) for _ in range(3)]
+        held = [http.client.HTTPConnection("127.0.0.1", server.port, timeout=600) for _ in range(3)]
 
         def ask(connection, method, target, body=None):
             connection.request(

@@ -281,7 +281,7 @@ class Shares(Access):
         return LINES + f"eve render {cls.OTHER}\n"
 
     def at(self, source, method, target, body=None, headers=()):
-        connection = http.client.HTTPConnection("127.0.0.1", self.daemon.port, timeout=60, source_address=(source, 0))
+        connection = http.client.HTTPConnection("127.0.0.1", self.daemon.port, timeout=600, source_address=(source, 0))
         connection.request(
             method, target, body and json.dumps(body), {"Content-Type": "application/json", **dict(headers)}
         )
@@ -442,7 +442,7 @@ class Log(daemon.unittest.TestCase):
 class Files(daemon.unittest.TestCase):
     def start(self, *options):
         done = subprocess.run(
-            [*daemon.COMMAND, "--port", "0", *map(str, options)], capture_output=True, text=True, timeout=10
+            [*daemon.COMMAND, "--port", "0", *map(str, options)], capture_output=True, text=True, timeout=600
         )
         self.assertEqual((done.stderr.count("\n"), "listening" in done.stdout), (1, False), done)
         self.assertNotIn("0123456789", done.stderr)

@@ -490,7 +490,7 @@ class Sky(Case):
             self.assertEqual(server.stop(), 0)
             _, options = self.serve(wrong, "--state", state)
             command = [*daemon.COMMAND, "--port", "0", *map(str, options)]
-            self.assertTrue(subprocess.run(command, capture_output=True, timeout=60).returncode)
+            self.assertTrue(subprocess.run(command, capture_output=True, timeout=600).returncode)
             server = daemon.Daemon("--drain-ms", 10, "--state", state)
             self.addCleanup(server.process.kill)
             self.assertEqual(server.get(self.at(asset)).body, wrong)
@@ -506,7 +506,7 @@ class Sky(Case):
         ):
             path, options = self.serve(data)
             done = subprocess.run(
-                [*daemon.COMMAND, "--port", "0", *map(str, options)], capture_output=True, text=True, timeout=60
+                [*daemon.COMMAND, "--port", "0", *map(str, options)], capture_output=True, text=True, timeout=600
             )
             self.assertEqual(done.stderr.count("\n"), 1, done)
             self.assertIn(f"--sky is {path}", done.stderr)

@@ -46,7 +46,7 @@ class Balanced(unittest.TestCase):
             server.process.stdout.close()
 
     def ask(self, method, path, document=None, **headers):
-        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=60)
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=600)
         try:
             connection.request(
                 method,

@@ -171,7 +171,7 @@ class Refused(unittest.TestCase):
         ):
             with self.subTest(base):
                 done = subprocess.run(
-                    [*daemon.COMMAND, "--port", "0", "--base-path", base], capture_output=True, text=True, timeout=60
+                    [*daemon.COMMAND, "--port", "0", "--base-path", base], capture_output=True, text=True, timeout=600
                 )
                 self.assertNotEqual(done.returncode, 0)
                 self.assertEqual(done.stdout, "")

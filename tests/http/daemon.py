@@ -61,7 +61,7 @@ class Daemon:
             raise RuntimeError(f"no announcement but {line!r}")
         self.port, self.base = int(match[1]), match[2]
 
-    def connect(self, timeout=60, source="127.0.0.1"):
+    def connect(self, timeout=600, source="127.0.0.1"):
         return socket.create_connection(("127.0.0.1", self.port), timeout, source_address=(source, 0))
 
     def request(self, method, target, body=None, headers=None, timeout=240):
@@ -93,7 +93,7 @@ class Daemon:
         body = body if isinstance(body, (str, bytes)) else json.dumps(body)
         return self.request("POST", target, body, {k.replace("_", "-"): v for k, v in headers.items()})
 
-    def raw(self, data, timeout=60):
+    def raw(self, data, timeout=600):
         """Sends bytes, reads until the server closes or the answer is complete; None if there is no answer."""
         with self.connect(timeout) as s:
             try:
@@ -259,7 +259,7 @@ class Owned(Case):
 
 
 def need_device():
-    doctor = subprocess.run([sys.argv[1], "doctor"], capture_output=True, text=True, timeout=60)
+    doctor = subprocess.run([sys.argv[1], "doctor"], capture_output=True, text=True, timeout=600)
     if "devices: none" in doctor.stdout:
         print("skipped:", doctor.stdout)
         sys.exit(77)

@@ -79,7 +79,7 @@ class State(Case):
                 server.process.send_signal(signal.SIGKILL)
                 server.wait()
                 server = self.start()
-            self.until(job, "done", server, timeout=60)
+            self.until(job, "done", server, timeout=600)
             with zipfile.ZipFile(io.BytesIO(server.get(self.at(job, "/result")).body)) as z:
                 told.append([scene_of(z.read(n))["playground"] for n in z.namelist()])
             self.delete(job, server)
@@ -210,7 +210,7 @@ class State(Case):
     def test_one_server_a_folder(self):
         server = self.start()
         second = subprocess.run(
-            [*daemon.COMMAND, "--port", "0", "--state", self.folder], capture_output=True, text=True, timeout=20
+            [*daemon.COMMAND, "--port", "0", "--state", self.folder], capture_output=True, text=True, timeout=600
         )
         self.assertEqual(second.returncode, 1)
         self.assertIn("another server", second.stderr)

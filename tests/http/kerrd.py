@@ -59,7 +59,7 @@ class Limits(unittest.TestCase):
         command = list(daemon.COMMAND)
         limited = ["sh", "-c", 'ulimit -f 64 && exec "$@"', "sh"]
         if b"(ulimit -f allows" in subprocess.run([*limited, command[0], "doctor"], capture_output=True).stdout:
-            done = subprocess.run([*limited, *command, "--port", "0"], capture_output=True, timeout=60)
+            done = subprocess.run([*limited, *command, "--port", "0"], capture_output=True, timeout=600)
             self.assertEqual((done.returncode, done.stdout), (1, b""), done)
             self.assertRegex(done.stderr, rb"lacks files as large as its memory \(ulimit -f allows (32768|65536) bytes")
             return
@@ -347,7 +347,7 @@ class Kerrd(unittest.TestCase):
                 [daemon.COMMAND[0], "render", "-", "-o", "-", "--asset", "sky=" + kept.name],
                 input=json.dumps(scene).encode(),
                 capture_output=True,
-                timeout=60,
+                timeout=600,
                 check=True,
             ).stdout
         self.assertEqual(file, alone)
@@ -434,7 +434,7 @@ class Kerrd(unittest.TestCase):
                     [daemon.COMMAND[0], "render", "-", "-o", "-"],
                     input=json.dumps(scene).encode(),
                     capture_output=True,
-                    timeout=60,
+                    timeout=600,
                     check=True,
                 ).stdout
                 self.assertEqual(self.daemon.get("/v1/jobs/" + job["id"] + "/result").body, alone)
@@ -691,7 +691,7 @@ class Kerrd(unittest.TestCase):
             [daemon.COMMAND[0], "light-curve", "-", "--end", "130", "-n", "7", "-f", "csv"],
             input=json.dumps(scene).encode(),
             capture_output=True,
-            timeout=60,
+            timeout=600,
             check=True,
         ).stdout
         while (status := self.daemon.get("/v1/jobs/" + job["id"]).json())["state"] in ("waiting", "running"):
@@ -1048,7 +1048,7 @@ class Kerrd(unittest.TestCase):
                         f"{folder}/a.{end}",
                     ],
                     input=json.dumps(scene).encode(),
-                    timeout=60,
+                    timeout=600,
                     check=True,
                 )
                 alone = pathlib.Path(folder, "a." + end).read_bytes()

@@ -36,7 +36,7 @@ class Kills(state.Case):
         while not stop.is_set():
             try:
                 n = rest[-1]
-                answer = server.request("POST", "/v1/jobs", json.dumps(request(n)), timeout=10)
+                answer = server.request("POST", "/v1/jobs", json.dumps(request(n)), timeout=600)
                 if answer.status == 202:
                     accepted[n] = answer.json()
                     rest[-1] += 1

@@ -208,7 +208,7 @@ class Links(access.Access):
                 [*daemon.COMMAND, "--port", "0", "--token-file", self.tokens(), "--state", folder],
                 capture_output=True,
                 text=True,
-                timeout=60,
+                timeout=600,
             )
             self.assertNotEqual(failed.returncode, 0)
             self.assertIn("link-budgets is not a file of link budgets; remove it", failed.stderr)

@@ -603,7 +603,7 @@ class OpenApi(daemon.Case):
     def said(self, method, target, line):
         """The status of a request with this line in its header."""
         hosted = "" if line.startswith("Host:") else "Host: localhost\r\n"
-        with socket.create_connection(("127.0.0.1", self.daemon.port), timeout=60) as connection:
+        with socket.create_connection(("127.0.0.1", self.daemon.port), timeout=600) as connection:
             connection.sendall(
                 f"{method.upper()} {target} HTTP/1.1\r\n{hosted}Connection: close\r\n{line}\r\n\r\n".encode()
             )

@@ -45,7 +45,7 @@ class Playground(daemon.Owned):
         body = body if isinstance(body, (str, bytes)) else json.dumps(body)
         return self.daemon.request("PATCH", self.at(play), body, {**self.owner(play), **headers})
 
-    def step(self, play, by, timeout=60):
+    def step(self, play, by, timeout=600):
         return self.daemon.request(
             "POST", self.at(play, "/step"), json.dumps({"by": by}), self.owner(play), timeout=timeout
         )
@@ -206,7 +206,7 @@ class Playground(daemon.Owned):
                 subprocess.run(
                     [kerrd, "playground", at("begin.json"), "--time", "3000", "-o", at("end.json")],
                     check=True,
-                    timeout=60,
+                    timeout=600,
                 )
                 play = self.open(document, paused=True)
                 stepped = self.step(play, 3000)
@@ -222,7 +222,7 @@ class Playground(daemon.Owned):
                 subprocess.run(
                     [kerrd, "playground", at("end.json"), "--time", "700", "-o", at("later.json")],
                     check=True,
-                    timeout=60,
+                    timeout=600,
                 )
                 ends = {digest(self.get(one, "/snapshot").body) for one in (play, again)} | {
                     digest(pathlib.Path(at("later.json")).read_bytes())
@@ -820,7 +820,7 @@ class Films(job_case.Case):
             def after(document, time):
                 begin, end = pathlib.Path(folder, "begin.json"), pathlib.Path(folder, "end.json")
                 begin.write_text(json.dumps(document))
-                subprocess.run([kerrd, "playground", begin, "--time", str(time), "-o", end], check=True, timeout=60)
+                subprocess.run([kerrd, "playground", begin, "--time", str(time), "-o", end], check=True, timeout=600)
                 return end.read_bytes()
 
             torn = after(self.STAR, 1000)  # a snapshot in the middle of the tidal disruption, far on in time
@@ -840,7 +840,7 @@ class Films(job_case.Case):
                             "keyframes": [{"frame": 4, "scene": self.TURNED}],
                         }
                     )
-                    self.assertEqual(self.until(job, "done", timeout=60)["frames"], 5)
+                    self.assertEqual(self.until(job, "done", timeout=600)["frames"], 5)
                     shown = self.shown(job)
                     self.assertEqual([s["camera"]["azimuth_deg"] for s in shown], [0, 22.5, 45, 67.5, 90])
                     self.assertEqual([s["image"]["width"] for s in shown], [32] * 5)

@@ -22,7 +22,7 @@ class PlaygroundSchema(daemon.Owned):
 
     def step(self, play, by):
         answer = self.daemon.request(
-            "POST", self.at(play, "/step"), json.dumps({"by": by}), self.owner(play), timeout=60
+            "POST", self.at(play, "/step"), json.dumps({"by": by}), self.owner(play), timeout=600
         )
         return self.schemas.check("post", TEMPLATE + "/step", answer)
 

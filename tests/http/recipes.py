@@ -187,7 +187,7 @@ class Recipes(unittest.TestCase):
 
     def ask(self, *arguments, code=0, **environment):
         done = subprocess.run(
-            [self.kerrd, *arguments], capture_output=True, text=True, env={**os.environ, **environment}, timeout=60
+            [self.kerrd, *arguments], capture_output=True, text=True, env={**os.environ, **environment}, timeout=600
         )
         self.assertEqual(done.returncode, code, done.stderr)
         return done.stdout + done.stderr

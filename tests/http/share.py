@@ -319,7 +319,7 @@ class Embedded(Case):
             ("https://blog.example; script-src x", "it must be SCHEME://HOST"),
         ):
             run = subprocess.run(
-                [*daemon.COMMAND, "--port", "0", "--embed-origin", origin], capture_output=True, text=True, timeout=60
+                [*daemon.COMMAND, "--port", "0", "--embed-origin", origin], capture_output=True, text=True, timeout=600
             )
             self.assertNotEqual(run.returncode, 0)
             self.assertIn(f'--embed-origin "{origin}"', run.stderr)
@@ -362,7 +362,7 @@ class Option(unittest.TestCase):
         ):
             with self.subTest(url):
                 run = subprocess.run(
-                    [*daemon.COMMAND, "--port", "0", "--public-url", url], capture_output=True, text=True, timeout=60
+                    [*daemon.COMMAND, "--port", "0", "--public-url", url], capture_output=True, text=True, timeout=600
                 )
                 self.assertNotEqual(run.returncode, 0)
                 self.assertIn("the public URL is", run.stderr)

@@ -21,7 +21,7 @@ class Case(daemon.Case):
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_renders_unfinished"] == 0))
 
     def ask(self, source, method, target, body=None, headers=None):
-        connection = http.client.HTTPConnection("127.0.0.1", self.daemon.port, timeout=60, source_address=(source, 0))
+        connection = http.client.HTTPConnection("127.0.0.1", self.daemon.port, timeout=600, source_address=(source, 0))
         try:
             headers = dict(headers or {})
             if body is not None:

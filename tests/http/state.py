@@ -266,7 +266,7 @@ class Foreign(Case):
             [*daemon.COMMAND, "--port", "0", "--state", os.path.dirname(self.jobs)],
             capture_output=True,
             text=True,
-            timeout=20,
+            timeout=600,
         )
         self.assertEqual(second.returncode, 1)
         self.assertIn("jobs cannot be stored", second.stderr)

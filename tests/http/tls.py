@@ -113,7 +113,7 @@ class Proxies:
             self.proxy.wait()
 
     def connection(self):
-        return http.client.HTTPSConnection("localhost", self.port, timeout=60, context=self.context)
+        return http.client.HTTPSConnection("localhost", self.port, timeout=600, context=self.context)
 
     def answers(self):
         try:

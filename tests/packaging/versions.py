@@ -31,7 +31,7 @@ PLACES = (
 
 def version(root, *arguments):
     done = subprocess.run(
-        [sys.executable, root / "scripts/version", *arguments], capture_output=True, text=True, timeout=60
+        [sys.executable, root / "scripts/version", *arguments], capture_output=True, text=True, timeout=600
     )
     return done.returncode, (done.stdout + done.stderr).strip()
 
@@ -79,7 +79,7 @@ class Versions(unittest.TestCase):
         self.assertEqual(version(self.root, "v98")[0], 2)
 
     def test_the_program_and_its_service_tell_it(self):
-        said = subprocess.run([KERRD, "--version"], capture_output=True, text=True, timeout=60).stdout
+        said = subprocess.run([KERRD, "--version"], capture_output=True, text=True, timeout=600).stdout
         self.assertEqual(said, f"kerrd {self.now}\n")
         daemon.COMMAND[:] = [SERVER]
         server = daemon.Daemon()

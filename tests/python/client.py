@@ -139,7 +139,7 @@ class Said(Case):
             "PYTHONPATH": os.pathsep.join([str(FOLDER / "src"), os.environ.get("PYTHONPATH", "")]),
         }
         env.pop("no_proxy", None)
-        done = subprocess.run([sys.executable, "-c", code, KERRD], env=env, capture_output=True, text=True, timeout=60)
+        done = subprocess.run([sys.executable, "-c", code, KERRD], env=env, capture_output=True, text=True, timeout=600)
         self.assertEqual((done.stdout, done.stderr), ("True\n", ""))
 
     def test_a_tile_names_all_that_it_cannot_have(self):
@@ -350,7 +350,7 @@ class Saved(Case):
 
     def scene_in(self, path):
         return json.loads(
-            subprocess.run([KERRD, "scene", "--from", path], capture_output=True, check=True, timeout=60).stdout
+            subprocess.run([KERRD, "scene", "--from", path], capture_output=True, check=True, timeout=600).stdout
         )
 
     def through_a_buffer(self, frame):
@@ -652,7 +652,7 @@ class Loses(http.server.BaseHTTPRequestHandler):
     def pass_on(self):
         body = self.rfile.read(int(self.headers.get("Content-Length", 0)))
         self.server.asked.append((self.command, self.path, self.headers["Idempotency-Key"]))
-        connection = http.client.HTTPConnection(self.server.to.host, self.server.to.port, timeout=60)
+        connection = http.client.HTTPConnection(self.server.to.host, self.server.to.port, timeout=600)
         sent = {name: value for name, value in self.headers.items() if name.lower() not in ("host", "connection")}
         connection.request(self.command, self.path, body, {**sent, "Connection": "close"})
         answer = connection.getresponse()
@@ -940,7 +940,7 @@ class Local(unittest.TestCase):
 
     def test_it_ends_with_the_interpreter(self):
         code = f"import sys; sys.path.insert(0, {str(FOLDER / 'src')!r}); import kerrd; print(kerrd.local(binary={KERRD!r}).process.pid)"
-        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=600, check=True)
         self.assertTrue(self.gone(int(done.stdout)))
 
     def test_it_ends_with_an_interpreter_that_is_killed(self):

@@ -25,7 +25,7 @@ except ImportError as missing:
 import kerrd
 from kerrd.fit import Fit, Maximum, Posterior
 
-if subprocess.run([KERRD, "doctor"], capture_output=True, timeout=60).returncode:
+if subprocess.run([KERRD, "doctor"], capture_output=True, timeout=600).returncode:
     print("skipped: there is no Vulkan device")
     sys.exit(77)
 
@@ -199,7 +199,7 @@ class Fits(unittest.TestCase):
             "    except ImportError as error: print(error)\n"
         )
         out = subprocess.run(
-            [sys.executable, "-c", script, str(FOLDER / "src")], capture_output=True, text=True, timeout=60, check=True
+            [sys.executable, "-c", script, str(FOLDER / "src")], capture_output=True, text=True, timeout=600, check=True
         ).stdout
         self.assertEqual(out.count("pip install 'kerrd[fit]'"), 2, out)
 

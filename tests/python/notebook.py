@@ -130,7 +130,7 @@ class Lab:
                 time.sleep(0.2)
 
     def ask(self, path, method="GET"):
-        with urllib.request.urlopen(urllib.request.Request(self.base + path, method=method), timeout=60) as answer:
+        with urllib.request.urlopen(urllib.request.Request(self.base + path, method=method), timeout=600) as answer:
             return json.loads(answer.read() or "null")
 
     def stop(self):

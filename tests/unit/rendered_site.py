@@ -39,7 +39,7 @@ def check(files):
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_text(text)
         command = [sys.executable, ROOT / "scripts/site", "--check", folder]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(command, capture_output=True, text=True, timeout=600)
         return done.returncode, done.stderr
 
 

@@ -21,7 +21,7 @@ SCRIPTS = pathlib.Path(sys.argv.pop())
 
 def run(script, *arguments):
     done = subprocess.run(
-        [SCRIPTS / script, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60
+        [SCRIPTS / script, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=600
     )
     return done.returncode, done.stderr
 
@@ -110,7 +110,7 @@ class Scripts(unittest.TestCase):
             log = pathlib.Path(folder, "meson-logs/testlog.json")
             log.parent.mkdir()
             log.write_text("\n".join(lines))
-            done = subprocess.run([SCRIPTS / "suite.py", "report", folder], capture_output=True, text=True, timeout=60)
+            done = subprocess.run([SCRIPTS / "suite.py", "report", folder], capture_output=True, text=True, timeout=600)
             code, said = run("suite.py", "report", folder, "--no-skip")
         self.assertEqual((code, said), (1, "scripts/test: 1 skipped, where none may be\n"))
         self.assertEqual(
@@ -150,7 +150,7 @@ class Scripts(unittest.TestCase):
                         [sys.executable, *test["cmd"][1:]],
                         capture_output=True,
                         text=True,
-                        timeout=60,
+                        timeout=600,
                         cwd=BUILD,
                         env={**test["env"], "PATH": bare},
                     )
@@ -162,7 +162,7 @@ class Scripts(unittest.TestCase):
             script = shutil.copy(SCRIPTS / "test", alone)
             for options in (["--help"], ["-h"], ["--clang", "--help"]):
                 done = subprocess.run(
-                    [script, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=60
+                    [script, *options], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=600
                 )
                 self.assertEqual((done.returncode, done.stderr), (0, ""))
                 self.assertTrue(done.stdout.startswith("Set up, run every test"), done.stdout)

@@ -64,7 +64,7 @@ class Behind(browser.Browser):
     def ask(cls, method, path, document=None, read=http.client.HTTPResponse.read, **headers):
         """Status, body and header of an answer. path: relative to base, or absolute. read: how the body is read from
         the answer."""
-        connection = http.client.HTTPConnection("127.0.0.1", cls.port, timeout=60)
+        connection = http.client.HTTPConnection("127.0.0.1", cls.port, timeout=600)
         headers = {**cls.headers, **({"Content-Type": "application/json"} if document is not None else {}), **headers}
         try:
             connection.request(
@@ -227,7 +227,7 @@ class Jupyter(Behind):
 
     @classmethod
     def log_in(cls):
-        connection = http.client.HTTPConnection("127.0.0.1", cls.port, timeout=10)
+        connection = http.client.HTTPConnection("127.0.0.1", cls.port, timeout=600)
         try:
             connection.request("GET", f"{USER}?token={cls.token}")
             answer = connection.getresponse()

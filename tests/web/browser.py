@@ -288,7 +288,7 @@ def main():
         skip("Playwright for Python is not installed")
     if not daemon.CHROMIUM:
         skip("there is no chromium")
-    if "devices: none" in subprocess.run([KERRD, "doctor"], capture_output=True, text=True, timeout=60).stdout:
+    if "devices: none" in subprocess.run([KERRD, "doctor"], capture_output=True, text=True, timeout=600).stdout:
         skip("no Vulkan device")
     sys.argv.insert(2, "serve")
     daemon.main()

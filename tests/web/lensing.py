@@ -458,7 +458,7 @@ class Lensing(Browser):
             ],
             capture_output=True,
             check=True,
-            timeout=60,
+            timeout=600,
         )
         want = dict(paths(json.loads(told.stdout)))
         page = self.open("lang=en&preset=gargantua&" + over)
@@ -470,7 +470,7 @@ class Lensing(Browser):
             {path: value for path, value in given.items() if want[path] != value and not path.startswith("image.")}, {}
         )
         usual = dict(
-            paths(json.loads(subprocess.run([KERRD, "scene"], capture_output=True, check=True, timeout=60).stdout))
+            paths(json.loads(subprocess.run([KERRD, "scene"], capture_output=True, check=True, timeout=600).stdout))
         )
         self.assertEqual(
             [
@@ -501,7 +501,7 @@ class Lensing(Browser):
         usual = paths(
             json.loads(
                 subprocess.run(
-                    [KERRD, "scene", "--preset", "smooth"], capture_output=True, check=True, timeout=60
+                    [KERRD, "scene", "--preset", "smooth"], capture_output=True, check=True, timeout=600
                 ).stdout
             )
         )
@@ -542,7 +542,9 @@ class Lensing(Browser):
         self.assertEqual(scene, {"spacetime": {"spin": -0.5}, "image": {"width": 1280, "height": 720, "samples": 2}})
         page.select_option("#scene-form", "curl")
         command = page.input_value("#scene-text")
-        answer = subprocess.run(command.replace("-o kerrd.png", "-s -o -"), shell=True, capture_output=True, timeout=60)
+        answer = subprocess.run(
+            command.replace("-o kerrd.png", "-s -o -"), shell=True, capture_output=True, timeout=600
+        )
         self.assertEqual(answer.stdout[:8], b"\x89PNG\r\n\x1a\n", command)
         with page.expect_download() as download:
             page.click("#save")
