@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Speed and error of the lens-map kernels on one core, for several holes: kd_bench_trace, some rounds, medians."""
+"""Measures speed and error of the lens-map kernels on one core, for several holes: medians of some rounds of
+kd_bench_trace."""
 
 import json
 import os

@@ -108,8 +108,8 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         }
     while (found < ORDERS && map[(uint64_t)found * plan->lens.rays] > 0)
         found++;
-    for (int n = 0; n < p.crossings;
-         n++) { /* for a ray on its way out, this includes the part of the path from infinity */
+    /* for a ray on its way out, this includes the part of the path from infinity */
+    for (int n = 0; n < p.crossings; n++) {
         double w = 1 / p.crossing[n].r;
         least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_hole(v->spin)->outer - w));
     }

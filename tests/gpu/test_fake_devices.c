@@ -119,8 +119,8 @@ static void answer_as(const struct fake_device *device)
 static void test_groups(void **state)
 {
     (void)state;
-    answer_as(&(struct fake_device) {
-        .groups = 40 }); /* 40 groups cover 10240 pixels of post.comp, and the picture has 18000 */
+    /* 40 groups cover 10240 pixels of post.comp, and the picture has 18000 */
+    answer_as(&(struct fake_device) { .groups = 40 });
 }
 
 /* Allocations are smaller than a binding. The last picture then has two bands, with slices of half a band. */

@@ -113,9 +113,9 @@ static void expected(const struct kd_scene *scene, const struct ks_path *path, i
     out[R] = r;
     out[PHI] = path->phi[n] + scene->camera.azimuth_deg * M_PI / 180;
     out[DELAY] = path->delay[n];
-    out[ANGLE] =
-        acos(fmin(fabs(path->p_z[n]) / emitted, 1)); /* the cosine of the angle contains g, because in the plane the
-                                                        unit normal is along z, and the gas does not move along z */
+    /* the cosine of the angle contains g, because in the plane the unit normal is along z, and the gas does not move
+     * along z */
+    out[ANGLE] = acos(fmin(fabs(path->p_z[n]) / emitted, 1));
 }
 
 static double apart(int kind, double x, double y)
@@ -557,9 +557,8 @@ static void test_one_frequency(void **state)
                     f * peak * pow(kd_disk_flux_page_thorne(kd_hole(0.9), r[k]) / largest, 0.25) * g[k];
                 const double x = H * nu / (K * kelvin), i = 2 * H * nu * (nu / C) * (nu / C) / expm1(x) / pow(f, 4);
                 const double bound = 2e-5 + 2e-4 * x; /* the table of T is good to 2e-4 */
-                if (i * 1e23 < 1e-30 ||
-                    i * C * C / (2 * K * nu * nu) <
-                        1e-30) /* skipped, because the value is near the smallest or largest float */
+                /* skipped, because the value is near the smallest or largest float */
+                if (i * 1e23 < 1e-30 || i * C * C / (2 * K * nu * nu) < 1e-30)
                     continue;
                 if (!(fabs(light[k] / (i * 1e23) - 1) < bound) ||
                     !(fabs(t[k] / (i * C * C / (2 * K * nu * nu)) - 1) < bound))

@@ -296,8 +296,8 @@ static void test_no_bands(void **state)
         printf("%s: %d rows, worst %.2g of their own light; %d rays left out\n", stirred ? "stirred" : "smooth",
                compared, worst, left_out / 2);
         assert_true(compared == ROWS && worst < 0.005 &&
-                    left_out / 2 <
-                        ROWS * COLUMNS / 4); /* the march is so long that lavapipe stops it on 832 of 4096 rays */
+                    /* the march is so long that lavapipe stops it on 832 of 4096 rays */
+                    left_out / 2 < ROWS * COLUMNS / 4);
         kd_frame_finish(&plain);
         kd_frame_finish(&fine);
     }

@@ -59,9 +59,8 @@ static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
     }
     print_message("%d of %d rays left out\n", left_out, pixels);
     assert_true(n > pixels / 20 &&
-                left_out <
-                    pixels /
-                        40); /* the march through turbulence is so long that lavapipe stops it on 252 of 20 736 rays */
+                /* the march through turbulence is so long that lavapipe stops it on 252 of 20 736 rays */
+                left_out < pixels / 40);
     qsort(off, (size_t)n, sizeof *off, by_value);
     return (struct errors) { off[n * 8 / 10], off[n * 9 / 10], off[n * 96 / 100], off[n - 1] };
 }

@@ -385,8 +385,8 @@ static void no_seam_at_the_horizon(void **state)
                                  moved = hypot(acos(end[0]) - acos(before[0]), s * turn(end[RAYS] - before[RAYS]));
                     turned += moved > 1e-4 + 100 * apart;
                 }
-            /* Some rays in a hundred are within 0.01 of the critical curve. These move by 100 times as much as others.
-             * */
+            /* Some rays in a hundred are within 0.01 of the critical curve. These move by 100 times as much as
+             * others. */
             if (turned > FACES * RAYS / 100 || (k && sky < FACES * RAYS / 3))
                 fail_msg("a = %g, inclination %g, r = %.7g: %zu of %zu rays end elsewhere than next to it", spins[i],
                          inclinations[i], r, turned, sky);

@@ -648,8 +648,8 @@ static void volumes(void **state)
                     near("its light", (double)v->light[c], (double)alone.told->radiance[c],
                          5e-4 * (double)alone.told->radiance[c]);
                 lit[k] += v->light[0] > 0;
-                dim += hides && k &&
-                       v->light[0] < 0.9f * alone.told->middle.light[0]; /* these are behind the shell's matter */
+                /* these are behind the shell's matter */
+                dim += hides && k && v->light[0] < 0.9f * alone.told->middle.light[0];
                 kd_frame_finish(&alone);
             }
             kd_frame_finish(&frame);
@@ -761,19 +761,13 @@ static void kernels_ahead(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(kernels_ahead), /* runs first, before other tests have compiled the kernels */
-        cmocka_unit_test(sums),
-        cmocka_unit_test(many_rays),
-        cmocka_unit_test(volumes),
-        cmocka_unit_test(layers),
-        cmocka_unit_test(velocity_of_gas),
-        cmocka_unit_test(other_pictures),
-        cmocka_unit_test(negative_energies),
-        cmocka_unit_test(from_within),
-        cmocka_unit_test(places),
-        cmocka_unit_test(alone)
-    };
+    /* runs first, before other tests have compiled the kernels */
+    const struct CMUnitTest tests[] = { cmocka_unit_test(kernels_ahead),  cmocka_unit_test(sums),
+                                        cmocka_unit_test(many_rays),      cmocka_unit_test(volumes),
+                                        cmocka_unit_test(layers),         cmocka_unit_test(velocity_of_gas),
+                                        cmocka_unit_test(other_pictures), cmocka_unit_test(negative_energies),
+                                        cmocka_unit_test(from_within),    cmocka_unit_test(places),
+                                        cmocka_unit_test(alone) };
     int status = open_renderer();
     return status ? status : close_renderer(cmocka_run_group_tests_name("pixel", tests, NULL, NULL));
 }

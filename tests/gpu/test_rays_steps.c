@@ -193,9 +193,8 @@ static void test_kerr_schild(void **state)
         for (size_t k = 0; k < steps.n; k++) {
             const struct kd_rays_step *s = &steps.steps[k];
             assert_true(isnan(s->res_w) && isfinite(s->x) && s->stage != KD_STAGE_CROSSING);
-            if (s->r >
-                1.8 * (1 + sqrt(1 - rays[i].spin *
-                                        rays[i].spin))) { /* skipped, because steps further in have larger errors */
+            /* skipped, because steps further in have larger errors */
+            if (s->r > 1.8 * (1 + sqrt(1 - rays[i].spin * rays[i].spin))) {
                 assert_true(fabs(s->res_null) < bound && fabs(s->res_l) < 10 * bound);
                 assert_true(fabs(s->u * s->r - s->z) < 1e-9 * s->r);
             }

@@ -276,8 +276,8 @@ static void test_glances(void **state)
         scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays traced, or a sampled map */
         scene.image.bit_depth = k % 2 ? 16 : 8;
         scene.style.exposure = k < 3 ? 0 : INFINITY;
-        scene.style.bloom =
-            k < 3 ? 0 : 0.5; /* the last three have glare, and their previews that of the finished part */
+        /* the last three have glare, and their previews that of the finished part */
+        scene.style.bloom = k < 3 ? 0 : 0.5;
         scene.image.critical_factor = 1;
         scene.accuracy.precision = k == 2 ? (int32_t)KD_PRECISION_F64 + 1 : KD_PRECISION_WORD_AUTO;
         if (k == 2 && !has_float64("glances of f64 rays, of the closed form instead"))

@@ -76,8 +76,8 @@ static void plausible(void **state)
     assert_int_equal(brief.dispatches, 1);
     assert_int_equal(lengthy.dispatches, 2);
     /* The bounds are wide, because other work shares the machine. 20 times the work takes at least twice as long. The
-     * device cannot have been busy for longer than the clock ran, apart from the difference of the two clocks' rates.
-     * */
+     * device cannot have been busy for longer than the clock ran, apart from the difference of the two clocks'
+     * rates. */
     assert_true(brief.ms > 0 && lengthy.ms > 2 * brief.ms);
     assert_true(brief.ms + lengthy.ms < 1.05 * wall + 0.1);
     assert_true(brief.ms + lengthy.ms > 0.2 * wall);

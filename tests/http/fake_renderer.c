@@ -316,8 +316,8 @@ static struct kd_probed_pixel *tell(const struct kd_plan *plan)
             .light = { 0.25f, 0.25f, 0.25f },
         };
     told->rays = told->each ? told->rays : 0;
-    if (plan->report.probe.steps &&
-        (told->steps = calloc(1, sizeof *told->steps))) { /* the path has a start and no further step */
+    /* the path has a start and no further step */
+    if (plan->report.probe.steps && (told->steps = calloc(1, sizeof *told->steps))) {
         *told->steps = (struct kd_rays_steps) { .params = { .engine = plan->lens.setting.engine,
                                                             .steps = plan->lens.setting.steps },
                                                 .n = 1,
@@ -414,9 +414,8 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
     if (!out->lens_reused)
         out->timings[out->n_timings++] = (struct kd_timing) { "trace", scene->top.time };
     out->timings[out->n_timings++] = (struct kd_timing) { "total", scene->top.time };
-    out->timings[out->n_timings++] = (struct kd_timing) {
-        "slept", kd_clock_ms() - begun
-    }; /* the time is measured, because a busy machine wakes the thread late */
+    /* the time is measured, because a busy machine wakes the thread late */
+    out->timings[out->n_timings++] = (struct kd_timing) { "slept", kd_clock_ms() - begun };
     atomic_fetch_add(&drawn, 1);
     return KD_OK;
 }

@@ -509,8 +509,8 @@ static void test_files_that_are_cut(void **state)
     }
 }
 
-/* Replaces all visibilities of a file by 0.1 + 0.2 i, and compares the values that the function reports with the file.
- * */
+/* Replaces all visibilities of a file by 0.1 + 0.2 i, and compares the values that the function reports with the
+ * file. */
 static void simulate(const struct kd_observation *o, uint8_t *file, size_t size, uint64_t seed, bool exact)
 {
     double (*model)[2] = calloc(o->n, sizeof *model), (*out)[2] = calloc(o->n, sizeof *out);

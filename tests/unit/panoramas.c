@@ -175,8 +175,8 @@ static void what_is_kept_is_what_was_made(void **state)
     put(path, place(300, 7), 0xa5); /* damage in a row that is not compared with a computed one */
     assert_false(kd_milky_way_recall(path, 1, kept));
     memcpy(kept, made, bytes);
-    kept[(size_t)512 * KD_MILKY_WAY_WIDTH + 9] ^=
-        1; /* the file is intact, but its values differ from those that the program computes */
+    /* the file is intact, but its values differ from those that the program computes */
+    kept[(size_t)512 * KD_MILKY_WAY_WIDTH + 9] ^= 1;
     kd_milky_way_keep(path, 1, kept);
     assert_false(kd_milky_way_recall(path, 1, kept));
     free(again);

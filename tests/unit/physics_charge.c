@@ -103,8 +103,8 @@ static void edge_of_the_shadow(void **state)
     assert_true(seen > 400);
 }
 
-/* Rates of azimuth and time by Carter's equations (1968), without the terms in lambda/sin^2 theta and in cos^2 theta.
- * */
+/* Rates of azimuth and time by Carter's equations (1968), without the terms in lambda/sin^2 theta and in cos^2
+ * theta. */
 static void rates(void **state)
 {
     (void)state;

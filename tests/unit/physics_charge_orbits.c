@@ -224,8 +224,8 @@ static void curve(void **state)
                                                      .alpha = middle + (p.alpha - middle) * by,
                                                      .beta = p.beta * by };
                     const struct kd_null_path path = kd_null_trace(&ray);
-                    if (path.status !=
-                        KD_NULL_OK) /* skipped, because both horizons and the orbit coincide within rounding */
+                    /* skipped, because both horizons and the orbit coincide within rounding */
+                    if (path.status != KD_NULL_OK)
                         continue;
                     if ((path.fate == KD_NULL_ESCAPED) != (side > 0))
                         fail_msg("a = %.17g, q = %.17g, r = %g, u = %g, point %d: %s", e->a, e->q, o.radius,

@@ -116,8 +116,8 @@ static void test_nodes(void **state)
 }
 
 /* Next to edge-on, places of a ring are within 2e-3 of r of those that are found individually, also between nodes. With
- * these spins and inclinations a line from the centre may meet a ring three times, so that tables by such lines failed.
- * */
+ * these spins and inclinations a line from the centre may meet a ring three times, so that tables by such lines
+ * failed. */
 static void test_next_to_edge_on(void **state)
 {
     static const struct {

@@ -194,8 +194,8 @@ static void observers_along_a_ray(void **state)
     far.radius = 1e7;
     struct kd_null_path q = kd_null_trace(&far);
     assert_true(p.crossings == q.crossings && p.crossings > 0);
-    for (int n = 0; n < p.crossings;
-         n++) { /* the part of the path beyond 1e7, which is left out, has the length b^2/2r */
+    /* the part of the path beyond 1e7, which is left out, has the length b^2/2r */
+    for (int n = 0; n < p.crossings; n++) {
         within(0, n, "r from 1e7", fabs(p.crossing[n].r / q.crossing[n].r - 1), 2e-5);
         within(0, n, "delay from 1e7", fabs(q.crossing[n].delay - 1e7 - 2 * log(1e7) - p.crossing[n].delay), 1e-4);
     }
@@ -278,8 +278,8 @@ static void many_orders(void **state)
         within(0, n, "half a turn", fabs(fabs(p.crossing[n].phi - p.crossing[n - 1].phi) - M_PI), 1e-12);
         assert_true(isnan(p.crossing[n].error_r) == 0 && p.crossing[n].error_r > 0);
     }
-    for (int n = 2; n < 5;
-         n++) /* light at the photon sphere needs a time of sqrt(27) per radian, so half a turn takes pi sqrt(27) */
+    /* light at the photon sphere needs a time of sqrt(27) per radian, so half a turn takes pi sqrt(27) */
+    for (int n = 2; n < 5; n++)
         within(0, n, "delay of half a turn", fabs(p.crossing[n].delay - p.crossing[n - 1].delay - M_PI * sqrt(27)),
                0.1);
     assert_true(p.crossing[4].error_r > 100 * p.crossing[2].error_r);

@@ -308,8 +308,8 @@ static struct ks_frame frame_by_oracle(const struct kd_observer_motion *m, const
     double u[4] = { 0 }, x[4] = { 1, m->velocity[0], m->velocity[1], m->velocity[2] };
     double gamma = 1 / sqrt(1 - (x[1] * x[1] + x[2] * x[2] + x[3] * x[3]));
     if (m->observer == KD_OBSERVER_INFALL)
-        ks_inwards(&at, 1, frame->t.energy, m->fall_momentum, 0,
-                   u); /* takes E from the code, because E is tested elsewhere */
+        /* takes E from the code, because E is tested elsewhere */
+        ks_inwards(&at, 1, frame->t.energy, m->fall_momentum, 0, u);
     for (int i = 0; i < 4 && m->observer == KD_OBSERVER_VELOCITY; i++)
         for (int k = 0; k < 4; k++)
             u[k] += gamma * x[i] * base.e[i][k];

@@ -508,8 +508,8 @@ static void bad_input(void **state)
     refused("/e", kd_orbit_from_shape(kd_hole(0), 8, -0.1, 1, &o, &error), &error);
     refused("/p", kd_orbit_from_shape(kd_hole(0), 6.9, 0.5, 1, &o, &error), &error);
     refused("/p", kd_orbit_from_shape(kd_hole(0), 1.9, 0, 1, &o, &error), &error);
-    refused("/p", kd_orbit_from_shape(kd_hole(0), 2.9, 0, 1, &o, &error),
-            &error); /* refused, because p is inside the photon orbit */
+    /* refused, because p is inside the photon orbit */
+    refused("/p", kd_orbit_from_shape(kd_hole(0), 2.9, 0, 1, &o, &error), &error);
     refused("/p", kd_orbit_from_shape(kd_hole(0), INFINITY, 0, 1, &o, &error), &error);
     refused("/carter", kd_orbit_from_constants(kd_hole(0), 0.95, 3, -1, NAN, &o, &error), &error);
     refused("/r", kd_orbit_from_constants(kd_hole(0), 0.95, 3, 0, 1.9, &o, &error), &error);

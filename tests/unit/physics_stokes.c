@@ -447,8 +447,8 @@ static void polarisation_is_that_of_samples(void **state)
 }
 
 /* The ratio of scattered to direct light, summed over directions and energies, follows from the kernel of returning
- * light. It is first.returns / first.escapes, less the share of scattered light that meets the disk or the hole again.
- * */
+ * light. It is first.returns / first.escapes, less the share of scattered light that meets the disk or the hole
+ * again. */
 static void scattered_light_is_what_returned(void **state)
 {
     (void)state;

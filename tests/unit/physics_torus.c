@@ -79,8 +79,8 @@ static long double exact(long double a, long double l, long double r, long doubl
 }
 
 /* ln h contains half the logarithm of Delta. Next to the horizon its error is therefore the rounding of r+ over r - r+,
- * at any spin. When Delta was computed as r^2 - 2r + a^2, which cancels, the error was 700 times that at a = 0.999999.
- * */
+ * at any spin. When Delta was computed as r^2 - 2r + a^2, which cancels, the error was 700 times that at a =
+ * 0.999999. */
 static void enthalpy_holds_beside_the_horizon(void **state)
 {
     (void)state;

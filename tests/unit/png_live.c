@@ -76,8 +76,8 @@ static void check_header(const uint8_t *data, uint32_t length, uint32_t width, u
     assert_memory_equal(data + 8, tail, 5);
 }
 
-static size_t
-    least_in_strips; /* the engine under test divides a frame with at least this many filtered bytes into strips */
+/* the engine under test divides a frame with at least this many filtered bytes into strips */
+static size_t least_in_strips;
 
 /* The file is IHDR, sRGB, an IDAT for each strip, IEND and nothing else, each with a valid CRC; zlib checks the sum
  * of the stream, and no bytes are left over. A frame below 1 MiB has one IDAT. */

@@ -68,8 +68,8 @@ static void bounds_are_inclusive(void **state)
         expect_number(field, 1e300, false);
         if (whole) {
             expect_number(field, field->least + 0.5, false);
-            expect_number(field, 4294967296.0 + field->least,
-                          false); /* this number would wrap to the minimum in 32 bits */
+            /* this number would wrap to the minimum in 32 bits */
+            expect_number(field, 4294967296.0 + field->least, false);
         }
     }
 }

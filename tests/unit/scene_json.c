@@ -647,8 +647,8 @@ static void long_strings_with_escapes_are_read_in_pieces(void **state)
         assert_memory_equal(all + length * i, one, length);
     cJSON_Delete(root);
     free(text);
-    mallopt(M_PERTURB,
-            0); /* otherwise glibc would fill the memory, which is not the reader's work, in one long piece */
+    /* otherwise glibc would fill the memory, which is not the reader's work, in one long piece */
+    mallopt(M_PERTURB, 0);
     const size_t many = (size_t)12 << 20;
     text = malloc(2 * many + 10);
     for (size_t shift = 0; shift < 2; shift++) { /* only escapes, beginning at an even and at an odd place */

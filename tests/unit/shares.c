@@ -201,8 +201,8 @@ static void short_first(void **state)
     struct work *long_one = come(&b, "one", KD_CLASS_PICTURE, 5000), *short_one = come(&b, "one", KD_CLASS_PICTURE, 50);
     run(&b, 50);
     assert_true(short_one->ended <= 50);
-    while (b.n < 590 &&
-           isnan(long_one->began)) { /* three short pieces are always waiting, which is more than there is time for */
+    /* three short pieces are always waiting, which is more than there is time for */
+    while (b.n < 590 && isnan(long_one->began)) {
         while (b.n - 2 < 2 + b.now / 50)
             come(&b, "one", KD_CLASS_PICTURE, 50);
         turn(&b);

@@ -30,8 +30,8 @@ static void an_idle_device(void **state)
     (void)state;
     struct kd_slice_pace pace = { 0 };
     assert_float_equal(run(&pace, 1, 1, NS), KD_SLICE_MS, 0.2);
-    assert_float_equal(run(&pace, 100, 0.5, NS), KD_SLICE_MS / 2,
-                       0.2); /* the submission takes no longer than estimated */
+    /* the submission takes no longer than estimated */
+    assert_float_equal(run(&pace, 100, 0.5, NS), KD_SLICE_MS / 2, 0.2);
     assert_int_equal(kd_slice_items(&pace, NS, 7), 7);
     assert_int_equal(kd_slice_items(&pace, 1e12, MOST), 1);
 }

@@ -227,8 +227,8 @@ static void those_that_share_a_lens_map_follow_one_another(void **state)
     for (unsigned i = 0; i < s->scenes; i++) {
         unsigned frame = order.frames[i], before = i ? order.frames[i - 1] : 0;
         assert_int_equal(seen[frame]++, 0);
-        changes += !i || frame / 4 % 3 != before / 4 % 3 ||
-                   frame % 2 != before % 2; /* the inclination or the spin has changed */
+        /* the inclination or the spin has changed */
+        changes += !i || frame / 4 % 3 != before / 4 % 3 || frame % 2 != before % 2;
     }
     assert_int_equal(changes, 6);
     assert_int_equal(order.frames[0], 0);

@@ -146,8 +146,8 @@ static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
     while (atomic_load(&computing) <= kd_cores()) /* waits until at least one turn has paused */
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
     assert_int_equal(pthread_create(&thread, NULL, destroy, scheduler), 0);
-    nanosleep(&(struct timespec) { .tv_nsec = 50000000 },
-              NULL); /* now the queue is being closed while turns are in progress */
+    /* now the queue is being closed while turns are in progress */
+    nanosleep(&(struct timespec) { .tv_nsec = 50000000 }, NULL);
     atomic_store(&over, true);
     for (const double since = kd_clock_ms(); !atomic_load(&destroyed) && kd_clock_ms() - since < PATIENCE_MS;)
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
