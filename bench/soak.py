@@ -140,7 +140,7 @@ class Server:
 
 
 def is_png(data):
-    """Whether each chunk of it is complete, and the last one is there."""
+    """True if each chunk of it is complete, and the last one is there."""
     at, name = 8, b""
     while at + 12 <= len(data) and name != b"IEND":
         length, name = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
@@ -153,7 +153,7 @@ def is_png(data):
 
 
 def is_whole(file, frames):
-    """Whether the result of a job has each of its pictures once, and complete."""
+    """True if the result of a job has each of its pictures once, and complete."""
     try:
         with zipfile.ZipFile(io.BytesIO(file)) as z:
             pictures = [name for name in z.namelist() if name.endswith(".png")]
@@ -354,7 +354,7 @@ class World:
         )
 
     def lossy(self):
-        """Whether a connection may be closed instead of an answer."""
+        """True if a connection may be closed instead of an answer."""
         return self.kills or self.failing.is_set()
 
     def answered(self, status, meant):

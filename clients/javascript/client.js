@@ -110,7 +110,7 @@ export class Picture {
     return time == null ? null : Number(time);
   }
 
-  /** Whether a session's frame is the finest one of its scene. A picture from render() is final. */
+  /** True if a session's frame is the finest one of its scene. A picture from render() is final. */
   get final() {
     return this.number === 0 || pairs(this.headers.get('kerrd-quality')).final === 1;
   }
@@ -402,7 +402,7 @@ export class Session {
     }
   }
 
-  /** Whether the scene changes by itself, so that it has no last frame. */
+  /** True if the scene changes by itself, so that it has no last frame. */
   get moves() {
     return Object.values(this.scene.motion ?? {}).some(Boolean);
   }

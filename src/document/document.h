@@ -158,7 +158,7 @@ enum kd_status kd_row_refuse(const struct kd_row *row, const struct kd_value *va
  * number is the index of that word; otherwise it is NAN. */
 double kd_row_get(const struct kd_row *row, const void *from);
 void kd_row_put_number(const struct kd_row *row, void *to, double value);
-/* Whether the row allows this value. It does if the value is in the row's range (and whole if the kind requires
+/* True if the row allows this value. It does if the value is in the row's range (and whole if the kind requires
  * that), or stands for the row's word. */
 bool kd_row_holds(const struct kd_row *row, double value);
 /* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow n numbers. */

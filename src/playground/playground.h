@@ -77,7 +77,7 @@ struct kd_playground {
     /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. Bodies
      * move when all have reached it. */
     size_t approached;
-    bool forced;                  /* whether `mutual` is up to date */
+    bool forced;                  /* true if `mutual` is up to date */
     double margin;                /* margin that `mutual` was computed with */
     double last_row[KD_SERIES_N]; /* row of the series before the current step */
 };

@@ -68,7 +68,7 @@ enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **ou
  * hanging device is abandoned with its memory, because drivers crash when it is closed. Then the process should end
  * soon, by _exit, because exit handlers of the driver may hang. */
 void kd_vk_destroy(struct kd_vk *vk);
-bool kd_vk_hangs(const struct kd_vk *vk); /* whether a submission has missed its deadline */
+bool kd_vk_hangs(const struct kd_vk *vk); /* true if a submission has missed its deadline */
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device was chosen */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* number of warnings and errors so far */

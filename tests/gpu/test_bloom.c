@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static bool all_round; /* whether the pictures show all directions */
+static bool all_round; /* true if the pictures show all directions */
 
 /* Shows the light as pixels of 16 bits, proportional to it. rows: the number of rows in a band; 0: all. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)

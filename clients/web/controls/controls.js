@@ -251,7 +251,7 @@ export function buildControls(scene, living_root) {
 
   function show() {
     const grown = lists.map(grow).some(yes => yes);
-    let others = false; // whether the visible fields have changed
+    let others = false; // true if the visible fields have changed
     for (const r of rows) {
       const hidden = !meansSomething(scene, r.path);
       if (r.node.hidden !== hidden) (r.node.hidden = hidden), (others = true);

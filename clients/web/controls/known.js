@@ -73,7 +73,7 @@ function hasChoice(scene, name) {
 // The value by which a switch turns its section off.
 const off = field => field.choices?.[0] ?? field.minimum;
 
-// Whether a field has an effect, by the schema and by the server's statements on the current scene.
+// True if a field has an effect, by the schema and by the server's statements on the current scene.
 export function meansSomething(scene, path) {
   const field = scene.fields.get(path),
     dot = path.lastIndexOf('.'),

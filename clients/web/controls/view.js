@@ -13,7 +13,7 @@ const tap_px = 4; // a tap may move by up to this
 const pace_ms = 30; // least time between two updates of the scene during a drag: pictures follow no faster
 const near_r = 10; // M, within which a drag looks around by default
 
-// Whether a drag turns the camera itself rather than moving it round the hole. A choice by hand is kept in the address.
+// True if a drag turns the camera itself rather than moving it round the hole. A choice by hand is kept in the address.
 function looker(scene) {
   const button = byId('look'),
     how = byId('how'),

@@ -36,7 +36,7 @@ struct kd_hole kd_hole_charged(double a, double q);
 /* q^2, on which all effects of the charge depend; for functions that need it alone. */
 static inline double kd_hole_charge2(const struct kd_hole *hole) { return hole->q * hole->q; }
 
-/* Whether the charge has any effect: its square does not underflow. */
+/* True if the charge has any effect: its square does not underflow. */
 static inline bool kd_hole_is_charged(const struct kd_hole *hole) { return hole->q * hole->q > 0; }
 
 /* False for a struct of zeros and outside the domain. */

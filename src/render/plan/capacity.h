@@ -28,7 +28,7 @@ struct kd_capacity {
     } classes[KD_COST_CLASSES];               /* cost of an item in pictures of a class */
     uint64_t learned;                         /* number of measurements of classes so far */
     bool measured;                            /* false: the figures are defaults for this type of device */
-    bool float64;                             /* whether the device has double precision */
+    bool float64;                             /* true if the device has double precision */
     unsigned cores;                           /* cores of the host, on which the closed form in double runs */
     const struct kd_accuracy_table *accuracy; /* the device's or a built-in one; valid as long as the renderer */
     bool accuracy_measured;                   /* false: built in */

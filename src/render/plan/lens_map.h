@@ -77,7 +77,7 @@ static inline bool kd_plan_has_footprints(const struct kd_plan_lens *lens)
     return lens->quantities & (KD_LENS_FOOTPRINT | KD_LENS_SKY_FOOTPRINT);
 }
 
-/* Whether the lens map is the cheapest kind: crossing radii only, by the closed form. */
+/* True if the lens map is the cheapest kind: crossing radii only, by the closed form. */
 static inline bool kd_plan_is_radii(const struct kd_plan_lens *lens)
 {
     return lens->path == KD_LENS_CLOSED && !(lens->quantities & ~(uint32_t)KD_LENS_W);

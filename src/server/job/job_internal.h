@@ -112,7 +112,7 @@ struct kd_jobs {
 
 double kd_job_now_s(void); /* system time in s since 1970 */
 
-/* Whether a job is being rendered or waits to be. */
+/* True if a job is being rendered or waits to be. */
 static inline bool kd_job_is_active(const struct kd_job *job)
 {
     return job->listed && job->record.state == KD_JOB_ACTIVE;

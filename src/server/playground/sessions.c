@@ -126,7 +126,7 @@ static struct kd_playground_session *make(struct kd_playground_sessions *all,
     return play;
 }
 
-/* Whether the limits of sessions and memory admit another session. Called with the lock. */
+/* True if the limits of sessions and memory admit another session. Called with the lock. */
 static enum kd_status admit(struct kd_playground_sessions *all, const char *client, size_t bytes, bool *quota,
                             struct kd_error *error)
 {

@@ -143,7 +143,7 @@ void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, 
 /* Writes the metrics of the queue and of the device in Prometheus's format. */
 enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_buffer *out);
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
-/* Whether a job of this client may submit its next frame. Jobs leave half of the client's device time to interactive
+/* True if a job of this client may submit its next frame. Jobs leave half of the client's device time to interactive
  * requests. */
 bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client);
 /* Declares the device lost if its owner has not made progress for too long (pulse.h), for example in a driver call
@@ -159,7 +159,7 @@ double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd
 /* Estimated time of all work that clients wait for, excluding frames of sessions and jobs. */
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 
-/* Whether this client may begin new work. Returns KD_EBUSY if its work has used, or is estimated to use, all its device
+/* True if this client may begin new work. Returns KD_EBUSY if its work has used, or is estimated to use, all its device
  * time (http/allowance.h). The error then has the time to wait. Any thread. */
 enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char *client, struct kd_error *error);
 /* The client's quota, if there is a limit. Any thread. */

@@ -87,7 +87,7 @@ static inline size_t kd_render_frame_bytes(const struct kd_render_job *job)
 
 static inline bool kd_render_has_begun(const struct kd_render_job *job) { return job->stage >= KD_RENDER_WORKS; }
 
-/* Whether a client waits for the job, so that the job may be refused. */
+/* True if a client waits for the job, so that the job may be refused. */
 static inline bool kd_render_is_awaited(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_PICTURE || job->claim.class == KD_CLASS_PIXEL ||

@@ -613,7 +613,7 @@ class AsyncSession:
 
     @property
     def moves(self) -> bool:
-        """Whether the scene moves by itself, so that none of its frames is final."""
+        """True if the scene moves by itself, so that none of its frames is final."""
         return any(self.scene.get("motion", {}).values())
 
 

@@ -94,7 +94,7 @@ class Posterior:
         return float(low), float(middle), float(high)
 
     def holds(self, log_probability: float, share: float = 0.95, burn: float = 0.5) -> bool:
-        """Whether the region of highest density with this share of the samples contains a point of this log
+        """True if the region of highest density with this share of the samples contains a point of this log
         probability."""
         seen = self.log_probability[round(burn * len(self.chain)) :]
         return bool(log_probability >= np.quantile(seen, 1 - share))
