@@ -543,8 +543,8 @@ class Sessions(daemon.Owned):
         for _ in range(5):
             session = self.open(
                 {"image": {"width": 4000, "height": 3000}, "time": 60}
-            )  # encoding the first frame takes long,
-            self.patch(session, {"image": {"width": 64, "height": 36}, "time": 0})  # and that of the next one does not
+            )  # encoding the first frame takes long
+            self.patch(session, {"image": {"width": 64, "height": 36}, "time": 0})  # encoding this frame is quick
             self.assertEqual(self.frame(session, 1).header("Kerrd-Revision"), "2")
             time.sleep(0.2)
             self.assertEqual(self.frame(session).header("Kerrd-Revision"), "2")

@@ -340,7 +340,7 @@ class First(Browser):
         )
         self.assertEqual(page.locator('#gallery [tabindex="0"]').count(), 1, "one stop of the tab key")
         card("smooth").focus()
-        page.keyboard.press("ArrowLeft")  # to the preset before; smooth is the last
+        page.keyboard.press("ArrowLeft")  # moves to the preset before `smooth`, which is the last
         there = lambda: page.evaluate("document.activeElement.dataset.preset")
         self.assertTrue(daemon.eventually(lambda: there() not in (None, "smooth")))
         name = there()

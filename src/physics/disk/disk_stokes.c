@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP 0.02   /* of ln T */
+#define STEP 0.02   /* step of ln T between nodes */
 #define COLDEST -10 /* ln T of node 0; T is over the largest temperature of the disk */
 enum {
     RINGS = 24,   /* nodes in s = sqrt(r_isco/r) at which reflected light is computed */

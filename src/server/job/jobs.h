@@ -114,7 +114,7 @@ struct kd_job_watcher {
     bool by_frame; /* true: the watcher waits for the frame `next`; false: it waits for any change */
     unsigned next, revision;
     double deadline_ms; /* end of waiting on kd_clock_ms; INFINITY: no end */
-    bool waiting;       /* its connection is suspended */
+    bool waiting;       /* the watcher's connection is suspended */
     struct kd_job_watcher *previous, *next_watcher;
 };
 void kd_job_watch(struct kd_job_watcher *watcher); /* takes over the reference */

@@ -47,7 +47,7 @@ struct kd_render_queue;
 
 /* Stage of a job. A job in one of the last two stages has begun. */
 enum kd_render_stage {
-    KD_RENDER_WAITS,          /* it waits for its first turn */
+    KD_RENDER_WAITS,          /* the job waits for its first turn */
     KD_RENDER_WAITS_FOR_LANE, /* a long picture that waits for its first turn */
     KD_RENDER_WORKS,
     KD_RENDER_WORKS_IN_LANE,

@@ -115,7 +115,7 @@ struct kd_viewer {
     struct MHD_Connection *mhd;
     int socket;
     uint64_t seen; /* number of the newest frame that it has taken */
-    bool any;      /* it reads only the descriptions of frames, so any encoding will do */
+    bool any;      /* the viewer reads only the descriptions of frames, so it accepts any encoding */
     /* qualities of lossy frames that the viewer accepts, 1 to 100; 0: lossless only. `lossy` is for all frames but
      * the last, last_lossy for the last frame */
     unsigned lossy, last_lossy;
@@ -128,7 +128,7 @@ struct kd_viewer {
     uint64_t sentences;
     double begun_ms, deadline_ms; /* begun_ms: start of waiting; deadline_ms: end of waiting; both on kd_clock_ms.
                                    * INFINITY: no end */
-    bool waiting;                 /* its connection is suspended */
+    bool waiting;                 /* the request's connection is suspended */
     /* why the connection was resumed. late: the deadline has passed; gone: the client has disconnected */
     bool late, gone;
     struct kd_viewer *previous, *next;

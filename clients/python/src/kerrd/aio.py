@@ -525,7 +525,7 @@ async def _close(client: AsyncClient, kind: str, name: str, token: str) -> None:
     try:
         await client._run(calls.close(kind, name, token))
     except Problem as problem:
-        if problem.status != 404:  # it has ended already
+        if problem.status != 404:  # the server has already ended the session or playground
             raise
 
 
