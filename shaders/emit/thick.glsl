@@ -136,7 +136,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
         float seen = part * counts / (slice.unseen * emission.gas.loudness) -
-                     1.0; /* how visible the octave is, by the amount of gas; octaves fade out from three times the
+                     1.0; /* visibility of the octave, by the amount of gas; octaves fade out from three times the
                            * limit on */
         if (!(seen > 0.0))
             break;

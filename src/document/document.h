@@ -128,7 +128,7 @@ enum kd_status kd_document_patch(const struct kd_document *document, void *to, c
 /* Sets one field by "name" or "object.name" from typed text; lists and sets have commas between their items. */
 enum kd_status kd_document_set(const struct kd_document *document, void *to, const char *name, const char *text,
                                uint64_t *given, struct kd_error *error);
-/* Where a typed path leads. The element need not exist. */
+/* The place to which a typed path leads. The element need not exist. */
 struct kd_typed_place {
     const struct kd_row *row;
     const struct kd_list *list; /* NULL: none */

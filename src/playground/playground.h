@@ -40,8 +40,8 @@
 
 #define KD_PLAYGROUND_TIME 1e12 /* M: end of time, also for scenes */
 
-/* What has been removed from the motion of the bodies since the beginning. With these sums, energy and momentum
- * balance. */
+/* Sums of all that has been removed from the motion of the bodies since the beginning. With these sums, energy and
+ * momentum balance. */
 struct kd_playground_spent {
     double captured_mass, captured_energy, captured_momentum[3]; /* angular momentum */
     double merged;                                               /* energy that became heat in mergers */

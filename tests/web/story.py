@@ -13,7 +13,8 @@ import daemon
 
 
 class Parts(html.parser.HTMLParser):
-    """What both languages share: chapters, pictures, controls, guesses with the right answer, links to views."""
+    """The common parts of both languages: chapters, pictures, controls, guesses with the right answer, links to
+    views."""
 
     kept = ("id", "preset", "spin", "inclination", "scene", "poster", "min", "max", "step", "value", "data-set")
     kept += ("data-for", "data-says", "data-right", "type")

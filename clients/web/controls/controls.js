@@ -166,7 +166,7 @@ function row(field, scene) {
   };
 }
 
-// Which details are open is kept in sessionStorage: it survives a reload but is not part of a link.
+// The names of open details are kept in sessionStorage. They survive a reload, but are not part of a link.
 function remember(details, usual) {
   const key = 'open ' + details.id;
   try {

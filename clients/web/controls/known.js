@@ -1,4 +1,4 @@
-// What the page knows about single fields beyond the schema. A field that is not named here has a control as well.
+// Knowledge of the page about single fields, beyond the schema. A field that is not named here has a control as well.
 
 export const left_out = ['image.width', 'image.height']; // set by the window
 export const beside_time = ['time', 'motion.time_rate']; // shown beside the buttons that start and stop time

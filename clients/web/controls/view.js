@@ -55,7 +55,7 @@ export function handle(stage, scene) {
   const pointers = new Map(),
     { looks, toggle } = looker(scene);
   let begin = null,
-    tapped = null, // where the only finger was put down, as long as it has not moved
+    tapped = null, // place at which the only finger was put down, as long as it has not moved
     since = -Infinity, // time at which the fingers were last followed
     timer = 0;
 
@@ -65,8 +65,8 @@ export function handle(stage, scene) {
   const far = () => get('r') === 'infinity';
   const narrows = () => looks() && !['equirectangular', 'fulldome'].includes(get('projection'));
 
-  // What the wheel and a pinch change. At infinity, and where a drag looks around, it is the field of view. Elsewhere
-  // it is the distance, which stays outside every static limit (r = 2) unless the camera is already inside.
+  // The field that the wheel and a pinch change. At infinity, and where a drag looks around, it is the field of view.
+  // Elsewhere it is the distance, which stays outside every static limit (r = 2) unless the camera is already inside.
   function reach() {
     if (get('projection') === 'ring')
       return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };

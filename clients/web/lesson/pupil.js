@@ -34,10 +34,10 @@ at('name').value = remember('pupil-name', () => '');
 
 let session = null, // the session that the teacher shows
   question = null,
-  refused = '', // why the pupil's last choice was not taken
+  refused = '', // the reason why the pupil's last choice was not taken
   ended = false;
 
-// What is wrong with the lesson, and with its pictures. The first message that is not empty is shown.
+// Messages about problems of the lesson, and of its pictures. The first message that is not empty is shown.
 const wrong = { lesson: '', pictures: '…' };
 function tell(of, words) {
   wrong[of] = words;

@@ -108,7 +108,7 @@ export class Scene extends EventTarget {
   #timer = 0;
   #hand = 0; // timer of a drag, until it comes to rest
   #clock = null; // timer of the clock without pictures
-  #linked = 0; // when the address was last updated
+  #linked = 0; // time of the latest update of the address
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody presses Play
   varies = []; // the changes that another time or azimuth would cause, as the server states them (docs/live.md)
   emitters = []; // the scene's emitters, as the server states them

@@ -59,7 +59,7 @@ export function buildFall(scene) {
     given = 0, // the radius that was set in the scene
     rate = 0, // the pace that was set in the scene
     waits = false, // true if the first picture of the fall has not come yet
-    seen = 0, // when the last picture of the fall came, by performance.now()
+    seen = 0, // time of the latest picture of the fall, by performance.now()
     gap = 0, // seconds between its pictures: a maximum that decays
     guide = null, // the captions and the sound of a guided fall (guide.js)
     guided_s = 0; // as fold_s, in a guided fall

@@ -105,8 +105,8 @@ static inline double kd_hole_mass_w(const struct kd_hole *hole, double w) { retu
 /* The numbers c[0] r + c[1] of kd_hole_mass, and c[0] + c[1] w of kd_hole_mass_w. */
 static inline void kd_hole_mass_line(const struct kd_hole *hole, double c[2]) { c[0] = 2, c[1] = -hole->q * hole->q; }
 
-/* How fast the mass term falls: -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u; and in the plane, where Sigma =
- * r^2, over r: 1 - q^2/r. */
+/* The rate at which the mass term falls: -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u. In the plane, where Sigma
+ * = r^2, it is given over r: 1 - q^2/r. */
 static inline double kd_hole_pull(const struct kd_hole *hole, double r, double u)
 {
     return (r - hole->a * u) * (r + hole->a * u) / r - hole->q * hole->q;

@@ -61,8 +61,8 @@ struct kd_store {
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
     /* parameters and tables that are read at each crossing: in device memory, uploaded through `staging` */
     struct kd_vk_buffer *transfer, *staging;
-    struct kd_emit_data *sent;                   /* what was uploaded; NULL: nothing yet */
-    bool sent_whole;                             /* false: what was uploaded is unknown, because a frame was given up */
+    struct kd_emit_data *sent; /* the uploaded data; NULL: none yet */
+    bool sent_whole;           /* false: the uploaded data are unknown, because a frame was given up */
     struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES for each camera; cameras_host is the staging
                                                   * buffer; NULL: none yet */
     struct kd_camera_block sent_cameras[KD_CAMERAS];

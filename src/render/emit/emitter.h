@@ -95,8 +95,8 @@ void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]
 /* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads. For a device that reads this buffer as
  * texels. */
 void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT]);
-/* What the scene's emitters need. kd_emit_needs: quantities of the lens map. The other functions: whether there is
- * light at crossings of the plane, at the ends of rays, with separate luminance, or from points. */
+/* The needs of the scene's emitters. kd_emit_needs: quantities of the lens map. The other functions are true if there
+ * is light at crossings of the plane, at the ends of rays, with separate luminance, or from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
 bool kd_emit_along(const struct kd_scene *scene); /* true if there are volumes */
@@ -112,9 +112,9 @@ uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
 uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass; 0 if it has none or the scene does not have the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
-/* What the scene's emitters cost. kind: hash of the set of emitters, of their traits, and of the quantities of the
- * lens map that they need. log2_of: for each emitter, the logarithms of two numbers: the bytes of its own buffers,
- * and the invocations of its own pass. 0: the emitter has none. */
+/* Costs of the scene's emitters. kind: hash of the set of emitters, of their traits, and of the quantities of the lens
+ * map that they need. log2_of: for each emitter, the logarithms of two numbers: the bytes of its own buffers, and the
+ * invocations of its own pass. 0: the emitter has none. */
 struct kd_work {
     uint64_t kind;
     float log2_of[KD_EMITTER_COUNT][2];

@@ -1,4 +1,4 @@
-/* Which parts of a scene move by themselves in a live session, by emitter (emitter.h). Pure; any thread. */
+/* The parts of a scene that move by themselves in a live session, by emitter (emitter.h). Pure; any thread. */
 #ifndef KD_RENDER_EMIT_MOTION_H
 #define KD_RENDER_EMIT_MOTION_H
 

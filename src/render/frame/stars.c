@@ -24,7 +24,8 @@ struct part {
     struct kd_vk_buffer *light;
 };
 
-/* What a kernel processes: rays of a picture without a rim, rays of a picture with a rim, or rays of the rim. */
+/* The rays that a kernel processes: rays of a picture without a rim, rays of a picture with a rim, or rays of the
+ * rim. */
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
 /* True if the rim is searched. A search for bright images leaves it out. */

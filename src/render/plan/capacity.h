@@ -1,4 +1,4 @@
-/* What a device allows, and its measured speed. A plan is made for a capacity. Plain data; any thread. */
+/* The limits of a device, and its measured speed. A plan is made for a capacity. Plain data; any thread. */
 #ifndef KD_RENDER_PLAN_CAPACITY_H
 #define KD_RENDER_PLAN_CAPACITY_H
 

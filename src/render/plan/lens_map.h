@@ -17,7 +17,7 @@ struct kd_plan_lens {
     uint32_t critical;
     uint32_t critical_dense;  /* rays of each such pixel after refinement (frame/refine.c); 0: no refinement there */
     uint64_t critical_pixels; /* number of pixels at the critical curve */
-    uint64_t critical_part;   /* how many of these pixels fit one buffer of their lens map */
+    uint64_t critical_part;   /* number of these pixels that fit one buffer of their lens map */
     uint32_t adaptive;        /* rays of a pixel after refinement (frame/refine.c); 0: no refinement */
     uint64_t listed_bytes;    /* size of the buffer for the lens map of refined pixels, filled part by part */
     enum kd_lens_path {

@@ -18,7 +18,7 @@
 #define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
 #define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
 
-/* What a link permits, and until when. */
+/* The end of a link, and its limit. */
 struct kd_link_terms {
     uint64_t expires_s; /* Unix time */
     uint64_t budget_ms; /* limit of the device time of all the link's pictures together; 0: no limit */

@@ -62,7 +62,7 @@ struct kd_taken {
 enum { KD_TAKES = KD_TAKES_QUANTITY + 1 };
 extern const struct kd_taken kd_taken[KD_TAKES];
 
-/* Where an answer's media types are listed. */
+/* The place where an answer's media types are listed. */
 enum kd_gives {
     KD_GIVES_ITS_ANSWER, /* in the members `answer` and `also` */
     KD_GIVES_PICTURE,    /* every format of a picture: render/output/format.h */

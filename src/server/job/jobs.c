@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#define COUNTS_MS 20. /* how long a reader of counts waits for the lock */
+#define COUNTS_MS 20. /* time for which a reader of counts waits for the lock */
 
 double kd_job_now_s(void)
 {

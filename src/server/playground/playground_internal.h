@@ -21,10 +21,10 @@ struct kd_playground_session {
     size_t bytes, dynamic_bytes;
     struct kd_once once; /* hashes of the request that created it */
     bool listed, stepping;
-    const char *why; /* why the session has ended; NULL: it has not */
+    const char *why; /* the reason why the session has ended; NULL: it has not ended */
     struct kd_playground_session_pace pace;
     bool anew;                 /* the clock of the session's slices must be restarted */
-    double used_ms;            /* when the session last received a request or was watched */
+    double used_ms;            /* time at which the session last received a request or was watched */
     double reached, slowed_ms; /* reached: achieved rate; slowed_ms: when simulated time was last skipped */
     uint64_t generation;
     struct kd_playground_session_tick *tick; /* the newest tick; NULL: none yet */

@@ -103,7 +103,7 @@ struct kd_render_job {
     /* Kernels that were found missing after the job had begun. The job starts again when they are compiled. */
     struct kd_compilation *lacked;
     struct kd_compilation *ahead; /* kernels that explain the pixels of `settled` */
-    unsigned lacks;               /* how often the job has found kernels missing */
+    unsigned lacks;               /* number of times that the job has found kernels missing */
     struct kd_claim missing;      /* the job's claim in the fair queueing of compilations, while it lacks kernels */
     /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
     double kernels_ms, missing_ms;

@@ -350,7 +350,7 @@ class AsyncClient:
     async def observe(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
     ) -> answers.Simulation:
-        """What the array of an observation would have measured of a scene, with its noise: `columns` as arrays. The
+        """Simulates a measurement of a scene by the array of an observation, with its noise: `columns` as arrays. The
         observation is given as for compare(): observe("m87.uvfits", preset="riaf", seed=1)."""
         document = await self._observed(observation, scene, settings)
         told: answers.Simulation = await self._run(calls.observe(document))

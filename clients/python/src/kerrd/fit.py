@@ -278,7 +278,7 @@ class Fit:
         return Maximum(values, float(best.fun), self.data, bool(fine.success), seen[0], at_bounds)
 
     def _described(self, walkers: int, seed: int | None) -> str:
-        """What a chain depends on, so that a file is not resumed by another fit."""
+        """All that a chain depends on. A file is resumed only by a fit with the same text."""
         parts = [
             self.observation,
             self.parameters,

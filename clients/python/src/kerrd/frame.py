@@ -139,7 +139,7 @@ class Frame:
 
     @property
     def approximations(self) -> list[str]:
-        """What the picture leaves out or approximates, in sentences."""
+        """Omissions and approximations of the picture, in sentences."""
         return [self.sentences[name] for name in items(self.headers.get("kerrd-approximations"))]
 
     @property
