@@ -268,7 +268,7 @@ static void test_edges(void **state)
         for (int x = 0; x < scene.image.width; x++) {
             const double b = pixel * hypot(x + 0.5 - middle, y + 0.5 - middle);
             const uint8_t *rgb = (uint8_t *)kd_frame_pixels(&frame) + 3 * (y * scene.image.width + x);
-            const bool light = rgb[0] + rgb[1] + rgb[2] > 12; /* more than dither */
+            const bool light = rgb[0] + rgb[1] + rgb[2] > 12; /* a sum above 12 is more than dither */
             lit += light && b > 14 && b < 18;
             outside += light && b > sqrt(18 * 18 + 2 * 18) + 1;
             within += light && b < sqrt(12 * 12 + 2 * 12) - 1;

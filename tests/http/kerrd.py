@@ -615,7 +615,7 @@ class Kerrd(unittest.TestCase):
     def test_a_vanished_client_stops_its_list_of_particles(self):
         crowd = self.open({"disk": {"model": "particles", "particles": 4000000}, "image": {"width": 64, "height": 36}})
         target = f"/v1/sessions/{crowd['id']}/particles"
-        self.daemon.get(target + "?count=10")  # does the work that only the first list needs
+        self.daemon.get(target + "?count=10")  # the first list needs work that later lists do not repeat
         whole = float(re.search(r"particles;dur=([\d.]+)", self.daemon.get(target).header("Server-Timing"))[1]) / 1000
         for _ in range(10):
             with self.daemon.connect() as s:

@@ -136,7 +136,7 @@ static void what_must_not_be_reordered(void **state)
     assert_true(found >= 10); /* the functions still have these names */
 }
 
-/* Counts decorations of all operations of these kinds. */
+/* Counts the precise additions, subtractions and multiplications. */
 static int decorated(const struct spirv *s)
 {
     size_t at = 5;

@@ -412,7 +412,7 @@ class Pages(Browser):
             self.quiet(page)
             return listeners()
 
-        for _ in range(2):  # late answers of the first round add some
+        for _ in range(2):  # late answers of the first round add listeners
             round_()
         counts = [round_() for _ in range(4)]
         self.assertLessEqual(counts[-1] - counts[0], 3, counts)

@@ -147,7 +147,7 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pac
 static void hold(struct kd_pace *pace, bool narrower)
 {
     if (!narrower && pace->rung <= pace->held) {
-        pace->held_target = 0; /* the rung is no longer in time */
+        pace->held_target = 0; /* frames of the rung are no longer in time */
     } else if (narrower && (pace->widest > pace->held_target || pace->rung < pace->held)) {
         pace->held = pace->rung;
         pace->held_target = pace->widest;

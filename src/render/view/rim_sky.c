@@ -129,7 +129,7 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
     return 1;
 }
 
-/* Tests one number of intervals on lines across a side. */
+/* A test of one number of intervals, on lines across a side. */
 struct trial {
     const struct follower *f;
     const struct side *side, *other;

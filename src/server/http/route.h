@@ -132,7 +132,7 @@ bool kd_route_checks_query(const struct kd_route *route);
 /* True if the query has a former name of a parameter. */
 bool kd_route_is_dated(const struct kd_request *request);
 
-/* Appends the path that led to the route with this rest, below the base path. */
+/* Appends the path of the route with this rest, below the base path. */
 enum kd_status kd_route_path(const struct kd_route *route, const char *rest, struct kd_buffer *out);
 /* Returns the route that a decoded path leads to, or NULL. *rest is cut out of the path, which is modified. Ignores the
  * base path. */
