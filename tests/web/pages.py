@@ -31,7 +31,7 @@ UNSEEN = """() => {
         .map(node => node.outerHTML.slice(0, 120)).slice(0, 8);
 }"""
 
-LANGUAGES = ("it", "de")  # besides English
+LANGUAGES = ("it", "de")  # languages of the page besides English
 
 
 class Pages(Browser):

@@ -405,7 +405,7 @@ class Playground(Browser):
 
     def test_a_picture_that_takes_long_says_so(self):
         context, held = self.context(viewport={"width": 1200, "height": 900}), []
-        passing = [1]  # number of pictures that go through at once; a request that waits in vain brings no picture
+        passing = [1]  # number of pictures that go through at once; a request without a result brings no picture
 
         def hold(route):
             if passing[0] > 1:  # after the test the page may end while an answer is fetched
