@@ -269,7 +269,9 @@ export class Client {
         const value = path[name];
         if (value == null || ['', '.', '..'].includes(value))
           // URL removes the segments "." and ".."
-          throw new TypeError(`${operation}: path.${name} is ${JSON.stringify(value)}; it must be the name of an object`);
+          throw new TypeError(
+            `${operation}: path.${name} is ${JSON.stringify(value)}; it must be the name of an object`,
+          );
         return encodeURIComponent(value);
       }),
       url = new URL(filled, this.#base);

@@ -857,7 +857,8 @@ static void a_change_breaks_into_refinement(void **state)
     frame(&s);
     refine_to_rest(&s, &frames);
     assert_int_equal(frames, 5); /* 1, 2, 4 and 8 rays along a side, then a frame in double precision */
-    kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .total_ms = 1 }); /* a frame of the old scene */
+    /* a frame of the old scene */
+    kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .total_ms = 1 });
     assert_true(isinf(kd_governor_decide(&s.governor, s.now).wait_ms));
 }
 
