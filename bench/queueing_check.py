@@ -279,7 +279,7 @@ def run(proxied, setting, load, rng, n):
 
 
 def sent(arrivals, answers):
-    """When the requests were really sent: a busy machine wakes this script late."""
+    """The times at which the requests were really sent. A busy machine wakes this script late."""
     return [at + late for at, (*_, late) in zip(arrivals, answers)]
 
 

@@ -1,4 +1,4 @@
-// Descriptions of what is shown, for the page's title and for screen readers.
+// Descriptions of the shown view, for the page's title and for screen readers.
 import { byId, paced } from '../base/dom.js';
 import { number, said, t } from './i18n.js';
 
