@@ -119,7 +119,7 @@ static void doubles_and_holes(void **state)
     assert_int_equal(seen.n, 2);
     assert_true(fabs(seen.of[0].x - 29.7) < 0.01 && !seen.of[0].mirrored &&
                 fabs(seen.of[1].x - (WIDTH - 30.7)) < 0.01 && seen.of[1].mirrored);
-    for (int i = 0; i < 2; i++) /* finds the triangle that contains the star */
+    for (int i = 0; i < 2; i++) /* rays of the triangle that contains the first image */
         sky.rays[(40 + i) * WIDTH + 30].x = NAN;
     seen.n = 0;
     assert_int_equal(kd_star_images(&map, sky.stars, 1, keep, &seen), KD_OK);
