@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Compare adaptive sampling with as many rays in every pixel: error, rays and time; and the photon ring's noise.
+"""Compare adaptive sampling with equal numbers of rays in all pixels, and measure the noise of the photon ring.
 
     bench/adaptive.py            about six minutes, on an idle machine
     bench/adaptive.py --no-times --only gas
 
 Pictures of 640 x 360 at 16 bits are compared with pictures of 64 rays a pixel: PSNR as shown. Times are those of a
-server with one thread pinned to a core, at 1280 x 720 with the lens map, in alternation; the least of the rounds. The
-ring: the pixels that more rays at the critical curve change, by root mean square against 64 rays elsewhere and 256
-there. Needs numpy (pip install numpy). Writes bench/results/DATE-DEVICE-adaptive.{json,md}.
+server with one thread pinned to a core, at 1280 x 720 with the lens map, in alternation. The least time of the rounds
+counts. Noise of the ring is measured on the pixels that additional rays at the critical curve change. It is the root
+mean square difference from a picture with 64 rays elsewhere and 256 rays there. Needs numpy (pip install numpy). Writes
+bench/results/DATE-DEVICE-adaptive.{json,md}.
 """
 
 import http.client

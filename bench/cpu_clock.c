@@ -1,10 +1,10 @@
-/* Passes timed by processor time instead of wall time, for a machine on which other programs run. Preloaded into
- * kd_bench_frame:
+/* A library that makes passes be timed by processor time instead of wall time, for a machine on which other programs
+ * run. It is preloaded into kd_bench_frame:
  *
  *     LD_PRELOAD=build/bench/libkd_bench_cpu_clock.so LP_NUM_THREADS=1 build/bench/kd_bench_frame -s SCENE.json
  *
- * lavapipe takes its timestamps from CLOCK_MONOTONIC, on threads of its own; there this clock becomes the process's
- * processor time. The main thread, which waits with deadlines, keeps the clock that it asks for. */
+ * lavapipe takes its timestamps from CLOCK_MONOTONIC on threads of its own. On these threads this clock becomes the
+ * process's processor time. The main thread, which waits with deadlines, keeps the clock that it asks for. */
 #include <stdbool.h>
 #include <sys/syscall.h>
 #include <time.h>
@@ -12,7 +12,7 @@
 
 __attribute__((visibility("default"))) int clock_gettime(clockid_t clock, struct timespec *out)
 {
-    static _Thread_local int thread; /* 0: not known yet */
+    static _Thread_local int thread; /* kind of this thread; 0: not known yet */
     if (!thread)
         thread = (int)syscall(SYS_gettid);
     const bool own = thread == getpid();

@@ -1,4 +1,4 @@
-/* How far the first integrals of an orbit drift in ten thousand loops. Compares the symplectic methods with
+/* Measures how far the first integrals of an orbit drift in ten thousand loops. Compares the symplectic methods with
  * Runge-Kutta's on the same equations, at the same number of evaluations. Double precision. Sums are not compensated,
  * so that only the methods themselves are compared.
  *
@@ -34,8 +34,8 @@ struct orbit {
     const char *name;
     double a, mass2, energy, momentum, carter, k;
     double r;             /* place at the start: pericentre, in the equatorial plane */
-    double mino, regular; /* length of a loop, from pericentre to pericentre: in Mino time, and in s with d(affine) =
-                           * r ds */
+    double mino, regular; /* length of a loop, from pericentre to pericentre: in Mino time, and in the parameter s with
+                             d(affine) = r ds */
 };
 
 /* The numbers of a state: w, u, w', u'; or x, p and, for Tao's method, their copies. */
@@ -57,7 +57,7 @@ static double radial(const struct orbit *o, double w)
                      w * (power2(o) - o->momentum * o->momentum - o->carter + w * (2 * o->k - a2 * o->carter * w)));
 }
 
-/* Position, momentum, position: the leapfrog with one evaluation. */
+/* A leapfrog step with one evaluation: moves position, momentum, position. */
 static void leapfrog(const struct orbit *o, struct state *s, double h)
 {
     double f[2];
@@ -154,8 +154,8 @@ static void flow_kerr_schild(const struct orbit *o, const double *y, double *d) 
 
 /* M. Tao 2016, Phys. Rev. E 94, 043303: two copies of the phase space. Each is moved by the forces at the other, and a
  * rotation binds them. Adjacent sub-steps of the first kind are merged. Of omega = 0.1, 0.15, 0.2, 0.3, 0.5, 1, 3 and
- * 10 this is the best for matter: with less, the binding is too weak and the copies part within a hundred loops; more
- * costs accuracy. For light inside the inner horizon no value is large enough. */
+ * 10 this is the best for matter. With a smaller omega the binding is too weak, and the copies part within a hundred
+ * loops. A larger omega costs accuracy. For light inside the inner horizon no value is large enough. */
 #define OMEGA 0.3
 
 static void move(const struct orbit *o, double *x, double *p, double *other_x, double *other_p, double h)
@@ -227,8 +227,8 @@ static const struct method {
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
-/* The start: in the plane at the pericentre, with no radial velocity, downwards in theta. In Kerr-Schild coordinates
- * p_r = (2rE - aL)/Delta. */
+/* The state at the start: at the pericentre in the plane, with no radial velocity, and with theta decreasing. In
+ * Kerr-Schild coordinates p_r = (2rE - aL)/Delta. */
 static struct state start(const struct orbit *o, bool kerr_schild)
 {
     struct state s = { { 1 / o->r, 0, 0, sqrt(o->carter) } };
@@ -271,7 +271,7 @@ static struct orbit matter(void)
 {
     struct kd_orbit k;
     if (kd_orbit_from_shape(kd_hole(0.9), 8, 0.5, 0.5, &k, NULL))
-        abort(); /* cannot happen: there is such an orbit */
+        abort(); /* cannot happen, because such an orbit exists */
     return (struct orbit) { .name = "matter",
                             .a = k.hole.a,
                             .mass2 = 1,
@@ -298,8 +298,8 @@ static struct orbit light(void)
     return o;
 }
 
-/* One row: the largest value of both errors up to each mark. lost: the loop in which the error of the invariant reached
- * its unit, or 0 if it did not. */
+/* Measures one row, the largest value of both errors up to each mark. lost: the loop in which the error of the
+ * invariant reached its unit, or 0 if it did not. */
 static void measure(const struct orbit *o, const struct method *m, int steps, cJSON *row)
 {
     void (*integrals)(const struct orbit *, const double *, double *, double *) =
@@ -327,7 +327,7 @@ static void measure(const struct orbit *o, const struct method *m, int steps, cJ
 
 int main(void)
 {
-    static const int budgets[] = { 704, 2816 }; /* evaluations in a loop */
+    static const int budgets[] = { 704, 2816 }; /* numbers of evaluations in a loop */
     struct orbit orbits[2] = { matter(), light() };
     cJSON *root = cJSON_CreateObject(), *list = cJSON_AddArrayToObject(root, "loops"), *rows;
     for (int k = 0; k < MARKS; k++)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Drift of the first integrals over ten thousand loops: kd_bench_drift once, a table, and with --plot its plot.
+"""Measures the drift of the first integrals over ten thousand loops: runs kd_bench_drift once, and writes a table and,
+with --plot, its plot.
 
 The plot needs matplotlib (pip install matplotlib).
 """

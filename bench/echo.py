@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Lines and lags of coronae beside kerrz.
+"""Compares lines and lags of coronae with those of kerrz.
 
     bench/echo.py --kerrz .../kerrz_cli/kerrz            five minutes; pip install kerrz==0.4.1
 
-The largest difference of the cumulative share of twelve lines, six of a lamp and six of a ring; and the lag of the whole
-line behind the continuum at three frequencies, for six lamps (kerrz has no impulse response of a ring). kerrz draws the
-photons of a ring at random: 500 000, as it advises. Its impulse response is counted from the arrival of the direct light
-by kerrd: kerrz's own arrival is up to 1.2 M early (a lamp at 5 M, 60 degrees, a = 0: 26.41 M; the integral over the ray
-is 27.613). Writes bench/results/DATE-cpu-echo.{json,md}.
+Lines: the largest difference of the cumulative share, for six lamps and six rings. Lags: the lag of the whole line
+behind the continuum at three frequencies, for six lamps, because kerrz has no impulse response of a ring. kerrz draws
+the photons of a ring at random: 500 000, as it advises. Its impulse response is counted from the arrival of the direct
+light by kerrd: kerrz's own arrival is up to 1.2 M early (a lamp at 5 M, 60 degrees, a = 0: 26.41 M; the integral over
+the ray is 27.613). Writes bench/results/DATE-cpu-echo.{json,md}.
 """
 
 import bisect
@@ -117,7 +117,8 @@ def lags_beside(o, folder, spin, inclination, ours, theirs, wide=0.25):
         path,
     )
     rows = table(path)
-    back = wide / 2  # a row has the later end of its bin: so lags do not depend on the width
+    # a row states the later end of its bin, and the middle is used, so that lags do not depend on the bin's width
+    back = wide / 2
     for frequency, lag in zip(told["columns"]["frequency"], told["columns"]["lag"]):
         whole = sum(flux * cmath.exp(2j * math.pi * frequency * (time - back)) for time, flux in rows)
         yield frequency, lag, cmath.phase(whole) / (2 * math.pi * frequency)

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Travel times of light by kerrz and by integration of the geodesics.
+"""Compares travel times of light by kerrz with integration of the geodesics.
 
     bench/echo_times.py --kerrz .../kerrz_cli/kerrz            one minute; pip install kerrz==0.4.1 scipy astropy
 
-Light of a lamp on the axis reaches the disk at the radius r after the coordinate time t. kerrz tells t(r) in its table of
-emissivity. Here the same rays are integrated in Mino time by an adaptive Runge-Kutta method. The time of a ray to the
-observer is that of `kerrz trace`. Then the lags of six lamps by both programs, with kerrz's bins of time 0.25 and 0.125 M
-wide. Writes bench/results/DATE-cpu-echo-times.{json,md}.
+Light of a lamp on the axis reaches the disk at the radius r after the coordinate time t. kerrz gives t(r) in its table
+of emissivity. This script integrates the same rays in Mino time by an adaptive Runge-Kutta method. The time of a ray to
+the observer is compared with that of `kerrz trace`. The lags of six lamps are compared, too, with time bins of kerrz
+that are 0.25 and 0.125 M wide. Writes bench/results/DATE-cpu-echo-times.{json,md}.
 """
 
 import math

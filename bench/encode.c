@@ -1,8 +1,8 @@
-/* Cost of encoding a live frame. Real pictures, with and without dither, are encoded as kerrd encodes files and live
- * frames, and also through libdeflate and ISA-L at each level after each filter of PNG. Times are processor times of
- * the calling thread, so that other programs matter little; the least of --repeat counts. With --threads N it measures
- * instead the wall time of files and live frames on 1 to N threads. Prints one line of JSON; encode.py makes the
- * table. */
+/* Measures the cost of encoding a live frame. Real pictures, with and without dither, are encoded as kerrd encodes
+ * files and live frames, and also through libdeflate and ISA-L at each level after each filter of PNG. Times are
+ * processor times of the calling thread, so that other programs matter little. The least time of --repeat runs counts.
+ * With --threads N it measures instead the wall time of files and live frames on 1 to N threads. Prints one line of
+ * JSON; encode.py makes the table. */
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "image/jpeg.h"
@@ -34,7 +34,7 @@ static const struct {
 static const char *const filters[] = { "none", "sub", "up", "average", "paeth" };
 enum { FILTERS = sizeof filters / sizeof *filters };
 
-/* One frame and where its encoded form goes. */
+/* One frame, and the buffer for its encoded form. */
 struct job {
     uint32_t width, height;
     const uint8_t *pixels;
@@ -112,7 +112,7 @@ static size_t by_live(struct job *job)
     return kd_png_live_encode(job->live, job->width, job->height, job->pixels, &job->out, NULL) ? 0 : job->out.size;
 }
 
-static size_t by_jpeg(struct job *job) /* at quality `level` */
+static size_t by_jpeg(struct job *job) /* Encodes at the quality `level`. */
 {
     job->out.size = 0;
     return kd_jpeg_encode(job->width, job->height, job->pixels, (unsigned)job->level, &job->out, NULL) ? 0

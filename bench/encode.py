@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Cost of encoding a frame, in ms and bytes: kd_bench_encode on one core, and files on several, as tables."""
+"""Writes tables of the cost of encoding a frame, in ms and bytes, by kd_bench_encode on one core, and of files on
+several cores."""
 
 import json
 import os

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How long one client can make another wait: pictures, frames and /healthz beside each load of one address.
+"""Measure how long one client can make another wait, with each kind of load from one address.
 
     bench/fairness.py            about four minutes, on an idle machine
     bench/fairness.py --only "a job of 1000 frames" --seconds 5
@@ -177,7 +177,7 @@ def plans(load):
 
 
 def jobs(load):
-    """As many jobs as one client may have; every second one is a film along keyframes with motion blur."""
+    """The maximum number of jobs of one client. Every second job is a film along keyframes with motion blur."""
     scene = {"image": {"width": 1280, "height": 720}}
     for k in range(12):
         frames = [{**scene, "camera": {"inclination_deg": 40 + 0.02 * i + k}} for i in range(50)]

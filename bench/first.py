@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Time of a process's first picture and its second, by preset: the cost of making kernels and reading a sky.
+"""Measure the times of a process's first and second picture by preset.
 
     bench/first.py                                     about four minutes
-    bench/first.py --before OTHER/build/src/kerrd      the same of both programs, in alternation
+    bench/first.py --before OTHER/build/src/kerrd      the same for both programs, in alternation
 
 Each round starts a server, requests POST /v1/render of 1280 x 720 as soon as it listens, then a picture half a degree
-further round the hole; and runs `kerrd render`. The driver's cache of kernels is warm, since an uncounted round of each
-comes first, unless --no-driver-cache tells Mesa to keep none. Writes bench/results/DATE-DEVICE-first.{json,md}.
+further round the hole. It also runs `kerrd render`. The driver's cache of kernels is warm, because an uncounted round
+comes first, unless --no-driver-cache tells Mesa to have no cache. Writes bench/results/DATE-DEVICE-first.{json,md}.
 """
 
 import http.client

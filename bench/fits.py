@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Models a second and core of a warm server that compares parameter sets with an observation: POST /v1/compare with
-"sets", each with another spin and inclination, so that none shares a lens map.
+"""Measures how many models a second and core a warm server compares with an observation. Requests are POST /v1/compare
+with "sets". Each set has another spin and inclination, so that none shares a lens map.
 
 bench/fits.py [--sets 200] [--pixels 64] [--average-s 300]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Formats of live frames: time to encode one, its bytes, time to decode it in a browser, and its loss.
+"""Compare formats of live frames: time to encode, bytes, time to decode in a browser, and loss.
 
     bench/formats.py         about a minute; needs Chromium, and Playwright and Pillow in venv/ (scripts/setup
                              --browser)

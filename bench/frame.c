@@ -1,9 +1,9 @@
-/* Cost of a whole frame, pass by pass. The scene is read from a file, so that it stays the same when the default scene
- * changes. Each repetition renders it with a new lens map ("cold"), and again with this map reused, as when only the
- * exposure or the palette changes. With --turn it renders it a third time from another azimuth, which turns the sky.
- * With --live, cold frames are rendered like those of a drag, and reused ones like those of a session whose time runs.
- * Prints one line of JSON with all runs, in ms. frame.py runs it with one and two lavapipe threads and takes
- * medians. */
+/* Measures the cost of a whole frame, pass by pass. The scene is read from a file, so that it stays the same when the
+ * default scene changes. Each repetition renders it with a new lens map ("cold"), and again with this map reused, as
+ * when only the exposure or the palette changes. With --turn it renders it a third time from another azimuth, which
+ * turns the sky. With --live, cold frames are rendered like those of a drag, and reused ones like those of a session
+ * whose time runs. Prints one line of JSON with all runs, in ms. frame.py runs it with one and two lavapipe threads and
+ * takes medians. */
 #include "render/output/png.h"
 #include "render/render.h"
 
@@ -63,7 +63,7 @@ static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_sc
     for (size_t i = 0; i < frame.n_timings; i++)
         cJSON_AddNumberToObject(run, frame.timings[i].name, frame.timings[i].ms);
     cJSON_AddBoolToObject(run, "lens_reused", frame.lens_reused);
-    /* Compression level 1: as in the service's live view; 6: as in files written by the command line. */
+    /* Compression level 1 is that of live views, and 6 that of files of the command line. */
     status = encode(renderer, scene, &plan, &frame, 1, run, "encode_1", error);
     if (!status)
         status = encode(renderer, scene, &plan, &frame, 6, run, "encode_6", error);
@@ -95,7 +95,7 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
           *turned = o->turn ? cJSON_AddArrayToObject(root, "turned") : NULL;
     enum kd_status status = one_frame(renderer, &scene, o->live, first, error); /* compiles the kernels */
     for (int k = 0; k < o->repeat && !status; k++) {
-        scene.camera.inclination_deg += 1e-3; /* the map must be traced again, with the same amount of work */
+        scene.camera.inclination_deg += 1e-3; /* so that the map must be traced again, with the same amount of work */
         status = one_frame(renderer, &scene, o->live, cold, error);
         if (!status && !o->live)
             status = one_frame(renderer, &scene, false, reused, error);

@@ -38,8 +38,8 @@ IPOLE_DEG = {
     60: 3.0402553586023138,
     75: 3.021039735088821,
 }
-# Largest relative difference from ipole's own observer: Kerr-Schild's normal observer at 1000 M, who moves inwards at
-# 2/r. docs/physics/volume.md explains the difference.
+# Largest allowed relative difference from the flux for ipole's own observer. This is the normal observer of Kerr-Schild
+# coordinates at 1000 M, who moves inwards at 2/r. docs/physics/volume.md explains the difference.
 OF_IPOLE_THERE = 0.004
 IPOLE_CAMERA = {
     "camera__r": 1000,

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The torus as dumps of iharm3d (MKS, FMKS) and Athena++ against the analytic torus, and rays a second through grids.
+"""Compares the torus read from dumps of iharm3d (MKS, FMKS) and Athena++ with the analytic torus, and measures rays a
+second through grids.
 
     venv/bin/python bench/grmhd.py                         some minutes; needs numpy and h5py
     venv/bin/python bench/grmhd.py --nodes 96 48 8 --pixels 48 --rates 96x48x8

@@ -1,4 +1,4 @@
-/* The kernels of scenes, one by one: each variant that the presets' pictures need is compiled once more.
+/* Measures kernels one by one. Each variant that the presets' pictures need is compiled once more.
  *
  * Without --on: compiles each kernel on the same device, and then dispatches it with no workgroups, because some
  * drivers (lavapipe) compile only then. Measures the processor time of both, with Mesa's disk cache disabled. With --on
@@ -17,7 +17,7 @@
 
 enum { MOST = 512, MOST_SCENES = 64 };
 struct variant {
-    struct kd_kernel_entry kernel; /* without its pipeline */
+    struct kd_kernel_entry kernel; /* the entry without its pipeline */
     cJSON *scenes;
 };
 struct options {
@@ -146,7 +146,7 @@ done:
 static enum kd_status make_all(const struct options *o, cJSON *root, struct kd_error *error)
 {
     struct kd_vk *vk;
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); /* read when a device is made */
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); /* Mesa reads this when a device is created */
     enum kd_status status = kd_vk_create(
         &(struct kd_vk_params) {
             .device = o->on ? o->on : o->device, .cache_dir = "", .compiles_only = !o->on, .pipelines_only = o->on },

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cost of each kernel of sixteen scenes: registers on a GPU, and the time that lavapipe needs to compile it.
+"""Measure each kernel of sixteen scenes: its registers on a GPU, and lavapipe's time to compile it.
 
     bench/kernels.py                     about four minutes
     bench/kernels.py --family GFX1100    for another GPU

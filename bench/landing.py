@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The first ten seconds of the page on a busy machine: what its view shows, and how many pixels wide that is.
+"""Record what the page's view shows in its first ten seconds on a busy machine.
 
     bench/landing.py         about three minutes; needs Chromium, and Playwright in venv/ (scripts/setup --browser)
 
@@ -26,9 +26,9 @@ WINDOWS = {  # width, height, pixels of the device per CSS pixel
     "2560 × 1440": (2560, 1440, 1),
     "390 × 844, a phone": (390, 844, 2),
 }
-LEAST = 0.5  # share of the view's width that is asked for
-# A list of {at, what, width, view}: one entry whenever one of the last three changes. Of pictures one over the other
-# the topmost counts. One that fades away is not counted.
+LEAST = 0.5  # required share of the view's width
+# A script that returns a list of {at, what, width, view}: one entry whenever one of the last three changes. If pictures
+# lie over one another, the topmost counts. A picture that fades away does not count.
 WATCH = """window.seen = [];
 (function note() {
     const stage = document.getElementById('stage'), up = id => { const node = document.getElementById(id); return node && !node.hidden && !node.classList.contains('leaving') && node; };
@@ -64,13 +64,13 @@ def film(browser, base, name, seconds, pictures):
         if pictures:
             page.screenshot(path=pictures / f"{name.split(',')[0].replace(' × ', 'x')}-{second:02}.png")
     seen = [one for one in page.evaluate("seen") if one["at"] <= seconds]
-    page.goto("about:blank")  # ends its session
+    page.goto("about:blank")  # leaving the page ends its session
     context.close()
     return seen
 
 
 def spans(seen, seconds):
-    """Successive entries of one kind as one row: from when to when, and the least and greatest width."""
+    """Combines successive entries of one kind into a row: begin, end, least and greatest width."""
     rows = []
     for one, after in zip(seen, [*seen[1:], {"at": seconds}], strict=True):
         if not rows or rows[-1]["what"] != one["what"]:

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A class of thirty: frames a second for each pupil, and the delay until a pupil sees a change by the teacher.
+"""Simulates a class of thirty, and measures the frames a second of each pupil and the delay until a pupil sees a change
+by the teacher.
 
     bench/lesson.py                  a minute, on an idle machine
     bench/lesson.py --pupils 60

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Light curves and centroid tracks of a hot spot, for docs/physics/hot-spots.md, by `kerrd light-curve`.
+"""Draws the light curves and centroid tracks of a hot spot for docs/physics/hot-spots.md, by `kerrd light-curve`.
 
     bench/light_curve.py [--kerrd build/src/kerrd] [-o docs/physics/hot-spots.svg]
 

@@ -1,4 +1,4 @@
-/* Line profiles by one thread, in processor time of its own: the cost of the table of a spin and an inclination, the
+/* Measures line profiles by one thread, in its processor time: the cost of the table for a spin and an inclination, the
  * cost of the sum, and the error of the profile. Prints one line of JSON for each spin and inclination.
  *
  *     kd_bench_line [TOLERANCE [REPEAT [DIRECTIONS]]]      defaults: 0.003, 7, 0

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Line profiles a second and core: cold and warm, by spin and inclination, and as requested from a server by a fit.
+"""Measures line profiles a second and core, cold and warm, by spin and inclination, and as a fit requests them from a
+server.
 
     bench/line.py             two minutes; 500 bins, r^-3 from the ISCO to 400 M, tolerance 0.003
     bench/line.py --directions 1024      the true error of each profile too, beside triangles between rays: five

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Live sessions as a viewer sees them: frames a second, latency from input to picture, its parts, cost of watching.
+"""Measure live sessions as a viewer sees them: frames a second, latency and its parts, and cost of watching.
 
     bench/live.py            about two minutes, on an idle machine
     bench/live.py --before OTHER/build/src/kerrd      one session dragged, and eight, on both programs in alternation;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Two hundred connections beside a session that is dragged: does anything fail, and how many frames does it cost?
+"""Run two hundred connections beside a dragged session; count failures and measure the frames that they cost.
 
     bench/load_200.py                        about five minutes, on an idle machine
     bench/load_200.py --seconds 10 --rounds 12   on a machine with other work, which then affects both equally
@@ -10,7 +10,7 @@ The script starts its own server. `wrk` (the Debian package) keeps 200 connectio
 answers, one after the other: /healthz, /readyz, /v1/schema, /v1/presets, /v1/presets/NAME, /v1/device,
 /v1/physics/kerr. From 127.0.0.2 a session of 640 x 360 is dragged, 30 changes a second. Intervals with and without the
 load alternate, so that other work on the machine affects both. wrk shares the server's processors, as any test on one
-machine must; it runs at nice 19, since a load from elsewhere would take no processor here. Writes
+machine must; it runs at nice 19, because a load from another machine would take no processor time on this one. Writes
 bench/results/DATE-DEVICE-load-200.{json,md}.
 """
 

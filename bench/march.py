@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""Cost of volumes: the light of rays through them, and whole frames, beside the same scene without any.
+"""Measures the cost of volumes: of the light of rays through them, and of whole frames, compared with the same scene
+without a volume.
 
     bench/march.py            about two minutes, on an idle machine
     bench/march.py --before OTHER/build      also the smooth disk, without a volume, by a build from before volumes, in
                                              alternation
 
 Rays by one thread pinned to one core: the rays of a picture, one a pixel, over the time of the pass that follows them.
-Frames by two threads. The least of all rounds. The error is the frame's own estimate (docs/accuracy.md). Writes
-bench/results/DATE-DEVICE-march.{json,md}.
+Frames by two threads. The least time of all rounds counts. The error is the frame's own estimate (docs/accuracy.md).
+Writes bench/results/DATE-DEVICE-march.{json,md}.
 """
 
 import json
@@ -70,7 +71,8 @@ def least(runs, kind, name):
 
 
 def told(kerrd, scene):
-    """The frame's estimate of the error of its volumes: what nine rays in ten do not exceed, and the largest."""
+    """The frame's estimate of the error of its volumes: the error that nine rays in ten do not exceed, and the largest
+    error."""
     with tempfile.TemporaryDirectory() as folder:
         command = [
             kerrd,

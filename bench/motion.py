@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Does gas shimmer that moves by a tenth of a pixel a frame, seen from 5 degrees above its plane? One ray a pixel
-against 64.
+"""Measures the shimmer of gas that moves by a tenth of a pixel a frame, seen from 5 degrees above its plane, with one
+ray a pixel compared with 64.
 
     bench/motion.py            about five minutes, on an idle machine
 
 The script starts its own server and renders a hundred frames of 320 x 180, in linear light. It computes each pixel's
-variance in time, and the mean square of the step from frame to frame, both relative to pictures of 64 rays a pixel: of
-the whole picture, and of the pixels with the finest gas, where one ray is worst. Needs numpy. Writes
+variance in time, and the mean square of the step from frame to frame, both relative to pictures of 64 rays a pixel: for
+the whole picture, and for the pixels with the finest gas, where one ray a pixel is worst. Needs numpy. Writes
 bench/results/DATE-DEVICE-motion.{json,md}.
 """
 

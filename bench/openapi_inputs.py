@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What openapi.json allows and the server refuses: inputs made from the schemas, refusals counted by kind.
+"""Find inputs that openapi.json allows and the server refuses, and count the refusals by kind.
 
 Random documents and queries (by hypothesis-jsonschema, PyPI; the same ones each time for one document) go to a server
 whose renderer has no device. A kind is an operation, a problem type, and its sentence without numbers and quoted words.

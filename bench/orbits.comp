@@ -1,5 +1,5 @@
-// Yoshida's step of src/physics/orbit/orbit_path.c in double precision, an orbit an invocation, its sums not
-// compensated: what a kernel for lists of orbits would cost.
+// Yoshida's step of src/physics/orbit/orbit_path.c in double precision, without compensated sums, one orbit for each
+// invocation. It shows the cost of a kernel for lists of orbits.
 #version 450
 layout(local_size_x = 64) in;
 

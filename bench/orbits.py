@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Ten thousand orbits in one request to kerrd orbit: random spins, shapes and inclinations.
+"""Measures ten thousand orbits of random spins, shapes and inclinations in one request to kerrd orbit.
 
     orbits.py KERRD [N]     N: default 10000
 
 Prints a line for each method: seconds, processor seconds, orbits per second, and the worst drift of the energy.
-Recorded with machine and date in bench/results, never gated.
+Results are recorded with machine and date in bench/results. No test depends on them.
 """
 
 import csv

@@ -1,5 +1,5 @@
 /* The step of the orbit integrator on the device, compared with the same step on the processor, one orbit at a time and
- * eight side by side. Shows whether a kernel for lists of orbits would pay.
+ * eight side by side. Shows whether a kernel for lists of orbits would be faster.
  *
  *     LP_NUM_THREADS=1 taskset -c 0 kd_bench_orbits [ORBITS [STEPS]]
  *
@@ -34,7 +34,7 @@ static double between(double low, double high) { return low + (high - low) * dra
 
 static struct orbit pack(const struct kd_orbit_path *p, double h)
 {
-    struct kd_orbit_path stepped = *p; /* a step computes the rotations of the springs */
+    struct kd_orbit_path stepped = *p; /* a first step computes the rotations of the springs */
     const struct kd_orbit *k = &p->orbit;
     kd_orbit_path_step(&stepped, h);
     struct orbit o = { .a = k->hole.a,
@@ -83,7 +83,7 @@ static double on_device(struct orbit *orbits, uint32_t n, uint32_t steps)
         exit(1);
     }
     struct orbit *map = kd_vk_buffer_map(buffer);
-    for (int round = 0; round < 2; round++) { /* the first round compiles */
+    for (int round = 0; round < 2; round++) { /* the first round compiles the kernel */
         push[1] = round ? steps : 1;
         for (uint32_t i = 0; i < n; i++)
             map[i] = orbits[i];

@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""The page in Chromium: time to the first picture, frames a second, milliseconds a frame of server and browser.
+"""Measure the page in Chromium: time to the first picture, frames a second, and milliseconds a frame.
 
     bench/page.py            about two minutes, on an idle machine; needs Chromium, and Playwright in venv/
                              (scripts/setup --browser)
 
-A window of 1440 x 900 on the server's machine. Rows: time running, the camera dragged round the hole, and both again on
-a line of 300 ms and 1 Mbit/s (simulated by Chromium); the first view as a visitor finds it, untouched; a fall; a thick
-disk; a drag beside a second visitor whose time runs. Each row has its target beside it, as far as there is one. A
-recording may play instead of live pictures in the first view: the row says so. Writes
-bench/results/DATE-DEVICE-page.{json,md}.
+A window of 1440 x 900 on the server's machine. Rows: running time; the camera dragged round the hole; both again on a
+line of 300 ms and 1 Mbit/s, simulated by Chromium; the first view before any input; a fall; a thick disk; a drag beside
+a second visitor whose time runs. If a row has a target, it is shown beside the row. If a recording plays in the first
+view instead of live pictures, the row says so. Writes bench/results/DATE-DEVICE-page.{json,md}.
 """
 
 import json
@@ -24,7 +23,7 @@ import measure
 WINDOW = {"width": 1440, "height": 900}
 PATIENCE_MS = 120_000
 SCENES = {"default": "preset=default", "first view": "preset=gas-stars"}
-# Not on a far line. The observer of the fall has a clock of its own.
+# These rows have no far line. In the fall, time is the observer's own.
 BESIDE = {"fall": "preset=infall", "thick disk": "preset=thick-disk&motion.time_rate=4"}
 FAR = {"offline": False, "latency": 300, "downloadThroughput": 1e6 / 8, "uploadThroughput": 1e6 / 8}
 # Records each frame that the page reads: its width, the server's time for it, and the time from answer to picture.
@@ -48,7 +47,7 @@ WATCH = """() => {
 
 
 def drag(page, seconds):
-    """Drags back and forth round the hole, at some sixty positions a second, as a hand does."""
+    """Drags back and forth round the hole, at some sixty positions a second, like a user's hand."""
     page.mouse.move(700, 400)
     page.mouse.down()
     page.evaluate(

@@ -1,6 +1,6 @@
-/* Cost of a disk's particles in a frame: from their numbers to the density on the grid, for 1e3 to 1e7 of them. The
- * picture is small and reuses its lens map. Times of the device's pass and of the whole frame, in ms. Prints all runs
- * in one line of JSON. */
+/* Measures the cost of a disk's particles in a frame, from the computation of their places to the density on the grid,
+ * for 1e3 to 1e7 particles. The picture is small and reuses its lens map. Times of the device's pass and of the whole
+ * frame, in ms. Prints all runs in one line of JSON. */
 #include "render/emit/particles.h"
 #include "render/render.h"
 

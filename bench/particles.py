@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Particles of a disk, from their numbers to the density on the grid, on one lavapipe thread: kd_bench_particles."""
+"""Measures particles of a disk, from the computation of their places to the density on the grid, by kd_bench_particles
+on one lavapipe thread."""
 
 import json
 import os

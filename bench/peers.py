@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Compare kerrd's rays with those of other codes: the work of a picture, on one core.
+"""Compare the speed of kerrd's rays with that of other codes, for the rays of a picture on one core.
 
-The lens map is compared with kerrz, a closed-form code in double precision: the same image, the same core, in
-alternation. kerrz is run as a program and, for its error, called as a library: pip install kerrz==0.4.1 numpy. Rays
-through volumes are compared with Blacklight and ipole; bench/radio.py has their figures.
+The lens map is compared with kerrz, a closed-form code in double precision. Both compute the same image on the same
+core, in alternation. kerrz is run as a program and, for its error, called as a library: pip install kerrz==0.4.1 numpy.
+Rays through volumes are compared with Blacklight and ipole; bench/radio.py has their figures.
 """
 
 import argparse
@@ -19,7 +19,7 @@ import radio
 SPIN, INCLINATION, HALF_WIDTH = 0.9, 70.0, 12
 OBSERVER = 1e7  # M: kerrz's own default for its distant observer
 
-# What each pair computes: title, kd_bench_trace's (method, computes), kerrz's mapper and flags.
+# Each pair: its title, (method, computes) of kd_bench_trace, and the mapper and flags of kerrz.
 PAIRS = [
     ("r of the first crossing", ("closed form", "r of 1 crossing"), "radius", ["--no-false-image"]),
     ("r, later crossings too", ("closed form", "r of 3 crossings"), "radius", []),
@@ -138,7 +138,8 @@ def first_crossing(np, lam, eta, up, w0):
 
 
 def judge_kerrz(np, library, n):
-    """Errors of r, for kerrz's own constants and start and for an observer at infinity, compared with the reference."""
+    """Errors of r compared with the reference, both for kerrz's own constants and start and for an observer at
+    infinity."""
     metric = library.krz_KerrMetric_init(1.0, SPIN)
     eye = library.krz_FourVector(t=0, r=OBSERVER, th=math.radians(INCLINATION), ph=0)
     at = (np.arange(n) + 0.5) / n * 2 * HALF_WIDTH - HALF_WIDTH

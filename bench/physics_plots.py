@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The figures of docs/physics, one for each chapter: curves from kerrd's values, pictures by its renders.
+"""Draws the figures of docs/physics, one for each chapter: curves from kerrd's values, and pictures that kerrd renders.
 
     bench/physics_plots.py [--kerrd build/src/kerrd] [-o docs/physics] [CHAPTER ...]
 
@@ -20,7 +20,8 @@ import matplotlib.pyplot as plt
 BLUE, SKY, GREEN, ORANGE, RED, PINK = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7"  # Okabe and Ito
 KERRD = "build/src/kerrd"
 NAN = float("nan")
-HORIZON = (2 * (1 + 0.19**0.5)) ** 0.5  # of a = 0.9 in the plane, where x^2 + y^2 = r^2 + a^2
+# radius sqrt(x^2 + y^2) of the horizon of a = 0.9 in the plane, where x^2 + y^2 = r^2 + a^2
+HORIZON = (2 * (1 + 0.19**0.5)) ** 0.5
 
 
 def run(*words, text=None):
@@ -31,7 +32,7 @@ def run(*words, text=None):
 
 
 def save(figure, path):
-    """Writes an SVG, the same each time, with paths rounded to a tenth of a point, which halves its bytes."""
+    """Writes an SVG with the same bytes each time. Paths are rounded to a tenth of a point, which halves the file."""
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
     tenth = lambda found: f"{float(found[0]):.1f}".removesuffix(".0")
@@ -153,7 +154,8 @@ def flux(axes):
 def colours(axes):
     p, v = ask("blackbody", temperature_k="1000:12000:111")
     for i, t in enumerate(p["temperature_k"]):
-        axes.axvspan(t - 50, t + 150, color=(v["srgb_r"][i], v["srgb_g"][i], v["srgb_b"][i]), linewidth=0)  # no seams
+        # the strips overlap, so that there are no seams
+        axes.axvspan(t - 50, t + 150, color=(v["srgb_r"][i], v["srgb_g"][i], v["srgb_b"][i]), linewidth=0)
     for name, style in (("srgb_r", "-"), ("srgb_g", "--"), ("srgb_b", ":")):
         axes.plot(p["temperature_k"], v[name], style, color="black", label=name[-1].upper())
     axes.set(xlabel="T / K", ylabel="encoded sRGB", xlim=(1000, 12000), title="Colour of a black body")

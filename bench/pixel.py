@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How long the explanation of a pixel takes beside pictures of the same client: the card of the page.
+"""Measure how long the explanation of a pixel takes beside pictures of the same client.
 
     bench/pixel.py            about two minutes
     bench/pixel.py --before OTHER/build/src/kerrd

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Speed of the playground's bodies and debris: milliseconds of a sub-step that moves all of both.
+"""Measures the speed of the playground, in milliseconds of a sub-step that moves all bodies and all debris.
 
     bench/playground.py [KERRD]      a table in Markdown on standard output
 
 A star is torn into the given number of pieces, among bodies of no radius that attract one another. The same snapshot
 then runs for few sub-steps and for many, each a hundredth of the longest that debris allows. The difference of the two
-times is divided by that of their numbers; the least of three is taken.
+times is divided by the difference of the numbers of sub-steps. The least of three runs counts.
 """
 
 import json

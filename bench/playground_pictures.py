@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Speed of a playground's live view: frames a second of a torn star, by its pieces of debris, and of many bodies.
+"""Measures the speed of a playground's live view, in frames a second, for a torn star by its number of pieces, and for
+many bodies.
 
     bench/playground_pictures.py [KERRD]     about two minutes, on an idle machine: a table in Markdown on standard
                                              output

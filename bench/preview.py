@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How long the preview of a shared scene takes, the picture that other sites show beside a link.
+"""Measure how long the preview of a shared scene takes, the picture that other sites show beside a link.
 
     bench/preview.py            about a minute
 

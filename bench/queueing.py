@@ -1,4 +1,4 @@
-"""A model of servers of kerrd behind HAProxy, by discrete events. It does not render: service times are measured ones.
+"""A model of servers of kerrd behind HAProxy, by discrete events. It does not render: it uses measured service times.
 
 Times are in seconds. Each part models:
 
@@ -32,7 +32,7 @@ class Refused(Exception):
 
 @dataclasses.dataclass(eq=False)
 class Work:
-    seconds: float  # of device time
+    seconds: float  # seconds of device time
     estimate: float  # seconds of device time by its plan's estimate
     encode: float = 0.0  # seconds that an encoder takes after the device
     kind: str = "picture"
@@ -221,7 +221,7 @@ class Balancer:
         self.waiting = collections.deque()
         self.by_count = collections.defaultdict(
             dict
-        )  # connections -> servers, in the order in which they reached this number
+        )  # number of connections -> the servers that have it, in the order in which they reached it
         self.count = {server: 0 for server in servers}
         for server in servers:
             self.by_count[0][server] = None
@@ -299,14 +299,13 @@ class Balancer:
 
 @dataclasses.dataclass
 class Habits:
-    """Habits of a visitor, and the cost of the frames. Durations of strokes and rests are distributed exponentially."""
+    """The habits of a visitor and the cost of the frames. Durations of strokes and rests are distributed
+    exponentially."""
 
     drag: float = 3.0  # mean seconds of a stroke
     rest: float = 12.0  # mean seconds between two strokes
     pause: float = 0.001  # seconds from a picture to the next request
-    frames: int = (
-        2  # frames per input: the one that is under way when the input comes, and the one that shows the input
-    )
+    frames: int = 2  # frames per input: the one in progress when the input comes, and the one that shows the input
     encode: float = 0.001
     floor: float = 0.010  # device seconds of the smallest frame
     full: float = 0.100  # device seconds of the largest frame

@@ -6,10 +6,10 @@
 
 Two servers by docs/examples/haproxy.cfg, pinned to a core each. Their capacity is measured by four clients that request
 pictures one after the other. Then pictures are requested at random times, at 0.3, 0.6, 0.9 and 1.2 of the capacity, and
-with queues that refuse. The model gets the same arrivals twice: with the service times of that run, by Server-Timing
-("replayed": is the queueing right?), and with those of the measurement of capacity, by size ("foretold": is the plan
-right?). Then two and ten servers for tests whose device sleeps instead of computing, which takes no processor, so that
-ten fit on the machine. Writes bench/results/DATE-DEVICE-queueing.{json,md}.
+with queues that refuse. The model gets the same arrivals twice. "replayed" uses the service times of that run, by
+Server-Timing, and tests the model of the queues. "foretold" uses the service times of the measurement of capacity, by
+size, and tests the plan. The same is done with two and ten servers for tests, whose device sleeps instead of computing.
+Sleeping takes no processor time, so that ten fit on the machine. Writes bench/results/DATE-DEVICE-queueing.{json,md}.
 """
 
 import asyncio
@@ -255,7 +255,7 @@ def run(proxied, setting, load, rng, n):
     asked, arrivals = targets(rng, n), queueing.poisson(rng, load * c["rate"], n)
     answers, seconds = asyncio.run(opened(proxied.port, asked, arrivals))
     lone = list(alone(arrivals, answers))
-    if len(lone) > 20:  # overhead beyond Server-Timing of a picture that met no other, during this run
+    if len(lone) > 20:  # overhead beyond Server-Timing of a picture that ran alone, in this run
         c["aside_s"] = statistics.mean(lone)
     foretold = [rng.choice(c["took"][size]) + c["beyond_s"] for size, _ in asked]
     served = [timing["total"] + timing["encode"] if "total" in timing else None for _, _, timing, _ in answers]
@@ -279,7 +279,7 @@ def run(proxied, setting, load, rng, n):
 
 
 def sent(arrivals, answers):
-    """When the requests were really sent: a busy machine wakes this script late."""
+    """The times at which the requests were really sent. A busy machine wakes this script late."""
     return [at + late for at, (*_, late) in zip(arrivals, answers)]
 
 
@@ -314,7 +314,7 @@ def sleeping(path, n, load, rng, count):
         answers, seconds = asyncio.run(opened(proxied.port, asked, arrivals))
     finally:
         proxied.stop()
-    beyond = max(0.0, n / rate - mean)  # seconds from the end of a picture to the start of the next
+    beyond = max(0.0, n / rate - mean)  # seconds from the end of a picture to the start of the next one
     estimate = 64 * 36 * 1e-6  # that renderer's estimate in seconds: a microsecond a ray
     model = simulate(
         n,

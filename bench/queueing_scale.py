@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The model of bench/queueing.py for one to a thousand servers: pictures, sessions, a lost server, HAProxy's own time.
+"""Model one to a thousand servers by bench/queueing.py: pictures, sessions, a lost server, HAProxy's time.
 
     bench/queueing_scale.py PLAN.json QUEUEING.json            five minutes; needs haproxy and simpy
     bench/queueing_scale.py PLAN.json QUEUEING.json --plot docs/scale.svg     draws the figure, too; needs matplotlib
@@ -119,7 +119,7 @@ def curve(n, measured):
     out = {}
     for load in (
         LOADS if n < 1000 else (load for load in LOADS if load < 1)
-    ):  # a thousand take minutes, and from load 1 on they behave as a hundred do
+    ):  # a thousand servers take minutes to model, and from load 1 on they behave like a hundred
         each = EACH if n < 1000 else EACH // 5
         logs = [renders(n, load, measured, each, seed=seed)[0] for seed in range(max(1, 20 // n))]
         out[load] = round(p95([row for log in logs for row in log]), 4)

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Rays a second and core through volumes at a radio frequency, unpolarised and polarised, beside Blacklight and ipole.
+"""Measures rays a second and core through volumes at a radio frequency, unpolarised and polarised, and compares them
+with Blacklight and ipole.
 
     bench/radio.py            two or three minutes
     bench/radio.py --sizes 48 96 --rounds 1      half a minute
 
 One picture of each scene at two sizes, by one thread. Rays are the pixels by which the sizes differ; their time is the
 processor time by which the two processes differ, so that startup, kernels and the rays that measure the error cancel,
-and other processes hardly matter. The least of all rounds. Writes bench/results/DATE-DEVICE-radio.{json,md}.
+and other processes hardly matter. The least times of all rounds count. Writes
+bench/results/DATE-DEVICE-radio.{json,md}.
 """
 
 import json

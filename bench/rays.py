@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Listed rays from end to end: kerrd serve on a free port, N rays sent, their ends received, in every form and by
-several engines.
+"""Measures listed rays from end to end. Starts kerrd serve on a free port, sends N rays, and receives their ends, in
+every format and by several engines.
 
     rays.py KERRD [N]     N: default 1000000
 
 Prints a line for each combination: rays per second over the whole exchange as a client sees it (the body is prepared
-and the answer not parsed), the server's times of reading and tracing, and the bytes of both bodies. Recorded with
-machine and date in bench/results, never gated.
+and the answer not parsed), the server's times of reading and tracing, and the bytes of both bodies. Results are
+recorded with machine and date in bench/results. No test depends on them.
 """
 
 import http.client

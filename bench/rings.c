@@ -1,5 +1,5 @@
-/* Lensing bands and demagnification in numbers, as the Markdown of docs/physics/photon-rings.md. No device, no
- * options, a millisecond. */
+/* Prints lensing bands and demagnification as the tables in Markdown of docs/physics/photon-rings.md. It needs no
+ * device, has no options, and takes a millisecond. */
 #include "physics/null/lensing.h"
 #include "physics/spacetime/kerr.h"
 

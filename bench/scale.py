@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Sweeps on a Dask cluster of two workers: overhead of a scene, gain of the second worker, and a worker that is killed.
+"""Measure sweeps on a Dask cluster: overhead of a scene, gain of a second worker, and a worker that is killed.
 
     bench/scale.py            some minutes, on an idle machine of two cores; needs the packages of
                               tests/python/requirements.txt in venv/

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Capacity of a machine: device seconds of a frame, of a viewer who drags or rests, and of a minute of film.
-docs/scale.md computes from them how many machines are needed.
+"""Measure a machine's capacity: device seconds of a frame, of a viewer, and of a minute of film.
 
     bench/scale_plan.py            three minutes, on an idle machine
     bench/scale_plan.py --quick    one minute: a rough result, from fewer frames and sessions
@@ -70,7 +69,7 @@ def frames(server, rounds):
                 "inclination_deg": scene.get("camera", {}).get("inclination_deg", 70) - 0.37 * k,
             }
             traced, kept = picture(server, asker, scene), picture(server, asker, {**scene, "time": 10.0 + k})
-            if k:  # the first ones make the kernels
+            if k:  # the first pictures compile the kernels
                 rows[name]["traced"].append(traced["total"] / 1e3)
                 rows[name]["kept"].append(kept["total"] / 1e3)
                 rows[name]["encode"].append(traced["encode"] / 1e3)
@@ -86,7 +85,7 @@ def film(server, sample):
         scene = scene_of(server, "default")
         scene["camera"] = {"azimuth_deg": 360.0 * k / sample}
         took = picture(server, asker, scene)
-        if k:  # the first one traces the rays, which all share
+        if k:  # the first frame traces the rays, which all frames share
             device.append(took["total"] / 1e3)
             encode.append(took["encode"] / 1e3)
             cores.append(took["processor"])

@@ -140,7 +140,7 @@ class Server:
 
 
 def is_png(data):
-    """Whether each chunk of it is complete, and the last one is there."""
+    """True if each chunk of it is complete, and the last one is there."""
     at, name = 8, b""
     while at + 12 <= len(data) and name != b"IEND":
         length, name = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
@@ -153,7 +153,7 @@ def is_png(data):
 
 
 def is_whole(file, frames):
-    """Whether the result of a job has each of its pictures once, and complete."""
+    """True if the result of a job has each of its pictures once, and complete."""
     try:
         with zipfile.ZipFile(io.BytesIO(file)) as z:
             pictures = [name for name in z.namelist() if name.endswith(".png")]
@@ -354,7 +354,7 @@ class World:
         )
 
     def lossy(self):
-        """Whether a connection may be closed instead of an answer."""
+        """True if a connection may be closed instead of an answer."""
         return self.kills or self.failing.is_set()
 
     def answered(self, status, meant):
@@ -416,11 +416,12 @@ def finish(world):
 
 
 FIRST_VIEW = {"image": {"width": 640, "height": 360}}
-KEPT_MIB = 256  # that may be kept while nothing is requested
-# The server computes these kinds from what is resident, so that they cannot show a leak by themselves.
+# MiB that may be kept while no request comes. The server computes these kinds from what is resident, so that they
+# cannot show a leak by themselves.
+KEPT_MIB = 256
 UNBOUNDED = ("heap", "other")
-OTHER_MIB = 160  # resident beyond the start and the caches: mostly what the driver keeps for its kernels
-RESTS_S = 75  # until memory that is not kept has been freed
+OTHER_MIB = 160  # MiB resident beyond the start and the caches; mostly memory that the driver keeps for its kernels
+RESTS_S = 75  # seconds until memory that is not kept has been freed
 
 
 def first_view_s(world):
@@ -481,7 +482,7 @@ def left_over(state, known):
 
 
 def live(world, a, harm):
-    """The whole run: the samples of each second, and how often the server was killed."""
+    """Runs the whole test. Returns the samples of each second, and the number of kills."""
     server, samples, killed, next_fault, mend_at = world.server, [], 0, 0.0, None
     began, times = time.monotonic(), random.Random(a.seed)
     while (now := time.monotonic() - began) < 60 * a.minutes:
@@ -498,13 +499,13 @@ def live(world, a, harm):
             next_fault = now + times.expovariate(a.faults / (60 * a.minutes - 60))
         elif (not samples or now >= samples[-1]["s"] + 1) and (got := server.sample()):
             samples.append({"s": round(now, 1), **got, **world.answers})
-        if harm and now >= 60 * a.minutes - 30:  # all requests have ended
+        if harm and now >= 60 * a.minutes - 30:  # so that all requests can end
             world.failing.clear()
     return samples, killed
 
 
 def over_time(samples):
-    """Ten rows: the samples, and the answers since the row before."""
+    """Prints ten rows of samples, each with the answers since the row before."""
     rows, before = [], {}
     for s in samples[:: max(len(samples) // 10, 1)]:
         device = f"{s['device_mib']:.0f}" if s["device_mib"] is not None else ""
@@ -604,7 +605,7 @@ def main():
     if growth:
         mean = sum(s["rss_mib"] for s in late) / len(late)
         allowed = {"rss_mib": max(24, 0.1 * mean), "device_mib": BLOCK_MIB, "descriptors": 4, "threads": 2}
-        if tsan:  # it keeps records of accesses, and a slow server frees its memory late
+        if tsan:  # the thread sanitizer keeps records of accesses, and a slow server frees its memory late
             del allowed["rss_mib"], allowed["device_mib"]
         faults += [f"{name} grows by {growth[name]:.1f}" for name, most in allowed.items() if growth[name] > most]
     if code:

@@ -22,7 +22,7 @@ FILES = [
     (errno.EIO, CHANGES | faults.OPEN | faults.READ),
     (errno.EMFILE, faults.OPEN | faults.CREATE),
 ]
-# calls made all the time; the other ones are made at startup only
+# calls that a running server makes; all other calls are made at startup only
 CALLS = [
     "AllocateMemory",
     "MapMemory",

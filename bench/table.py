@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How far a table model of a line, as XSPEC interpolates it, is from the line itself.
+"""Measures how far a table model of a line, as XSPEC interpolates it, is from the line itself.
 
     bench/table.py KERRD [--points 1000] [--seed 1] [--axis FIELD=VALUES]... [--set FIELD=VALUE]...
 

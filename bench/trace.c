@@ -1,4 +1,4 @@
-/* Rays per second of the lens-map kernels and their error, on the device at hand.
+/* Measures rays per second of the lens-map kernels and their error on the device at hand.
  *
  * Every method computes the same image: a = 0.9, i = 70 degrees, +-12 M, observer at infinity. Errors are those of a
  * sample of rays, measured against the Kerr-Schild oracle of tests/oracle. Times are those of the device's trace pass,
@@ -78,7 +78,7 @@ static double turn(double x) { return fabs(remainder(x, 2 * M_PI)); }
 static void judge(const struct options *o, const struct kd_scene *scene, const struct kd_plan *plan,
                   const float *planes, struct figures *f)
 {
-    /* Radii at which a disk can be: BL azimuth diverges at the horizon. */
+    /* Only radii at which a disk can be, because Boyer-Lindquist azimuth diverges at the horizon. */
     double isco = kd_kerr_isco(kd_scene_hole(scene));
     int n = o->sample, count[2] = { 0, 0 };
     double *r_error[2], *phi_error[2];
@@ -145,12 +145,12 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
     double *ms = malloc(sizeof(double) * (size_t)o->repeat);
     if (!planes || !ms)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the lens map");
-    for (int k = -1; k < o->repeat && !status; k++) { /* the first one compiles */
+    for (int k = -1; k < o->repeat && !status; k++) { /* the first run compiles the kernels */
         const double began = kd_clock_ms();
         double *out_ms = &ms[k < 0 ? 0 : k];
         status = kd_render_lens(renderer, &scene, &plan, planes, out_ms, error);
-        if (plan.lens.path ==
-            KD_LENS_LISTED) /* the host computes a part of listed rays, and the time of copying the map counts too */
+        /* for listed rays wall time counts, because the host computes a part of them and copies the map */
+        if (plan.lens.path == KD_LENS_LISTED)
             *out_ms = kd_clock_ms() - began;
     }
     if (!status) {

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Speed and error of the lens-map kernels on one core, for several holes: kd_bench_trace, some rounds, medians."""
+"""Measures speed and error of the lens-map kernels on one core, for several holes: medians of some rounds of
+kd_bench_trace."""
 
 import json
 import os
@@ -35,7 +36,7 @@ def main():
     runs = {case: [] for case in CASES}
     for k in range(o.rounds):
         for a, i in CASES:
-            sample = o.sample if k == 0 else 2  # judged once
+            sample = o.sample if k == 0 else 2  # the number of samples is chosen once
             command = [bench, "--spin", str(a), "--inclination", str(i), "--repeat", "3", "--sample", str(sample)]
             runs[a, i].append(one_run(command, o.core))
     h = measure.head(runs[CASES[0]][0]["device"], load)

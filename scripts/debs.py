@@ -43,7 +43,7 @@ UNUSED = {"awk", "debconf", "debconf-2.0", "dpkg", "libx11-data", "python3"}
 
 
 class Stale(SystemExit):
-    """What the lock names is not to be had."""
+    """A package that the lock names is no longer available."""
 
 
 def read(address, tries=3):
@@ -97,7 +97,7 @@ def newest(stanzas):
 
 
 def closure(packages, provided):
-    """What WANTED needs, transitively. Of alternatives the first that exists."""
+    """The packages that WANTED needs, transitively. Of alternatives it takes the first that exists."""
     found, todo = {}, list(WANTED)
     while todo:
         name = todo.pop()

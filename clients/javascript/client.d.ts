@@ -67,7 +67,7 @@ export class Picture {
     get revision(): number;
     /** Coordinate time of a session's frame, in M; null for other pictures. */
     get time(): number | null;
-    /** Whether a session's frame is the finest one of its scene. A picture from render() is final. */
+    /** True if a session's frame is the finest one of its scene. A picture from render() is final. */
     get final(): boolean;
 }
 /** A kerrd server. */
@@ -207,7 +207,7 @@ export class Session {
         quality?: number;
         untilFinal?: boolean;
     } & Pick<Sending, "signal" | "patience">): AsyncGenerator<Picture, void, undefined>;
-    /** Whether the scene changes by itself, so that it has no last frame. */
+    /** True if the scene changes by itself, so that it has no last frame. */
     get moves(): boolean;
     /** Ends the session and its frames(). It is not an error if the session has already ended. */
     close(): Promise<void>;

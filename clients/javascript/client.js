@@ -110,7 +110,7 @@ export class Picture {
     return time == null ? null : Number(time);
   }
 
-  /** Whether a session's frame is the finest one of its scene. A picture from render() is final. */
+  /** True if a session's frame is the finest one of its scene. A picture from render() is final. */
   get final() {
     return this.number === 0 || pairs(this.headers.get('kerrd-quality')).final === 1;
   }
@@ -269,7 +269,9 @@ export class Client {
         const value = path[name];
         if (value == null || ['', '.', '..'].includes(value))
           // URL removes the segments "." and ".."
-          throw new TypeError(`${operation}: path.${name} is ${JSON.stringify(value)}; it must name what is meant`);
+          throw new TypeError(
+            `${operation}: path.${name} is ${JSON.stringify(value)}; it must be the name of an object`,
+          );
         return encodeURIComponent(value);
       }),
       url = new URL(filled, this.#base);
@@ -402,7 +404,7 @@ export class Session {
     }
   }
 
-  /** Whether the scene changes by itself, so that it has no last frame. */
+  /** True if the scene changes by itself, so that it has no last frame. */
   get moves() {
     return Object.values(this.scene.motion ?? {}).some(Boolean);
   }

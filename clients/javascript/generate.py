@@ -67,7 +67,7 @@ export type Options<O extends Operation, M extends MediaOf<O> = MediaOf<O>> = {}
   ? [options?: Operations[O]['takes'] & Sending<M>]
   : [options: Operations[O]['takes'] & Sending<M>];
 """
-SERVICE = "/v1/", "/healthz", "/readyz", "/metrics"  # where the paths of operations begin
+SERVICE = "/v1/", "/healthz", "/readyz", "/metrics"  # beginnings of the paths of operations
 JSON = "application/json"
 PATCH = "application/merge-patch+json"
 STREAMS = "text/event-stream", "multipart/x-mixed-replace", "application/x-kerrd-frames"
@@ -126,7 +126,7 @@ def comment(facts):
 
 
 def facts(node):
-    """What it is, its unit, range and default."""
+    """The description of a field, its unit, range and default."""
     told = [node["description"]] if "description" in node else []
     if node.get("x-unit") not in (None, "", "1"):
         told.append(f"in {node['x-unit']}")
@@ -156,7 +156,7 @@ def members(rows):
 
 
 def type_of(node):
-    """What stands for a schema."""
+    """The type in TypeScript for a schema."""
     if "$ref" in node:
         return node["$ref"].rsplit("/", 1)[-1]
     parts = node.get("oneOf") or (node.get("anyOf") if "properties" not in node else None)

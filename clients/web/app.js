@@ -109,7 +109,7 @@ async function watch(scene) {
     };
   const carry = buildCarry(stage, scene);
   let told_ms = -Infinity,
-    any = false, // whether a picture has been shown
+    any = false, // true if a picture has been shown
     drift = () => {}, // is called with each picture
     key = null, // the scales over a picture in false colour
     built,
@@ -119,7 +119,7 @@ async function watch(scene) {
 
   async function show(frame) {
     const now = performance.now(),
-      tells = frame.final || now - told_ms > telling_ms; // whether the words beside the picture are updated
+      tells = frame.final || now - told_ms > telling_ms; // true if the words beside the picture are updated
     if (tells) told_ms = now;
     await carry(frame.picture, frame, tells ? describe(scene) : null);
     if (!any)

@@ -147,7 +147,7 @@ class KerrHole extends HTMLElement {
     return new URL(this.getAttribute('server') ?? here, document.baseURI);
   }
 
-  // What is shown, in the form of a link.
+  // The shown scene and view, in the form of a link.
   get #query() {
     const query = new URLSearchParams(this.getAttribute('scene') ?? '');
     for (const [name, path] of [

@@ -56,7 +56,7 @@ vec3 direction(uint at)
     return vec3(s * phi.c, s * phi.s, u);
 }
 
-/* n: number of the crossing; ORDERS: the sky. */
+/* Spot of a ray: crossing n, or the sky if n is ORDERS. */
 vec3 spot(uint n, uint quantity, uint at) { return n < ORDERS ? crossing(n, quantity, at) : direction(at); }
 
 kd_biquadratic patch_of(uint n, uint quantity, uint at)
@@ -84,14 +84,14 @@ vec3 change(kd_biquadratic p, float x, float y)
            x * y * (p.xy + x * p.xxy + y * p.xyy + x * y * p.xxyy);
 }
 
-/* Whether a patch is straight enough; m: its metric. */
+/* True if a patch is straight enough; m: its metric. */
 bool straight(kd_biquadratic p, vec3 m)
 {
     vec3 i = m * p.slope_x, j = m * p.slope_y, a = 2.0 * m * p.bend_x, b = 2.0 * m * p.bend_y, c = m * p.xy;
     return dot(a, a) + dot(b, b) + dot(c, c) < BENT * BENT * (dot(i, i) + dot(j, j)); /* false for NaN */
 }
 
-/* Whether the error of the polynomial of crossing n is small relative to the polynomial's slopes. The error is the
+/* True if the error of the polynomial of crossing n is small relative to the polynomial's slopes. The error is the
  * third difference along x and y, which needs a ray two pixels away. There are four such rays; each that has the
  * crossing gives one difference. The second difference alone is not enough, because it is 0 at a pixel where the map
  * bends in opposite directions on both sides. */
@@ -114,7 +114,7 @@ bool even(uint n, uint quantity, uint at, kd_biquadratic p, vec3 m, uint x, uint
     return most < TWISTED * TWISTED * slope;
 }
 
-/* Whether all nine rays have the same orders and fate. */
+/* True if all nine rays have the same orders and fate. */
 bool alike(uint at)
 {
     bool same = true;

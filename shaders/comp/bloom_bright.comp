@@ -51,7 +51,7 @@ quad quad_at(uint x, uint row)
 const uint WIDE = BLOCK_X > 4 ? BLOCK_X : 4,
            EACH = BLOCK_X < 4 ? 4 / BLOCK_X : 1; /* columns of an invocation; number of blocks in these */
 
-/* The sum that earlier bands stored for the invocation's n-th block. */
+/* The sum that earlier bands have stored for the invocation's n-th block. */
 vec3 begun(uint at, uint n, uint left) { return BEGUN && n < EACH && n < left ? blocks[at + n].rgb : vec3(0); }
 
 void main()

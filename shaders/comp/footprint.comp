@@ -8,10 +8,10 @@
  *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
  *
  * The derivative comes from differences to neighbouring rays of the same order or fate. Neighbours on both sides give
- * it to second order. Two neighbours on one side, at the edge of the picture or of the buffer, do so too. One neighbour
- * gives it to first order. A ray without neighbours is isolated at an edge, and its footprint is KD_FOOTPRINT_EDGE.
- * Half the second difference is added, because a map that turns back within a step still has a size; this term is of
- * second order, too.
+ * the derivative to second order, and so do two neighbours on one side, at the edge of the picture or of the buffer.
+ * One neighbour gives it to first order. A ray without neighbours is isolated at an edge, and its footprint is
+ * KD_FOOTPRINT_EDGE. Half the second difference is added, because a map that turns back within a step still has a size;
+ * this term is of second order, too.
  *
  * Rays on listed pixels are on a square grid, treated separately for each pixel, or on a lattice (ray/place.glsl). On a
  * lattice J is the least-squares fit to the differences to neighbours in this pixel and adjacent ones, for a step as
@@ -53,7 +53,7 @@ struct kd_spot {
     bool there;
 };
 
-/* Which spot of a ray: the one in the sky, or that of crossing n. */
+/* Names a spot of a ray: that of crossing n, or the one in the sky. */
 struct kd_which {
     bool sky;
     uint n;
@@ -92,7 +92,7 @@ struct kd_change {
 kd_change change(kd_which which, kd_spot own, uint at, uint place, uint places, uint step_)
 {
     bool first = place == 0, last = place + 1 == places;
-    int o = first ? 1 : -1, p = first ? 2 : last ? -2 : 1; /* the two neighbours used */
+    int o = first ? 1 : -1, p = first ? 2 : last ? -2 : 1; /* offsets of the two neighbours that are used */
     bool has_o = places > 1, has_p = int(place) + p >= 0 && int(place) + p < int(places);
     kd_spot near = spot(which, has_o ? at + o * step_ : at, has_o),
             other = spot(which, has_p ? at + p * step_ : at, has_p);
@@ -140,7 +140,7 @@ struct kd_fit {
     float dd, count, lacks;
 };
 
-/* Whether the left and the right adjacent pixel are listed too; they are then adjacent in the list. */
+/* True if the left and the right adjacent pixel are listed too; they are then adjacent in the list. */
 struct kd_beside { bool left, right; };
 
 vec2 listed(uint pixel) { return vec2(map_at(push.list + 2 * pixel), map_at(push.list + 2 * pixel + 1)); }
@@ -248,7 +248,7 @@ void main()
     }
     if ((QUANTITIES & KD_LENS_FOOTPRINT) != 0u) {
         uint plane = at + kd_plane(KD_LENS_FOOTPRINT) * push.stride, n = 0;
-        bool crosses = ORDERS > 0u && map_at(at) > 0.0; /* crossings have no gaps */
+        bool crosses = ORDERS > 0u && map_at(at) > 0.0; /* the orders of a ray's crossings have no gaps */
         do {
             if (crosses) {
                 kd_oval o = footprint(kd_which(false, n), at, grid);

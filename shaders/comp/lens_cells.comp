@@ -42,7 +42,7 @@ uint take(uint counts, uint n, uint each)
     return first;
 }
 
-/* Whether a cell overlaps the picture, or the rows of the picture that are requested. */
+/* True if a cell overlaps the picture, or the rows of the picture that are requested. */
 bool is_wanted(uvec2 corner, uint side)
 {
     ivec2 low = place_of(corner), high = low + ivec2(int(side));
@@ -95,7 +95,7 @@ void make_node(uint node, uint word, uvec2 at)
 }
 
 /* Lists the missing nodes of a cell's four quarters, or of a block, and the two rays that check each quarter or the
- * block. stage: the stage of these rays. */
+ * block. stage: that of these rays. */
 void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
 {
     const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
@@ -189,7 +189,7 @@ float steps_to_hole(uvec2 corner, uint side)
     return (cam.sight == KD_SIGHT_PLANE ? length(k.xy) : length(k.yz)) / step_;
 }
 
-/* Whether the nodes of a cell are so far apart that an island of another image order may lie between them. An observer
+/* True if the nodes of a cell are so far apart that an island of another image order may lie between them. An observer
  * among the photon orbits or closer sees such islands, a few degrees wide, next to the horizon of a hole that spins
  * fast. No smooth function of the nodes shows them. */
 bool islands_fit_in(uint side)
@@ -203,9 +203,9 @@ bool islands_fit_in(uint side)
     return 0.25 * float(side) * ray > APART;
 }
 
-/* Whether the function that vanishes where fates change is nonzero between the nodes; `least` is its least value at
- * them. Between nodes a curve deviates by an eighth of its second difference. The margin is four times that, plus twice
- * the error of the polynomials. */
+/* True if the function that vanishes where fates change is nonzero between the nodes; `least` is its least value at
+ * them. Between nodes a curve deviates from a straight line by an eighth of its second difference. The margin is four
+ * times that, plus twice the error of the polynomials. */
 bool curve_is_far(uvec2 corner, uint side, float least)
 {
     kd_line_told t = KD_NOTHING_TOLD;
@@ -213,8 +213,8 @@ bool curve_is_far(uvec2 corner, uint side, float least)
     return least > max(0.5 * t.bend.x, 2.0 * t.off.x);
 }
 
-/* Whether the polynomials predict both rays: w relative to w itself, an angle, and a slope relative to the steepest
- * slope. far: in quarters of the side. */
+/* True if the polynomials predict both rays: w relative to w itself, an angle, and a slope relative to the steepest
+ * slope. far: distance of the two rays from the nodes, in quarters of the side. */
 bool crossing_is_smooth(uvec2 corner, uint side, uint n, float far)
 {
     kd_line_told t = KD_NOTHING_TOLD;
@@ -236,7 +236,7 @@ bool sky_is_smooth(uvec2 corner, uint side, float far)
     return t.apart <= push.tolerance * max(1.0, steep);
 }
 
-/* Whether all rays of a cell have the same number of crossings and the same fate, and its polynomials predict the rays
+/* True if all rays of a cell have the same number of crossings and the same fate, and its polynomials predict the rays
  * between its nodes. */
 bool is_smooth(uvec2 corner, uint side, out float state)
 {
@@ -312,7 +312,7 @@ void main()
     push = push_;
     cam = camera_;
     uint i = gl_GlobalInvocationID.x;
-    if (push.level == 0u && i == 0u) /* numbers of workgroups along the other axes */
+    if (push.level == 0u && i == 0u) /* sets the numbers of workgroups along the other axes */
         [[dont_unroll]]
         for (uint k = 0u; k < KD_SAMPLE_COUNTED / 4u; k++) {
             words[4u * k + 1u] = 1u;

@@ -59,9 +59,9 @@ float time_limit(kd_turning_point b, kd_state start, float e, bool falls)
     return start.dw < 0.0 ? 1.01 * start.w / sqrt(max(least, 1e-12 * e2)) : 1e30;
 }
 
-/* Whether the ray still exists at the crossing. The closed form continues beyond the horizon, turns inside and comes
- * back out. So a ray that falls must still be falling at the crossing, and within its largest possible time. A ray
- * that escapes comes back from infinity on the other side, where w < 0. */
+/* True if the ray still exists at the crossing. The closed form continues beyond the horizon, turns inside and comes
+ * back out. So a ray that falls must still fall at the crossing, and must reach it within its largest possible time. A
+ * ray that escapes comes back from infinity on the other side, where w < 0. */
 bool goes_on(kd_leg leg, bool falls, float limit)
 {
     return leg.tau < limit && (falls ? leg.next.dw > 0.0 : leg.last.dv > 0.0 || leg.next.dw <= 0.0);
@@ -89,10 +89,10 @@ void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_a
     leg.alive = leg.alive && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
 }
 
-/* Whether polar.first is a valid time. If A > 0 and Q < 0 there is no such time, and where Q nearly vanishes, rounding
+/* True if polar.first is a valid time. If A > 0 and Q < 0 there is no such time, and where Q nearly vanishes, rounding
  * decides (polar.glsl). u'^2 = Q + A u^2 - e u^4 is at most s^2/4e, so that the greatest speed is s / 2 sqrt(e). The
- * ray reaches the plane no sooner than at this speed. If A < 0 and Q = 0, the ray stays in the plane; half periods are
- * counted as usual, though nothing is crossed. */
+ * ray reaches the plane no sooner than at this speed. If A < 0 and Q = 0, the ray stays in the plane. Its half periods
+ * are counted as usual, although it crosses nothing. */
 bool first_is_known(kd_geodesic m, kd_polar polar, float u, float ae)
 {
     return m.a2 <= 0.0 || (m.q > 0.0 && polar.first * polar.s > 1.98 * abs(u * ae));
@@ -191,7 +191,7 @@ void main()
     uint crossings = leg.alive && polar.crosses ? 1u : 0u;
     const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;
     uint n = 1;
-    if (!PHI && !SKY) { /* a half period costs as much as storing zeros for a missing crossing */
+    if (!PHI && !SKY) { /* without drag a half period costs as much as storing zeros for a missing crossing */
         for (; n < ORDERS; n++) {
             bool before = leg.alive;
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);

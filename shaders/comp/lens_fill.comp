@@ -32,7 +32,7 @@ layout(set = 0, binding = 4) readonly buffer Sample { uint words[]; };
 
 const bool FOOTPRINT = (QUANTITIES & KD_LENS_FOOTPRINT) != 0u, SHAPED = (QUANTITIES & KD_LENS_SHAPE) != 0u,
            SKY_FOOTPRINT = (QUANTITIES & KD_LENS_SKY_FOOTPRINT) != 0u;
-const bool STEEP = OF_SKY ? SKY_FOOTPRINT : FOOTPRINT; /* derivatives are needed */
+const bool STEEP = OF_SKY ? SKY_FOOTPRINT : FOOTPRINT; /* true: derivatives are needed */
 
 /* Weights of the five nodes along a line at t quarters of the side (Lagrange's polynomials), and for the derivative
  * there. */
@@ -42,7 +42,7 @@ kd_weights weigh(float t)
 {
     kd_weights o;
     float a = t, b = t - 1.0, c = t - 2.0, d = t - 3.0, e = t - 4.0;
-    float ab = a * b, de = d * e, sa = a + b, se = d + e; /* derivatives of ab and de */
+    float ab = a * b, de = d * e, sa = a + b, se = d + e; /* sa and se are the derivatives of ab and de */
     o.value[0] = b * c * de * (1.0 / 24.0);
     o.value[1] = -a * c * de * (1.0 / 6.0);
     o.value[2] = ab * de * 0.25;
@@ -103,7 +103,7 @@ void put_crossing(uint at, uint n, kd_patch_at s, bool falls)
         put(at, kd_plane(KD_LENS_PHI) + n, falls ? s.v.y - cam.spin * kd_fall(s.v.x, cam.root) : s.v.y);
     if (SLOPE)
         put(at, kd_plane(KD_LENS_SLOPE) + n, s.v.z);
-    if (FOOTPRINT) { /* in the metric of the disk; the azimuth's logarithm is included */
+    if (FOOTPRINT) { /* slopes are converted to the metric of the disk, including the azimuth's logarithm */
         float r = 1.0 / s.v.x, drag = falls ? cam.spin / kd_horizons(s.v.x, cam.root) : 0.0;
         vec2 i = vec2(r * r * s.i.x, r * (s.i.y - drag * s.i.x)), j = vec2(r * r * s.j.x, r * (s.j.y - drag * s.j.x));
         kd_oval o = kd_oval_of(i.x * i.x + j.x * j.x, i.y * i.y + j.y * j.y, i.x * i.y + j.x * j.y);

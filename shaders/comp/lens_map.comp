@@ -51,7 +51,8 @@ float kd_drag_about_turn(kd_geodesic m, float e, float h, inout kd_turning t)
 {
     kd_state z = t.start;
     float sum = 0.0;
-    for (uint j = 0; j < (t.any ? 10 : 0); j++) { /* a loop, because only loops skip work */
+    /* this is a loop, because lavapipe skips work only by leaving loops */
+    for (uint j = 0; j < (t.any ? 10 : 0); j++) {
         uint k = j < 5 ? j : j - 5;
         float of = j < 5 ? 0.25 * t.part : 1.0 - 0.25 * t.part;
         z = kd_radial_step(m, z, k == 0 ? 0.0 : of * h);
@@ -103,18 +104,18 @@ void main()
     bool alive = polar.crosses && !dark;
     uint crossings = 0u;
     const float far = cam.size_e * inversesqrt(max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e));
-    /* rounding error of R; the error due to the steps is measured at each crossing */
+    /* lost: rounding error of R; the error of the steps is measured at each crossing */
     float lost = kd_start_noise(m, start, rounding);
     bool open = !dark && !kd_is_decided(barrier, start, lost);
     const float deepest = INGOING ? max(2.0, 1.1 * cam.w0) : 2.0;
     float h = polar.first * (1.0 / float(STEPS));
-    for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++) /* crossings come first, without gaps */
+    for (uint n = 0; n < (PHI ? 2 : 1) * ORDERS + (SLOPE ? ORDERS : 0); n++) /* planes of crossings come first */
         lens[at + n * slice.stride] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
         float low = y.w, high = INGOING && y.dw <= 0.0 ? 0.0 : y.w, sum = 0.0;
         kd_turning turn = kd_turning(y, 0.0, 0.0, 0.0, false, false);
-        if (!INGOING && (PHI || SKY) && way == 0.0) { /* whether the rest of the ray is in ingoing or outgoing
+        if (!INGOING && (PHI || SKY) && way == 0.0) { /* true if the rest of the ray is in ingoing or outgoing
                                                        * coordinates */
             returns = y.dw < 0.0 && !kd_escapes(barrier, y);
             way = returns ? -1.0 : kd_direction_of_motion(barrier, y);
@@ -163,7 +164,8 @@ void main()
             sum += turn.any ? drag - turn.drag : 0.0;
             fallen -= turn.any ? 2.0 * kd_drag_fall(turn.w, cam.spin, cam.root) : 0.0;
         }
-        if (y.w > -cam.horizon && y.w < deepest) /* error of the steps up to this crossing; a clamped w has none */
+        /* adds the error of the steps up to this crossing, except for a clamped w */
+        if (y.w > -cam.horizon && y.w < deepest)
             lost = max(lost, abs(y.dw * y.dw - kd_radial_potential(m, y.w, ray.e, cam.spin, cam.root)));
         float passes = barrier.r < 0.0 ? 2.0 : 1.0; /* a ray that turns passes the turning point twice */
         kd_margins margins = kd_margins_of(barrier, barrier.noise + passes * lost, min(far, cam.horizon), cam.horizon);
@@ -199,8 +201,8 @@ void main()
         open = end.fate == KD_FATE_UNDECIDED;
     }
     float curve = barrier.r;
-    if (INGOING && start.w >= cam.horizon) { /* the product also vanishes where light starts to come from outside
-                                              * (kd_from_outside) */
+    if (INGOING && start.w >= cam.horizon) { /* the product also vanishes where the origin of light changes from inside
+                                                to outside (kd_from_outside) */
         curve *= ray.e + cam.spin * (cam.spin * ray.e - m.momentum) * cam.horizon * cam.horizon;
     }
     kd_finish_ray(open, at, crossings, dark || !kd_escapes(barrier, start), curve);

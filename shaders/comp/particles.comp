@@ -76,8 +76,8 @@ void main()
         plunge(random, n);
         return;
     }
-    /* Invocations have equal numbers of particles, in order of radius, so that neighbours access the same part of
-     * the grid. */
+    /* Each invocation has the same number of particles. Particles are in order of radius, so that neighbouring
+     * invocations access the same part of the grid. */
     umulExtended(2 * (i - push.plunging) + 1, push.per_particle, k, low);
     uint phi = random + guides[k].phi;
     float row = guides[k].row;

@@ -191,7 +191,7 @@ ivec3 pixel(vec3 c, place at, vec3 arrives)
 
 bool is_number(vec3 c) { return kd_is_finite(c.r) && kd_is_finite(c.g) && kd_is_finite(c.b); }
 
-/* How many of the four pixels have light that is not finite; of the last four only `left` are in the band. */
+/* The number of the four pixels whose light is not finite. Of the last four only `left` are in the band. */
 uint without_number(vec4 a, vec4 b, vec4 c, uint left)
 {
     return (is_number(a.xyz) ? 0u : 1u) + (left < 2u || is_number(vec3(a.w, b.xy)) ? 0u : 1u) +

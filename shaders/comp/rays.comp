@@ -98,8 +98,8 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
-/* Estimated error of w where the first integral w'^2 = W^2 - D K w^2 is violated. A violation is a wrong velocity,
- * which acts for the time of a half period. */
+/* Estimated error of w from the violation of the first integral w'^2 = W^2 - D K w^2. A violation is an error of the
+ * velocity, which acts for the time of a half period. */
 float drifted(kd_geodesic m, kd_state y, float time)
 {
     float off = abs(y.dw * y.dw - kd_radial_potential(m, y.w, 1.0, cam.spin, cam.root));
@@ -141,7 +141,8 @@ void main()
     const kd_rounding rounding = kd_rounding_of_labels(ray, cam.spin, cam.u, cam.s, cam.horizon, cam.epsilon);
     kd_turning_point barrier = kd_turning_point_of(m, ray, cam.spin, cam.horizon, cam.root, rounding);
     float way = 0.0, started = delay_edge(m, start, 0.0), fallen = 0.0;
-    /* Rounding errors at the start, in roundoffs. size: of R, whose root is w'; kick: of w and w' together. */
+    /* Rounding errors at the start, in roundoffs. size: error of R, whose root is w'; kick: error of w and w'
+     * together. */
     float size = 1.0 + ray.w * ray.w * (ray.l * ray.l + ray.p * ray.p + 2.0 * abs(m.k) * ray.w);
     float kick = 8.0 + (ray.w > 0.0 ? 2.0 * size / max(abs(ray.dw), sqrt(cam.epsilon * size)) : 0.0);
     kd_path last = kd_path_start(ray, cam.u, cam.s);
@@ -157,7 +158,7 @@ void main()
         ends[o + n] = 0.0;
 
     for (uint n = 0; n < ORDERS && alive; n++) {
-        if (way == 0.0) { /* whether the rest of the ray is in ingoing or outgoing coordinates */
+        if (way == 0.0) { /* true if the rest of the ray is in ingoing or outgoing coordinates */
             way = kd_direction_of_motion(barrier, radial(p));
             delay += delay_edge(m, radial(p), 0.0) - started;
             started = delay_edge(m, radial(p), way);

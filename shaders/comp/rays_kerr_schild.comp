@@ -229,7 +229,8 @@ void main()
         }
         if (r > far && dot(y.a.x, y.a.p) > 0.0) {
             fate = KD_FATE_ESCAPED;
-            if (z1 * y.a.p.z < 0.0 && n < ORDERS) { /* the ray is straight from here, and crosses the plane once more */
+            /* from here the ray is straight, and it crosses the plane once more */
+            if (z1 * y.a.p.z < 0.0 && n < ORDERS) {
                 vec3 hit = y.a.x - y.a.p * (z1 / y.a.p.z);
                 ends[o + 3 * n] = inversesqrt(hit.x * hit.x + hit.y * hit.y);
                 ends[o + 3 * n + 1] = azimuth(vec3(hit.x, hit.y, 0.0), about + turned(y.a.x, hit));

@@ -119,8 +119,8 @@ ivec2 outer(int k)
     return side < 2 ? ivec2(far, near) : ivec2(near, far);
 }
 
-/* On the rim steps are long, and its numbers have almost no rounding error. The map has all terms of third order, and
- * x^3 y and x y^3, from 20 rays, which are 5 x 5 without the corners. near: the 3 x 3 rays in the middle. */
+/* On the rim steps are long, and the rim's numbers have almost no rounding error. The map has all terms of third order,
+ * and x^3 y and x y^3, from 20 rays, which are 5 x 5 without the corners. near: the 3 x 3 rays in the middle. */
 void extend(kd_chart c, uint at, uint x, uint y, vec2 near[9], inout kd_patch o)
 {
     vec2 far[12];
@@ -174,7 +174,7 @@ kd_patch patch_about(kd_chart c, uint at, uint x, uint y)
     o.c = o.ab = o.aaa = o.aab = o.abb = o.bbb = o.aaab = o.abbb = vec2(0.0);
     one_sided(kd_neighbour(f[3], (there & 8u) != 0u), kd_neighbour(f[5], (there & 32u) != 0u), o.a, o.aa, o.there);
     one_sided(kd_neighbour(f[1], (there & 2u) != 0u), kd_neighbour(f[7], (there & 128u) != 0u), o.b, o.bb, o.there);
-    if ((there | 16u) == 511u) { /* all eight neighbours exist */
+    if ((there | 16u) == 511u) { /* true if all eight neighbours exist */
         o.a = ((f[2] - f[0]) + (f[5] - f[3]) + (f[8] - f[6])) * (1.0 / 6.0);
         o.b = ((f[6] - f[0]) + (f[7] - f[1]) + (f[8] - f[2])) * (1.0 / 6.0);
         o.ab = 0.25 * (f[8] - f[6] - f[2] + f[0]);
@@ -193,7 +193,7 @@ vec2 value(kd_patch m, vec2 p)
     return AT_RIM ? f + p.x * p.y * (p.x * p.x * m.aaab + p.y * p.y * m.abbb) : f;
 }
 
-/* Columns: d/dx, d/dy. */
+/* The map's derivative; its columns are d/dx and d/dy. */
 mat2 derivative(kd_patch m, vec2 p)
 {
     mat2 j = mat2(m.a + p.x * (2.0 * m.aa + 3.0 * m.aaa * p.x + 2.0 * m.aab * p.y) + p.y * (m.ab + m.abb * p.y),
@@ -220,7 +220,7 @@ vec2 root(kd_patch m, vec2 q, vec2 p)
     return far < 1e-3 ? p : vec2(1e9);
 }
 
-/* Whether the map has a unique inverse over a ray's cell: the map's derivative changes by less than itself. */
+/* True if the map has a unique inverse over a ray's cell: the map's derivative changes by less than itself. */
 bool is_plain(kd_patch m)
 {
     mat2 j = mat2(m.a, m.b);
@@ -273,7 +273,7 @@ void images(uint at, uint k)
     kd_patch m = patch_about(c, at, x, y);
     float cosine = sqrt(max(1.0 - dot(q, q), 0.0)), size = dot(m.a, m.a) + dot(m.b, m.b);
     vec2 found0 = vec2(-1e9), found1 = found0, found2 = found0, found3 = found0;
-    uint fresh = 0u; /* bits of the roots that count */
+    uint fresh = 0u; /* bits of the roots that are counted */
     int starts = is_plain(m) ? 1 : 4;
     /* This loop tests at its head. With the test at its end, images are lost on lavapipe (Mesa 22.3), for an unknown
      * reason. */

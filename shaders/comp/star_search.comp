@@ -73,7 +73,7 @@ float rectangle_of(vec3 axis, vec3 i, vec3 j, vec3 ii, vec3 jj, vec3 ij)
            KD_STAR_BEND * (abs(dot(axis, ii)) + abs(dot(axis, jj)) + abs(dot(axis, ij)));
 }
 
-/* Whether all images there are made by the rim, or by another grid of the rim. */
+/* True if all images there are made by the rim, or by another grid of the rim. */
 bool is_left_out(uint x, uint y)
 {
     return AT_RIM
@@ -113,9 +113,9 @@ void search(uint at)
     room_wide = all_there ? room_wide : 2.0 * reach;
     long_ = kd_sky_galactic(long_);
     wide = kd_sky_galactic(wide);
-    /* The rectangle about the parallelogram. e adds little to it, unless the parallelogram is thin. It is limited by
-     * the ray's size: a step of the direction moves the place on the face by at most 1 + p^2 + q^2 times as much, plus
-     * a margin because that factor grows. */
+    /* The rectangle about the parallelogram. e adds little to it, unless the parallelogram is thin. The rectangle is
+     * limited by the ray's size: a step of the direction moves the place on the face by at most 1 + p^2 + q^2 times as
+     * much, plus a margin because that factor grows. */
     kd_face face = kd_face_of(n);
     vec2 middle = vec2(face.p, face.q), all = vec2(1.25 * reach * (1.0 + dot(middle, middle)));
     vec2 room =

@@ -60,7 +60,7 @@ vec2 solve(kd_tile t, vec2 q) { return vec2(t.b.y * q.x - t.b.x * q.y, t.a.x * q
 
 float most(vec2 v) { return max(abs(v.x), abs(v.y)); }
 
-/* whole: the tile has all its rays. */
+/* whole: true if the tile has all of its rays. */
 kd_tile tile_about(uint at, bool whole)
 {
     kd_tile t;
@@ -68,7 +68,7 @@ kd_tile tile_about(uint at, bool whole)
     vec3 e1 = normalize(abs(n.z) < 0.9 ? vec3(-n.y, n.x, 0.0) : vec3(0.0, -n.z, n.y)), e2 = cross(n, e1);
     bool escape = whole && kd_sky_escapes(at);
     uint face = kd_face_of(kd_sky_galactic(n)).number;
-    vec2 low = vec2(1e9), high = vec2(-1e9); /* bounds of the places of all nine rays */
+    vec2 low = vec2(1e9), high = vec2(-1e9); /* low, high: bounds of the places of all nine rays */
     /* terms of u v^2 and u^2 v: the part of the corners that the other terms do not explain */
     vec2 corners = vec2(0.0), sides = vec2(0.0);
     /* values at the ends of both axes, and the mean at the corners */
@@ -213,7 +213,7 @@ void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
     vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);
     float own = share.x * share.y;
-    if (RIM == 1u && !BRIGHT) /* the rest comes from the rim */
+    if (RIM == 1u && !BRIGHT) /* the rest of the light comes from the rim */
         own *= 1.0 - kd_rim_share(kd_rim_place(kd_camera_look(vec2(x, y) + place)));
     if (!bright || own <= 0.0)
         return;
@@ -258,7 +258,7 @@ void list(uint first, uint x, uint y)
     } while (++i < all);
 }
 
-/* Whether all images in a tile are made by the rim, or by another grid of the rim. If the rim makes those at the
+/* True if all images in a tile are made by the rim, or by another grid of the rim. If the rim makes those at the
  * tile's corners, it makes all of them, because its edge is convex. */
 bool is_left_out(uint x, uint y)
 {
@@ -287,7 +287,7 @@ void seek(uint x, uint y)
                  (AT_RIM ? 1.2 * kd_steps_of(x + 1u, y + 1u) : 1.0); /* the last of the rim's rays stand for a slightly
                                                                       * smaller area */
     kd_bounds bounds = bounds_of(t);
-    float least = bounds.sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* the faintest star that shows */
+    float least = bounds.sharp * unit * abs(t.det) * (1.0 / float(HALF * HALF)); /* flux of the faintest visible star */
     bool left_out = is_left_out(x, y), spreads = BRIGHT || t.is_smooth;
     kd_star_walk walk = kd_star_walk_from(t.cells, t.simple && !left_out);
     for (;;) {

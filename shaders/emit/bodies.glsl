@@ -20,10 +20,10 @@
     F(least)                  /* 1/r of the outermost place at which there may be a body */ \
     /* a ball round all bodies, M: x and y by mirrored azimuths, 0 at the observer */ \
     F(x) F(y) F(z) F(reach) \
-    U(leaves)                   /* leaves of the tree, a power of two */
+    U(leaves)                   /* number of the tree's leaves, a power of two */
 /* clang-format on */
 #define KD_TABLES_bodies(T)
-#define KD_TRAIT_LIT 64u /* some bodies reflect light of the disk */
+#define KD_TRAIT_LIT 64u /* LIT: some bodies reflect light of the disk */
 #define KD_TRAITS_bodies(T) T(VISIBLE) T(AZIMUTH) T(LIT)
 /* A tree of balls in heap order: nodes from 1 on, with x, y, z and radius, and two children each; the last `leaves`
  * nodes belong to the bodies. The bodies follow, KD_BODY_WORDS each:

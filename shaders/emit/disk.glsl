@@ -21,7 +21,7 @@
  * intensity over that of an isotropic surface of the same flux, against the square root of the cosine to the normal;
  * in each row the coefficients of a cubic of the place in its cell. */
 #define KD_TABLES_disk(T) T(disk, KD_DISK_TABLE) T(atmosphere, KD_ATMOSPHERE_ROWS)
-#define KD_TRAIT_VISIBLE 8u      /* brightness is weighted by the eye's sensitivity instead of bolometric */
+#define KD_TRAIT_VISIBLE 8u      /* brightness is weighted by the eye's sensitivity instead of being bolometric */
 #define KD_TRAIT_LIMB 128u       /* the light depends on the angle of emission: the table `atmosphere` */
 #define KD_TRAIT_FREQUENCY 4096u /* brightness is the intensity at one frequency */
 #define KD_TRAIT_REFLECTED 8192u /* the disk reflects light that returns to it */

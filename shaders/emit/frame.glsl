@@ -14,6 +14,6 @@
     F(jansky_pixel)        /* Jy from one pixel of light 1 of one frequency; 0: pixels differ in size */ \
     F(r_isco) \
     F(one_minus_a)         /* 1 - spin, which would lose digits if it were computed from a float near 1 */ \
-    F(inner) F(outer)      /* edges of the disk, M; set whether anything emits light between them or not */
+    F(inner) F(outer)      /* edges of the disk, M; always set, even if nothing emits light between them */
 /* clang-format on */
 #endif

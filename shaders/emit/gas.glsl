@@ -160,7 +160,7 @@ kd_glow kd_gas_glow(kd_sample s)
     float more = KD_GAS_TAKEN > 0u ? exp(kd_gas_excess(s)) : 1.0;
     if ((TRAITS_gas & KD_TRAIT_GAS_DEEP) != 0u) {
         float t = gas.t / kd_orbit_shift(s.w, s.energy, s.momentum, TRAITS_gas), t2 = t * t, flux = t2 * t2;
-        if ((TRAITS_gas & KD_TRAIT_REFLECTED) != 0u) { /* the depth follows the whole flux */
+        if ((TRAITS_gas & KD_TRAIT_REFLECTED) != 0u) { /* the depth is computed from the whole flux */
             vec2 light = kd_disk_dilute(s.w), square = light * light;
             flux += light.y * square.x * square.x;
         }

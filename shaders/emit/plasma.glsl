@@ -55,7 +55,7 @@
 #define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid) B(6, quad_texels, plasma_texels)
 #define KD_GRID_CELLS 2.0 /* largest number of cells of the matter grid that a grain covers */
 #define KD_PASS_plasma(P)
-#define KD_TORUS_COLD -24.0 /* log2(h - 1) in place of log2 of 0 */
+#define KD_TORUS_COLD -24.0 /* stands for log2(h - 1) if h is 1 */
 #define KD_PLASMA_SEEN \
     7.0 /* scale heights from the plane; beyond, the density is below 2e-11 of that in the plane and is taken as 0 */
 #endif
@@ -371,8 +371,8 @@ kd_medium kd_plasma_along(kd_midst p)
         r < emission.frame.r_isco)
         medium.grain = min(medium.grain, max(0.8 * (emission.frame.r_isco - r), 2e-3 * r));
     float edge =
-        /* the distances to the edges, which may lie inside the bounds of other volumes, where the march does not
-         * search for them */
+        /* the distances to the edges. Edges may lie inside the bounds of other volumes, where the march does not search
+         * for them */
         min(abs(r - emission.plasma.inner), abs(r - emission.plasma.outer));
     medium.grain = KD_VOLUMES > 1 ? min(medium.grain, max(edge, 2.5e-4 * r)) : medium.grain;
     return medium;

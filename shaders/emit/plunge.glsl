@@ -84,7 +84,7 @@ kd_gas kd_plunge_gas(kd_sample s, float number)
     return kd_gas(emission.plunge.temperature * g, emission.disk.opacity * (1.0 - exp(depth)));
 }
 
-/* Whether a crossing is where the gas plunges. */
+/* True if a crossing is where the gas plunges. */
 bool kd_plunge_falls(kd_sample s)
 {
     return KD_HAS(plunge) && s.w >= emission.plunge.first && s.w <= emission.plunge.last;

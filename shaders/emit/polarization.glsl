@@ -19,7 +19,7 @@
 #ifndef KD_BLOCK_polarization
 /* rows by sqrt(mu): the polarised fraction there and that of the next row */
 #define KD_SCATTERING_ROWS 128
-/* polarised fraction for an ordered field, times the degree to which the field is ordered */
+/* polarised fraction for an ordered field, times the degree of order of the field */
 #define KD_BLOCK_polarization(F, U, A) F(fraction)
 #define KD_TABLES_polarization(T) T(scattering, KD_SCATTERING_ROWS)
 #define KD_TRAIT_SCATTERED \
@@ -49,8 +49,8 @@ vec2 kd_polarization_right(uvec2 place)
     vec2 at = vec2(float(place.x) - cam.middle_x, cam.middle_y - float(place.y)), off = at;
     float ahead = kd_camera_ahead(off.x, off.y);
     vec3 look = normalize(ahead * c0 + off.x * cx + off.y * cy), up = cy;
-    if (SIGHT == KD_SIGHT_DOME) { /* transported from the middle along great circles, because this transport has no
-                                   * pole at any place of the dome */
+    if (SIGHT == KD_SIGHT_DOME) { /* the direction is transported from the middle along great circles, because this
+                                     transport has no pole on the dome */
         float d = length(at);
         vec2 to = d > 0.0 ? at / d : vec2(0.0, 1.0), angle = kd_quarter_turns(d * cam.turn_x);
         up = to.y * (angle.x * (to.x * cx + to.y * cy) - angle.y * c0) + to.x * (to.x * cy - to.y * cx);

@@ -10,8 +10,8 @@
  *
  * By Liouville I_nu/nu^3 is constant along a ray: a black body of T is seen as one of g T, with a bolometric intensity
  * g^4 times as large. g = 1/E, where E is the energy at infinity of light that the observer measures as 1. A star's
- * flux changes likewise, and is multiplied by the magnification of its solid angle. Diffuse light is shifted like black
- * bodies of KD_SKY_KELVIN. */
+ * flux changes likewise, and is multiplied by the magnification of its solid angle. Diffuse light is shifted like the
+ * light of a black body of KD_SKY_KELVIN. */
 #ifndef KD_BLOCK_sky
 /* clang-format off */
 #define KD_BLOCK_sky(F, U, A) \
@@ -107,8 +107,8 @@ vec3 kd_sky_points(uint pixel)
     return vec3(r.x, g.x, b.x) * (1.0 / KD_STAR_UNIT) + vec3(r.y, g.y, b.y) * (4294967296.0 / KD_STAR_UNIT);
 }
 
-/* Whether a pixel has any light of points. It is found by the red channel, because black bodies of all temperatures
- * have red light. */
+/* True if a pixel has any light of points. The red channel decides, because black bodies of all temperatures have red
+ * light. */
 bool kd_sky_has_points(uint pixel) { return KD_OWN_PAIR(point_light, (KD_STAR_LIGHT / 2u) * pixel) != uvec2(0u); }
 
 vec3 kd_sky_grid(float u, float phi)
@@ -118,7 +118,7 @@ vec3 kd_sky_grid(float u, float phi)
     float longitude = phi - 2.0 * KD_PI * floor(phi / (2.0 * KD_PI));
     vec2 q = vec2(longitude, latitude) / emission.sky.spacing;
     vec2 d = abs(q - floor(q + 0.5));
-    d.x *= s; /* so that meridians keep their width towards the pole */
+    d.x *= s; /* meridians keep their width towards the pole */
     float line = min(d.x, d.y) < 0.025 ? 1.0 : 0.0;
     vec3 base = longitude < KD_PI ? (u > 0.0 ? vec3(0.10, 0.22, 0.55) : vec3(0.08, 0.38, 0.26))
                                   : (u > 0.0 ? vec3(0.45, 0.16, 0.30) : vec3(0.48, 0.33, 0.08));

@@ -3,14 +3,14 @@
  *
  *   density ~ exp(-z^2/2H^2) (1 - (z/4.5 H)^8)^3,   H = height R (R/10)^flare,
  *
- * between the spheres of the disk's edges, where R is beyond the ISCO. It ends smoothly at a height of 4.5 H: samples
- * between that height and the plane would either hit or miss a sharp edge. The gas emits as the thin disk does at R,
- * with its temperature and flux, and rotates with the Omega of the circular orbit there at any height (by the metric's
- * u^t: -1/u^t^2 = g_tt + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen, Press & Teukolsky 1972).
+ * between the spheres of the disk's edges, where R is beyond the ISCO. The gas ends smoothly at a height of 4.5 H,
+ * because samples would either hit or miss a sharp edge. The gas emits as the thin disk does at R, with its temperature
+ * and flux, and rotates with the Omega of the circular orbit there at any height (by the metric's u^t: -1/u^t^2 = g_tt
+ * + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen, Press & Teukolsky 1972).
  *
  * From top to bottom the gas has the optical depth of the thin disk: light that crosses at an angle theta to its normal
- * in the frame of the gas is attenuated by as much, including opacity and fade. For a small height the picture is
- * therefore the thin disk's. Turbulence is that of gas.glsl, with a third coordinate in its noise. */
+ * in the frame of the gas is attenuated by the same factor, including opacity and fade. For a small height the picture
+ * is therefore the thin disk's. Turbulence is that of gas.glsl, with a third coordinate in its noise. */
 #ifndef KD_BLOCK_thick
 #define KD_THICK_REACH 4.5 /* times H */
 /* density in the middle of the column for height 1, such that the integral over the column is 1 */
@@ -27,7 +27,7 @@
  * thousands of stretches in the dark. */
 #define KD_THICK_AFAR 1e-3
 #define KD_THICK_LAYERS \
-    3.0 /* cells in height for each cell in the plane: streaks are narrower than they are long by this factor */
+    3.0 /* cells in height for each cell in the plane; streaks are longer than high by this factor */
 /* clang-format off */
 #define KD_BLOCK_thick(F, U, A) \
     F(height) F(flare)     /* H/R at 10 M; power of R/10 at which it grows */ \
@@ -116,7 +116,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     kd_gas_ring one = kd_gas_ring(in_one, k * (KD_GAS_OCTAVES + 1u), KD_GAS_SLOW ? ring.y * p.ago : 0.0);
     kd_gas_ring two = kd_gas_ring(vec2(ring.z * in_one.x - ring.w * in_one.y, ring.w * in_one.x + ring.z * in_one.y),
                                   (k + 1u) * (KD_GAS_OCTAVES + 1u), 0.0);
-    if (KD_GAS_SLOW) { /* the angle between the rings was different then */
+    if (KD_GAS_SLOW) { /* at that time the angle between the rings was different */
         vec4 next_ring = kd_table_row(gas, two.row);
         two.ahead = next_ring.y * p.ago;
         psi = kd_cos_sin(p.phi - next_ring.x + two.ahead + emission.gas.shear * ((x - 1.0) * KD_GAS_RING));
@@ -136,7 +136,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     for (uint octave = 0u; octave < KD_THICK_TAKEN; octave++) {
         float left = kd_gas_left(steps), part = loud * left;
         float seen = part * counts / (slice.unseen * emission.gas.loudness) -
-                     1.0; /* how visible the octave is, by the amount of gas; octaves fade out from three times the
+                     1.0; /* visibility of the octave, by the amount of gas; octaves fade out from three times the
                            * limit on */
         if (!(seen > 0.0))
             break;
@@ -155,8 +155,8 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     return kd_thick_stir(sum, finest);
 }
 
-/* Weight of gas of a given flux in a ray's light, relative to the plane at the ray's innermost crossing. That crossing
- * is taken no further in than about where the flux is largest. */
+/* Weight of gas of a given flux in a ray's light, relative to the plane at the ray's innermost crossing. The radius of
+ * that crossing is limited from below to about the radius of the largest flux. */
 float kd_thick_counts(float nearest, float flux)
 {
     float w = min(nearest, 0.5 / emission.frame.r_isco), t = kd_disk_heat(w), near = t * t * t * t * w * w * w;

@@ -3,8 +3,8 @@
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL
 
-/* A sample of a ray. ago: the time by which its light left before light that shows the scene's time. energy, momentum,
- * q: E, L and Carter's Q in units of the energy that the observer measures. footprint, shape: of the ray's footprint at
+/* A sample of a ray. ago: how much earlier its light left than light that shows the scene's time. energy, momentum, q:
+ * E, L and Carter's Q in units of the energy that the observer measures. footprint, shape: of the ray's footprint at
  * the sample, 0 if no emitter needs them (shared/lens.h). cosine: of the angle between light and normal in the frame of
  * the gas where the light left it, 0 if no emitter needs it (emit/cosine.glsl). */
 struct kd_sample {
@@ -90,11 +90,11 @@ const uint KD_ALONG_TRAITS =
 const uint KD_MET_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_);
 const bool KD_MARCHES = (KD_ALONG_TRAITS & KD_TRAIT_PRESENT) != 0u, KD_MEETS = (KD_MET_TRAITS & KD_TRAIT_PRESENT) != 0u;
-/* Whether an emitter multiplies light by a factor that depends on the light's image order. */
+/* True if an emitter multiplies light by a factor that depends on the light's image order. */
 const uint KD_OVER_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_OVERS = (KD_OVER_TRAITS & KD_TRAIT_PRESENT) != 0u;
-/* Whether anything emits light at the ends of rays. */
+/* True if an emitter emits light at the ends of rays. */
 const uint KD_END_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
@@ -193,7 +193,7 @@ void kd_beam_points(inout kd_beam beam, uint pixel)
     KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_POINTS_, KD_NO_EMITTER_, KD_NO_EMITTER_)
 }
 
-/* Whether a pixel has any points of light. */
+/* True if a pixel has any points of light. */
 bool kd_beam_has_points(uint pixel)
 {
     bool has = false;

@@ -58,7 +58,7 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
 
 const vec3 LUMINANCE = vec3(0.2126, 0.7152, 0.0722);
 
-/* Whether a ray of the pixel was given up, so that the pixel has no number. It is a flag, because a device need not
+/* True if a ray of the pixel was given up, so that the pixel has no number. It is a flag, because a device need not
  * preserve NaN in sums. */
 bool untold = false;
 
@@ -88,8 +88,8 @@ void at_crossing(inout kd_beam beam, kd_sample s, uvec2 place, kd_ray ray)
         polarized += (dot(beam.light, LUMINANCE) - before) * kd_polarization_at(s, kd_polarization_right(place), ray.p);
 }
 
-/* Luminance of a ray (Stokes I), and Stokes Q, U and V, as its light arrives: for all that the ray shows, or for one
- * order. */
+/* Luminance of a ray (Stokes I), and Stokes Q, U and V, as its light arrives: for all light of the ray, or for the
+ * light of one order. */
 vec4 light(uvec2 place, uint at, uint pixel)
 {
     kd_beam beam = kd_beam(vec3(0.0), 0.0, 1.0);

@@ -118,7 +118,7 @@ void kd_quintic_clip(kd_quintic q, float value, float sign_, inout float from, i
 
 const bool KD_MARCH_TURNS = ((KD_ALONG_TRAITS | KD_MET_TRAITS) & KD_TRAIT_AZIMUTH) != 0u;
 
-/* Whether the march needs the times at which light left. */
+/* True if the march needs the times at which light left. */
 #ifdef KD_PROBE
 const bool KD_MARCH_DELAYS = true;
 #else
@@ -126,8 +126,8 @@ const bool KD_MARCH_DELAYS = (KD_ALONG_TRAITS & KD_TRAIT_SLOW) != 0u;
 #endif
 
 /* Frame dragging up to the start of a step. chi: the azimuth of the ray in the coordinates of ray/radial_step.glsl.
- * way: which of these coordinates. fallen: the terms left out earlier. ago: the time by which light left the start of
- * the step before light that shows the scene's time. */
+ * way: which of these coordinates. fallen: the terms left out earlier. ago: how much earlier light left the start of
+ * the step than light that shows the scene's time. */
 struct kd_march_drag {
     float chi, way, fallen;
     bool returns;
@@ -348,13 +348,13 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
         float left = to - from, length_ = wish > 0.0 ? left / ceil(min(left / wish, 16777216.0)) : 0.0, most = 1.0,
               least = KD_MARCH_SHORTEST;
         float next = from + length_;
-        length_ = next - from; /* after rounding */
+        length_ = next - from; /* the length after rounding */
         kd_beam trial = kd_beam(vec3(0.0), 0.0, beam.through);
         kd_stokes_trial polarised = kd_stokes_begin();
         KD_PROBE_TRY(length_ > 0.0 ? 3.0 : 1.0)
         float far = min(inversesqrt(beam.through), KD_MARCH_BEHIND);
         vec4 one = vec4(0.0), two = vec4(0.0), three = vec4(0.0); /* light and depth of the three nodes */
-        for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) {       /* one node is enough to determine the first length */
+        for (int k = 0; k < (length_ > 0.0 ? 3 : 1); k++) {       /* one node is enough for the first length */
             float weight = k == 1 ? 4.0 / 9.0 : 5.0 / 18.0, x = k == 0 ? 0.1127016654 : k == 1 ? 0.5 : 0.8872983346;
             kd_midst p = kd_midst_of(m, ray, s, spread, order, from + x * length_);
             kd_stokes_here = kd_stokes(vec4(0.0), 0.0, vec3(0.0), vec3(0.0));
@@ -403,7 +403,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
 }
 
-/* Whether a ray can reach the volumes, by w'^2 = R(w): R must not vanish before them for a ray from outside. */
+/* True if a ray can reach the volumes, by w'^2 = R(w): R must not vanish before them for a ray from outside. */
 bool kd_march_meets(kd_geodesic m, kd_ray ray)
 {
     float w = emission.frame.along_least, w2 = w * w;
@@ -433,7 +433,7 @@ vec2 kd_quintic_hull(kd_quintic q)
 
 bool kd_march_crosses(kd_march_way y) { return y.q.y.z * y.side < 0.0; }
 
-/* Whether a step may touch the volumes, or may contain a crossing with light. */
+/* True if a step may touch the volumes, or may contain a crossing with light. */
 bool kd_march_matters(kd_march_way y)
 {
     vec2 w = kd_quintic_hull(y.s.w), u = kd_quintic_hull(y.s.u);
@@ -467,7 +467,7 @@ void kd_march_next(inout kd_march_way y, kd_ray ray)
     if (INGOING && y.q.y.w > cam.horizon && y.q.v.w < 0.0)
         y.q.v.w = kd_leaving(y.m, y.q.y.w, ray.e);
     y.lost = y.lost || y.steps++ >= 12u * STEPS; /* the ray circles without end */
-    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* if not, the ray has fallen in */
+    y.goes = !y.lost && kd_is_finite(y.q.y.w);   /* if w is not finite, the ray has fallen in */
     y.s = kd_stride_of(y.m, ray, y.p, y.q, y.h, y.drag);
 }
 

@@ -16,7 +16,7 @@
     0.02 /* A ray is tested closely if its distance from the ball is less than this times r, plus 0.1 of its radius */
 #define KD_MEET_FAR 1e30
 
-/* An end of a step: (n, w), and the change of (n, w) over a step. */
+/* An end of a step. p: (n, w); d: the change of (n, w) over a step. */
 struct kd_met_end { vec4 p, d; };
 
 kd_met_end kd_met_end_of(kd_geodesic m, kd_ray ray, kd_path p, float h, float chi)
@@ -35,7 +35,7 @@ kd_met_end kd_met_between(kd_met_end a, kd_met_end b, float t)
     return kd_met_end(a.p + t * (a.d + t * (c2 + t * c3)), a.d + t * (2.0 * c2 + 3.0 * t * c3));
 }
 
-/* Whether a step enters a ball. */
+/* True if a step enters a ball. */
 bool kd_met_near(kd_met_end a, kd_met_end b, vec4 ball)
 {
     vec3 z0 = a.p.xyz - a.p.w * ball.xyz, z1 = b.p.xyz - b.p.w * ball.xyz;
@@ -75,7 +75,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
     float in0 = size * a.p.w, in1 = size * max(b.p.w, 0.0);
     bool within = s0.ahead * s0.ahead + s0.off2 < in0 * in0, ends_within = s1.ahead * s1.ahead + s1.off2 < in1 * in1;
     bool passes = s0.ahead > 0.0 && (s1.ahead <= 0.0 || b.p.w <= 0.0);
-    /* The nearest point in the body's frame: t' = 0. */
+    /* The point nearest to the centre in the body's frame, where t' = 0. */
     float t = passes ? clamp(s0.ahead / max(s0.ahead - s1.ahead, 1e-30), 0.0, 1.0) : 1.0, enters = 2.0, off = 1.0;
     for (int k = 0; k < 3; k++) {
         kd_met_end e = kd_met_between(a, b, t);
@@ -107,7 +107,7 @@ uint kd_met_next(uint node)
     return next == 1u ? 0u : next;
 }
 
-/* Whether the search of this ray is incomplete. A driver may end loops before their condition does, and thousands of
+/* True if the search of this ray is incomplete. A driver may end loops before their condition does, and thousands of
  * overlapping bodies exceed lavapipe's limit. */
 bool kd_meet_lost = false;
 
@@ -146,7 +146,7 @@ kd_met kd_meet(uvec2 place)
                 p = q;
                 float was = h;
                 h = KD_PI / (float(STEPS) * sqrt(INGOING ? rate2 + 6.0 * m.k * p.y.w : rate2));
-                /* azimuths diverge at the horizon: the ray first steps to a point before it */
+                /* azimuths diverge at the horizon, so the ray first steps to a point before it */
                 if (p.v.w > 0.0 && p.y.w < near_horizon)
                     h = min(h, max((near_horizon - p.y.w) / p.v.w, 0.2 * h));
                 /* then each step covers half the way to the horizon */

@@ -37,7 +37,7 @@ void forget_stokes()
     untold = false;
 }
 
-/* Whether a crossing has light; w < 0: the mark of a ray that was given up. */
+/* True if a crossing has light; w < 0: the mark of a ray that was given up. */
 bool has_light(float w) { return w < 0.0 || (w >= emission.frame.w_least && w <= emission.frame.w_most); }
 
 /* Composes a crossing of order n of the ray at this place of the camera, with index `at` in the lens map. w = 1/r;
@@ -91,7 +91,7 @@ vec3 background(uvec2 place, uint at, uint pixel)
 
 #ifdef KD_MARCH
 #define KD_MARCH_MEET(beam, w, n, place, at) meet(beam, w, n, place, at)
-bool lost = false; /* whether the current ray was given up */
+bool lost = false; /* true if the current ray was given up */
 #define KD_MARCH_GIVEN_UP(beam) (kd_beam_given_up(beam), lost = true, untold = true)
 #include "light/march.glsl"
 #include "light/meet.glsl"
@@ -250,7 +250,7 @@ const uint AHEAD = KD_TRANSFER_ROWS * ORDERS > 32u ? 32u / ORDERS : KD_TRANSFER_
 uint lit_of(uint x, uint y, uint end)
 {
     uint at = (y - slice.band0) * cam.width + x, lit = 0u, n = 0u;
-    bool more; /* whether any ray crosses the plane once more */
+    bool more; /* true if any ray crosses the plane once more */
     [[dont_unroll]] do {
         more = false;
         [[unroll]] for (uint k = 0u; k < KD_TRANSFER_ROWS; k++) {
@@ -304,7 +304,7 @@ kd_beam follow_one(uvec2 pixel, uint listed, uint ray, uint to)
 #ifdef KD_MARCH
 const uint RAYS = CRITICAL > 0 ? CRITICAL : SIDE * SIDE;
 
-/* Stores a ray's share of its pixel's light, or adds it to that of earlier rays. */
+/* Stores a ray's share of its pixel's light, or adds it to the light of earlier rays. */
 void store_ray(uint to, kd_beam beam, bool adds)
 {
     const float share = 1.0 / float(RAYS);
@@ -321,7 +321,7 @@ void store_ray(uint to, kd_beam beam, bool adds)
         if (STOKES && KD_SEPARATE_PHOTOMETRY && KD_HAS(polarization))
             spots += vec2(radiance[from + 3 * pixels], radiance[from + 4 * pixels]);
     }
-    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* the light of the pixel's other rays makes no difference */
+    if (untold || all.z > KD_STOKES_LEAST_UNTOLD) /* the pixel counts as given up, whatever its other rays' light is */
         all.z = KD_STOKES_UNTOLD;
     store(to, sum, apart, all, spots);
 }

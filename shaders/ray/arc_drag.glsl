@@ -23,7 +23,7 @@ struct kd_drag_terms {
     float a, k, e, root, unit;
     float e2, al; /* 2E, a L + q^2 E */
     float all;    /* W = E + all w^2 */
-    bool falls;   /* the ray falls straight in */
+    bool falls;   /* true: the ray falls straight in */
 };
 
 kd_drag_terms kd_drag_terms_of(kd_geodesic m, float e, float a, float root, float unit, bool falls)

@@ -1,12 +1,12 @@
-/* The end of a ray that escapes: when w vanishes, and the direction in which the ray then moves. */
+/* Computes the end of a ray that escapes: the time at which w vanishes, and the direction of the ray at that time. */
 #ifndef KD_ARC_ESCAPE_GLSL
 #define KD_ARC_ESCAPE_GLSL
 
 #include "ray/arc.glsl"
 #include "ray/polar_azimuth.glsl"
 
-/* g of the time between this point and w = 0: Biermann's formula with v = 0 at the other end. A point that still moves
- * inwards is treated as far from w = 0. */
+/* g of the time between this point and w = 0: Biermann's formula with v = 0 at the other end. If the ray still moves
+ * inwards at this point, the time counts as long. */
 float kd_arc_to_infinity(kd_state y, float e) { return y.dw < 0.0 ? 2.0 * y.w * y.w / (e * (e - y.dw)) : 1e30; }
 
 /* The inverse of g, to second order. */

@@ -65,14 +65,15 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
     a.dw = p.v.w;
     c.dw = q.v.w;
     b.dw = -sqrt(max(kd_radial_potential(m, b.w, ray.e, cam.spin, cam.root), 0.0));
-    if (INGOING && 1.5 * (c.w - a.w) > 0.25 * h * (a.dw + c.dw)) /* at the midpoint the ray still moves inwards */
+    /* true if the ray still moves inwards at the midpoint */
+    if (INGOING && 1.5 * (c.w - a.w) > 0.25 * h * (a.dw + c.dw))
         b.dw = -b.dw;
     if (INGOING) /* the azimuth of an outgoing ray is ingoing from the start, and has no pole here */
         return h * (1.0 / 6.0) *
                (kd_drag_ingoing(m, a, ray.e, cam.spin, cam.root, -1.0) +
                 4.0 * kd_drag_ingoing(m, b, ray.e, cam.spin, cam.root, -1.0) +
                 kd_drag_ingoing(m, c, ray.e, cam.spin, cam.root, -1.0));
-    float way = a.dw < 0.0 && c.dw < 0.0 ? -1.0 : 0.0; /* a ray that turns again does not escape */
+    float way = a.dw < 0.0 && c.dw < 0.0 ? -1.0 : 0.0; /* a ray that turns twice does not escape */
     float pole = way * (kd_drag_fall(c.w, cam.spin, cam.root) - kd_drag_fall(a.w, cam.spin, cam.root));
     return pole +
            h * (1.0 / 6.0) *
@@ -117,7 +118,7 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
             q = kd_path_step(m, p, s * h);
             vec3 n = q.y.xyz - q.v.xyz * (q.y.w / q.v.w);
             o.phi = kd_atan2(n.y, n.x) + p.chi + kd_path_drag(m, ray, p, q, s * h);
-            if (INGOING) /* w is not quite 0, where the ingoing azimuth is not yet that of infinity */
+            if (INGOING) /* w is not exactly 0, so the ingoing azimuth still differs from that at infinity */
                 o.phi -= kd_drag_fall(q.y.w, cam.spin, cam.root);
             o.u = n.z * inversesqrt(dot(n, n));
             o.fate = KD_FATE_ESCAPED;

@@ -15,7 +15,7 @@ float kd_delta(float w, float root)
     return delta;
 }
 
-/* Delta/r^2, with a positive lower bound so that it can be divided by. */
+/* Delta/r^2 with a positive lower bound, for use as a divisor. */
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
 /* The part of the rate of the time that is divided by D (rays.comp), for E = 1. */

@@ -27,7 +27,7 @@ kd_margins kd_margins_of(kd_turning_point b, float noise, float far, float horiz
     return kd_margins(part * far, part * horizon, horizon);
 }
 
-/* Whether a crossing at w is within these margins; true for NaN. */
+/* True if a crossing at w is within these margins; true for NaN. */
 bool kd_crossing_is_open(float w, kd_margins off) { return !(abs(w) >= off.far && abs(w - off.edge) >= off.horizon); }
 
 #endif

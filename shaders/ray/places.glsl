@@ -3,7 +3,7 @@
 #ifndef KD_PLACES_GLSL
 #define KD_PLACES_GLSL
 
-/* A place in one word, counted from the first block's first ray: KD_PLACE_BITS for x. */
+/* A place in one word, counted from the first block's first ray: with KD_PLACE_BITS bits for x. */
 uint kd_place_word(uvec2 at) { return at.x | at.y << KD_PLACE_BITS; }
 uvec2 kd_place_at(uint word) { return uvec2(word & ((1u << KD_PLACE_BITS) - 1u), word >> KD_PLACE_BITS); }
 

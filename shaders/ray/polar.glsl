@@ -1,4 +1,4 @@
-/* Closed form of the polar motion: when a ray crosses the equatorial plane.
+/* Closed form of the polar motion, which gives the times at which a ray crosses the equatorial plane.
  *
  * u = sqrt(U+) cos(x) turns u'^2 = Q + A u^2 - e u^4, e = a^2 E^2, into
  *
@@ -39,7 +39,7 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     /* By symmetry the observer may be taken above the plane; if it is in the plane, the ray starts upwards. */
     float du = u < 0.0 || (u == 0.0 && ray.p < 0.0) ? -(s * ray.p) : s * ray.p;
     float cx = abs(u), sx = -du / sqrt(o.b + m.energy2 * u * u); /* sqrt(U+) (cos x, sin x) */
-    float larger = max(cx, abs(sx)); /* only the direction counts, and its squares must not underflow */
+    float larger = max(cx, abs(sx)); /* scaled, because only the direction counts and its squares must not underflow */
     sx = larger > 0.0 ? sx / larger : -1.0;
     cx = larger > 0.0 ? cx / larger : 0.0;
     float angle = kd_angle_upper(sx, cx); /* pi/2 - x */

@@ -57,7 +57,7 @@ float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, f
     return a * ((along ? m.k * w2 : sum) / (along ? sum : kd_horizons(y.w, root)) - e);
 }
 
-/* Whether the light that an observer at w receives comes from outside. Only an observer on or inside the horizon
+/* True if the light that an observer at w receives comes from outside. Only an observer on or inside the horizon
  * receives other light. Such light crosses the horizon with W < 0, from the other side of the hole's past, and is dark.
  * W has no meaning at a horizon that a ray does not cross. */
 bool kd_from_outside(kd_geodesic m, float w, float e, float a, float horizon)
@@ -69,8 +69,8 @@ float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); 
 
 /* The turning point of the radial motion, which together with the constants of motion decides where a ray ends. R' = 2w
  * (A + 3Kw - 2Dw^2) vanishes at one place between infinity and the photon region, and at the horizon R = W^2. So a ray
- * on one side of that place gets to the other side exactly if R > 0 there. R = W^2 - D K w^2 keeps its precision next
- * to the horizon too. */
+ * reaches the other side of that place if and only if R > 0 there. R = W^2 - D K w^2 keeps its precision next to the
+ * horizon too. */
 struct kd_turning_point {
     float w, r;  /* w: the place, or the horizon if the place is inside the horizon; r: R at w */
     float noise; /* bound of the rounding error of r */
@@ -122,7 +122,7 @@ float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
     return dw * (abs(y.dw) + dw) + off.unit * abs(y.w * kd_acceleration(m, y.w));
 }
 
-/* Whether a ray falls into the horizon from its present state, without turning. */
+/* True if a ray falls into the horizon from its present state, without turning. */
 bool kd_falls_in(kd_turning_point b, kd_state y) { return y.dw > 0.0 && (b.open || y.w > b.w || b.r > 0.0); }
 
 /* The value of `way` for kd_drag from this state on. */
@@ -131,13 +131,13 @@ float kd_direction_of_motion(kd_turning_point b, kd_state y)
     return kd_falls_in(b, y) ? 1.0 : y.dw < 0.0 && (b.open || y.w < b.w || b.r > 0.0) ? -1.0 : 0.0;
 }
 
-/* Whether the ray escapes. */
+/* True if the ray escapes. */
 bool kd_escapes(kd_turning_point b, kd_state y)
 {
     return y.dw < 0.0 ? b.open || y.w < b.w || b.r > 0.0 : !b.open && y.w < b.w && b.r <= 0.0;
 }
 
-/* Whether the ray's end is certain in spite of rounding. start: kd_start_noise at y. */
+/* True if the ray's end is certain in spite of rounding. start: kd_start_noise at y. */
 bool kd_is_decided(kd_turning_point b, kd_state y, float start)
 {
     bool ahead = y.dw < 0.0 ? y.w > b.w : y.w < b.w;

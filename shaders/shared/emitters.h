@@ -85,8 +85,7 @@
     0x80000000u /* the emitter has points of light, which a separate pass spreads over pixels: comp/star_images.comp \
                  */
 #define KD_TRAIT_TEXELS \
-    0x10000000u                     /* the device reads the emitter's buffer of quads as texels; set by \
-                                     * kd_emit_as_texels */
+    0x10000000u /* the device reads the emitter's buffer of quads as texels; kd_emit_as_texels sets this bit */
 #define KD_TRAIT_SPREAD 0x40000000u /* the emitter emits light wherever a ray ends */
 
 #endif

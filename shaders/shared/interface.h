@@ -315,7 +315,7 @@
 /* Values of the fate plane. */
 #define KD_FATE_ESCAPED 0.0
 #define KD_FATE_CAPTURED 1.0
-#define KD_FATE_UNDECIDED 2.0 /* hit the step limit */
+#define KD_FATE_UNDECIDED 2.0 /* the ray has reached the limit of steps */
 
 /* Records of trace.glsl: numbers before the records, numbers a record, and the stages. A stage 0, 1, ... is a step on
  * the way to the crossing of that order, in w and u. Records of the other stages hold the unit vector n and w. */
@@ -323,7 +323,7 @@
 #define KD_TRACE_RECORD 11
 #define KD_TRACE_START -1.0
 #define KD_TRACE_CROSSING -2.0
-#define KD_TRACE_END -3.0 /* after the last crossing */
+#define KD_TRACE_END -3.0 /* stage of the steps after the last crossing */
 
 /* Records of light/probe.glsl: numbers a record, and kinds. */
 #define KD_PROBE_RECORD 11

@@ -5,7 +5,7 @@
 
 #define KD_PI 3.14159265358979323846
 
-/* Whether x is finite, by the bits of the exponent. A comparison would not be reliable: a compiler that need not
+/* True if x is finite, by the bits of the exponent. A comparison would not be reliable: a compiler that need not
  * preserve NaN (Vulkan 1.2, shaderSignedZeroInfNanPreserve) may treat any comparison with NaN as true. */
 bool kd_is_finite(float x)
 {

@@ -15,7 +15,7 @@ enum kd_log_format { KD_LOG_TEXT, KD_LOG_JSON };
 void kd_log_set_level(enum kd_log_level level);    /* default KD_LOG_WARN */
 void kd_log_set_format(enum kd_log_format format); /* default KD_LOG_TEXT */
 enum kd_log_format kd_log_get_format(void);
-bool kd_log_tells(enum kd_log_level level); /* whether events of this level are written */
+bool kd_log_tells(enum kd_log_level level); /* true if events of this level are written */
 
 void kd_log(enum kd_log_level level, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

@@ -1,4 +1,4 @@
-/* How much memory this process may use before the kernel kills it. Linux. Any thread.
+/* The memory that this process may use before the kernel kills it. Linux. Any thread.
  *
  * It is the smallest of several amounts: MemAvailable (proc_meminfo(5)), and for each control group above the process
  * the unused part of its memory.max, or of memory.limit_in_bytes in version 1 (Documentation/admin-guide/cgroup-v2.rst

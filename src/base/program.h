@@ -26,7 +26,7 @@ struct kd_program {
 };
 #define KD_PROGRAM_NONE { .in = -1, .told = -1 }
 
-/* Whether the PATH has a program of this name that we may execute. */
+/* True if the PATH has a program of this name that we may execute. */
 bool kd_program_known(const char *name);
 /* Starts argv[0], which is searched for on the PATH. out becomes the program's descriptor 3; the caller still owns it.
  * If the program writes a file of more than `most` bytes, it ends. It runs at a lower priority, inherits no other
@@ -37,7 +37,7 @@ enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most
  * kd_program_over tells which. */
 size_t kd_program_write(struct kd_program *program, const void *data, size_t size);
 void kd_program_hang_up(struct kd_program *program);
-/* Whether the program has ended. *code: its exit code, or -1 if a signal ended it. This call also reads the program's
+/* True if the program has ended. *code: its exit code, or -1 if a signal ended it. This call also reads the program's
  * standard error, and kills children that it has left behind. */
 bool kd_program_over(struct kd_program *program, int *code);
 /* Milliseconds for which the program has been idle at now_ms. It is idle while it uses no processor time and

@@ -28,7 +28,7 @@ void kd_replace_abandon(struct kd_replacing *file);
 /* Like kd_replace_file_at, by path. Creates missing parent directories with mode 0700. Removes temporary files that
  * killed processes have left behind. */
 bool kd_replace_file(const char *path, const void *data, size_t size);
-/* Whether `other` is a temporary name that kd_replace_file_at could use for `name`. */
+/* True if `other` is a temporary name that kd_replace_file_at could use for `name`. */
 bool kd_replace_is_temporary(const char *other, const char *name);
 
 #endif

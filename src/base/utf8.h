@@ -8,7 +8,7 @@
 
 /* Length in bytes (1 to 4) of the well-formed sequence that begins at text; 0 if there is none. */
 size_t kd_utf8_sequence(const char *text, size_t length);
-/* Whether the sequence of n bytes at text is a control character: C0, DEL or C1. */
+/* True if the sequence of n bytes at text is a control character: C0, DEL or C1. */
 bool kd_utf8_is_control(const char *text, size_t n);
 
 bool kd_utf8_ascii(const char *text);

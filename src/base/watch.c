@@ -36,7 +36,7 @@ static double used_ms(void)
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-/* Whether KERRD_WATCH=tell is set, which means: report violations and continue. */
+/* True if KERRD_WATCH=tell is set, which means: report violations and continue. */
 static bool tells(void)
 {
     const char *how = getenv("KERRD_WATCH");

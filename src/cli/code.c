@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Whether the module at this place is dark. The quiet zone around the code is light. It is two modules wide, which is
+/* True if the module at this place is dark. The quiet zone around the code is light. It is two modules wide, which is
  * enough for readers; ISO/IEC 18004 requires four, for which small terminals have no room. */
 static bool dark(const QRcode *code, int x, int y)
 {

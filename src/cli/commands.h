@@ -26,7 +26,7 @@
     X("lags", lags, "lags of that echo, by frequency and energy") \
     X("spectrum", spectrum, "spectrum of a thin disk or of a volume") \
     X("visibility", visibility, "visibilities of a scene by baseline, as an interferometer measures them") \
-    X("observe", observe, "what an array would have measured of a scene, with its noise") \
+    X("observe", observe, "visibilities of a scene as an array would have measured them, with noise") \
     X("compare", compare, "compare a scene with an observation of the EHT: amplitudes, closures, chi^2") \
     X("playground", playground, "simulate bodies round the hole: attraction, mergers, tidal disruption") \
     X("physics", physics, "compute quantities of a hole, an orbit or a disk at a point or along a curve") \

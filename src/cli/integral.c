@@ -26,7 +26,7 @@ struct arguments {
     const char *device;
 };
 
-/* Whether the integral may be computed from pictures. */
+/* True if the integral may be computed from pictures. */
 static bool may_have_scene(enum kd_integral what)
 {
     return what == KD_INTEGRAL_SPECTRUM || kd_integral_is_pictured(what);

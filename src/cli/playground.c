@@ -181,7 +181,7 @@ done:
 struct story {
     struct kd_buffer text;
     uint64_t told, lost;      /* told: number of the last event written; lost: number of lost events */
-    struct kd_error short_of; /* why the simulation ended early; its status is KD_OK if it did not */
+    struct kd_error short_of; /* the reason why the simulation ended early; status KD_OK if it did not */
 };
 
 static enum kd_status add_lost(struct story *story, uint64_t to)

@@ -24,7 +24,7 @@ struct kd_row_texts { const char *of[KD_ROW_OPTIONS]; };
 void kd_row_options_add(struct kd_row_options *to, struct argp_option *table, size_t *n,
                         const struct kd_document *document, const void *from, const char *about, bool objects,
                         int group);
-/* Whether the key belongs to one of these options. If so, the text is stored. */
+/* True if the key belongs to one of these options. If so, the text is stored. */
 bool kd_row_options_take(struct kd_row_texts *texts, int key, const char *text);
 /* Index of a field's option. The field must have one. */
 size_t kd_row_options_find(const struct kd_row_options *options, const char *name);

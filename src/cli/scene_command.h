@@ -1,5 +1,5 @@
-/* What the commands that render a scene share: their arguments, and the steps from these to an exit code. Main thread
- * only.
+/* The common part of the commands that render a scene: their arguments, and the steps from these to an exit code. Main
+ * thread only.
  *
  *     struct arguments { struct kd_scene_command base; ... };    base comes first, and is initialised to 0
  *

@@ -9,7 +9,7 @@
 /* GROUP(heading of the options that follow)
  * S(id, name, letter, argument, kind, least, most, default, where, help) */
 #define KD_SERVE_SETTINGS(S, GROUP) \
-    GROUP("Where it listens:") \
+    GROUP("Addresses:") \
     S(LISTEN, "listen", 'a', "ADDRESS", TEXT, 0, 0, "127.0.0.1", ANYWHERE, \
       "numeric address to listen on (default 127.0.0.1)") \
     S(PORT, "port", 'p', "PORT", NUMBER, 0, 65535, "8080", ANYWHERE, "TCP port, 0 for any free one (default 8080)") \
@@ -20,7 +20,7 @@
     S(PUBLIC_URL, "public-url", 'u', "URL", TEXT, 0, 0, NULL, ANYWHERE, \
       "public address of the page, like https://example.org/black-holes, for links and pictures on other sites; its " \
       "host is accepted like that of --host (default: the Host of a request)") \
-    GROUP("Who may use it:") \
+    GROUP("Access:") \
     S(TOKEN_FILE, "token-file", 'T', "FILE", TEXT, 0, 0, NULL, ANYWHERE, \
       "accept only requests with a token of this file; a line is NAME ROLE TOKEN, and ROLE is view or render, or " \
       "link for a key that signs links") \

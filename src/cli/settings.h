@@ -55,7 +55,7 @@ enum kd_status kd_settings_init(struct kd_settings *settings, const struct kd_cl
                                 struct kd_error *error);
 void kd_settings_finish(struct kd_settings *settings);
 
-/* Whether a setting accepts a value. If not, `allowed` describes the accepted values. */
+/* True if a setting accepts a value. If not, `allowed` describes the accepted values. */
 bool kd_setting_takes(const struct kd_cli_setting *setting, const char *text, char allowed[KD_ALLOWED_SIZE]);
 /* Stores an accepted value. It replaces an earlier value from the same source, but is appended to a LIST. KD_ENOMEM. */
 enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_setting_source source, const char *text,

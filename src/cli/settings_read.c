@@ -123,7 +123,7 @@ done:
     return status;
 }
 
-/* Whether Kubernetes has set a variable for a Service, as it does unless enableServiceLinks is false. For a Service
+/* True if Kubernetes has set a variable for a Service, as it does unless enableServiceLinks is false. For a Service
  * called kerrd that is KERRD_PORT=tcp://10.0.0.1:8080. */
 static bool is_link(const char *name, const char *value)
 {

@@ -80,7 +80,7 @@ enum kd_status kd_stats_print(struct kd_json *json, struct kd_buffer *line, stru
 {
     enum kd_status status = kd_json_finish(json);
     if (status)
-        kd_error_set(error, status, "out of memory for what --stats prints");
+        kd_error_set(error, status, "out of memory for the output of --stats");
     else
         fprintf(stderr, "%s\n", (const char *)line->data);
     kd_buffer_finish(line);

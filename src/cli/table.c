@@ -153,7 +153,7 @@ static enum kd_status read_at(const struct part *part, void *bytes, size_t size,
     return KD_OK;
 }
 
-/* Whether the file begins with the table's head that has this sum of rows. bytes: a buffer with room for a head. */
+/* True if the file begins with the table's head that has this sum of rows. bytes: a buffer with room for a head. */
 static enum kd_status begins_with(const struct part *part, const struct kd_table *table, uint32_t sum, uint8_t *bytes,
                                   bool *does, struct kd_error *error)
 {

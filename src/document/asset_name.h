@@ -8,7 +8,7 @@
 #define KD_ASSET_NAME 65
 
 bool kd_asset_is_hash(const char *text);
-/* Whether the text may be a name: a letter, then letters, digits, '.', '_' and '-', fewer than 64 characters. */
+/* True if the text may be a name: a letter, then letters, digits, '.', '_' and '-', fewer than 64 characters. */
 bool kd_asset_is_name(const char *text);
 
 #endif

@@ -128,7 +128,7 @@ enum kd_status kd_document_patch(const struct kd_document *document, void *to, c
 /* Sets one field by "name" or "object.name" from typed text; lists and sets have commas between their items. */
 enum kd_status kd_document_set(const struct kd_document *document, void *to, const char *name, const char *text,
                                uint64_t *given, struct kd_error *error);
-/* Where a typed path leads. The element need not exist. */
+/* The place to which a typed path leads. The element need not exist. */
 struct kd_typed_place {
     const struct kd_row *row;
     const struct kd_list *list; /* NULL: none */
@@ -158,7 +158,7 @@ enum kd_status kd_row_refuse(const struct kd_row *row, const struct kd_value *va
  * number is the index of that word; otherwise it is NAN. */
 double kd_row_get(const struct kd_row *row, const void *from);
 void kd_row_put_number(const struct kd_row *row, void *to, double value);
-/* Whether the row allows this value. It does if the value is in the row's range (and whole if the kind requires
+/* True if the row allows this value. It does if the value is in the row's range (and whole if the kind requires
  * that), or stands for the row's word. */
 bool kd_row_holds(const struct kd_row *row, double value);
 /* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow n numbers. */

@@ -24,7 +24,7 @@ const struct kd_row *kd_find_row(const struct kd_document *document, const char 
 /* The object `name` within an object, or NULL. */
 const char *kd_find_object(const struct kd_document *document, const char *object, const char *name);
 const struct kd_former *kd_find_former(const struct kd_document *document, const char *name);
-/* Whether the row is the first of an object that is a member of this one. */
+/* True if the row is the first of an object that is a member of this one. */
 bool kd_row_opens(const struct kd_document *document, const struct kd_row *row, const char *object);
 
 /* unknown.c: KD_EINVAL with "there is no field X here; did you mean Y?". typed: the name comes from a command line. */

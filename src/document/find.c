@@ -24,7 +24,7 @@ const struct kd_row *kd_find_row(const struct kd_document *document, const char 
     return NULL;
 }
 
-/* Whether `whole` is "object.name", or "name" if the object is the document itself. */
+/* True if `whole` is "object.name", or "name" if the object is the document itself. */
 static bool joins(const char *whole, const char *object, const char *name)
 {
     const size_t n = strlen(object);

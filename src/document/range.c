@@ -40,7 +40,7 @@ static bool parse(const char *text, struct kd_range *range, double *count)
 
 static bool holds(const struct kd_row *row, double value) { return isfinite(value) && kd_row_holds(row, value); }
 
-/* Whether the row allows all values of the range. If not, *wrong is a value that it does not allow, if possible an end
+/* True if the row allows all values of the range. If not, *wrong is a value that it does not allow, if possible an end
  * of the range. */
 static bool all_hold(const struct kd_row *row, const struct kd_range *range, double *wrong)
 {

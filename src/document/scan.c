@@ -214,7 +214,7 @@ static size_t end_of(const char *text, size_t length, size_t at)
     return at < length ? at : length;
 }
 
-/* Whether the text of a string spells the name. Any letter may be written in the form \u0061. */
+/* True if the text of a string spells the name. Any letter may be written in the form \u0061. */
 static bool spells(const char *text, size_t n, const char *name)
 {
     char digits[5] = "";

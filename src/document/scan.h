@@ -25,7 +25,7 @@ enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct
  * itself. Positions in messages are counted from text. */
 enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error);
 
-/* Whether the object has a member with this name, which consists of ASCII letters. Values are not read. If the text is
+/* True if the object has a member with this name, which consists of ASCII letters. Values are not read. If the text is
  * not JSON the result is undefined. */
 bool kd_scan_names(const char *text, size_t length, const char *name);
 

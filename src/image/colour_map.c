@@ -25,7 +25,7 @@ static struct linear of_lab(double lightness, double chroma, double hue)
     };
 }
 
-/* Whether sRGB can show the colour. The tolerance is for the white of the matrix, which is (1, 1, 1) only to 1e-6. */
+/* True if sRGB can show the colour. The tolerance is for the white of the matrix, which is (1, 1, 1) only to 1e-6. */
 static bool shows(struct linear c)
 {
     return fmin(fmin(c.r, c.g), c.b) >= -2e-6 && fmax(fmax(c.r, c.g), c.b) <= 1 + 2e-6;

@@ -19,7 +19,7 @@ enum kd_deflate_engine {
     KD_DEFLATE_COUNT
 };
 const char *kd_deflate_name(enum kd_deflate_engine engine); /* "libdeflate", "isa-l" */
-bool kd_deflate_has(enum kd_deflate_engine engine);         /* whether the engine is built in */
+bool kd_deflate_has(enum kd_deflate_engine engine);         /* true if the engine is built in */
 enum kd_deflate_engine kd_deflate_fastest(void);            /* the fastest engine among those built in */
 
 struct kd_deflate;

@@ -9,7 +9,7 @@
 
 enum { KD_FONT_WIDTH = 5, KD_FONT_HEIGHT = 7, KD_FONT_ADVANCE = 6 };
 
-/* The letter that begins at *text, which then is moved behind it. A byte that begins no UTF-8 sequence is a letter
+/* Returns the letter that begins at *text, and moves *text behind it. A byte that begins no UTF-8 sequence is a letter
  * without a shape. *text must not be at the end. */
 uint32_t kd_font_next(const char **text);
 

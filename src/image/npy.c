@@ -148,7 +148,7 @@ static enum kd_status take_shape(struct reader *r, uint64_t *shape, size_t most,
     return *n == 1 && !comma ? fail(r, "the shape is not a tuple") : KD_OK;
 }
 
-/* Whether a type code is that of text, such as "<U12" or "|S12"; sets its type and count. */
+/* True if a type code is that of text, such as "<U12" or "|S12"; sets its type and count. */
 static bool is_text(const char *code, struct kd_npy_field *out)
 {
     for (size_t i = KD_NPY_TEXT; i <= KD_NPY_BYTES; i++) {

@@ -55,7 +55,7 @@ void kd_integral_answer_finish(struct kd_integral_answer *answer);
  * row. NPZ: an array for each column, and answer.json, the rest of the JSON. UVFITS: of a simulated observation whose
  * request has a uvfits file. */
 enum kd_integral_format { KD_INTEGRAL_JSON, KD_INTEGRAL_CSV, KD_INTEGRAL_NPY, KD_INTEGRAL_NPZ, KD_INTEGRAL_UVFITS };
-/* Whether a checked request has an answer in this format. */
+/* True if a checked request has an answer in this format. */
 enum kd_status kd_integral_check_format(const struct kd_integral_request *request, enum kd_integral_format format,
                                         struct kd_error *error);
 enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format,

@@ -95,13 +95,13 @@ struct kd_integral_request {
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
 
-/* Whether a field of a checked request may be left open: NAN, its word in the answer. */
+/* True if a field of a checked request may be left open: NAN, its word in the answer. */
 static inline bool kd_integral_leaves_open(enum kd_integral what)
 {
     return kd_integral_is_mapped(what) || what == KD_INTEGRAL_LAGS;
 }
 
-/* Whether the maps are transformed at the baselines of an observation. */
+/* True if the maps are transformed at the baselines of an observation. */
 static inline bool kd_integral_is_observed(enum kd_integral what) { return what >= KD_INTEGRAL_COMPARE; }
 
 static inline bool kd_integral_is_compared(enum kd_integral what)
@@ -109,7 +109,7 @@ static inline bool kd_integral_is_compared(enum kd_integral what)
     return what == KD_INTEGRAL_COMPARE || what == KD_INTEGRAL_SETS;
 }
 
-/* Whether a comparison searches for a size, an orientation or a position. */
+/* True if a comparison searches for a size, an orientation or a position. */
 static inline bool kd_integral_is_searched(const struct kd_integral_request *r)
 {
     return kd_integral_is_compared(r->what) && r->solve & ~(uint32_t)KD_ALIGN_FLUX;

@@ -26,7 +26,7 @@ struct kd_integral_run {
     double scale; /* factor of a sum */
     size_t baseline;
     size_t set;   /* the current one, of a comparison of sets */
-    bool is_dark; /* whether the set's picture has no light */
+    bool is_dark; /* true if the set's picture has no light */
     /* for an observation: the model at each visibility, and the simulated visibilities */
     double (*model)[2], (*simulated)[2];
     uint8_t *marks; /* for kd_simulate */

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Whether a scene's exposure is automatic. Maps of numbers in false colour have no exposure. */
+/* True if a scene's exposure is automatic. Maps of numbers in false colour have no exposure. */
 static bool takes_one(const struct kd_scene *scene)
 {
     const struct kd_words *layers = &scene->image.layers;

@@ -260,7 +260,7 @@ void kd_align(const struct kd_comparison *c, const struct kd_align_params *param
                         .best = KD_ALIGNMENT_NONE,
                         .best_total = INFINITY };
     s.best.scale = s.given_scale;
-    memset(s.best.converged, 0, sizeof s.best.converged); /* needed if chi^2 is nowhere finite */
+    memset(s.best.converged, 0, sizeof s.best.converged); /* this value is used if chi^2 is nowhere finite */
     for (size_t i = 0; i < c->n; i++)
         s.longest = fmax(s.longest, fmax(fabs(c->at[i].u), fabs(c->at[i].v)));
     search_grid(&s, room->grid, sizes, angles, step);

@@ -94,7 +94,7 @@ static double mino_at(const struct kd_orbit_run *run, double time)
  * whirl a step that is too long does this. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
-    bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* or NAN */
+    bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* also true for NAN */
     if (o->fate == KD_ORBIT_ESCAPE)
         return fallen;
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);

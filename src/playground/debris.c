@@ -11,7 +11,7 @@
 #include <string.h>
 
 #define WORK 1e6        /* maximum number of sub-steps of all pieces in one stride, */
-#define WORK_A_PIECE 16 /* or this many for each piece, whichever is larger */
+#define WORK_A_PIECE 16 /* or this number for each piece, whichever is larger */
 
 static void give_up(struct kd_playground_debris *debris, struct kd_debris_piece *piece)
 {

@@ -40,8 +40,8 @@
 
 #define KD_PLAYGROUND_TIME 1e12 /* M: end of time, also for scenes */
 
-/* What has been removed from the motion of the bodies since the beginning. With these sums, energy and momentum
- * balance. */
+/* Sums of all that has been removed from the motion of the bodies since the beginning. With these sums, energy and
+ * momentum balance. */
 struct kd_playground_spent {
     double captured_mass, captured_energy, captured_momentum[3]; /* angular momentum */
     double merged;                                               /* energy that became heat in mergers */
@@ -77,7 +77,7 @@ struct kd_playground {
     /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. Bodies
      * move when all have reached it. */
     size_t approached;
-    bool forced;                  /* whether `mutual` is up to date */
+    bool forced;                  /* true if `mutual` is up to date */
     double margin;                /* margin that `mutual` was computed with */
     double last_row[KD_SERIES_N]; /* row of the series before the current step */
 };

@@ -193,7 +193,7 @@ enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynam
     struct kd_dynamic_bodies_debris grid = { 0 };
     struct kd_dynamic_bodies *dynamic = NULL;
     enum kd_status status =
-        places ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for what is shown of a playground");
+        places ? KD_OK : kd_error_set(error, KD_ENOMEM, "out of memory for the picture of a playground");
     KD_TRY(status);
     kd_show_places(p->debris.pieces, n, places);
     if (p->debris.alive)

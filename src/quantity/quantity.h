@@ -69,7 +69,7 @@ const struct kd_quantity *kd_quantity_find(const char *name); /* returns NULL if
 /* Writes "kerr, potential, ..." to out, truncated to size. */
 void kd_quantity_names(char *out, size_t size);
 
-/* Whether parameter i is one of the parameters along a curve. */
+/* True if parameter i is one of the parameters along a curve. */
 bool kd_quantity_is_along(const struct kd_quantity *quantity, size_t i);
 
 extern const struct kd_row kd_quantity_digits; /* the parameter `digits` of all quantities */

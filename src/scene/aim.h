@@ -1,5 +1,5 @@
-/* Where a camera looks while it moves: at the hole, at a place, or in a direction. The aberration by the observer's
- * motion is included, the bending of light is not. Double precision, pure, any thread. */
+/* The direction of a moving camera: to the hole, to a place, or a given one. The aberration by the observer's motion is
+ * included, the bending of light is not. Double precision, pure, any thread. */
 #ifndef KD_SCENE_AIM_H
 #define KD_SCENE_AIM_H
 

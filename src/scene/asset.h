@@ -9,12 +9,12 @@
 
 #include <stddef.h>
 
-/* What is known about a grid of matter (render/emit/matter_grid.h). */
+/* Properties of a grid of matter (render/emit/matter_grid.h). */
 struct kd_asset_grid {
     uint32_t nodes[3];   /* nodes in r, theta and phi; 0: the asset is not a grid */
     double spin, charge; /* of the hole for which it was made */
 };
-/* What is known about an asset. It is a picture or a grid of matter. */
+/* Properties of an asset, which is a picture or a grid of matter. */
 struct kd_asset_found {
     char hash[KD_ASSET_NAME];
     uint32_t width, height; /* size of a picture; 0: the asset is not a picture */
@@ -34,7 +34,7 @@ struct kd_assets {
     /* returns false if the asset is no longer available */
     bool (*take)(void *user, const char *hash, struct kd_asset_bytes *out);
     void (*give_back)(void *user, struct kd_asset_bytes *bytes);
-    const char *allowed; /* what a field may name, for messages, such as "names of --asset NAME=FILE" */
+    const char *allowed; /* names that a field accepts, for messages, such as "names of --asset NAME=FILE" */
     void *user;
 };
 

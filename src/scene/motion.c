@@ -39,7 +39,7 @@ void kd_scene_advance(struct kd_scene *scene, double seconds)
         kd_scene_go_on(scene, scene->motion.proper_time_rate * seconds);
 }
 
-/* Whether the observer moves along its own path. */
+/* True if the observer moves along its own path. */
 static bool goes_on(const struct kd_scene *scene)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);

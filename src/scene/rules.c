@@ -42,7 +42,7 @@ static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1
      : (projection) == KD_PROJECTION_FULLDOME      ? "fulldome" \
                                                    : "pinhole")
 
-/* Whether the projection is that of a camera at a finite radius. */
+/* True if the projection is that of a camera at a finite radius. */
 static bool is_near(enum kd_projection projection)
 {
     return projection == KD_PROJECTION_PINHOLE || projection == KD_PROJECTION_EQUIRECTANGULAR ||

@@ -82,7 +82,7 @@ enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t l
  * list appends an element. Setting a style sets all of its fields. */
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *value, struct kd_error *error);
 
-/* Whether both paths name the same field. Either may use an old name. */
+/* True if both paths name the same field. Either may use an old name. */
 bool kd_scene_same_path(const char *a, const char *b);
 
 /* Checks all ranges, and the rules about several fields: a static observer is outside the ergosphere, a pinhole at a
@@ -111,7 +111,7 @@ void kd_scene_go_on(struct kd_scene *scene, double proper_time);
 struct kd_fall_clock { double to_horizon, to_end, second; };
 bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out);
 
-/* Whether the picture shows areas to scale, as the plane and pinhole projections do. */
+/* True if the picture shows areas to scale, as the plane and pinhole projections do. */
 bool kd_scene_is_flat(const struct kd_scene *scene);
 
 /* Makes the scene of one eye: -1 is the left one, 1 the right one. The scene must be valid, at a finite radius, and its
@@ -155,16 +155,16 @@ double kd_scene_exposure_most(const struct kd_scene *scene);
  * radio frequency, volume.frequency_ghz, in physical units. */
 double kd_scene_volume_inner(const struct kd_scene *scene);
 bool kd_scene_is_radio(const struct kd_scene *scene);
-/* Whether the volume's light comes from electrons in a magnetic field. */
+/* True if the volume's light comes from electrons in a magnetic field. */
 bool kd_scene_is_magnetic(const struct kd_scene *scene);
-/* Whether all light is of one frequency, so that the picture's flux is physical: only a volume at a radio frequency is
+/* True if all light is of one frequency, so that the picture's flux is physical: only a volume at a radio frequency is
  * visible, or only a disk with disk.band "frequency". */
 bool kd_scene_is_radio_alone(const struct kd_scene *scene);
 /* That frequency, and the path of the field that contains it. Undefined for all other scenes. */
 double kd_scene_frequency_ghz(const struct kd_scene *scene);
 const char *kd_scene_frequency_path(const struct kd_scene *scene);
 void kd_scene_set_frequency(struct kd_scene *scene, double ghz);
-/* Whether there is a disk, and it is seen at one frequency. */
+/* True if there is a disk, and it is seen at one frequency. */
 bool kd_scene_has_disk_frequency(const struct kd_scene *scene);
 /* The highest frequency that disk.frequency_ghz may be: KD_DISK_QUANTA k T/h with the disk's largest colour
  * temperature. Light that returns may raise that, but is not counted here. */

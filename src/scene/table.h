@@ -65,7 +65,7 @@ void kd_section_resize(struct kd_scene *scene, const struct kd_section *section,
 
 /* The struct that has the field: the scene, moved to an element of a list. Functions of rows take this pointer. */
 const void *kd_field_in(const struct kd_scene *scene, const struct kd_row *field, size_t index);
-/* Whether a document has the field (kd_document_read). */
+/* True if a document has the field (kd_document_read). */
 static inline bool kd_field_is_given(const uint64_t *given, const struct kd_row *field)
 {
     const size_t i = (size_t)(field - kd_fields);
@@ -78,7 +78,7 @@ void kd_field_put(struct kd_scene *scene, const struct kd_row *field, size_t ind
  * then unchanged. */
 enum kd_status kd_field_store(struct kd_scene *scene, const struct kd_row *field, size_t index,
                               const struct kd_value *value, struct kd_error *error);
-/* Whether the row allows the scene's value, and an asset is named by its hash. */
+/* True if the row allows the scene's value, and an asset is named by its hash. */
 bool kd_field_is_sound(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 /* The text of an ASSET; "": none. */
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_row *field, size_t index);

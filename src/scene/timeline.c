@@ -119,7 +119,7 @@ static bool is_turn(const struct kd_row *field)
     return !strcmp(field->unit, "degrees") && field->most - field->least >= 360;
 }
 
-/* Whether a field keeps its value between two keys. Catmull and Rom's cubic may change it even if both keys have the
+/* True if a field keeps its value between two keys. Catmull and Rom's cubic may change it even if both keys have the
  * same value. */
 static bool stays(const struct kd_timeline *timeline, size_t key, const struct kd_row *field, size_t index)
 {

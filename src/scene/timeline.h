@@ -75,7 +75,7 @@ struct kd_timeline {
 };
 void kd_timeline_finish(struct kd_timeline *timeline);
 
-/* How a request names the places of keyframes, and the range of these places. */
+/* The name of the places of keyframes in a request, and the range of these places. */
 struct kd_timeline_form {
     const char *place; /* name of the member, such as "frame" */
     double most;

@@ -177,7 +177,7 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
     return true;
 }
 
-/* Whether the body that the header announces must be refused. *problem may point into *told. */
+/* True if the body that the header announces must be refused. *problem may point into *told. */
 static bool body_fault(const struct kd_request *request, struct told *told, struct kd_problem *problem)
 {
     bool patch = !strcmp(request->method, "PATCH");
@@ -201,7 +201,7 @@ static bool body_fault(const struct kd_request *request, struct told *told, stru
     return refused;
 }
 
-/* Whether a page of another site has made the browser send this request (Fetch Metadata, W3C). Such a page could use
+/* True if a page of another site has made the browser send this request (Fetch Metadata, W3C). Such a page could use
  * the visitor's access to this server, so the request is refused. Two kinds are permitted: navigations, such as a
  * link to a picture, and signed links, which work without the visitor's access. */
 static bool is_foreign(const struct kd_request *request)
@@ -232,7 +232,7 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem, s
     return found;
 }
 
-/* Whether the request creates an object whose address is not known yet, so that If-Match cannot hold. If the object
+/* True if the request creates an object whose address is not known yet, so that If-Match cannot hold. If the object
  * already has an address, its handler evaluates If-Match. */
 static bool makes_something(const struct kd_request *request)
 {
@@ -242,14 +242,14 @@ static bool makes_something(const struct kd_request *request)
 
 static bool is_options(const struct kd_request *request) { return !strcmp(request->method, "OPTIONS"); }
 
-/* Whether OPTIONS concerns the whole server: its target is "*", or an address without a path (RFC 9112 3.2.4). */
+/* True if OPTIONS concerns the whole server: its target is "*", or an address without a path (RFC 9112 3.2.4). */
 static bool asks_of_all(const struct kd_request *request)
 {
     return is_options(request) && !request->body_announced &&
            (!strcmp(request->raw, "*") || (request->authority && !strcmp(request->raw, "/")));
 }
 
-/* Whether the query has a parameter that the route does not have. error: holds the problem's text. */
+/* True if the query has a parameter that the route does not have. error: holds the problem's text. */
 static bool query_fault(const struct kd_request *request, struct kd_error *error, struct kd_problem *problem)
 {
     *error = (struct kd_error) { 0 };

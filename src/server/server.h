@@ -31,7 +31,7 @@ struct kd_server_params {
     const char *const *cors_origins;
     /* origins with the same permission whose pages may also show /embed in a frame, NULL-terminated; or NULL */
     const char *const *embed_origins;
-    bool cross_site;   /* whether requests are accepted that pages of other sites make */
+    bool cross_site;   /* true if requests are accepted that pages of other sites make */
     unsigned jobs_kib; /* limit of the size of all jobs' frames in KiB, default 16 GiB */
     /* limits of the number of assets, and of their total size in KiB; default 64 and 256 MiB */
     unsigned assets, assets_kib;

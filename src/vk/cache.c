@@ -22,7 +22,7 @@ static const char magic[8] = "kdpipe1";
 #define SUFFIX ".pipelines"
 #define FILE_MAX ((size_t)256 << 20) /* drivers store some MiB; a larger file is not ours */
 
-/* Whether the data belong to this device and driver, by Vulkan's VkPipelineCacheHeaderVersionOne. */
+/* True if the data belong to this device and driver, by Vulkan's VkPipelineCacheHeaderVersionOne. */
 static bool header_fits(const struct kd_vk_core *core, const uint8_t *data, size_t size)
 {
     const VkPhysicalDeviceProperties *device = &core->physical.properties;

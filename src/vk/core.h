@@ -1,4 +1,4 @@
-/* What all objects of an open device share: its functions, its handles and properties, and whether it is lost. */
+/* The data that all objects of an open device share: its functions, its handles and properties, and its loss. */
 #ifndef KD_VK_CORE_H
 #define KD_VK_CORE_H
 
@@ -14,7 +14,7 @@ struct kd_vk_core {
     bool compiles_only, pipelines_only; /* see kd_vk_params */
     VkDevice device;
     VkQueue queue;
-    char lost[256]; /* why the device is lost; "" if it is not lost */
+    char lost[256]; /* the reason why the device is lost; "" if it is not lost */
     bool hangs;     /* the device is lost because a deadline has passed: work under way may never end */
 };
 

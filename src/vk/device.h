@@ -43,7 +43,7 @@ struct kd_vk {
     bool recording;
     /* timeline values: of the latest submission, and of the latest that is known to be finished */
     uint64_t submitted, done;
-    /* when `done` last increased; the deadline of the next submission counts from this time */
+    /* time at which `done` last increased; the deadline of the next submission counts from this time */
     uint64_t progress_ns;
     uint64_t deadline_ns;
     struct kd_vk_hazards hazards, hazards_before; /* present state, and the state when recording began */

@@ -32,7 +32,7 @@ static void find_folder(char dir[DIR_BYTES])
         *dir = 0;
 }
 
-/* Whether files can be created in the folder. If it does not exist, its nearest existing parent counts, because Mesa
+/* True if files can be created in the folder. If it does not exist, its nearest existing parent counts, because Mesa
  * makes the missing folders. */
 static bool is_writable(const char *dir)
 {

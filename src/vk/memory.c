@@ -7,7 +7,7 @@
 #define COHERENT VK_MEMORY_PROPERTY_HOST_COHERENT_BIT
 #define CACHED VK_MEMORY_PROPERTY_HOST_CACHED_BIT
 
-/* Whether a memory type has ordinary flags only. Types that need a feature are never used: AMD's uncached ones,
+/* True if a memory type has ordinary flags only. Types that need a feature are never used: AMD's uncached ones,
  * protected ones, lazily allocated ones. */
 static bool plain(VkMemoryPropertyFlags flags)
 {

@@ -130,7 +130,7 @@ done:
 /* number of attempts when out of memory, because a device that stays open would leak all its memory */
 #define IDLE_TRIES 3
 
-/* Whether the objects may be destroyed. By the specification, objects of a lost device may be destroyed once
+/* True if the objects may be destroyed. By the specification, objects of a lost device may be destroyed once
  * vkDeviceWaitIdle has returned. Those of a hanging device may never be destroyed. */
 static bool is_idle(struct kd_vk *vk)
 {

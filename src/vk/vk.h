@@ -68,7 +68,7 @@ enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **ou
  * hanging device is abandoned with its memory, because drivers crash when it is closed. Then the process should end
  * soon, by _exit, because exit handlers of the driver may hang. */
 void kd_vk_destroy(struct kd_vk *vk);
-bool kd_vk_hangs(const struct kd_vk *vk); /* whether a submission has missed its deadline */
+bool kd_vk_hangs(const struct kd_vk *vk); /* true if a submission has missed its deadline */
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device was chosen */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* number of warnings and errors so far */
@@ -97,10 +97,10 @@ void *kd_vk_buffer_map(struct kd_vk_buffer *buffer); /* NULL for KD_VK_DEVICE, i
 uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer);
 uint64_t kd_vk_allocated(const struct kd_vk *vk); /* bytes allocated from the device, for all buffers */
 
-/* How a kernel accesses a binding. A software device reads a storage buffer separately for each lane, with a check for
- * each word; it reads uniform buffers and texels by vector gathers. On other devices the kinds differ little. Only
- * storage can be written or be as large as max_binding_bytes. So a kernel that reads bands of pixels as texels needs a
- * variant that reads them as storage. */
+/* The way in which a kernel accesses a binding. A software device reads a storage buffer separately for each lane, with
+ * a check for each word; it reads uniform buffers and texels by vector gathers. On other devices the kinds differ
+ * little. Only storage can be written or be as large as max_binding_bytes. So a kernel that reads bands of pixels as
+ * texels needs a variant that reads them as storage. */
 enum kd_vk_kind {
     KD_VK_STORAGE,     /* buffer { } */
     KD_VK_UNIFORM,     /* uniform { }, std140 or std430; at most max_uniform_bytes */

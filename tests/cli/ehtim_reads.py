@@ -136,7 +136,8 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
                   "fraction": float(abs(image.lin_polfrac())), "rate": image.rf / fits.getheader(sys.argv[1])["FREQ"]}))
 """
         scene = ["-p", "riaf", "--size", "64x64", "--set", "polarization.model=transfer"]
-        self.good("render", *scene, "-o", self.path("a.fits"))  # what the preset gives by default, without image.layers
+        # the layers that the preset has by default, without image.layers
+        self.good("render", *scene, "-o", self.path("a.fits"))
         layers = "image.layers=stokes_q,stokes_u,stokes_v,intensity"
         self.good("render", *scene, "--set", layers, "-o", self.path("a.npz"))
         done = subprocess.run(

@@ -266,7 +266,7 @@ class Files(support.Case):
         self.assertEqual(header["FREQ"], 3e14)
         self.assertAlmostEqual(units[0].data.astype(float).sum() / header["FLUX_JY"], 1, delta=1e-5)
         fraction = numpy.hypot(*(unit.data.astype(float) for unit in units[1:])) / units[0].data.max()
-        self.assertTrue(0.005 < fraction.max() < 0.117)  # Chandrasekhar's largest
+        self.assertTrue(0.005 < fraction.max() < 0.117)  # 0.117: Chandrasekhar's largest degree of polarisation
         for args in (band + ["--set", "sky.model=grid"], ["--set", "disk.frequency_ghz=3e5"]):
             self.good("render", *args, "--size", "48x40", "-o", self.path("b.fits"))
             units = self.opened(self.path("b.fits"))

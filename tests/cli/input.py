@@ -312,8 +312,8 @@ class Files(Case):
         self.assertEqual(
             headings,
             [
-                "Where it listens:",
-                "Who may use it:",
+                "Addresses:",
+                "Access:",
                 "The page:",
                 "Limits:",
                 "State and shutdown:",

@@ -24,7 +24,7 @@ enum {
 struct kd_faults {
     _Atomic int64_t fail_at;     /* allocations before one fails; negative: none fails */
     _Atomic int64_t fail_for;    /* number of successive failures; 0 counts as 1 */
-    _Atomic int64_t allocations; /* since the start */
+    _Atomic int64_t allocations; /* number of allocations since the start */
     _Atomic int64_t failed;      /* number of failed allocations */
     /* 1: record each stack of an allocation in `stacks`. Another value except 0: fail_at counts only allocations by
      * that stack. */

@@ -108,7 +108,7 @@ class Drawing:
         self.case, self.folder, self.out = case, folder.name, os.path.join(folder.name, "a.png")
         self.faults = faults.Faults()
         case.addCleanup(self.faults.close)
-        case.assertEqual(self.draw().returncode, 0)  # what the first run learns about the device is stored
+        case.assertEqual(self.draw().returncode, 0)  # the first run stores its measurements of the device
         self.calm = self.faults.live  # number of blocks that a run without faults does not free
         with open(self.out, "rb") as f:
             self.good = f.read()

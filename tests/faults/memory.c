@@ -61,7 +61,7 @@ static void *early_block(size_t size)
     return at + size <= EARLY ? early + at : NULL;
 }
 
-/* Records the objects loaded before main: a driver comes later. */
+/* Records the objects that are loaded before main. A driver is loaded later. */
 static int note(struct dl_phdr_info *info, size_t size, void *unused_user)
 {
     static const char *const others[] = { "libc.so", "ld-linux", "libstdc++", "libgcc_s",

@@ -18,6 +18,7 @@ import re
 import subprocess
 import sys
 import tempfile
+import textwrap
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
@@ -82,11 +83,12 @@ def rows(entries):
     totals = collections.Counter()
     for (kind, _), (_, outcomes) in found.items():
         totals[kind] += happened(outcomes)
-    yield (
+    total = (
         "Total: "
         + ", ".join(f"{n} of {kind}" for kind, n in sorted(totals.items()))
         + f": {sum(totals.values())} faults."
     )
+    yield from textwrap.wrap(total, 120, break_on_hyphens=False)
 
 
 def run(build, folder, whole):

@@ -89,7 +89,7 @@ class Case(unittest.TestCase):
 
     def with_failure(self, ask, n):
         """The answer to a request whose n-th allocation fails; None if the connection was closed. Allocations are
-        counted from the start of the request to its end, or until the memory is mended."""
+        counted from the start of the request to its end, or until allocations succeed again."""
         self.connect()
         self.armed = n
         try:

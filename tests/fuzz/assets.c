@@ -22,7 +22,7 @@ static const char *const names[] = { "header",      "r",           "theta",     
                                      "b_con_r",     "b_con_theta", "b_cov_phi" };
 enum { NAMES = sizeof names / sizeof *names, MEMBERS = 64 };
 
-/* How a member is stored in the file, or which error it has. */
+/* The form in which a member is stored in the file, or its error. */
 enum way { STORED, DEFLATED, LONG, METHOD, CHECKSUM, ENCRYPTED, SIZE, PLACE, WAYS };
 
 static void add(struct kd_zip *zip, const char *name, enum way way, const uint8_t *data, size_t size)

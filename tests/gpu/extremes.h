@@ -16,7 +16,7 @@ struct extreme_row {
     const char *engine;         /* "mino-rkn6 f32", "lens map 16", ... */
     size_t rays;                /* number of rays or pixels */
     double median, most, worst; /* errors of r: the median, the 99th percentile, the largest */
-    double phi;                 /* largest error of phi, among crossings beyond 1.6 times the horizon's radius */
+    double phi;                 /* largest error of phi among crossings beyond 1.6 times the horizon's radius */
     double bound, phi_bound;    /* the largest allowed `worst` and `phi` */
     size_t unsure;              /* rays that the answer itself marks as inaccurate */
     double unsure_most;         /* maximum fraction of such rays */

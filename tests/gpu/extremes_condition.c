@@ -15,7 +15,7 @@ static struct kd_null_path moved(const struct kd_null_ray *ray, int input, doubl
     *x[input] *= 1 + by;
     near.hole = kd_hole_of(near.hole.a);
     near.cos_theta = fmax(-1, fmin(1, near.cos_theta));
-    if (input == 3) /* computed from the cosine */
+    if (input == 3) /* the inclination is computed from the cosine */
         near.sin_theta = 0;
     return kd_null_trace_fast(&near);
 }

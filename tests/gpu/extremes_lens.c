@@ -25,8 +25,8 @@ struct kernel {
     double bound, phi_bound;
 };
 
-/* Bounds as in docs/accuracy.md. The series of the closed form starts at an eighth of the time, and loses one digit
- * at order 7. */
+/* Bounds as in docs/accuracy.md. The closed form starts its series at an eighth of the Mino time, and therefore loses
+ * one digit at order 7. */
 static const struct kernel kernels[] = {
     { "lens_closed", { .quantities = KD_LENS_W }, 0, 5e-6, INFINITY },
     { "lens_closed", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 0, 5e-6, 2e-6 },
@@ -77,7 +77,7 @@ static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int 
         return true;
     float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
     double m_phi = -kz * n, energy = c->e_t + c->e_phi * m_phi,
-           l = c->l_t + c->l_phi * m_phi; /* for observers at rest */
+           l = c->l_t + c->l_phi * m_phi; /* L of an observer at rest */
     ray->alpha = -l / energy;
     ray->beta = -c->p_theta * ky * n / energy;
     ray->outward = kx > 0;
@@ -108,11 +108,12 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         }
     while (found < ORDERS && map[(uint64_t)found * plan->lens.rays] > 0)
         found++;
-    for (int n = 0; n < p.crossings; n++) { /* also includes the distance from infinity for a ray on its way out */
+    /* for a ray on its way out, this includes the part of the path from infinity */
+    for (int n = 0; n < p.crossings; n++) {
         double w = 1 / p.crossing[n].r;
         least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_hole(v->spin)->outer - w));
     }
-    /* The way from a pixel to its labels and motion has some twenty roundings. */
+    /* The labels and the motion are computed from a pixel with some twenty roundings. */
     bool steady = p.status == KD_NULL_OK && least > 1e-6 && extreme_steady(ray, &p, 20 * FLT_EPSILON, weight);
     extreme_condition(ray, &p, 1e-9, weight, gain, phi_gain);
     if (!steady || (p.crossings && gain[p.crossings - 1] > 1e5)) {

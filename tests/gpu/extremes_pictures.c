@@ -119,7 +119,7 @@ static const struct picture pictures[] = {
       "deg\":90,"
       "\"fov_deg\":179},\"sky\":{\"model\":\"grid\"}," SMALL "}",
       true, 0 },
-    /* a = 0 and r = L^(2/3) = 2.4957 M: there E (r^(3/2) + a) - L, the divisor in g of a circular orbit, vanishes in
+    /* With a = 0 and r = L^(2/3) = 2.4957 M, the divisor in g of a circular orbit, E (r^(3/2) + a) - L, vanishes in
      * single precision in some thirty pixels. */
     { "inside the photon orbit, E = Omega L",
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":80,\"centre_alpha\":-4,\"centre_beta\":2.2892487,"

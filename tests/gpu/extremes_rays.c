@@ -171,7 +171,7 @@ static enum kd_status run(struct kd_renderer *renderer, const struct kd_rays_par
                              error);
     struct kd_ray_labels labels = { list->alpha_beta, list->outward, list->n };
     enum kd_status status = kd_rays_device(renderer, params, &labels, list->crossings, list->ends, NULL, NULL, error);
-    for (size_t i = 0; i < list->n * ORDERS; i++) /* set here, because only kd_rays_trace fills it in */
+    for (size_t i = 0; i < list->n * ORDERS; i++) /* sets the members that only kd_rays_trace fills in */
         list->crossings[i].g = 1;
     return status;
 }
@@ -188,13 +188,14 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
                                .phi_bound = wide ? 1e-9 : 2e-6,
                                .unsure_most = 0.05 };
     struct kd_error error = { 0 };
-    /* Bound: from next to the horizon, half a turn leads far out or back in with the usual number of steps. */
+    /* The bound is larger next to the horizon, where half a turn leads far out or back in with the usual number of
+     * steps. */
     if (v->r < 1.1 * kd_hole_charged(v->spin, v->charge).outer) {
         row.bound = wide ? 2e-8 : 1e-4;
         row.unsure_most = 0.1;
     }
-    /* The distance from the critical curve down to which a precision can decide. Extremal holes increase it as much as
-     * they increase the errors of the last digits. */
+    /* The smallest distance from the critical curve at which a precision can decide the fate of a ray. For extremal
+     * holes it is larger, in proportion to the errors of the last digits. */
     if (v->critical > 0)
         row.unsure_most = v->critical < (wide ? 1e-8 : 1e-4) ? 1 : 0.25;
     snprintf(row.what, sizeof row.what, "%s", what);

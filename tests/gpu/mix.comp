@@ -1,4 +1,4 @@
-// y = y * mul + x + BIAS: the result depends on the order of the dispatches, so a missing barrier shows.
+// Computes y * mul + x + BIAS. The result depends on the order of the dispatches, so that a missing barrier changes it.
 #version 450
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint BIAS = 0;

@@ -37,8 +37,7 @@ static void random_motion(struct kd_random *random, struct kd_camera *c)
 {
     const double speed = fmin(1 - decades(random, -6, 0), 0.999999), u = between(random, -1, 1),
                  phi = between(random, 0, 2 * M_PI);
-    const bool along = below(random, 2); /* whether the direction is along an axis; otherwise any direction is
-                                          * possible */
+    const bool along = below(random, 2); /* true: the direction is along an axis; false: it may be any direction */
     c->velocity_r = along ? 0 : speed * u;
     c->velocity_theta = along ? 0 : speed * sqrt(1 - u * u) * cos(phi);
     c->velocity_phi = along ? (below(random, 2) ? speed : -speed) : speed * sqrt(1 - u * u) * sin(phi);
@@ -54,7 +53,7 @@ static void random_camera(struct kd_random *random, int side, struct kd_scene *s
     c->inclination_deg = below(random, 3) ? between(random, 0, 180) : angles[below(random, 5)];
     s->image.width = s->image.height = side;
     s->image.critical_factor = 1;
-    s->accuracy.orders = below(random, 2) ? 1 : 3; /* few kernels to compile */
+    s->accuracy.orders = below(random, 2) ? 1 : 3; /* so that few kernels have to be compiled */
     s->sky.model = KD_SKY_GRID;
     if (!below(random, 8)) {
         c->r = INFINITY;

@@ -67,7 +67,7 @@ static inline bool ran(const struct kd_frame *frame, const char *pass) { return 
 static inline double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
 static inline double shown(const uint16_t *picture, size_t i) { return decode(picture[i] / 65535.0); }
 
-/* An order of doubles for qsort. */
+/* Compares two doubles for qsort. */
 static inline int by_value(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;

@@ -95,7 +95,7 @@ static inline struct kd_vk_pipeline *make_mix(struct kd_vk *vk, uint32_t bias)
     return pipeline;
 }
 
-/* y = y * mul + x + bias over n elements. */
+/* Sets y to y * mul + x + bias for n elements. */
 static inline void mix(struct kd_vk *vk, const struct kd_vk_pipeline *pipeline, struct kd_vk_buffer *x,
                        struct kd_vk_buffer *y, uint32_t n, uint32_t mul)
 {
@@ -149,7 +149,7 @@ static inline void finish(struct kd_vk *vk)
     OK(kd_vk_wait(vk, 0, &error));
 }
 
-/* Runs on one device with validation, which must report nothing. The last test checks that. */
+/* Runs the tests on one device with validation. The last test checks that validation has reported nothing. */
 static inline int run_on_device(struct CMUnitTest *tests, size_t n)
 {
     int skipped = skip_without_device();

@@ -21,7 +21,7 @@ static struct kd_scene scene_of(int width, int height)
     scene.camera.projection = KD_PROJECTION_EQUIRECTANGULAR;
     scene.disk.model = KD_DISK_NONE;
     scene.sky.model = KD_SKY_CATALOGUE;
-    scene.sky.limit_mag = -1; /* Sirius alone */
+    scene.sky.limit_mag = -1; /* shows Sirius alone */
     scene.sky.brightness = 1;
     scene.sky.milky_way = 0;
     scene.style.exposure = 0;
@@ -30,8 +30,8 @@ static struct kd_scene scene_of(int width, int height)
     return scene;
 }
 
-/* Turns the sky so that Sirius appears at this place of the picture, in pixels, the centre of the first one at 0: n
- * = Rz(-turn) Ry(-tilt) s. */
+/* Turns the sky so that Sirius appears at the place (x, y) of the picture, by n = Rz(-turn) Ry(-tilt) s. x and y are in
+ * pixels, and the centre of the first pixel is at 0. */
 static bool put(struct kd_scene *scene, double x, double y)
 {
     const struct kd_camera_exact camera = kd_camera_exact(scene);
@@ -74,9 +74,9 @@ static double light_of(const struct kd_scene *scene, bool bright)
     return sum * pixel / kd_star_flux(kd_catalogue_star(0).magnitude);
 }
 
-/* The star is put on the seam, at the poles, and in rows of pixels beside them, as far as the sky can be turned. Pixels
- * are 2.8 degrees wide. Next to a pole a map of second order does not represent the whole turn. When only bright images
- * are drawn, two tiles of 25 degrees disagree at their border by up to 0.2 rays. */
+/* The star is put on the seam, at the poles, and in the rows of pixels beside them that it can reach by turning the
+ * sky. Pixels are 2.8 degrees wide. Next to a pole a map of second order does not represent the whole turn. When only
+ * bright images are drawn, two tiles of 25 degrees disagree at their border by up to 0.2 rays. */
 static void a_star_anywhere(void **state)
 {
     (void)state;

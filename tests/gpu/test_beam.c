@@ -26,8 +26,8 @@ static struct kd_scene scene_of(const struct look *look)
     scene.style.dither = false;
     scene.style.bloom = look->bloom;
     scene.style.palette = look->heat ? KD_PALETTE_HEAT : KD_PALETTE_COLOUR;
-    /* A hole of a solar mass is 1476.6250385 m, a parsec 3.0856775814913673e16 m: a width of 100 M is 987 uas at a
-     * thousandth of a parsec. */
+    /* M of a solar mass is 1476.6250385 m, and a parsec is 3.0856775814913673e16 m. At a thousandth of a parsec 100 M
+     * are 987 uas wide. */
     scene.spacetime.mass_msun = 1;
     scene.spacetime.distance_pc = 1e-3;
     scene.camera.field_m = 100;
@@ -80,7 +80,7 @@ static void weights_of(double *out, int n, int about, double sigma)
         out[i] = exp(-(i - about) * (i - about) / (2 * sigma * sigma)) / sum;
 }
 
-/* The oracle's sum over all pixels of the picture. */
+/* The beam's light at a pixel, by the oracle's sum over all pixels of the picture. */
 static double convolved(const struct look *look, int at, int channel)
 {
     static double across[MOST], down[MOST];
@@ -92,9 +92,9 @@ static double convolved(const struct look *look, int at, int channel)
     return sum;
 }
 
-/* Beams from far below a pixel to wider than the picture, in sizes that no cell divides. The error is at most 4e-4 of
- * the largest value: a coarse grid contributes 3e-4 if all light is within a cell, and 16 bits 3e-5. Corners and edges
- * are among the pixels checked. */
+/* Tests beams from far below a pixel to wider than the picture, in pictures whose sizes are no multiple of a cell. The
+ * error is at most 4e-4 of the largest value: a coarse grid contributes 3e-4 if all light is within a cell, and 16 bits
+ * 3e-5. Corners and edges are among the pixels checked. */
 static void it_is_a_convolution(void **state)
 {
     (void)state;
@@ -170,7 +170,7 @@ static void bands_and_readers(void **state)
             assert_memory_equal(pixels, others, bytes);
         }
         look.rows = 0;
-        info->max_texels = 4608; /* as few texels as the tables need */
+        info->max_texels = 4608; /* the device binds only as many texels as the tables need */
         show(&look, others);
         info->max_texels = texels;
         assert_memory_equal(pixels, others, bytes);
@@ -230,9 +230,8 @@ static void exposure_is_of_what_the_beam_sees(void **state)
     }
 }
 
-/* Each brightness has its colour of the map, also after a tone curve and for coloured light, of which the luminance
- * counts. A table of 1024 entries is linear between them. Beyond white and below black the colours at the ends
- * apply. */
+/* Each brightness has its colour of the map, also after a tone curve and for coloured light, whose luminance counts. A
+ * table of 1024 entries is linear between them. Beyond white and below black the colours at the ends apply. */
 static void brightness_has_the_colour_of_the_map(void **state)
 {
     (void)state;

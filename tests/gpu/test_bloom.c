@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-static bool all_round; /* whether the pictures show all directions */
+static bool all_round; /* true if the pictures show all directions */
 
 /* Shows the light as pixels of 16 bits, proportional to it. rows: the number of rows in a band; 0: all. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)
@@ -54,7 +54,7 @@ static void make_light(int width, int height)
 }
 
 /* Spread light leaves its place and arrives elsewhere: the sum of each channel is conserved, also at the picture's
- * edges and in sizes that no grid divides. Pixels are rounded to 16 bits, 1e-5 on average. */
+ * edges and for sizes that are no multiple of a grid's cell. Pixels are rounded to 16 bits, 1e-5 on average. */
 static void energy(void **state)
 {
     (void)state;
@@ -69,7 +69,7 @@ static void energy(void **state)
         for (int c = 0; c < 3; c++) {
             double before = 0, after = 0;
             for (int i = c; i < 3 * n; i += 3) {
-                assert_true(others[i] < 65535 && pixels[i] < 65535); /* none is clipped */
+                assert_true(others[i] < 65535 && pixels[i] < 65535); /* no pixel is clipped */
                 before += shown(others, i);
                 after += shown(pixels, i);
                 moved += fabs(shown(pixels, i) - shown(others, i)) / n;
@@ -97,7 +97,7 @@ static double gauss(double from, double at, int n, double sigma)
     return sum / (sigma * sqrt(2 * acos(-1)));
 }
 
-/* Convolves with a Gaussian in x and in y: two passes. */
+/* Convolves with a Gaussian, first in x and then in y. */
 static void convolve(const double *in, double *out, int width, int height, double sigma)
 {
     static double kernel[512][512], between[MOST];
@@ -124,8 +124,8 @@ static void convolve(const double *in, double *out, int width, int height, doubl
         }
 }
 
-/* White light on black. The splines of each width approximate a Gaussian of their variance, to 4 % of the largest
- * brightness that is spread. The narrowest has about a third of this brightness. No difference has another sign. */
+/* Tests white light on black. The splines of each width approximate a Gaussian of the same variance, within 4 % of the
+ * largest spread brightness. */
 static void widths(void **state)
 {
     (void)state;
@@ -157,9 +157,9 @@ static void widths(void **state)
     assert_true(worst < 0.04 * most);
 }
 
-/* A point of light becomes a disk that falls off from its centre outwards. It is the same in all directions to a
- * quarter where the brightness falls steeply: its contours are circles to a few hundredths. The point is moved within
- * its cell, and to other cells. */
+/* A point of light becomes a disk that falls off from its centre outwards. At equal distances from the centre,
+ * brightnesses differ by at most a quarter where they fall steeply. The contours are therefore circles within a few
+ * hundredths of the radius. The point is moved within its cell, and to other cells. */
 static void a_point(void **state)
 {
     (void)state;
@@ -190,8 +190,8 @@ static void a_point(void **state)
     }
 }
 
-/* The light of a point is centred on it. It is displaced by at most half a pixel if two pixels are summed first, by at
- * most a pixel and a half for four. The widest Gaussian is reflected at the edge of the picture. */
+/* The light of a point is centred on it. Its centroid is displaced by at most half a pixel if the pass sums two pixels
+ * first, and by at most one and a half if it sums four. The widest Gaussian is reflected at the edge of the picture. */
 static void a_point_stays(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void a_point_stays(void **state)
                 light[3 * (py * w + px) + c] = 60;
             show(w, h, 1, 0, pixels);
             for (int i = 0; i < w * h; i++) {
-                /* the point itself is clipped: take its mirror image nearby */
+                /* the point itself is clipped, so its mirror image nearby is taken */
                 const double v = i == py * w + px ? 0 : shown(pixels, 3 * i);
                 sum += v;
                 x += v * (i % w - px);
@@ -254,7 +254,7 @@ static void others_unharmed(void **state)
     light[3 * AT] = NAN;
     light[3 * (AT + 900) + 1] = INFINITY;
     show(W, H, 1, 0, others);
-    for (int i = 0; i < 3 * W * H; i++) /* without the spread light of both places */
+    for (int i = 0; i < 3 * W * H; i++) /* tolerance: `others` lacks the spread light of these two places */
         assert_true(i / 3 == AT || i / 3 == AT + 900 || abs(pixels[i] - others[i]) <= 40);
     make_light(W, H);
     for (int i = 0; i < 3 * W * H; i++)

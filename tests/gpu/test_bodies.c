@@ -1,5 +1,5 @@
 /* Bodies along rays. Their images are compared with the Kerr-Schild oracle, which does not use Mino time and measures
- * how closely a ray passes a place by an interval on a wave front. Also tested: their light, mutual hiding of bodies,
+ * the distance at which a ray passes a place along a wave front. Also tested: their light, mutual hiding of bodies,
  * disk and hole, and extreme numbers. */
 #include "render_support.h"
 
@@ -37,7 +37,7 @@ static struct ks_photon photon_of(const struct kd_scene *scene, double px, doubl
                                   scene->camera.observer == KD_OBSERVER_ZAMO, k);
 }
 
-/* The first encounter of the ray with the scene's first body; b is more than its radius if there is none. */
+/* The first encounter of the ray with the scene's first body; b exceeds the body's radius if there is none. */
 static struct ks_near first_of(const struct kd_scene *scene, double px, double py)
 {
     const struct kd_body *b = &scene->bodies.at[0];
@@ -181,7 +181,7 @@ static void test_light(void **state)
         "{\"motion\":\"velocity\",\"velocity_phi\":-0.7,\"limb_darkening\":0,\"brightness\":3}",
     };
     const size_t n = sizeof motions / sizeof *motions;
-    for (size_t view = 0; view < 2 * n; view++) { /* the second half about a charged hole */
+    for (size_t view = 0; view < 2 * n; view++) { /* views of the second half are about a charged hole */
         const size_t k = view % n;
         char json[512];
         snprintf(json, sizeof json,
@@ -199,7 +199,8 @@ static void test_light(void **state)
             const struct ks_photon photon = photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5);
             const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / b->radius, c = b->limb_darkening;
             if (x > 0.9)
-                continue; /* the limb's brightness falls steeply, and its place is tested elsewhere */
+                continue; /* skipped, because the brightness falls steeply at the limb, whose place is tested elsewhere
+                           */
             const double t = b->temperature_k / scene.disk.peak_temperature_k / shift_of(&scene, &photon),
                          limb = (1 - c * (1 - sqrt(1 - x * x))) / (1 - c / 3);
             worst = fmax(worst, fabs(intensity(&frame)[i] / (b->brightness * limb * t * t * t * t) - 1));
@@ -259,7 +260,7 @@ static void test_order(void **state)
     }
 }
 
-/* Each of many bodies looks as it does alone. */
+/* Each of many bodies has the same image as alone. */
 static void test_tree(void **state)
 {
     (void)state;
@@ -389,11 +390,12 @@ static void test_adversarial(void **state)
 {
     (void)state;
     static const char *const hard[] = {
-        "{\"camera\":{\"r\":20},\"bodies\":[{\"radius\":3,\"r\":20,\"motion\":\"static\"}]}", /* round the observer */
+        "{\"camera\":{\"r\":20},\"bodies\":[{\"radius\":3,\"r\":20,\"motion\":\"static\"}]}", /* the body surrounds the
+                                                                                                 observer */
         "{\"camera\":{\"r\":20},\"bodies\":[{\"radius\":1e6,\"r\":1e7}]}",
-        "{\"bodies\":[{\"radius\":1e6,\"r\":3,\"motion\":\"static\"}]}", /* round everything */
+        "{\"bodies\":[{\"radius\":1e6,\"r\":3,\"motion\":\"static\"}]}", /* the body surrounds hole and observer */
         "{\"bodies\":[{\"radius\":1e6,\"r\":15},{\"radius\":1e-30,\"r\":15},{\"radius\":2,\"r\":15,\"brightness\":0}]}",
-        /* over the horizon */
+        /* the body overlaps the horizon */
         "{\"bodies\":[{\"radius\":1,\"r\":1.81,\"motion\":\"zamo\",\"brightness\":1e9,\"temperature_k\":1e9}]}",
         "{\"spacetime\":{\"spin\":0.999999999999},\"bodies\":[{\"radius\":0.5,\"r\":1.06,\"motion\":\"zamo\"},{"
         "\"radius\":0.5,\"r\":1.5,\"motion\":\"infall\"}]}",
@@ -405,7 +407,7 @@ static void test_adversarial(void **state)
         "{\"radius\":1,\"r\":6,\"motion\":\"velocity\",\"velocity_theta\":0.999}]}",
         "{\"camera\":{\"r\":1.5,\"inclination_deg\":90,\"observer\":\"zamo\"},\"spacetime\":{\"spin\":0.9},\"bodies\":["
         "{\"radius\":3,\"r\":8},{\"radius\":0.3,\"r\":1.6,\"motion\":\"zamo\"}]}",
-        /* from within the horizon */
+        /* the observer is within the horizon */
         "{\"camera\":{\"r\":1.2,\"inclination_deg\":75,\"observer\":\"infall\"},\"spacetime\":{\"spin\":0.5},"
         "\"bodies\":[{\"radius\":3,\"r\":8}]}",
         "{\"camera\":{\"r\":3,\"inclination_deg\":75,\"observer\":\"infall\"},\"spacetime\":{\"spin\":0.5},\"bodies\":["

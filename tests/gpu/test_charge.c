@@ -74,7 +74,7 @@ static void judge(const struct view *v, const struct kd_ray_crossing *crossings,
     for (int k = 0; k < RAYS; k++) {
         const struct ks_path *p = &v->paths[k], *q = &v->beside[k];
         if (p->crossings != q->crossings || p->fate != q->fate || p->fate == KS_UNDECIDED)
-            continue; /* the oracle itself is not stable within a millionth */
+            continue; /* skipped, because here the oracle itself changes its kind of ray within a millionth */
         const int wanted = p->crossings < ORDERS ? p->crossings : ORDERS;
         double worst = 0, gain = 0;
         e->rays++;
@@ -92,7 +92,7 @@ static void judge(const struct view *v, const struct kd_ray_crossing *crossings,
             if (p->r[n] > far)
                 e->phi[e->n_phi++] = turn_of(c->phi - p->phi[n]) / (1 + turn_of(q->phi[n] - p->phi[n]) / 1e-6);
         }
-        e->loose += worst > ends[k].error + 1e-10 * (1 + gain) * (1 + worst); /* the oracle's own error */
+        e->loose += worst > ends[k].error + 1e-10 * (1 + gain) * (1 + worst); /* allows for the oracle's own error */
     }
 }
 
@@ -161,8 +161,8 @@ static void tell(const struct row *row, int set, const struct errors *e)
                       e->r[e->n / 2], e->r[e->n - 1], e->phi[e->n_phi / 2], e->phi[e->n_phi - 1], e->differ, e->loose);
 }
 
-/* A charge costs no digits: the median is at most 1.5 times that without charge, and the worst is within its bound. The
- * stated error is a bound for 99 rays in a hundred. */
+/* A charge costs no digits: the median error is at most 1.5 times that without charge, and the worst is within its
+ * bound. The stated error is a bound for 99 rays in a hundred. */
 static void test_engines(void **state)
 {
     static struct errors e;

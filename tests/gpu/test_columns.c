@@ -105,7 +105,8 @@ static void assert_same_readers(struct kd_scene scene)
         struct kd_frame between = rendered(&other);
         kd_frame_finish(&between);
     }
-    info->max_texels = 1u << 17; /* enough for the emitters' tables, but fewer than a binding holds */
+    /* the device binds enough texels for the emitters' tables, but fewer than the lens map has */
+    info->max_texels = 1u << 17;
     assert_false(kd_kernels_map_as_texels(renderer->vk));
     struct kd_frame of_storage = rendered(&scene);
     info->max_texels = texels;

@@ -56,7 +56,7 @@ static struct kd_playground *many(double spin)
                                            .temperature_k = LEAST_K + 2 * i,
                                            .x = { r * s * cos(phi), r * s * sin(phi), r * u },
                                            .v = { -0.3 * sin(phi), 0.3 * cos(phi), 0 } };
-        /* if the motion is at the edge between two kinds it is an error, and another one is drawn */
+        /* a motion at the edge between two kinds gives an error, and another motion is drawn */
         struct kd_error none;
         i += !kd_playground_add(p, &body, NULL, &none);
     }
@@ -174,7 +174,7 @@ static void test_places(void **state)
         const double ahead = s * x[0] + c * x[2], across[2] = { x[1], s * x[2] - c * x[0] },
                      impact = hypot(across[0], across[1]);
         double at[2] = { across[0], across[1] }, size;
-        if (ahead < 0 || impact > 6) { /* light that passes the hole is bent */
+        if (ahead < 0 || impact > 6) { /* skipped, because light that passes the hole closely is bent too much */
             const double more = impact < 8 && ahead < 0 ? sqrt(impact * impact + 4 * -ahead) : impact + 1;
             at[0] *= more / fmax(impact, 0.1);
             at[1] *= more / fmax(impact, 0.1);
@@ -205,7 +205,8 @@ static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
     return dynamic;
 }
 
-/* A body of a playground is drawn to the bit as a body of a scene, which test_bodies.c tests, and hides the same. */
+/* A body of a playground has the same pixels, to the bit, as a body of a scene, and hides the same things. Bodies of
+ * scenes are tested by test_bodies.c. */
 static void test_as_a_scene_has_it(void **state)
 {
     (void)state;
@@ -366,7 +367,7 @@ static void test_debris(void **state)
 }
 
 /* A dark body far from the hole reflects light that falls on its visible side. The expected light is the full integral
- * over the disk, with ten times as many places and the cosine itself, since light travels straight there. */
+ * over the disk, with ten times as many places and the cosine itself, because light travels straight there. */
 static double falls_on(const struct kd_scene *scene, const double at[3], const double normal[3])
 {
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer,
@@ -512,8 +513,8 @@ static void test_adversarial(void **state)
         body.radius = k == 6 ? INFINITY : body.radius;
         body.temperature_k = k == 7 ? 1e300 : body.temperature_k;
         struct kd_dynamic_bodies *dynamic =
-            one(&body, k == 5 ? 64 : MANY);           /* so fast that its image is stretched, and no ray misses it */
-        for (size_t i = 0; k == 7 && i < MANY; i++) { /* bodies everywhere */
+            one(&body, k == 5 ? 64 : MANY); /* this body is so fast that its image is stretched and no ray misses it */
+        for (size_t i = 0; k == 7 && i < MANY; i++) { /* puts bodies everywhere */
             dynamic->bodies[i].r = 1 + 1e4 * chance() * chance() * chance();
             dynamic->bodies[i].phi = 1e3 * chance();
             dynamic->bodies[i].radius = 1e3 * pow(chance(), 9);

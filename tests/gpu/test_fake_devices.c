@@ -87,7 +87,7 @@ static void same(const struct answers *a, const struct answers *b)
         assert_true(x->light.measured == y->light.measured);
         if (x->light.measured)
             assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) <
-                        1e-6); /* the light is summed in another order than on the real device */
+                        1e-6); /* tolerance: the light is summed in another order than on the real device */
     }
     assert_memory_equal(a->crossings, b->crossings, sizeof a->crossings);
     assert_memory_equal(a->ends, b->ends, sizeof a->ends);
@@ -119,7 +119,8 @@ static void answer_as(const struct fake_device *device)
 static void test_groups(void **state)
 {
     (void)state;
-    answer_as(&(struct fake_device) { .groups = 40 }); /* covers 10240 pixels of post.comp; there are 18000 */
+    /* 40 groups cover 10240 pixels of post.comp, and the picture has 18000 */
+    answer_as(&(struct fake_device) { .groups = 40 });
 }
 
 /* Allocations are smaller than a binding. The last picture then has two bands, with slices of half a band. */
@@ -245,9 +246,9 @@ static void test_large_pictures(void **state)
             uint64_t pixels = (uint64_t)plan.picture.width * plan.picture.band_rows,
                      at_curve = plan.lens.critical_part * plan.lens.critical;
             assert_true((pixels + 3) / 4 <= 65535ull * 64);                          /* post */
-            assert_true((uint64_t)plan.picture.band_rows * plan.lens.side <= 65535); /* trace: its rows */
+            assert_true((uint64_t)plan.picture.band_rows * plan.lens.side <= 65535); /* rows of the trace pass */
             assert_true((uint64_t)plan.picture.width * plan.lens.side <= 65535ull * 64);
-            assert_true((at_curve + 63) / 64 <= 65535); /* trace at the critical curve */
+            assert_true((at_curve + 63) / 64 <= 65535); /* the trace pass at the critical curve */
             assert_true(4ull * plan.lens.planes * pixels * plan.lens.side * plan.lens.side + 16 <= UINT32_MAX);
             assert_true(kd_plan_pixel_bytes(&plan.light) * pixels <= UINT32_MAX);
             assert_true((uint64_t)plan.picture.bands * plan.picture.band_rows >= plan.picture.height);

@@ -115,7 +115,7 @@ static void judge_share(const struct kd_scene *scene, unsigned number, const flo
         return;
     const double pixel = 2 * M_PI / SIDE;
     double captured = 0, undecided = 0;
-    for (int i = 0; i < RAYS; i++) { /* the height is half a turn */
+    for (int i = 0; i < RAYS; i++) { /* the picture's height is half a turn */
         const double up = M_PI / SIDE * (i / SIDE + 0.5) - M_PI / 2;
         const double size = pixel * 2 * sin(M_PI / (2 * SIDE)) * cos(up);
         captured += fate[i] == KD_FATE_CAPTURED ? size : 0;
@@ -168,7 +168,7 @@ static void judge(const struct kd_scene *scene, unsigned number, struct tally *t
     judge_share(scene, number, fate, t);
 }
 
-/* Pictures that were wrong in earlier versions. */
+/* Pictures that earlier versions rendered wrongly. */
 static const struct once {
     double spin, inclination, r;
     enum kd_observer observer;
@@ -184,7 +184,7 @@ static const struct once {
 
 typedef void make_camera(struct kd_random *, int, struct kd_scene *);
 
-/* Cameras of long runs that were wrong in earlier versions. */
+/* Cameras of long runs whose pictures earlier versions rendered wrongly. */
 static const struct once_random {
     make_camera *make;
     uint64_t seed;

@@ -57,7 +57,7 @@ static void test_once(void **state)
     read_all(path);
     assert_non_null(strstr(text, "kerrd " KD_VERSION));
 
-    for (int prove = 0; prove < 2; prove++) { /* every caller gets the results, and the costs of the passes as well */
+    for (int prove = 0; prove < 2; prove++) { /* each caller gets the results and the costs of the passes */
         r = start(prove);
         known = kd_renderer_verdict(r);
         assert_true(known->result == KD_PASSED && !known->now && known->checks > 50 && r->capacity.measured);
@@ -80,11 +80,11 @@ static void test_not_this_one(void **state)
         if (k == 0)
             other[strlen(other) / 2] = 0;
         else if (k == 1)
-            other[version - text + 6] = '9'; /* of another version */
+            other[version - text + 6] = '9'; /* the record of another version */
         else if (k == 2)
             snprintf(other, sizeof other, "[1, 2]");
         else
-            memcpy(strstr(other, "\"of\": \"") + 7, "ffffffff", 8); /* another device */
+            memcpy(strstr(other, "\"of\": \"") + 7, "ffffffff", 8); /* the record of another device */
         write_all(path, other);
         r = start(false);
         assert_int_equal(kd_renderer_verdict(r)->result, KD_UNTESTED);

@@ -260,8 +260,8 @@ static void test_grid(void **state)
         report(v->name, t);
         for (int n = 0; n <= ORDERS; n++)
             assert_true(t[n].outside == 0 && t[n].edges == 0);
-        /* Typical errors in a picture of many pixels: half of the direct image is within 1/200, and nine tenths are
-         * within 1/30 */
+        /* Typical errors in a picture of many pixels: half of the direct image's errors are below 1/200, and nine
+         * tenths below 1/30 */
         assert_true(t[0].n > 50 && t[0].errors[t[0].n / 2] < 5e-3 && t[0].errors[t[0].n * 9 / 10] < 0.03);
         assert_true(t[1].n > 5 && t[ORDERS].n > 5);
         qsort(t[0].shapes, (size_t)t[0].n, sizeof *t[0].shapes, by_value);
@@ -272,7 +272,7 @@ static void test_grid(void **state)
     }
 }
 
-/* The cached map that a picture was made from. */
+/* The cached map from which a picture was made. */
 static const struct kd_lens_map *kept(const struct kd_plan *plan)
 {
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
@@ -307,7 +307,7 @@ static void test_slices(void **state)
     for (int i = 0; i < 3; i++) {
         struct kd_frame frame;
         plan.cost.trace_ns = 40e6 / (rows[i] * WIDTH); /* sets the number of rows a slice */
-        plan.lens.key[0] = (char)('a' + i);            /* not in the cache */
+        plan.lens.key[0] = (char)('a' + i);            /* this map is not in the cache */
         OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
         assert_false(frame.lens_reused);
         float *planes = read_buffer(kept(&plan)->bands.buffers[0]);
@@ -318,7 +318,8 @@ static void test_slices(void **state)
     test_free(whole);
 }
 
-/* Bands end where a buffer does. At their ends footprints use rays on one side, by a formula of the same order. */
+/* Bands end where a buffer does. At the ends of a band, footprints use rays on one side only, by a formula of the same
+ * order. */
 static void test_bands(void **state)
 {
     (void)state;
@@ -330,13 +331,13 @@ static void test_bands(void **state)
     t.n = 0;
     for (uint32_t n = 0; n < ORDERS; n++)
         for (size_t at = 0; at < one.lens.rays; at++) {
-            if (!(plane(&one, a, KD_LENS_W, n)[at] > 0)) /* no crossing, no footprint */
+            if (!(plane(&one, a, KD_LENS_W, n)[at] > 0)) /* a ray without a crossing has no footprint */
                 continue;
             double x = plane(&one, a, KD_LENS_FOOTPRINT, n)[at], y = plane(&many, b, KD_LENS_FOOTPRINT, n)[at];
             uint32_t row = (uint32_t)(at / WIDTH), in_band = row % 10;
             if (row == 0 || row == HEIGHT - 1 || (in_band != 0 && in_band != 9))
                 assert_true(x == y);
-            else if (x > 0 && x < 3) /* where texture is visible at all */
+            else if (x > 0 && x < 3) /* tested only where texture is visible */
                 t.errors[t.n++] = fabs(y / x - 1);
         }
     qsort(t.errors, (size_t)t.n, sizeof *t.errors, by_value);
@@ -387,7 +388,8 @@ static void test_listed_pixels(void **state)
         }
         report(v->name, t);
         for (int n = 0; n <= ORDERS;
-             /* of the four rays of a pixel, those without neighbours determine the footprint in one direction only */
+             /* skipped: of the four rays of a pixel, those without neighbours determine the footprint in one direction
+              * only */
              n++)
             assert_true(10 * t[n].outside <= (factors[i] == 2 ? t[n].n : 0));
         assert_true(t[0].n > 40 && t[1].n > 15 && t[ORDERS].n > 10);

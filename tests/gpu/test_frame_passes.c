@@ -56,7 +56,7 @@ static void test_names(void **state)
             if (!planned(&plan, frame.timings[i].name))
                 fail_msg("%s: \"%s\" ran and is not planned", scenes[k], frame.timings[i].name);
         kd_frame_finish(&frame);
-        frame = drawn(scenes[k], &plan); /* now with the cached lens map */
+        frame = drawn(scenes[k], &plan); /* the second frame uses the cached lens map */
         assert_true(frame.lens_reused);
         for (int i = 0; i < KD_PASS_COUNT; i++)
             if (kd_passes[i].when == KD_EACH_MAP)
@@ -153,13 +153,13 @@ static void test_refining_is_learned(void **state)
     kd_frame_finish(&frame);
     const double estimate = estimated(&plan, "refine");
     print_message("refining took %.1f ms of %.1f, and is estimated at %.1f\n", took, others, estimate);
-    /* The estimate excludes the time in which other processes had the cores. Beside eight busy threads on two cores it
-     * is a fifth of the measured time. */
+    /* The estimate excludes the time in which other processes had the cores. With eight busy threads on two cores the
+     * estimate is a fifth of the measured time. */
     assert_true(estimate > took / 50 && estimate < 2 * took);
 }
 
-/* The estimate for a picture comes from pictures of its class, whatever was rendered in between: the light of a volume
- * takes a hundred times as long as that of a smooth disk. */
+/* The estimate for a picture comes from pictures of its class, whatever was rendered in between. Classes matter,
+ * because the light of a volume takes a hundred times as long as that of a smooth disk. */
 static void test_classes_are_learned(void **state)
 {
     (void)state;

@@ -47,8 +47,8 @@ static double emitted(const struct kd_jets *j, double r, double u)
            ramp((j->outer - r) / (0.3 * j->outer));
 }
 
-/* Along a straight line to an observer at the scene's inclination: place = alpha e_right + beta e_up + l n, and D =
- * 1/(Gamma (1 - beta_v cos)). */
+/* Integrates light along a straight line to an observer at the scene's inclination. A place is alpha e_right + beta
+ * e_up + l n, and D = 1/(Gamma (1 - beta_v cos)). */
 static double straight(const struct kd_scene *scene, double alpha, double beta)
 {
     const struct kd_jets *j = &scene->jets;
@@ -80,7 +80,7 @@ static void test_far_away(void **state)
         "\"lorentz\":3,\"opening_deg\":10,\"counterjet\":false}}",
         /* the jet moves towards the observer: g is up to 200, from a difference of 1/20000 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY "\"lorentz\":100,\"opening_deg\":8}}",
-        /* so bright that g^12 is 2^70 */
+        /* g^12 is 2^70 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY
         "\"lorentz\":30,\"opening_deg\":8,\"spectral_index\":10}}",
     };
@@ -126,7 +126,7 @@ static void test_ratio(void **state)
         struct kd_frame frame = rendered(&scene);
         const double v = sqrt(1 - 1 / (lorentz[n] * lorentz[n])), c = cos(inclination[n] * M_PI / 180),
                      want = pow((1 + v * c) / (1 - v * c), 2 + index[n]);
-        for (int y = 0; y < 2; y++) { /* two places, at 2.2e5 and 1.9e5 M, away from the ends of the light */
+        for (int y = 0; y < 2; y++) { /* two places at 2.2e5 and 1.9e5 M, which are away from the ends of the jets */
             const double near = (double)intensity(&frame)[y * WIDTH + WIDTH / 2],
                          away = (double)intensity(&frame)[(HEIGHT - 1 - y) * WIDTH + WIDTH / 2];
             if (!(fabs(near / away / want - 1) < 1e-2))
@@ -220,8 +220,8 @@ static void jet_below(void *user, const struct ks_photon *p, double r, double u,
 
 /* Jets from next to the horizon, on rays that fall in. No ray turns, at any latitude. There the charge's term in -k.U
  * across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to matter. Light as g^10 changes by large factors
- * within a stretch of the march, most of all where a ray crosses the axis. The march's error is then 7.5e-3 by the
- * profile "balanced" and 3e-4 by "high". */
+ * within a stretch of the march, most of all where a ray crosses the axis. There the march's error is 7.5e-3 with the
+ * profile "balanced" and 3e-4 with "high". */
 static void test_beside_the_horizon(void **state)
 {
     /* rows of spin, charge, i */
@@ -264,7 +264,7 @@ static void test_beside_the_horizon(void **state)
     assert_true(lit > 20);
 }
 
-/* Twice the brightness gives twice the light; switched off there is no ray marching. */
+/* Twice the brightness gives twice the light. Without jets there is no ray marching. */
 static void test_scaling(void **state)
 {
     struct kd_scene scene = scene_of("{\"camera\":{\"field_m\":60},\"jets\":{\"brightness\":0.1}}"), twice = scene;

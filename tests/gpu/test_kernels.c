@@ -47,11 +47,11 @@ static void noted_kernels_are_made_once(void **state)
             assert_ptr_not_equal(all[i], all[k]);
     assert_int_equal(made(), before + 3);
     kd_kernels_note(&renderer->kernels);
-    kd_kernels_make(&renderer->kernels, renderer->vk); /* no kernel is missing */
+    kd_kernels_make(&renderer->kernels, renderer->vk); /* does nothing, because no kernel is missing */
     assert_int_equal(made(), before + 3);
 }
 
-/* More kernels are requested than can be recorded. The rest is compiled at first use. */
+/* If more kernels are requested than can be recorded, the others are compiled at first use. */
 static void what_cannot_be_made_is_told_later(void **state)
 {
     (void)state;
@@ -228,7 +228,7 @@ static bool has_kernel(const char *name)
     return false;
 }
 
-/* The steps of a pixel's explanation take two kernels of lists of rays. */
+/* The explanation of a pixel with its steps needs two kernels of lists of rays. */
 static void steps_of_a_pixel(void **state)
 {
     (void)state;
@@ -259,7 +259,7 @@ static bool lacks(void *user, struct kd_compilation *c, bool background)
     return !lack.gives_up;
 }
 
-/* If the driver stops rays early, one more kernel is needed. It is compiled once, by any thread. */
+/* If the driver stops rays early, one more kernel is needed. Any thread may compile it, and only one does. */
 static void a_kernel_that_nobody_foresaw(void **state)
 {
     (void)state;

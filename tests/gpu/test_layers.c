@@ -113,8 +113,9 @@ static void expected(const struct kd_scene *scene, const struct ks_path *path, i
     out[R] = r;
     out[PHI] = path->phi[n] + scene->camera.azimuth_deg * M_PI / 180;
     out[DELAY] = path->delay[n];
-    out[ANGLE] = acos(fmin(fabs(path->p_z[n]) / emitted,
-                           1)); /* g: in the plane the unit normal is along z, in which the gas does not move */
+    /* the cosine of the angle contains g, because in the plane the unit normal is along z, and the gas does not move
+     * along z */
+    out[ANGLE] = acos(fmin(fabs(path->p_z[n]) / emitted, 1));
 }
 
 static double apart(int kind, double x, double y)
@@ -161,7 +162,7 @@ static void judge(const struct kd_scene *scene, const struct kd_frame *frame, co
                 if (i == DELAY && !delay)
                     continue;
                 double gain = apart(i, moved[i], want[i]) / 1e-6, scale = i == R || i == DELAY ? 1 + fabs(want[i]) : 1;
-                /* sensitivity from the slope of the arc cosine */
+                /* the sensitivity of an angle is the slope of the arc cosine */
                 double steep = i == ANGLE ? 1 / fmax(sin(want[i]), 1e-3) : 1;
                 worst[i] = fmax(worst[i], apart(i, values[i][n][k], want[i]) / (scale * steep + gain));
             }
@@ -312,8 +313,8 @@ static double product(double a, double r, double x_t, double x_phi, double y_t, 
            delta;
 }
 
-/* Gas falling from the ISCO has a place, a temperature and a g. g is that of its four-velocity, with the E and L of the
- * ISCO, with its radial part from u.u = -1 and the light's from p.p = 0. */
+/* Gas falling from the ISCO has a place, a temperature and a g. g follows from its four-velocity, which has the E and L
+ * of the ISCO. The radial parts follow from u.u = -1 and, for the light, from p.p = 0. */
 static void test_plunge(void **state)
 {
     (void)state;
@@ -555,8 +556,9 @@ static void test_one_frequency(void **state)
                 const double kelvin =
                     f * peak * pow(kd_disk_flux_page_thorne(kd_hole(0.9), r[k]) / largest, 0.25) * g[k];
                 const double x = H * nu / (K * kelvin), i = 2 * H * nu * (nu / C) * (nu / C) / expm1(x) / pow(f, 4);
-                const double bound = 2e-5 + 2e-4 * x;                          /* the table of T is good to 2e-4 */
-                if (i * 1e23 < 1e-30 || i * C * C / (2 * K * nu * nu) < 1e-30) /* near the largest float */
+                const double bound = 2e-5 + 2e-4 * x; /* the table of T is good to 2e-4 */
+                /* skipped, because the value is near the smallest or largest float */
+                if (i * 1e23 < 1e-30 || i * C * C / (2 * K * nu * nu) < 1e-30)
                     continue;
                 if (!(fabs(light[k] / (i * 1e23) - 1) < bound) ||
                     !(fabs(t[k] / (i * C * C / (2 * K * nu * nu)) - 1) < bound))
@@ -569,7 +571,7 @@ static void test_one_frequency(void **state)
         }
 }
 
-/* Light that is too bright for 32 bits gives an error that names it. Other light is finite, and scales with the
+/* Light that is too bright for 32 bits gives an error that says so. Other light is finite, and scales with the
  * brightness of the matter. */
 static void test_too_bright(void **state)
 {

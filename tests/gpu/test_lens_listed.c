@@ -1,5 +1,5 @@
-/* Tests of lens maps from listed rays in double precision, compared with the kernels' in single precision: they differ
- * in the way from a pixel to its ray, and there are three methods from a ray to its end. Also tests rays whose tracing
+/* Tests of lens maps from listed rays in double precision, compared with the kernels' in single precision: the two
+ * compute the ray of a pixel differently, and there are three methods of tracing a ray. Also tests rays whose tracing
  * was given up. */
 #include "render_support.h"
 
@@ -155,7 +155,7 @@ static void test_slices(void **state)
     OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity,
                         &cut.plan, &error));
     assert_true(cut.plan.picture.bands > 5);
-    cut.plan.cost.trace_ns = 1e7; /* slow enough that a slice is a part of a row */
+    cut.plan.cost.trace_ns = 1e7; /* the device is taken to be so slow that a slice is a part of a row */
     cut.planes = test_malloc(sizeof(float) * cut.plan.lens.planes * cut.plan.lens.rays);
     OK(kd_render_lens(renderer, &scene, &cut.plan, cut.planes, NULL, &error));
     assert_memory_equal(whole.planes, cut.planes, sizeof(float) * whole.plan.lens.planes * whole.plan.lens.rays);
@@ -163,9 +163,9 @@ static void test_slices(void **state)
     test_free(cut.planes);
 }
 
-/* Tests what the profiles promise for crossing radii, as median and largest error against the closed form, over the
- * bulk set from the ISCO to 1000 M. The rows of the accuracy table that the profiles use promise less, but over all
- * sets. */
+/* Tests the errors of crossing radii that the profiles promise: the median and the largest error against the closed
+ * form, over the bulk set from the ISCO to 1000 M. The accuracy table states larger errors for the rows that the
+ * profiles use, because it covers all sets. */
 static void test_profiles(void **state)
 {
     (void)state;
@@ -263,7 +263,7 @@ static void test_given_up(void **state)
         sky += magenta((unsigned char *)kd_frame_pixels(&frame) + 3 * (40 * 20 + i));
     assert_true(sky > 0); /* tests that some rays see the sky in front of which there is no disk */
     kd_frame_finish(&frame);
-    memset(map->key, 0, sizeof map->key); /* other tests must not find this map */
+    memset(map->key, 0, sizeof map->key); /* changes the key, so that other tests do not find this map */
 }
 
 /* An engine, precision or tolerance that is not available is refused before any ray is traced. */

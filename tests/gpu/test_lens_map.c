@@ -63,7 +63,7 @@ static bool has_closed_form(const struct view *v)
     return v->r > 1.05 * kd_kerr_outermost_photon_orbit(&hole);
 }
 
-/* steps: of a half period; 0: the plan's choice. */
+/* steps: number of steps of a half period; 0: the plan's choice. */
 static struct lens trace(const struct view *v, const struct kd_needs *needs, int orders, int steps)
 {
     struct kd_scene scene;
@@ -135,7 +135,7 @@ static void judge(const struct view *v, const struct lens *lens, const struct sa
         radius->errors[radius->count++] = fabs(1 / (double)w / r - 1) / (1 + gain);
         radius->worst = fmax(radius->worst, radius->errors[radius->count - 1]);
         if (!kd_plan_holds(&lens->plan.lens, KD_LENS_PHI) ||
-            r < 1.6 * inner) /* Boyer-Lindquist azimuth diverges at the horizon */
+            r < 1.6 * inner) /* skipped, because Boyer-Lindquist azimuth diverges at the horizon */
             continue;
         double phi_gain = turn(s->beside.phi[n] - s->path.phi[n]) / s->nudge;
         float phi = lens->planes[(ORDERS + n) * (int)lens->plan.lens.rays + k];
@@ -371,8 +371,8 @@ static void test_shadow(void **state)
     test_free(planes);
 }
 
-/* The edge of the shadow of charged holes without spin (J. Eiroa et al. 2002, Phys. Rev. D 66, 024010), in a row of
- * pixels of 1e-8 M. */
+/* The edge of the shadow of charged holes without spin (J. Eiroa et al. 2002, Phys. Rev. D 66, 024010), seen in a row
+ * of pixels 1e-8 M wide. */
 static void test_charged_shadow(void **state)
 {
     (void)state;

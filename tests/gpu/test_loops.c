@@ -89,7 +89,7 @@ static struct ks_screen screen_of(const struct kd_scene *scene, double x, double
 }
 
 /* I, Q and U of the spot. At each place its gas moves on the circular orbit through that place. Its light, I_nu ~
- * nu^-index, arrives multiplied by g^(3 + index), where g here is the inverse `.g`; 3/4 of it is polarised. */
+ * nu^-index, arrives multiplied by g^(3 + index), where g is the inverse of `.g`. 3/4 of the light is polarised. */
 static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, enum ks_field field, double isco,
                          double out[3])
 {
@@ -201,7 +201,7 @@ static void test_loops(void **state)
             const double want = out + (vertical ? atan2(sqrt(1 - sine * sine), v * sine) : 0), evpa = kd_light_evpa(&s);
             off = fmax(off, fabs(remainder(evpa - want, M_PI)));
             assert_true(kd_light_fraction(&s) < 0.75 &&
-                        /* less than at a single place, because it is a mean over the spot */
+                        /* the fraction is smaller than at a single place, because it is a mean over the spot */
                         kd_light_fraction(&s) > 0.74);
             turned += k ? remainder(atan2(s.u, s.q) - angle, 2 * M_PI) : 0;
             went += k ? remainder(out - place, 2 * M_PI) : 0;
@@ -212,7 +212,7 @@ static void test_loops(void **state)
                "the closed form\n",
                vertical ? "vertical" : "toroidal", turned / (2 * M_PI), went / (2 * M_PI), off / RADIAN);
         assert_true(fabs(turned / went - 2) < 1e-3 && fabs(fabs(went) - 2 * M_PI) < 1e-3);
-        assert_true(off < 0.3 * RADIAN); /* error of order size^2/r^2 */
+        assert_true(off < 0.3 * RADIAN); /* tolerance: the error is of order size^2/r^2 */
     }
 }
 
@@ -261,7 +261,7 @@ static void test_layers(void **state)
                     fabs(all->u) > 1e-3 * all->flux);
         const struct kd_light_report curve = light(&scene);
         assert_memory_equal(&curve.all, all, sizeof *all);
-        if (i == 2) { /* its I differs from that of unpolarised transfer */
+        if (i == 2) { /* I of polarised transfer differs from that of unpolarised transfer */
             kd_frame_finish(&frame);
             continue;
         }

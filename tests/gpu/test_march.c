@@ -79,11 +79,11 @@ static const struct view {
     { 0.9, 80, INFINITY, "{\"volume\":{\"outer\":11,\"opacity\":0.3,\"emissivity\":1}}" },
     { -0.7, 25, INFINITY, "{\"volume\":{\"inner\":7,\"outer\":10,\"opacity\":0}}" },
     { 0.95, 88, 30, "{\"volume\":{\"outer\":9,\"opacity\":2,\"emissivity\":3}}" },
-    { 0.5, 40, 7, "{\"volume\":{\"outer\":15,\"opacity\":0.01}}" }, /* cameras within the volume */
+    { 0.5, 40, 7, "{\"volume\":{\"outer\":15,\"opacity\":0.01}}" }, /* here the cameras are within the volume */
     { 0.3, 40, INFINITY, "{\"volume\":{\"inner\":3,\"outer\":30000,\"opacity\":0,\"emissivity\":1e-4}}" },
     { 0.3, 70, INFINITY,
       "{\"volume\":{\"inner\":18000,\"outer\":30000,\"opacity\":2e-5,\"emissivity\":2e-5},\"camera\":{\"field_m\":"
-      "70000}}" }, /* far from the hole, where rays are straight */
+      "70000}}" }, /* the volume is far from the hole, where rays are straight */
     { 0.5, 75, INFINITY,
       "{\"spacetime\":{\"charge\":0.8},\"volume\":{\"outer\":11,\"opacity\":0.3,\"emissivity\":1}}" },
     { 0, 60, 9, "{\"spacetime\":{\"charge\":0.95},\"volume\":{\"outer\":15,\"opacity\":0.01}}" },
@@ -227,7 +227,8 @@ static struct thin_errors thin_limit(struct kd_scene scene, double height)
 
 /* A thick disk of almost no height equals the thin one, with opacity by depth, a chosen opacity, and its taper. Where
  * the flux vanishes steeply, at the inner edge of a disk seen nearly edge-on, the difference is the height itself,
- * because the ray meets the gas a little further in. The difference halves with the height, and extrapolates to 0. */
+ * because the ray meets the gas a little further in. The difference is proportional to the height, and its
+ * extrapolation to height 0 vanishes. */
 static void test_thin_limit(void **state)
 {
     (void)state;
@@ -255,7 +256,7 @@ static void test_thin_limit(void **state)
 
 enum { COLUMNS = 128, ROWS = 32 };
 
-/* Mean light of a row, over the columns whose rays both frames followed to their ends. */
+/* Mean light of a row, over the columns whose rays ended regularly in both frames. */
 static double row_of(const struct kd_frame *frame, const struct kd_frame *other, int y, int *left_out)
 {
     double sum = 0;
@@ -295,7 +296,8 @@ static void test_no_bands(void **state)
         printf("%s: %d rows, worst %.2g of their own light; %d rays left out\n", stirred ? "stirred" : "smooth",
                compared, worst, left_out / 2);
         assert_true(compared == ROWS && worst < 0.005 &&
-                    left_out / 2 < ROWS * COLUMNS / 4); /* lavapipe stops so long a march on 832 of 4096 rays */
+                    /* the march is so long that lavapipe stops it on 832 of 4096 rays */
+                    left_out / 2 < ROWS * COLUMNS / 4);
         kd_frame_finish(&plain);
         kd_frame_finish(&fine);
     }
@@ -421,7 +423,7 @@ static void test_order_of_pictures(void **state)
 {
     (void)state;
     struct kd_frame first = picture_of(90, KD_VOLUME_UNIFORM);
-    for (int32_t k = 0; k <= KD_LENS_MAPS_KEPT; k++) { /* enough to evict the first picture's map */
+    for (int32_t k = 0; k <= KD_LENS_MAPS_KEPT; k++) { /* renders enough pictures to evict the map of the first one */
         struct kd_frame other = picture_of(40 + k, KD_VOLUME_UNIFORM);
         kd_frame_finish(&other);
     }

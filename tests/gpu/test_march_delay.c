@@ -112,7 +112,7 @@ static void test_delays(void **state)
         { 0.998, 17, INFINITY, "{}" },
         { -0.7, 150, INFINITY, "{}" },
         { 0.95, 88, 60, "{}" },
-        { 0.5, 40, 7, "{}" },                                                     /* from within */
+        { 0.5, 40, 7, "{}" },                                                     /* the camera is within the volume */
         { 0.9, 89, 1.9, "{\"camera\":{\"observer\":\"zamo\",\"fov_deg\":120}}" }, /* within the ergosphere */
         { 0, 60, INFINITY, "{\"spacetime\":{\"charge\":0.9}}" },
         { 0.6, 80, 20, "{\"spacetime\":{\"charge\":0.7}}" },
@@ -198,8 +198,8 @@ static void test_thin(void **state)
     }
 }
 
-/* Seen along the axis, the light of a circle was emitted at one time, so that the circle equals that of one earlier
- * picture. */
+/* Seen along the axis, all light of a circle was emitted at one time. The circle therefore equals the same circle of an
+ * earlier picture. */
 static void test_face_on(void **state)
 {
     (void)state;
@@ -229,8 +229,8 @@ static void test_face_on(void **state)
     kd_frame_finish(&slow);
 }
 
-/* There is no NaN next to the horizon, where the emission time diverges, nor far away. Within the horizon such a
- * picture is refused. */
+/* Pictures contain no NaN, either next to the horizon, where the emission time diverges, or far away. Pictures from
+ * within the horizon are refused. */
 static void test_extremes(void **state)
 {
     (void)state;

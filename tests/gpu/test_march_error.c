@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { WIDTH = 192, HEIGHT = 108, PIXELS = WIDTH * HEIGHT }; /* of the largest picture */
+enum { WIDTH = 192, HEIGHT = 108, PIXELS = WIDTH * HEIGHT }; /* the size of the largest picture */
 
 static struct kd_scene scene_of(const char *preset, const char *json)
 {
@@ -38,8 +38,8 @@ static struct kd_frame by_plan(const struct kd_scene *scene, uint32_t fine, uint
 
 static const float *intensity(const struct kd_frame *frame) { return kd_frame_layer(frame, "intensity")->data; }
 
-/* Errors relative to a pixel's light, or to a thousandth of the brightest pixel's, among the pixels that differ: the
- * 80, 90 and 96 % quantiles, and the largest. */
+/* Errors relative to a pixel's light, or to a thousandth of the brightest pixel's, over the pixels that differ: the 80,
+ * 90 and 96 % quantiles, and the maximum. */
 struct errors { double eight, nine, most, worst; };
 
 static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
@@ -59,7 +59,8 @@ static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
     }
     print_message("%d of %d rays left out\n", left_out, pixels);
     assert_true(n > pixels / 20 &&
-                left_out < pixels / 40); /* lavapipe stops so long a march on 252 of 20 736 rays, in turbulence */
+                /* the march through turbulence is so long that lavapipe stops it on 252 of 20 736 rays */
+                left_out < pixels / 40);
     qsort(off, (size_t)n, sizeof *off, by_value);
     return (struct errors) { off[n * 8 / 10], off[n * 9 / 10], off[n * 96 / 100], off[n - 1] };
 }
@@ -182,8 +183,8 @@ static void test_stirred(void **state)
     kd_frame_finish(&fine);
 }
 
-/* Closer rays resolve more octaves of the noise and are marched more finely: a picture of usual size meets the
- * target of "balanced". */
+/* Rays closer together resolve more octaves of the noise, so the march takes shorter steps. A picture of usual size
+ * then meets the target of "balanced". */
 static void test_close_rays(void **state)
 {
     (void)state;
@@ -209,8 +210,8 @@ static void test_close_rays(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The sketch of a changing view is marked as a sketch, measures its error, and is as accurate as it states. It leaves
- * out fine octaves and does not change the lens map. */
+/* The sketch of a changing view is marked as a sketch, measures its error, and is as accurate as it states. The sketch
+ * leaves out fine octaves and does not change the lens map. */
 static void test_sketch(void **state)
 {
     (void)state;

@@ -63,7 +63,7 @@ static void test_mean(void **state)
     }
     printf("%d pixels: worst %.2g; %d refined: worst %.2g\n", WIDTH * HEIGHT, worst, refined, worst_chosen);
     assert_true(worst < 1e-5 && refined > WIDTH * HEIGHT / 8 &&
-                worst_chosen < 0.01); /* the footprint of a listed ray is measured differently */
+                worst_chosen < 0.01); /* tolerance: the footprint of a listed ray is measured differently */
     struct kd_frame *all[] = { &rays, &many, &one, &chosen };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         kd_frame_finish(all[i]);

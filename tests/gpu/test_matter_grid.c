@@ -184,7 +184,7 @@ static void fill(struct numbers *g, uint32_t seed, double rough)
     }
 }
 
-/* The column at theta in a row, by lines between the angles of its nodes. */
+/* The column at theta in a row, interpolated linearly between the angles of the nodes. */
 static double column_of(const struct numbers *g, double row, double theta)
 {
     double column = 0;
@@ -369,7 +369,7 @@ static void test_adversarial(void **state)
     for (size_t i = 0; i < 4 * sizeof extremes / sizeof *extremes; i++) {
         const int of = extremes[i / 4].of, last = of == 5 ? 8 : of == 2 ? 5 : of + 1;
         static struct numbers g = { .rows = 6, .columns = 5, .layers = 4, .a = 0.9 };
-        g.r[0] = 1, g.r[1] = 30;         /* the first rows lie inside the horizon */
+        g.r[0] = 1, g.r[1] = 30;         /* here the first rows lie inside the horizon */
         g.q = i % 3 ? 0 : 0.43588989435; /* horizons 4e-6 M apart */
         fill(&g, 7, 0.4);
         for (int k = of; k < last; k++)
@@ -420,8 +420,8 @@ static enum kd_status render_one(struct kd_renderer *r, const struct kd_scene *s
     return kd_render(r, scene, &plan, NULL, NULL, out, why);
 }
 
-/* A thread reads a grid before a picture needs it, and the picture then does not read it. A grid that is on the device
- * is not read again. A missing file is an error at the field until the file is there. */
+/* A thread reads a grid before a picture needs it. The picture then does not read it, and neither does one whose grid
+ * is already on the device. While the file is missing, a picture is refused with an error at the field. */
 static void test_reading(void **state)
 {
     (void)state;

@@ -1,7 +1,7 @@
 /* A camera with an arbitrary velocity, so that every leg of its tetrad has every component. The lens map by both
- * kernels, and the labels of a pixel, are compared with the Kerr-Schild oracle. From a frame of zero angular momentum,
- * the oracle follows the directions into which aberration turns those of the picture. No observer of the table moves
- * like this; this camera replaces one. */
+ * kernels, and the labels of a pixel, are compared with the Kerr-Schild oracle. The oracle applies aberration to the
+ * directions of the picture, and follows them from a frame of zero angular momentum. No real kind of observer moves
+ * like this; the test replaces one of them. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "physics/spacetime/observer.h"
@@ -122,9 +122,10 @@ static void map(const struct kd_scene *scene, enum kd_lens_path path, const char
     qsort(errors, n, sizeof *errors, by_value);
     print_message("%s: %zu crossings, error %.1e in the median, %.1e at most\n", engine, n, errors[n / 2],
                   errors[n - 1]);
-    assert_true(wrong == 0 && n > 30); /* a near camera that looks past the hole sees little of the plane */
+    assert_true(wrong == 0 && n > 30); /* few crossings are required, because a near camera that looks past the hole
+                                          sees little of the plane */
     assert_true(errors[n / 2] < 2e-7 &&
-                errors[n - 1] < 1e-5); /* some roundings of a float, and more near turning points */
+                errors[n - 1] < 1e-5); /* the bound is some roundings of a float, which grow near turning points */
 }
 
 static void moving(void **state)

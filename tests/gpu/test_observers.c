@@ -356,8 +356,8 @@ static void look_around(double spin, double inclination, double r, float ends[FA
     }
 }
 
-/* The view is continuous across the horizon, in all directions, also on the axis: no ray is given up or lost, and
- * each ends where it does a millionth of the radius away. */
+/* The view is continuous across the horizon, in all directions, also on the axis: no ray is given up or lost. Each ray
+ * ends at the same place as from a millionth of the radius away. */
 static void no_seam_at_the_horizon(void **state)
 {
     (void)state;
@@ -385,7 +385,8 @@ static void no_seam_at_the_horizon(void **state)
                                  moved = hypot(acos(end[0]) - acos(before[0]), s * turn(end[RAYS] - before[RAYS]));
                     turned += moved > 1e-4 + 100 * apart;
                 }
-            /* Within 0.01 of the critical curve, some rays in a hundred move by 100 times as much. */
+            /* Some rays in a hundred are within 0.01 of the critical curve. These move by 100 times as much as
+             * others. */
             if (turned > FACES * RAYS / 100 || (k && sky < FACES * RAYS / 3))
                 fail_msg("a = %g, inclination %g, r = %.7g: %zu of %zu rays end elsewhere than next to it", spins[i],
                          inclinations[i], r, turned, sky);

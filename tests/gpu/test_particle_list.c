@@ -84,8 +84,8 @@ static void test_phase(void **state)
     assert_true(worst < 1e-6);
 }
 
-/* E, L and the norm in the metric of a hole (spin, charge), from a place in or off the equatorial plane and the rates
- * of change there. */
+/* E, L and the norm in the metric of a hole (spin, charge), computed from a place in or off the equatorial plane and
+ * from the rates of change there. */
 struct constants { double energy, momentum, norm; };
 static struct constants constants_of(const double hole[2], const struct row *p)
 {
@@ -181,7 +181,7 @@ static void test_rates(void **state)
     double worst = 0;
     for (size_t i = 0; i < n; i++) {
         if (now[i].r < 9)
-            continue; /* too fast for differences over such a step */
+            continue; /* skipped, because this particle is too fast for differences over such a step */
         double dphi = remainder((double)after[i].phi - before[i].phi, 2 * M_PI) / 2;
         worst = fmax(worst, fabs((after[i].r - before[i].r) / 2 - now[i].dr));
         worst = fmax(worst, fabs(dphi - now[i].dphi));

@@ -24,7 +24,7 @@ static struct kd_scene particle_scene(double spin, double epicycles)
     return scene;
 }
 
-#define N 97 /* particles, of all radii */
+#define N 97 /* some particles of all radii */
 
 static void places_at(struct kd_scene *scene, double time, struct kd_particle_place *out)
 {
@@ -92,7 +92,7 @@ static void sample(struct period *p, int i, double step, double value)
 }
 static double period(const struct period *p) { return (p->last - p->first) / (p->zeros - 1); }
 
-/* The frequencies of small oscillations by another method: those of a bound geodesic close to a circle
+/* The frequencies of small oscillations by another method, as those of a bound geodesic close to a circle
  * (src/physics/orbit/orbit_bound.h, which shares nothing with epicyclic.c). */
 static struct kd_orbit_frequencies frequencies(const struct kd_hole *hole, double r)
 {
@@ -132,7 +132,7 @@ static void test_periods(void **state)
         }
         for (int i = 0; i < N; i++) {
             struct kd_orbit_frequencies f = frequencies(&hole, r[i]);
-            /* next to the ISCO the oscillation is too slow and too small to be resolved in r, which is a float */
+            /* skipped next to the ISCO, where the oscillation is too slow and too small to be resolved in r, a float */
             if (f.r < 0.1 * f.phi)
                 continue;
             judged++;
@@ -225,7 +225,7 @@ static void test_turning(void **state)
     scene.disk.inner = 10;
     scene.disk.outer = 10.4;
     scene.disk.taper = 0;
-    scene.disk.particles = 1000; /* coarse: the shear from edge to edge is half a cell */
+    scene.disk.particles = 1000; /* the grid is coarse, so that the shear from edge to edge is half a cell */
     scene.disk.doppler = false;
     scene.style.exposure = 0;
     struct kd_frame start = rendered(&scene);
@@ -268,7 +268,7 @@ static void test_edges(void **state)
         for (int x = 0; x < scene.image.width; x++) {
             const double b = pixel * hypot(x + 0.5 - middle, y + 0.5 - middle);
             const uint8_t *rgb = (uint8_t *)kd_frame_pixels(&frame) + 3 * (y * scene.image.width + x);
-            const bool light = rgb[0] + rgb[1] + rgb[2] > 12; /* more than dither */
+            const bool light = rgb[0] + rgb[1] + rgb[2] > 12; /* a sum above 12 is more than dither */
             lit += light && b > 14 && b < 18;
             outside += light && b > sqrt(18 * 18 + 2 * 18) + 1;
             within += light && b < sqrt(12 * 12 + 2 * 12) - 1;
@@ -280,9 +280,8 @@ static void test_edges(void **state)
 
 /* Light with delay D shows the disk at t - D. So a pixel of a picture with slow light equals that of a picture with
  * fast light at t - D, where D is the delay of its ray. This holds for an observer at infinity and a near one, and
- * about a charged hole. The two are not equal to the last step, because a grid that is rotated by a part of a cell is
- * blurred differently. The charged hole has so many particles that its angular velocity without charge would turn them
- * by several cells. */
+ * about a charged hole. The pixels agree only approximately, because a grid that is rotated by a part of a cell is
+ * blurred differently. About the charged hole the angular velocity without charge would be wrong by several cells. */
 static void test_slow_light(void **state)
 {
     (void)state;

@@ -62,7 +62,7 @@ static void add_stretches(const struct kd_probed_ray *told, size_t *s, uint32_t 
     }
 }
 
-/* The light as it arrives: the parts of the emitters, combined front to back. */
+/* The light that arrives, from the parts of the emitters, combined front to back. */
 static void add_up(const struct kd_probed_ray *told, double sum[3])
 {
     double through = 1;
@@ -648,7 +648,8 @@ static void volumes(void **state)
                     near("its light", (double)v->light[c], (double)alone.told->radiance[c],
                          5e-4 * (double)alone.told->radiance[c]);
                 lit[k] += v->light[0] > 0;
-                dim += hides && k && v->light[0] < 0.9f * alone.told->middle.light[0]; /* behind the shell's matter */
+                /* these are behind the shell's matter */
+                dim += hides && k && v->light[0] < 0.9f * alone.told->middle.light[0];
                 kd_frame_finish(&alone);
             }
             kd_frame_finish(&frame);
@@ -668,7 +669,7 @@ static void encoded(const struct kd_scene *scene, const struct kd_plan *plan, st
 }
 
 /* If a pixel does not depend on the rest of the picture, it is explained from itself and a margin alone, with the same
- * bytes. With an automatic exposure, which depends on the whole picture, it is not. */
+ * bytes. With automatic exposure, a pixel depends on the whole picture, and the whole picture is rendered. */
 static void alone(void **state)
 {
     (void)state;
@@ -694,7 +695,7 @@ static void alone(void **state)
         OK(kd_explain_at(at, &plan, &error));
         narrow = scene, less = plan;
         OK(kd_explain_narrow(&c, &narrow, &less, &error));
-        /* stars need a wide margin, so more rays are traced */
+        /* skipped for stars, which need a wide margin, so that more rays are traced */
         assert_true(less.lens.rays < plan.lens.rays || scene.sky.model);
         encoded(&scene, &plan, &texts[0]);
         encoded(&narrow, &less, &texts[1]);
@@ -720,7 +721,8 @@ static bool until_done(void *user, double fraction)
     return true;
 }
 
-/* What is compiled ahead for a picture is all that its pixels need, at the critical curve and elsewhere. */
+/* The kernels that are compiled ahead for a picture are all that the explanation of its pixels needs, at the critical
+ * curve and elsewhere. */
 static void kernels_ahead(void **state)
 {
     (void)state;
@@ -759,16 +761,12 @@ static void kernels_ahead(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(kernels_ahead), /* before others have made the kernels */
-                                        cmocka_unit_test(sums),
-                                        cmocka_unit_test(many_rays),
-                                        cmocka_unit_test(volumes),
-                                        cmocka_unit_test(layers),
-                                        cmocka_unit_test(velocity_of_gas),
-                                        cmocka_unit_test(other_pictures),
-                                        cmocka_unit_test(negative_energies),
-                                        cmocka_unit_test(from_within),
-                                        cmocka_unit_test(places),
+    /* runs first, before other tests have compiled the kernels */
+    const struct CMUnitTest tests[] = { cmocka_unit_test(kernels_ahead),  cmocka_unit_test(sums),
+                                        cmocka_unit_test(many_rays),      cmocka_unit_test(volumes),
+                                        cmocka_unit_test(layers),         cmocka_unit_test(velocity_of_gas),
+                                        cmocka_unit_test(other_pictures), cmocka_unit_test(negative_energies),
+                                        cmocka_unit_test(from_within),    cmocka_unit_test(places),
                                         cmocka_unit_test(alone) };
     int status = open_renderer();
     return status ? status : close_renderer(cmocka_run_group_tests_name("pixel", tests, NULL, NULL));

@@ -126,7 +126,7 @@ static void thermal(double n, double theta, double turn, double sine, double nu,
     const double x = nu / (2.0 / 9 * turn * theta * theta * sine),
                  shape = sqrt(x) + pow(2, 11.0 / 12) * pow(x, 1.0 / 6);
     out[0] = out[1] = 0;
-    if (!(x < 1e6)) /* skipped, because this part contributes only e^-100 of the total */
+    if (!(x < 1e6)) /* skipped, because here the contribution is only e^-100 of the total */
         return;
     out[0] = n * E2 * turn / C * sqrt(2) * M_PI / 27 * sine * shape * shape * exp(-cbrt(x));
     out[1] = out[0] * expm1(H * nu / (theta * ME * C * C)) * C * C / (2 * H * nu * nu * nu);
@@ -235,8 +235,8 @@ static double kelvin(const struct kd_scene *scene, int i)
            (2 * K * nu * nu);
 }
 
-/* The inner edges are where the light is still 0, because the oracle's quadrature is inaccurate where light grows
- * without bound. The outer edges are close to the hole, to save time. */
+/* At the inner edges the light is still 0, because the oracle's quadrature is inaccurate where light grows without
+ * bound. The outer edges are close to the hole, to save time. */
 static const struct view {
     const char *preset, *json;
     double allowed;
@@ -348,7 +348,8 @@ static void test_deep(void **state)
                 fail_msg("density %s, pixel %d: %g K, %g K at the least of them", densities[i], p,
                          (double)kelvin_of(&frame)[p], first[p]);
         }
-        /* At rest at 20 M, in the middle of the picture: T sqrt(1 - 2/r), to the order of frame dragging. */
+        /* Matter at rest at 20 M, in the middle of the picture, is seen with T sqrt(1 - 2/r), apart from frame
+         * dragging. */
         assert_true(fabs(first[PIXELS / 2] / (3e11 * sqrt(0.9)) - 1) < 0.01);
         kd_frame_finish(&frame);
     }
@@ -356,7 +357,7 @@ static void test_deep(void **state)
 
 /* The standard test sphere of such programs (ipole's model/sphere): R = 100 GM/c^2 of 4.1e6 suns, Theta = 10,
  * Thomson depth 1e-5, beta 20, the field along the axis. A hole of a hundredth of that mass hardly bends its light,
- * so that the flat-space closed form in depth applies. */
+ * so that the closed form of flat space in the optical depth applies. */
 static void test_sphere(void **state)
 {
     (void)state;
@@ -447,7 +448,7 @@ static void test_the_camera_of_ipole(void **state)
         struct kd_frame frame = rendered(&scene);
         const double left = 1 - kd_flux_jy(&scene, &frame) / fluxes[i].jy;
         printf("riaf at %g degrees: %.3f %% are left\n", fluxes[i].deg, 100 * left);
-        assert_true(fabs(left - fluxes[i].left) < 4e-4); /* one ray a pixel */
+        assert_true(fabs(left - fluxes[i].left) < 4e-4); /* these numbers are for one ray a pixel */
         kd_frame_finish(&frame);
     }
 }
@@ -579,7 +580,7 @@ static void test_held(void **state)
     assert_true(fabs(exact / first - 1) > 0.01);
 }
 
-/* Errors where no density exists: no matter, and matter that absorbs itself. */
+/* No density gives the flux if there is no matter, or if matter absorbs its own light. Both are errors. */
 static void test_not_normalised(void **state)
 {
     (void)state;

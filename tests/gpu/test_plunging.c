@@ -36,7 +36,8 @@ static void places_at(struct kd_scene *scene, double time, struct kd_particle_pl
     OK(kd_particles_places(&work, scene, 0, 1, FALLING, out, &error));
 }
 
-/* dr/dt and dphi/dt of a falling body with the ISCO's E and L: raised by the inverse metric, u.u = -1 gives u^r. */
+/* dr/dt and dphi/dt of a falling body with the ISCO's E and L: the inverse metric raises the indices, and u^r follows
+ * from u.u = -1. */
 static void slopes(const struct kd_hole *hole, double r, double *dr, double *dphi)
 {
     double a = hole->a, q = hole->q, isco = kd_kerr_isco(hole), e = kd_kerr_energy(hole, isco),
@@ -112,8 +113,8 @@ static void test_geodesics(void **state)
     printf("plunges over %g M: r within %.2g, phi within %.2g rad\n", step, worst[0], worst[1]);
 }
 
-/* A steady stream at any time: uniform in coordinate time along the curve, and in azimuth. Each lap has another
- * azimuth, reproducibly. */
+/* The particles are a steady stream at any time: uniform in coordinate time along the curve, and in azimuth. Each fall
+ * of a particle has another azimuth, always the same one. */
 static void test_stream(void **state)
 {
     (void)state;
@@ -142,7 +143,7 @@ static void test_stream(void **state)
     }
 }
 
-/* w' of the lens map in single precision equals w' of listed rays in double precision, and has its sign. */
+/* w' of the lens map in single precision equals w' of listed rays in double precision, including its sign. */
 static void test_slopes(void **state)
 {
     (void)state;

@@ -18,7 +18,7 @@
 enum { WIDTH = 28, HEIGHT = 20, PIXELS = WIDTH * HEIGHT, STRIDE = 13 };
 #define RADIAN (M_PI / 180)
 #define DEGREES(x) ((x) / RADIAN)
-#define MOST 0.005 /* degrees: four times the worst effect of single precision */
+#define MOST 0.005 /* tolerance in degrees: four times the largest error of single precision */
 
 struct view {
     double spin, inclination, r, roll;
@@ -106,7 +106,7 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
     const double across = pixel % WIDTH - 0.5 * (WIDTH - 1), upwards = 0.5 * (HEIGHT - 1) - pixel / WIDTH;
     const double step = (far ? scene->camera.field_m : 2 * tan(scene->camera.fov_deg * RADIAN / 2)) / WIDTH;
     double x = step * across, y = step * upwards;
-    if (far) { /* a camera rotated clockwise */
+    if (far) { /* the camera is rotated clockwise */
         const struct ks_screen flat =
             ks_screen_far(scene->spacetime.spin, scene->spacetime.charge, theta, x * c + y * s, y * c - x * s);
         struct ks_screen turned = flat;
@@ -128,9 +128,9 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
     return ks_screen_near(&at, &frame, look, top);
 }
 
-/* Each place is judged where the order in question shines. Each half turn round the hole amplifies single-precision
- * errors by some 20. So the tolerance of order 1 is ten times as large, and its radius checks that both methods follow
- * the same ray. */
+/* Each place is tested at the order whose light is visible there. Each half turn round the hole amplifies
+ * single-precision errors by some 20. So the tolerance of order 1 is ten times as large, and its radius checks that
+ * both methods follow the same ray. */
 static void judge(const struct view *view)
 {
     static const char *const names[] = { "evpa_0", "evpa_1" }, *const parts[] = { "polarization_fraction_0",
@@ -365,8 +365,8 @@ static void test_returning(void **state)
     }
 }
 
-/* The optical depth of gas follows its flux, which reflection does not change, so that the disk is equally bright with
- * any albedo. */
+/* The optical depth of gas is derived from its flux. Reflection does not change the flux, so that the disk is equally
+ * bright with any albedo. */
 static void test_depth_of_reflecting_gas(void **state)
 {
     (void)state;

@@ -45,9 +45,9 @@ static uint32_t post(bool texels, bool film, bool wide, const float *light, stru
     return post_by(texels, (uint32_t[]) { film, wide }, 2, light, push, out);
 }
 
-/* Light 0.44 of a step from a level, on either side, is rounded to that level. It is 0.06 of a step away from where
- * rounding changes. That is 9e-7 of the whole range, the tolerance of the curve. The rounding of the light to a float
- * and of 65535 times the curve takes a twentieth of it. */
+/* Light 0.44 of a step from a level, on either side, is rounded to that level. Rounding changes 0.06 of a step further.
+ * This distance is 9e-7 of the whole range, the tolerance of the curve. The rounding of the light and of 65535 times
+ * the curve to floats uses up a twentieth of it. */
 static void every_level(void **state)
 {
     (void)state;
@@ -67,8 +67,8 @@ static void every_level(void **state)
     }
 }
 
-/* Interleaved gradient noise (J. Jimenez 2014) in double, from -1/2 to 1/2. The inner fraction is multiplied by 53, and
- * so is the kernel's rounding of sums of up to a few hundred. */
+/* Interleaved gradient noise (J. Jimenez 2014) in double, from -1/2 to 1/2. The inner fraction is multiplied by 53.
+ * This also multiplies the kernel's rounding of sums of up to a few hundred. */
 static double noise(double x, double y)
 {
     double inner = 0.06711056 * x + 0.00583715 * y, outer = 52.9829189 * (inner - floor(inner));
@@ -107,8 +107,8 @@ static void places(void **state)
         for (uint32_t i = 0; i < 3 * n; i++) {
             uint32_t at = cases[c].first + i / 3;
             double d = 0.998 * noise(at % cases[c].width, at / cases[c].width), v = level[i % 3] + 0.5 + d;
-            /* A value that is a tie within the errors of curve and noise may be rounded either way; so may one whose
-             * noise wraps round. */
+            /* Values that are ties within the errors of curve and noise may be rounded either way, and so may values
+             * whose noise wraps round. */
             bool tie = fabs(v - round(v)) < 0.1 || fabs(d) > 0.45;
             unsure += tie;
             assert_true(tie ? abs(found[i] - (int)floor((double)level[i % 3] + 0.5)) <= 1 : found[i] == (int)floor(v));
@@ -136,7 +136,7 @@ static void both_readers(void **state)
         post(false, film, wide, light, push, storage);
         post(true, film, wide, light, push, texels);
         assert_memory_equal(storage, texels, bytes);
-        for (int c = 0; c < 3; c++) { /* pixel 1001 is in the middle of its words */
+        for (int c = 0; c < 3; c++) { /* pixel 1001 begins in the middle of a word */
             float kept = light[3 * 1001 + c];
             light[3 * 1001 + c] = c ? INFINITY : NAN;
             post(true, film, wide, light, push, mended);
@@ -207,7 +207,7 @@ static void khronos(const double in[3], double out[3])
         out[c] = (out[c] * shown / peak) * (1 - g) + shown * g;
 }
 
-/* The kernel agrees with this to two steps of 16 bits of encoded value, from black to far beyond white. */
+/* The kernel agrees with khronos() to two steps of 16 bits of encoded value, from black to far beyond white. */
 static void neutral(void **state)
 {
     (void)state;

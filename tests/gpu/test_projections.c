@@ -154,12 +154,12 @@ static void outwards(void **state)
         scene.sky.model = KD_SKY_GRID;
         scene.disk.model = KD_DISK_NONE;
         struct kd_frame frame = rendered(&scene);
-        assert_in_range(frame.accuracy.undecided, 0, 3); /* rays next to the critical curve */
+        assert_in_range(frame.accuracy.undecided, 0, 3); /* only rays next to the critical curve are undecided */
         kd_frame_finish(&frame);
     }
 }
 
-/* The same for rays that start inwards, which fill an ellipse in a picture. All of their crossings must exist in the
+/* The same for rays that start inwards, which fill an ellipse of the picture. All of their crossings must exist in the
  * independent closed form in double. One crossing of this picture did not. */
 static void inwards(void **state)
 {

@@ -72,7 +72,7 @@ static void place(const struct view *v, const struct kd_critical *curve, size_t 
     double x = fraction(k, 0.7548776662466927), y = fraction(k, 0.5698402909980532), half = isinf(v->r) ? 12 : 8;
     out[0] = half * (2 * x - 1);
     out[1] = half * (2 * y - 1);
-    if (v->where == FLAT) { /* aimed at the hole along the disk's plane, where the polar motion varies most */
+    if (v->where == FLAT) { /* rays are aimed at the hole along the disk's plane, where the polar motion varies most */
         out[0] = 0.9 * (2 * x - 1);
         out[1] = -pow(10, -4 + 3.5 * y);
     }
@@ -317,7 +317,7 @@ static void test_tolerance(void **state)
         assert_true(10000 * held.silent <= held.crossings);
         assert_true(1000 * held.off <= held.crossings || k > 8);
         assert_true(10 * held.beyond <= held.rays ||
-                    k > 9); /* 1 in 24 at 1e-9; with the closed form alone, without f64, 1 in 19 */
+                    k > 9); /* at 1e-9 this is 1 ray in 24, and 1 in 19 with the closed form alone, without f64 */
     }
 }
 

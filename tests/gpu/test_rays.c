@@ -67,7 +67,7 @@ static void judge(int h, const struct kd_ray_crossing *crossings, const struct k
     for (int k = 0; k < RAYS; k++) {
         const struct ks_path *p = &paths[h][k], *q = &beside[h][k];
         if (p->crossings != q->crossings || p->fate != q->fate || p->fate == KS_UNDECIDED)
-            continue; /* the oracle itself is not stable within a millionth */
+            continue; /* skipped, because here the oracle itself changes its kind of ray within a millionth */
         int wanted = p->crossings < ORDERS ? p->crossings : ORDERS;
         if ((int)ends[k].n_crossings != wanted)
             fail_msg("hole %d, ray %d: %u crossings, the oracle has %d", h, k, ends[k].n_crossings, wanted);
@@ -89,8 +89,8 @@ static void judge(int h, const struct kd_ray_crossing *crossings, const struct k
     }
 }
 
-/* The oracle is accurate to some 2e-11 (start at r = 1e6, a thousand steps); its direction, taken at r = 1e8, to
- * 3e-7. */
+/* The oracle has an error of some 2e-11, with a start at r = 1e6 and a thousand steps. Its direction is taken at r =
+ * 1e8 and has an error of 3e-7. */
 static void check(enum kd_engine engine, enum kd_precision precision, double bound_r, double bound_phi,
                   double bound_delay, double bound_sky)
 {
@@ -463,7 +463,7 @@ static void test_tiny_labels(void **state)
         }
 }
 
-/* Light from the pole of a hole without spin, aimed back at its centre, falls in without a crossing. */
+/* A ray that starts on the axis of a hole without spin and aims at its centre falls in without a crossing. */
 static void test_nothing_to_be_wrong(void **state)
 {
     (void)state;

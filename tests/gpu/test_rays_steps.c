@@ -72,8 +72,8 @@ static void check_crossings(const struct kd_rays_steps *steps)
     assert_int_equal(found, steps->end.n_crossings);
 }
 
-/* The ray starts at the observer and ends at infinity or the horizon; Mino time increases except where steps are
- * taken back. */
+/* The ray starts at the observer and ends at infinity or the horizon; Mino time increases, except where the kernel
+ * takes steps back. */
 static void check_ends(const struct ray *ray, const struct kd_rays_steps *steps)
 {
     const struct kd_rays_step *first = &steps->steps[0], *last = &steps->steps[steps->n - 1];
@@ -109,8 +109,7 @@ static bool wide(void)
     return capacity.float64;
 }
 
-/* The bounds allow for some hundred steps, each with an error of a unit roundoff, and for the error of the usual
- * numbers of steps. */
+/* The bounds allow for the rounding of some hundred steps, and for the error of the usual number of steps. */
 static void test_mino(void **state)
 {
     (void)state;
@@ -153,8 +152,8 @@ static void test_refined(void **state)
     }
 }
 
-/* w' is the rate of w in the recorded time. It is tested by the trapezoidal rule, from the step before or, where steps
- * are taken back, from the crossing. */
+/* w' is the rate of w in the recorded time. It is tested by the trapezoidal rule, from the step before, or from the
+ * crossing if the kernel took steps back. */
 static void test_time(void **state)
 {
     (void)state;
@@ -194,7 +193,8 @@ static void test_kerr_schild(void **state)
         for (size_t k = 0; k < steps.n; k++) {
             const struct kd_rays_step *s = &steps.steps[k];
             assert_true(isnan(s->res_w) && isfinite(s->x) && s->stage != KD_STAGE_CROSSING);
-            if (s->r > 1.8 * (1 + sqrt(1 - rays[i].spin * rays[i].spin))) { /* steps further in have larger errors */
+            /* skipped, because steps further in have larger errors */
+            if (s->r > 1.8 * (1 + sqrt(1 - rays[i].spin * rays[i].spin))) {
                 assert_true(fabs(s->res_null) < bound && fabs(s->res_l) < 10 * bound);
                 assert_true(fabs(s->u * s->r - s->z) < 1e-9 * s->r);
             }

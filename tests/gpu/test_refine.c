@@ -148,8 +148,8 @@ static void test_target(void **state)
     kd_frame_finish(&truth);
 }
 
-/* With the cached lens map the picture is the same. In bands it is the same too, except for rays at their edges, which
- * are traced. By listed rays it is the same except next to an edge. A preview and the flux contain all rays. */
+/* The picture is the same with the cached lens map. In bands only rays at the edges of bands differ, because they are
+ * traced. With listed rays, only pixels next to an edge differ. A preview and the flux contain all rays. */
 static void test_same(void **state)
 {
     (void)state;
@@ -221,8 +221,8 @@ static struct kd_choice bent(const uint16_t *pixels, uint64_t most)
 
 static struct kd_pixel place(const struct kd_choice *c, size_t i) { return c->list.pixels[i]; }
 
-/* A faint curvature is chosen if there is nothing stronger, until almost no sum of squares is left. It is not chosen
- * beside an edge. */
+/* If a picture has no stronger curvature, pixels of faint curvature are chosen, until almost no sum of squares is left.
+ * If it has an edge, they are not chosen. */
 static void test_faint(void **state)
 {
     (void)state;
@@ -234,8 +234,8 @@ static void test_faint(void **state)
         kinds[x] = kinds[(H - 1) * W + x] = 1;
     for (int y = 0; y < H; y++)
         kinds[y * W] = kinds[y * W + W - 1] = 1;
-    pixels[3 * (3 * W + 4)] += 400;  /* curvatures of 800 and 400: less than 1311 */
-    pixels[3 * (5 * W + 11)] += 100; /* curvatures of 200 and 100; the former exceeds the floor, 132 */
+    pixels[3 * (3 * W + 4)] += 400;  /* these curvatures are 800 and 400, less than the threshold of 1311 */
+    pixels[3 * (5 * W + 11)] += 100; /* these curvatures are 200 and 100; only the former exceeds the floor of 132 */
     struct kd_choice choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 9 + 1);
     kd_choice_finish(&choice);
@@ -251,7 +251,7 @@ static void test_choice(void **state)
     (void)state;
     static uint16_t pixels[3 * W * H], before[3 * W * H];
     memset(kinds, 0, sizeof kinds);
-    for (int k = 0; k < W * H; k++) /* a steep, straight ramp */
+    for (int k = 0; k < W * H; k++) /* draws a steep, straight ramp */
         for (int c = 0; c < 3; c++)
             pixels[3 * k + c] = (uint16_t)(4000 * (k % W) + 300 * (k / W));
     struct kd_choice choice = bent(pixels, W * H);
@@ -261,7 +261,7 @@ static void test_choice(void **state)
                     place(&choice, i).y == H - 1);
     kd_choice_finish(&choice);
     memset(pixels, 0, sizeof pixels);
-    for (int k = 0; k < 9; k++) /* a square in one channel, by 0.03, one corner by 0.3 */
+    for (int k = 0; k < 9; k++) /* raises a square in one channel by 0.03, and one corner by 0.3 */
         pixels[3 * ((3 + k / 3) * W + 6 + k % 3) + 1] = k ? 1966 : 19660;
     choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 25); /* the pixels of the square and its neighbours */
@@ -275,7 +275,7 @@ static void test_choice(void **state)
     choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 25 - 3);
     kd_choice_finish(&choice);
-    memcpy(before, pixels, sizeof before); /* one pixel of two changes by enough */
+    memcpy(before, pixels, sizeof before); /* only one of the two changed pixels changes by enough */
     before[3 * (4 * W + 7) + 1] += 700;
     before[3 * (6 * W + 2) + 2] += 600;
     struct kd_pixel last[] = { { 7, 4 }, { 2, 6 } };

@@ -122,14 +122,14 @@ static void test_bands(void **state)
 
         whole = rendered(&scene);
         c.memory_bytes = plan.cost.device_bytes + (c.host_memory ? 2 * plan.cost.host_bytes : 0) -
-                         1; /* room for only one band of the lens map */
+                         1; /* the memory holds only one band of the lens map */
         banded = render_with(&scene, &c, &plan);
         assert_false(plan.lens.cacheable);
         assert_same(&whole, &banded);
     }
 }
 
-/* A larger picture with several slices is the same when rendered twice. */
+/* A larger picture in several slices is the same when it is rendered twice. */
 static void test_slices(void **state)
 {
     (void)state;
@@ -273,10 +273,11 @@ static void test_glances(void **state)
         struct kd_plan plan;
         /* a view of its own, so that this picture needs a new lens map */
         scene.camera.inclination_deg = 60 + k;
-        scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays traced, and a sampled map */
+        scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays traced, or a sampled map */
         scene.image.bit_depth = k % 2 ? 16 : 8;
         scene.style.exposure = k < 3 ? 0 : INFINITY;
-        scene.style.bloom = k < 3 ? 0 : 0.5; /* glare of the finished part of the picture, or of the whole */
+        /* the last three have glare, and their previews that of the finished part */
+        scene.style.bloom = k < 3 ? 0 : 0.5;
         scene.image.critical_factor = 1;
         scene.accuracy.precision = k == 2 ? (int32_t)KD_PRECISION_F64 + 1 : KD_PRECISION_WORD_AUTO;
         if (k == 2 && !has_float64("glances of f64 rays, of the closed form instead"))
@@ -385,7 +386,7 @@ static void test_asides(void **state)
     scene.accuracy.profile = KD_PROFILE_HIGH;
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .validate = true, .passing = true }, &o.r,
                           &error));
-    o.r->kernels.limit = KEPT; /* the interleaved pictures evict all kernels of the picture */
+    o.r->kernels.limit = KEPT; /* with this limit the interleaved pictures evict all kernels of the picture */
     OK(kd_plan_make(&scene, &c, &plan, &error));
     plan.cost.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
     for (int i = 0; i < 2; i++) {
@@ -436,7 +437,7 @@ static void test_a_map_that_is_handed_over(void **state)
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &here, &error));
     OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &background, &error));
     assert_true(timing_of(&here, "kernels") > 0 &&
-                isnan(timing_of(&background, "kernels"))); /* the first one had to compile them */
+                isnan(timing_of(&background, "kernels"))); /* the first picture had to compile the kernels */
     assert_true(background.lens_reused && background.accuracy.followed > 0);
     kd_store_hand_over(&fresh->background_renders[0].store, &fresh->store, &plan);
     OK(kd_render(fresh, &scene, &plan, NULL, NULL, &again, &error));
@@ -479,8 +480,8 @@ static void test_rest(void **state)
     scene.camera.inclination_deg = 41;
     for (int often = 0; often < 2; often++) {
         struct kd_frame before = rendered_by(fresh, &scene), after;
-        /* Simulates that no memory was added since the renderer was opened, or that all memory of this process and much
-         * more was added. */
+        /* Simulates that all memory of this process, and much more, was added since the renderer was opened, or that
+         * none was. */
         fresh->opened_bytes = fresh->started_bytes = often ? 0 : UINT64_MAX / 4;
         OK(kd_renderer_rest(fresh, &error));
         kd_renderer_cached(fresh, kept);
@@ -490,7 +491,7 @@ static void test_rest(void **state)
         print_message("%.0f MiB were held on the device, %.0f are, %.0f are kept in all, %.0f of them without a name\n",
                       (double)held / 0x1p20, (double)kd_renderer_held(fresh) / 0x1p20, (double)sum / 0x1p20,
                       (double)kept[KD_CACHE_OTHER] / 0x1p20);
-        if (often) /* other resident memory keeps its category after reopening */
+        if (often) /* reopening does not change the category of other resident memory */
             assert_true(kept[KD_CACHE_OTHER] + kept[KD_CACHE_HEAP] > 1 << 20);
         assert_true(kd_renderer_held(fresh) < held &&
                     kd_renderer_held(fresh) <= BLOCKS); /* each of the map's buffers may keep one page */
@@ -498,14 +499,14 @@ static void test_rest(void **state)
             assert_in_range(kept[KD_CACHE_LENS_MAPS], 1, KD_REST_MAPS_BYTES);
         after = rendered_by(fresh, &scene);
         assert_int_equal(after.lens_reused, kept[KD_CACHE_LENS_MAPS] > 0);
-        assert_true(isnan(timing_of(&after, "kernels"))); /* the reopened device has them again */
+        assert_true(isnan(timing_of(&after, "kernels"))); /* the reopened device has the kernels again */
         assert_same(&before, &after);
     }
     kd_renderer_destroy(fresh);
 }
 
-/* A picture rendered in the background leaves resources for the next one, up to a bound. The last picture leaves all of
- * its resources. */
+/* A picture rendered in the background keeps resources for the next one, up to a bound. Those of the last picture are
+ * kept completely. */
 static void test_what_idle_asides_keep_is_bounded(void **state)
 {
     (void)state;
@@ -631,7 +632,7 @@ static void test_audit(void **state)
 
     scene.camera.r = 15;
     scene.accuracy.orders = 1;                /* near the critical curve rounding hides the error of the steps */
-    scene.accuracy.profile = KD_PROFILE_HIGH; /* a sampled map shows the tolerance */
+    scene.accuracy.profile = KD_PROFILE_HIGH; /* the error of a sampled map would be its tolerance */
     first = rendered(&scene);
     scene.accuracy.steps = 4;
     again = rendered(&scene);

@@ -59,8 +59,8 @@ static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 
 static const struct { double spin, inclination_deg; } views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
 
-/* Returns 1 if a pixel shows the plane nearer than `source` exactly when the edge predicts it. Pixels too close to the
- * edge for alpha and beta to decide do not count. */
+/* Returns 1 if a pixel shows the plane nearer than `source` exactly when the edge predicts it. Pixels so close to the
+ * edge that alpha and beta cannot decide do not count. */
 static int check_column(const struct kd_ring *ring, const struct kd_critical_point *column, int n, double source,
                         const float *w, int *skipped)
 {
@@ -98,12 +98,12 @@ static void every_edge_is_where_it_belongs(void **state)
                                  x, n, sources[s], wrong);
                 }
         }
-        assert_true(skipped < 20); /* pixels, of 460 800 */
+        assert_true(skipped < 20); /* of 460 800 pixels */
         test_free(w);
     }
 }
 
-/* The row where order n passes r = 6. */
+/* The row in which order n crosses r = 6. */
 static int row_of(const float *w, int height)
 {
     int y = 0;
@@ -144,7 +144,7 @@ static void each_order_is_a_gamma_further_in(void **state)
     }
 }
 
-/* An integrator in double precision resolves the same orders, as far as it goes. */
+/* An integrator in double precision finds the same edges, up to the orders that it resolves. */
 static void integrators_see_the_rings_too(void **state)
 {
     (void)state;
@@ -217,7 +217,7 @@ static void same_light(const struct shown *shown)
         const struct kd_camera_label label = kd_ring_label(&ring, &column, i / shown->width);
         struct kd_frame one;
         plane = ring_scene;
-        plane.image.width = plane.image.height = 3; /* the ray is alone and has no footprint */
+        plane.image.width = plane.image.height = 3; /* with a single ray there is no footprint */
         plane.camera.projection = KD_PROJECTION_PLANE;
         plane.camera.field_m = 1e-5;
         plane.camera.centre_alpha = label.alpha;
@@ -253,9 +253,9 @@ static void light_is_that_of_a_plane_picture(void **state)
         same_light(cases + k);
 }
 
-/* Rays beside the critical curve are not on the camera's grid, so the kernel of layers gets Carter's Q from the slope
- * of their crossings. The angle of emission then has the cosine g sqrt(Q)/r, with Q = beta^2 + (alpha^2 - a^2) cos^2 i
- * of the labels. */
+/* Rays beside the critical curve are not on the camera's grid, so the kernel of layers computes Carter's Q from the
+ * slope of their crossings. The angle of emission then has the cosine g sqrt(Q)/r, with Q = beta^2 + (alpha^2 - a^2)
+ * cos^2 i of the labels. */
 static void angles_are_those_of_the_labels(void **state)
 {
     static const double holes[][2] = { { 0.9, 0 }, { 0, 0.95 }, { 0.6, 0.75 } }; /* spin, charge */
@@ -309,7 +309,7 @@ static void needs_double_precision(void **state)
     struct kd_plan plan;
     struct kd_error refused = { 0 };
     kd_renderer_capacity(renderer, &capacity);
-    scene.accuracy.tolerance = 1e-4; /* the table's rows are not for rays of a ring, and do not apply */
+    scene.accuracy.tolerance = 1e-4; /* rows of the accuracy table do not apply to rays of a ring */
     OK(kd_plan_make(&scene, &capacity, &plan, &error));
     assert_true(plan.lens.setting.engine == KD_ENGINE_CLOSED && plan.lens.setting.holds < 1e-7);
     scene.accuracy.engine = KD_ENGINE_MINO_RKN6 + 1;

@@ -15,7 +15,7 @@ static struct kd_scene scene_of(double spin)
     scene.spacetime.spin = spin;
     scene.camera.inclination_deg = 75;
     scene.camera.field_m = 30;
-    scene.image.critical_factor = 1; /* so that each pixel has one ray */
+    scene.image.critical_factor = 1; /* gives each pixel one ray */
     scene.disk.outer = 15;
     scene.disk.opacity = 0.5;
     scene.image.width = 96;
@@ -33,7 +33,7 @@ static size_t samples(const struct kd_frame *f) { return (size_t)f->width * f->h
 static double light(const struct kd_frame *f, size_t i)
 {
     const uint16_t *pixels = kd_frame_pixels(f);
-    assert_true(pixels[i] < 65535); /* nothing is clipped */
+    assert_true(pixels[i] < 65535); /* no pixel is clipped */
     return shown(pixels, i);
 }
 
@@ -80,7 +80,7 @@ static void follow(const char *name, struct kd_scene scene)
             sum += got * rest;
             squares += rest * rest;
         }
-        assert_true(squares > 1e-2); /* there must be light that rings */
+        assert_true(squares > 1e-2); /* some light must ring */
         worst = fmax(worst, fabs(sum / squares - gain));
         if (t < 0)
             assert_memory_equal(kd_frame_pixels(&rung), kd_frame_pixels(&still), 2 * samples(&still));
@@ -189,7 +189,7 @@ static struct change changed(const struct kd_scene *scene, double t, double *las
 }
 
 /* A thick disk of almost no height rings where the thin one does and as strongly, with all its light multiplied by one
- * factor. A disk of some height rings by the same factor. */
+ * factor. The light of a disk of some height changes by the same factor. */
 static void test_thick(void **state)
 {
     static const double times[] = { 0, 1, 7.5 };
@@ -199,7 +199,7 @@ static void test_thick(void **state)
     scene.image.height = 32;
     double *last = calloc((size_t)scene.image.width * (size_t)scene.image.height * 3, sizeof *last);
     assert_non_null(last);
-    scene.accuracy.orders = 8; /* as many orders as the march contains */
+    scene.accuracy.orders = 8; /* the same number of orders as the march contains */
     const struct change flat = changed(&scene, 0, last, false);
     for (int high = 0; high < 2; high++) {
         scene.disk.height = high ? 0.1 : 5e-5;

@@ -140,7 +140,7 @@ static void judge(const struct kd_scene *scene, const struct map *a, const struc
         const uint32_t at = i * EVERY, n = crossings(b, at);
         for (uint32_t k = 0; k < n && k < ends[i].n_crossings; k++) {
             const double steep = condition(b, k, at % SIDE, at / SIDE), r = truth[i * ORDERS + k].r;
-            if (!(r < 1e3)) /* further out there is no light */
+            if (!(r < 1e3)) /* skipped, because further out there is no light */
                 continue;
             t->between[t->n] = fabs(plane(a, KD_LENS_W, k)[at] * r - 1) / steep;
             t->followed[t->n++] = fabs(plane(b, KD_LENS_W, k)[at] * r - 1) / steep;
@@ -168,7 +168,7 @@ static void rays_between_nodes_are_those_that_are_followed(void **state)
         struct kd_scene scene;
         const struct tally before = t;
         (i % 2 ? random_camera_near_horizon : random_camera)(&random, SIDE, &scene);
-        scene.accuracy.orders = 3; /* one kernel for all */
+        scene.accuracy.orders = 3; /* the same number of orders for all, so that they share a kernel */
         struct map a = map_of(&scene, quantities, false), b = map_of(&scene, quantities, true);
         compare(&a, &b, &t);
         judge(&scene, &a, &b, &t);

@@ -68,7 +68,7 @@ static void test_everything_wrong(void **state)
     }
     for (size_t i = 0; i < wrong.n_deflections; i++)
         wrong.deflections[i].phi += 1e-3;
-    for (size_t i = 0; i < wrong.n_criticals; i++) /* two of the rays next to the edge change sides */
+    for (size_t i = 0; i < wrong.n_criticals; i++) /* makes two of the rays next to the edge change sides */
         wrong.criticals[i].alpha *= 1 + 2e-5, wrong.criticals[i].beta *= 1 + 2e-5;
     for (size_t i = 0; i < wrong.n_bounds; i++)
         for (double *x = &wrong.bounds[i].energy; x <= &wrong.bounds[i].mino_proper; x++)
@@ -136,7 +136,7 @@ static void test_compare(void **state)
     kd_selftest_begin(&row, "source", "by", "what %d", 1);
     kd_selftest_compare(&row, -1e-3, 1e-3);
     assert_true(row.ok && row.error == 1e-3 && row.compared == 1);
-    kd_selftest_compare(&row, 1e-2, 1e-1); /* larger than the other error, but farther from its bound */
+    kd_selftest_compare(&row, 1e-2, 1e-1); /* this error is larger than the other one, but farther below its bound */
     assert_true(row.ok && row.error == 1e-3);
     kd_selftest_compare(&row, nextafter(1e-3, 1), 1e-3);
     assert_true(!row.ok && row.bound == 1e-3);

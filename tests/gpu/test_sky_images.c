@@ -225,7 +225,8 @@ static void white(void **state)
     }
 }
 
-/* Automatic exposure does not lift a sky on its own: away from the Milky Way most of it is black, with stars. */
+/* Automatic exposure does not brighten a sky without anything else. Away from the Milky Way most of such a picture is
+ * black, with stars. */
 static void space_is_black(void **state)
 {
     (void)state;
@@ -237,7 +238,7 @@ static void space_is_black(void **state)
         scene.camera.projection = KD_PROJECTION_AUTO;
         scene.camera.pitch_deg = 80;
         scene.sky.limit_mag = 14;
-        scene.sky.brightness = i ? 1 : INFINITY; /* for any brightness */
+        scene.sky.brightness = i ? 1 : INFINITY; /* both for a given and for the default brightness */
         scene.style.exposure = INFINITY;
         struct kd_frame frame = shot(&scene);
         const uint8_t *shown = frame.layers[0].data;
@@ -256,13 +257,13 @@ static void space_is_black(void **state)
     }
 }
 
-/* Automatic exposure does lift other pictures: false colour, the grid, and a sky whose brightness is given beside a
+/* Automatic exposure does brighten other pictures: false colour, the grid, and a sky whose brightness is given beside a
  * disk. */
 static void lifted_all_the_same(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of(KD_SKY_CATALOGUE, "");
-    assert_true(fabs(kd_scene_exposure_most(&scene) + 2) < 1e-15); /* from brightness 1 to a quarter of white */
+    assert_true(fabs(kd_scene_exposure_most(&scene) + 2) < 1e-15); /* from brightness 1 down to a quarter of white */
     scene.style.palette = KD_PALETTE_HEAT;
     assert_true(isinf(kd_scene_exposure_most(&scene)));
     scene = scene_of(KD_SKY_GRID, "");
@@ -350,7 +351,7 @@ static void here_and_gone(void **state)
         assert_non_null(strstr(why.message, "damaged PNG file"));
         assert_int_equal(keeper.taken, taken);
     }
-    for (int k = 0; k < 3; k++) { /* with others read between the two */
+    for (int k = 0; k < 3; k++) { /* other panoramas are read between the two pictures */
         pixels[3 * 40 + k] = 255;
         struct kd_scene other = scene_of(KD_SKY_IMAGE, k < 2 ? keep(32, 16, pixels, "") : "");
         struct kd_frame between = shot(&other);

@@ -95,7 +95,7 @@ static double orbit_omega(const struct kd_spacetime *hole, double r)
 
 struct oracle {
     int n;           /* number of rays */
-    double area;     /* area of one ray, if all have the same */
+    double area;     /* area of each ray, if all areas are the same */
     double (*at)[3]; /* for each ray: its solid angle weight, and its place in the picture's own measure */
     struct ks_photon *photons;
     struct ks_path *paths;
@@ -198,7 +198,7 @@ static void test_oracle(void **state)
         scene.camera.field_m = 22;
         scene.disk.model = views[v].model;
         scene.disk.opacity = 0.6;
-        scene.disk.outer = 40; /* beyond the picture */
+        scene.disk.outer = 40; /* the disk extends beyond the picture */
         scene.disk.taper = 0;
         scene.image.width = 67;
         scene.image.height = 49;
@@ -286,7 +286,7 @@ static void test_period(void **state)
         double late = upward(&scene, 1e8, step);
         off(second - first, expected, expected, 1e-4, "period");
         off(remainder(late - first, expected), 0, expected, 1e-4, "a million orbits later");
-        scene.top.time = first + 0.25 * expected; /* anticlockwise seen from above */
+        scene.top.time = first + 0.25 * expected; /* the spot moves anticlockwise as seen from above */
         assert_true(light(&scene).spots.x > 5);
     }
 }
@@ -347,7 +347,7 @@ static void test_parts(void **state)
             scene.spots.at[1].brightness = scene.spots.at[2].brightness = 0;
             parts[k] = light(&scene);
         }
-        scene.spots.at[0].brightness = 1e-30; /* measured, but invisible */
+        scene.spots.at[0].brightness = 1e-30; /* the spot is measured, but too faint to be visible */
         double disk = light(&scene).all.flux, sum = parts[0].spots.flux + parts[1].spots.flux + parts[2].spots.flux;
         off(all.spots.flux, sum, sum, 1e-6, "three spots");
         off(all.all.flux, disk + sum, disk + sum, 2e-6, "spots and disk");
@@ -390,7 +390,8 @@ static void test_many(void **state)
     off(all.spots.x, x / sum, 10, 1e-6, "their centroid");
 }
 
-/* Only the difference of azimuths counts, on either side of each seam. The picture's aim has no effect. */
+/* The light depends on the difference of azimuths only, on either side of each seam. It does not depend on where the
+ * picture is aimed. */
 static void test_seams(void **state)
 {
     (void)state;

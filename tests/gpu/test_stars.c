@@ -114,7 +114,7 @@ static struct vec3 from(const struct kd_scene *scene, double x, double y, double
         ks_from_camera(scene->spacetime.spin, RADIUS, scene->camera.inclination_deg * DEGREE, false, k);
     const struct ks_path path = ks_trace(photon, 8);
     double s = sqrt(1 - path.u * path.u);
-    *g = path.fate == KS_ESCAPED ? 1 / photon.energy : 0; /* 0: in the shadow */
+    *g = path.fate == KS_ESCAPED ? 1 / photon.energy : 0; /* g is 0 in the shadow */
     return (struct vec3) { s * cos(path.sky_phi), s * sin(path.sky_phi), path.u };
 }
 
@@ -190,7 +190,7 @@ static void images_by_the_oracle(void **state)
         by_rays(holes[i].spin, holes[i].inclination, &light, &place);
         printf("spin %g, inclination %g: light within %.4f, places within %.3f pixels\n", holes[i].spin,
                holes[i].inclination, light, place);
-        assert_true(light > 0 && light < 0.01 && place < 0.01); /* a B-spline's centroid is where it is put */
+        assert_true(light > 0 && light < 0.01 && place < 0.01); /* the centroid of a B-spline is exact */
     }
 }
 
@@ -210,7 +210,7 @@ static double swept(double b)
         double begin = part ? start : 0, length = M_PI / 2 - begin;
         for (int i = 0; i < n; i++) {
             double t = begin + (i + 0.5) * length / n, s = sin(t), w = turn * s * s;
-            /* 1/b^2 = w_t^2 - 2 w_t^3 there: the root is (w_t - w)(w_t + w - 2 (w_t^2 + w_t w + w^2)). */
+            /* Since 1/b^2 = w_t^2 - 2 w_t^3, the root is that of (w_t - w)(w_t + w - 2 (w_t^2 + w_t w + w^2)). */
             sum += length / n * 2 * sqrt(turn) * s / sqrt(turn + w - 2 * (turn * turn + turn * w + w * w));
         }
     }
@@ -343,15 +343,15 @@ static double edge(const struct kd_scene *scene, double angle)
 }
 
 /* The solid angle of the sky that a pixel at the small picture's middle maps to, to fourth order, by steps outwards and
- * along the curve. This close the oracle's rays are not accurate enough for short steps along the curve. Longer ones
- * have an error, since the curve bends by the square of the step. */
+ * along the curve. So close to the curve the oracle's rays are not accurate enough for short steps along it. Longer
+ * steps have an error, because the curve bends by the square of the step. */
 static double patch_close(const struct kd_scene *scene, const struct close *c, double off, double curve)
 {
     const double ahead = c->angle + 1e-3, behind = c->angle - 1e-3, far = edge(scene, ahead),
                  near = edge(scene, behind);
     const double tx = far * cos(ahead) - near * cos(behind), ty = far * sin(ahead) - near * sin(behind),
                  length = hypot(tx, ty);
-    const bool fast = fabs(scene->spacetime.spin) > 0.9; /* the sky changes faster */
+    const bool fast = fabs(scene->spacetime.spin) > 0.9; /* for fast holes the sky changes faster */
     const double outwards = (fast ? 0.003 : 0.01) * fmin(off, 0.1) * curve,
                  along_ = (fast ? 0.001 : 0.03) * sqrt(fmin(off, 0.1)) * curve;
     static const double weights[] = { 8.0 / 12, -1.0 / 12 };
@@ -470,8 +470,8 @@ static void next_to_the_curve_of_fast_holes(void **state)
         }
         printf("spin %g, inclination %g: %d images, light within %.5f, places within %.4f pixels\n", holes[h].spin,
                holes[h].inclination, n, worst, off_most);
-        /* Most are within 0.002 pixels. An image next to a caustic at spin 0.9999, in pixels of 1e-5 rad, is off by
-         * 0.02. */
+        /* Most places are right within 0.002 pixels. An image next to a caustic at spin 0.9999, in pixels of 1e-5 rad,
+         * is off by 0.02. */
         assert_true(n >= 4 && worst < 0.005 && off_most < 0.03);
     }
 }
@@ -628,11 +628,11 @@ static void bright_images(void **state)
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &bright, &error));
     struct kd_frame again = seen(&scene);
     assert_true(was_run(&bright, "stars") && !bright.lens_reused && !was_run(&again, "stars") &&
-                again.lens_reused); /* the two pictures do not share a lens map */
+                again.lens_reused); /* checks that the two pictures do not share a lens map */
     assert_memory_equal(again.layers[1].data, all.layers[1].data, 12ull * WIDTH * HEIGHT);
     /* radius of the curve, approximately */
     const double radius = 0.5 * WIDTH * tan(asin(sqrt(27) / RADIUS)) / tan(0.5 * scene.camera.fov_deg * DEGREE);
-    int images = 0, faint = 0, lost = 0, off = 0; /* light of faint images within a pixel is missing too */
+    int images = 0, faint = 0, lost = 0, off = 0; /* counts faint images within a pixel, too, whose light is missing */
     for (int y = 4; y < HEIGHT - 4; y++)
         for (int x = 4; x < WIDTH - 4; x++) {
             const double l = luminance(&all, x, y);

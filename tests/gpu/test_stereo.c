@@ -24,7 +24,7 @@ static void each_half_is_an_eyes(const struct kd_scene *scene)
     for (int side = 0; side < 2; side++) {
         struct kd_scene one = kd_scene_eye(scene, 2 * side - 1);
         if (side)
-            one.style.exposure = pair.exposure; /* the left eye's exposure, which is "auto" */
+            one.style.exposure = pair.exposure; /* the pair has the left eye's exposure, which is "auto" */
         struct kd_frame eye = rendered(&one);
         assert_true(eye.exposure == pair.exposure);
         const uint8_t *whole = kd_frame_pixels(&pair), *half = kd_frame_pixels(&eye);
@@ -75,7 +75,7 @@ static void test_by_hand(void **state)
         sum += off * off;
     }
     assert_true(sqrt(sum / (one.width * one.height * 3.)) <
-                0.5); /* in steps of 255 levels: the same camera up to rounding */
+                0.5); /* half of one of 255 levels, because the cameras agree up to rounding */
     kd_frame_finish(&pair);
     kd_frame_finish(&one);
 }
@@ -106,7 +106,7 @@ static void test_parallax(void **state)
     const struct kd_layer *fate = &frame.layers[0];
     const uint8_t *pixels = fate->data;
     const double expected = 10. / 2000 / (2 * tan(0.75 * M_PI / 180)) * 200;
-    const uint8_t *corner = pixels; /* a pixel of the sky */
+    const uint8_t *corner = pixels; /* the corner is a pixel of the sky */
     for (int side = 0; side < 2; side++) {
         double n = 0, x = 0, y = 0;
         for (uint32_t j = 0; j < 120; j++)

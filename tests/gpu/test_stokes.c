@@ -179,7 +179,7 @@ static void integrate(double s[4])
     }
 }
 
-#define INSIDE 2.5 /* a ray this close does not return, while rays that return also see matter behind the hole */
+#define INSIDE 2.5 /* a ray this close falls in; rays that return also see matter behind the hole */
 
 /* In the picture's unit of brightness, 1e10 K. */
 static void wanted(const struct kd_scene *scene, int i, double s[4])
@@ -304,8 +304,8 @@ static void test_adversarial(void **state)
             if (!(isfinite(s[0]) && s[0] >= 0 && hypot(hypot(s[1], s[2]), s[3]) <= s[0] * (1 + 1e-5)))
                 fail_msg("%s, pixel %d: %g %g %g %g", extremes[i], p, s[0], s[1], s[2], s[3]);
             /* Degree and angle agree with the numbers of the other layers, however dim or bright the light is. The
-             * layers come from another kernel, whose rounding Faraday rotation amplifies. Below 1e-30 light has fewer
-             * than 24 bits on its way. */
+             * layers come from another kernel, whose rounding Faraday rotation amplifies. Light below 1e-30 has fewer
+             * than 24 bits in intermediate results. */
             const double part = hypot(s[1], s[2]) / s[0], told = layer_of(&frame, "polarization_fraction")[p],
                          angle = layer_of(&frame, "evpa")[p];
             if (s[0] > 1e-30 && !(fabs(told - part) <= 1e-3))

@@ -68,7 +68,7 @@ static void test_cases(void **state)
     for (size_t i = 0; i < CASES; i++) {
         const struct stokes_reference *r = &stokes_references[i];
         const float *passes = out + OUT * i, *gives = passes + 4;
-        /* An angle of m radians has the absolute error of the last digit of m, however it is reduced. */
+        /* The absolute error of an angle of m radians is the last digit of m, however the angle is reduced. */
         const double turn = hypot(hypot(r->turns[0], r->turns[1]), r->turns[2]), allowed = 4e-6 + 1.2e-7 * turn;
         sound(passes, "light from behind", i);
         sound(gives, "its own light", i);

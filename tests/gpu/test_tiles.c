@@ -113,7 +113,7 @@ static void test_small_tiles_of_stars(void **state)
         const struct kd_scene scene = scene_of(documents[i], WIDTH, HEIGHT);
         struct kd_frame whole = by_format(scene, &kd_format_png, 0, &none);
         size_t lit = 0;
-        for (uint32_t k = 0; k < 5 * TILES; k++) { /* along a row, a column, a diagonal and both edges */
+        for (uint32_t k = 0; k < 5 * TILES; k++) { /* tiles along a row, a column, a diagonal and both edges */
             const uint32_t step = k % TILES, line = k / TILES,
                            x = line == 1   ? WIDTH / 2
                                : line == 3 ? 0
@@ -132,7 +132,7 @@ static void test_small_tiles_of_stars(void **state)
                 fail_msg("scene %zu: %zu bytes of the tile at %u, %u differ", i, different, left, top);
         }
         kd_frame_finish(&whole);
-        assert_true(lit > 300); /* there are stars in the tiles */
+        assert_true(lit > 300); /* the tiles must contain stars */
     }
 }
 

@@ -52,7 +52,7 @@ static void random_use(void **state)
             }
             check(&arena, taken, n);
         }
-        assert_true(refused > 0); /* tests that the sizes were large enough to fill it */
+        assert_true(refused > 0); /* checks that the sizes were large enough to fill the memory */
         while (n)
             n--, kd_vk_arena_give(&arena, taken[n].offset, taken[n].size);
         check(&arena, taken, 0);

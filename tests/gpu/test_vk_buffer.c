@@ -21,7 +21,7 @@ static void small_ones_share_a_block(void **state)
         kd_vk_buffer_destroy(vk, buffers[i]);
     for (int i = 0; i < n; i += 2)
         OK(kd_vk_buffer_create(vk, 1 + (unsigned)i * 37, KD_VK_UPLOAD, "again", &buffers[i], &error));
-    assert_int_equal(kd_vk_allocated(vk), held); /* fits into the gaps */
+    assert_int_equal(kd_vk_allocated(vk), held); /* the new buffers fit into the gaps */
     for (int i = 0; i < n; i++)
         kd_vk_buffer_destroy(vk, buffers[i]);
     kd_vk_buffer_destroy(vk, NULL);

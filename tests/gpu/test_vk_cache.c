@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 static char directory[256];
-static size_t given; /* bytes that the driver got when the cache was created */
+static size_t given; /* number of bytes that the driver got when the cache was created */
 static PFN_vkCreatePipelineCache real_create;
 
 static VKAPI_ATTR VkResult VKAPI_CALL watching(VkDevice device, const VkPipelineCacheCreateInfo *info,
@@ -58,7 +58,7 @@ static void written_and_read(void **state)
     (void)state;
     live(directory, false);
     assert_int_equal(given, 0);
-    assert_int_equal(only_file(directory, path), 0); /* no file, because there is nothing to keep */
+    assert_int_equal(only_file(directory, path), 0); /* no file is written, because no pipeline was made */
     live(directory, true);
     assert_int_equal(only_file(directory, path), 1);
     assert_int_equal(stat(path, &first), 0);
@@ -80,7 +80,7 @@ static void damaged(void **state)
     FILE *file = fopen(path, "rb");
     size_t size = fread(data, 1, sizeof data, file);
     fclose(file);
-    for (size_t at = 0; at < 64 && at < size; at += 3) { /* sizes of our header and of Vulkan's */
+    for (size_t at = 0; at < 64 && at < size; at += 3) { /* damages bytes of our header and of Vulkan's */
         file = fopen(path, "wb");
         data[at] ^= 0x40;
         fwrite(data, 1, size, file);
@@ -100,7 +100,7 @@ static void damaged(void **state)
     assert_true(given > 0);
 }
 
-/* The path is that of a file, not of a directory: not even the superuser can write there. */
+/* The path leads through a file instead of a directory, so that not even the superuser can write there. */
 static void unwritable(void **state)
 {
     char path[600], file[300], below[310];

@@ -46,7 +46,7 @@ static void chosen(void **state)
     }
 }
 
-/* SwiftShader, as in Chromium, and lavapipe: both are CPUs. */
+/* SwiftShader, which Chromium contains, and lavapipe both run on the CPU. */
 static void among_equals(void **state)
 {
     static const struct kd_vk_info equals[] = {

@@ -31,7 +31,7 @@ static void listed(void **state)
             continue;
         assert_true(info->driver[0] && info->subgroup_size && info->heap_bytes);
         assert_true(info->api_version >= VK_API_VERSION_1_2);
-        assert_true(info->max_push_bytes >= 128 && info->max_workgroup >= 128); /* guaranteed by Vulkan */
+        assert_true(info->max_push_bytes >= 128 && info->max_workgroup >= 128); /* Vulkan guarantees these limits */
         assert_true(info->max_groups_x >= 65535 && info->max_binding_bytes >= 1u << 27);
         assert_true(info->max_allocation_bytes >= 1u << 30);
     }
@@ -94,7 +94,7 @@ static void for_pipelines_alone(void **state)
     assert_non_null(pipeline);
     FAILS(KD_EINTERNAL, "only for pipelines", kd_vk_buffer_create(vk, 64, KD_VK_UPLOAD, "x", &buffer, &error));
     assert_null(buffer);
-    OK(kd_vk_submit(vk, NULL, &error)); /* no command is recorded */
+    OK(kd_vk_submit(vk, NULL, &error)); /* works, because no command is recorded */
     OK(kd_vk_wait(vk, 0, &error));
     kd_vk_pipeline_destroy(vk, pipeline);
     assert_int_equal(kd_vk_validation_messages(vk), 0);
@@ -155,7 +155,7 @@ static void count(struct kd_vk_functions *fn)
     fn->DestroyDevice = fn->DestroyDevice ? destroy_device : NULL;
 }
 
-/* Opens and closes a device several times. NULL: all went well. */
+/* Opens and closes a device several times. Returns NULL if all went well. */
 static void *open_and_close(void *user)
 {
     (void)user;
@@ -170,7 +170,8 @@ static void *open_and_close(void *user)
     return NULL;
 }
 
-/* The loader crashes where two threads change its list of devices (vk/functions.h). */
+/* Only one thread at a time opens or closes a device. The loader would crash if two threads changed its list of devices
+ * (vk/functions.h). */
 static void one_at_a_time(void **state)
 {
     struct kd_vk *vk;

@@ -1,5 +1,5 @@
-/* Compares a kernel with specialisation and push constants with the same arithmetic here. Also tests refused
- * dispatches. */
+/* Compares the result of a kernel with specialisation and push constants with the same arithmetic on the host. Also
+ * tests refused dispatches. */
 #include "support.h"
 
 static void sizes(void **state)
@@ -135,7 +135,7 @@ static void refused(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* A buffer that is larger than one binding, if the memory permits such a buffer at all. */
+/* Tests a buffer that is larger than one binding. It is skipped if the memory is too small for such a buffer. */
 static void wide_binding(void **state)
 {
     struct kd_vk *vk = *state;

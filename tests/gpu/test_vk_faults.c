@@ -1,4 +1,4 @@
-/* A driver that fails: every call that can fail does so once, and one device hangs. */
+/* Tests with a driver that fails. Every call that can fail does so once, and one device hangs. */
 #include "support.h"
 
 #include "base/log.h"
@@ -96,8 +96,8 @@ static void plant(struct kd_vk_functions *fn)
     }
 }
 
-/* `real` is a copy of the table as loaded by the first steps. The third step must not mistake our functions in it for
- * the driver's. */
+/* `real` is a copy of the table after the first steps. It must not be copied after our functions are in the table, as
+ * they are in the third step. */
 static void plant_once(struct kd_vk_functions *fn)
 {
     struct kd_vk_functions before = real;
@@ -219,8 +219,8 @@ static void device_lost(void **state)
 }
 
 static int waits;     /* calls of `hang` */
-static bool busy;     /* uses processor time meanwhile */
-static bool finishes; /* its third call succeeds */
+static bool busy;     /* the hanging call uses processor time */
+static bool finishes; /* the third call of `hang` succeeds */
 static VKAPI_ATTR VkResult VKAPI_CALL hang(VkDevice device, const VkSemaphoreWaitInfo *info, uint64_t timeout)
 {
     (void)device, (void)info;
@@ -257,7 +257,7 @@ static void deadline(void **state)
     buffer = make_buffer(vk, 64, KD_VK_READBACK, "b");
     OK(kd_vk_fill(vk, "fill", buffer, 0, 256, 1, &error));
     OK(kd_vk_submit(vk, &ticket, &error));
-    OK(kd_vk_wait(vk, ticket, &error)); /* really idle, so that no thread of it runs after the test */
+    OK(kd_vk_wait(vk, ticket, &error)); /* the device must be idle, so that none of its threads runs after the test */
     vk->core.fn.WaitSemaphores = hang;
     vk->core.fn.GetSemaphoreCounterValue = unfinished;
     vk->core.fn.DeviceWaitIdle = idle_called;

@@ -56,10 +56,10 @@ static void apart(void **state)
     (void)state;
     assert_false(add(1, 0, 100, COMPUTE, true));
     assert_false(add(1, 100, 200, COMPUTE, true)); /* adjacent */
-    assert_false(add(2, 0, 200, COMPUTE, true));   /* another buffer */
+    assert_false(add(2, 0, 200, COMPUTE, true));   /* no hazard: this is another buffer */
     assert_false(add(3, 0, 200, COMPUTE, false));
     assert_false(add(3, 0, 200, TRANSFER, false));
-    assert_true(add(1, 199, 300, COMPUTE, true)); /* overlap of one byte */
+    assert_true(add(1, 199, 300, COMPUTE, true)); /* the ranges overlap by one byte */
 }
 
 static void emptied_by_a_barrier(void **state)
@@ -70,7 +70,7 @@ static void emptied_by_a_barrier(void **state)
     assert_true(add(1, 0, 100, COMPUTE, false));
     assert_int_equal(barrier.src_stages, COMPUTE | TRANSFER);
     assert_int_equal(barrier.src_access, VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
-    assert_false(add(2, 0, 100, COMPUTE, false)); /* the barrier before served buffer 2 as well */
+    assert_false(add(2, 0, 100, COMPUTE, false)); /* no barrier, because the last barrier served buffer 2 as well */
     assert_false(add(1, 0, 100, TRANSFER, false));
     assert_true(add(1, 0, 4, TRANSFER, true)); /* a write after two readers */
     assert_int_equal(barrier.src_stages, COMPUTE | TRANSFER);
@@ -106,7 +106,7 @@ static void overflow(void **state)
     (void)state;
     for (uint64_t i = 0; i < KD_VK_MAX_ACCESSES; i++)
         assert_false(add(1, i * 512, i * 512 + 256, COMPUTE, true));
-    assert_true(add(2, 0, 1, COMPUTE, false)); /* the table is full and starts afresh */
+    assert_true(add(2, 0, 1, COMPUTE, false)); /* the table is full, and a barrier empties it */
     assert_int_equal(table.count, 1);
     assert_false(add(1, 0, 1, COMPUTE, false));
 }

@@ -124,7 +124,7 @@ static void ranges(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* Buffers are written and read alternately in one submission, each kind in turn: the layer sets the barriers. */
+/* Buffers are written and read alternately in one submission, each kind in turn. The layer must set the barriers. */
 static void order(void **state)
 {
     struct kd_vk *vk = *state;
@@ -249,7 +249,7 @@ static void views(void **state)
     assert_int_equal(views_of(set.block) + views_of(set.y), 0);
     finish(vk);
     ((struct kinds_block *)kd_vk_buffer_map(set.block))->n = n;
-    /* all in one submission: none of these views is idle, only the earlier one */
+    /* all dispatches are in one submission, so that none of these views is idle, only the earlier one */
     for (uint32_t i = 0; i < parts; i++) {
         d.bindings[1] = (struct kd_vk_binding) { .buffer = set.singles, .offset = 256 * i, .size = 256 };
         d.bindings[3] = (struct kd_vk_binding) { .buffer = set.y, .offset = 256 * i, .size = 256, .write = true };
@@ -263,7 +263,7 @@ static void views(void **state)
     d.bindings[1].size = 128;
     OK(kd_vk_dispatch(vk, &d, &error));
     assert_int_equal(views_of(set.singles), KD_VK_VIEWS_KEPT);
-    kd_vk_buffer_destroy(vk, set.singles); /* recorded, not even submitted */
+    kd_vk_buffer_destroy(vk, set.singles); /* the commands are recorded and not yet submitted */
     OK(kd_vk_submit(vk, NULL, &error));
     kd_vk_buffer_destroy(vk, set.fours);
     OK(kd_vk_wait(vk, 0, &error));

@@ -18,7 +18,7 @@ static VKAPI_ATTR void VKAPI_CALL counting(VkCommandBuffer commands, VkPipelineS
 static void count_from_here(struct kd_vk *vk)
 {
     finish(vk);
-    vk->hazards.count = 0; /* forgets earlier tests */
+    vk->hazards.count = 0; /* removes the hazards of earlier tests */
     barriers = 0;
 }
 
@@ -36,7 +36,7 @@ static void counted(void **state)
 
     count_from_here(vk);
     mix(vk, pipeline, b[0], b[1], n, 1);
-    mix(vk, pipeline, b[0], b[2], n, 1); /* shares only what both read */
+    mix(vk, pipeline, b[0], b[2], n, 1); /* both commands only read the shared buffer */
     assert_int_equal(barriers, 0);
     mix(vk, pipeline, b[1], b[3], n, 1); /* read after write */
     assert_int_equal(barriers, 1);
@@ -107,7 +107,7 @@ static void random_programs(void **state)
     struct kd_vk_pipeline *pipeline = make_mix(vk, 3);
     struct kd_vk_buffer *b[4];
     srand(3);
-    for (int i = 0; i < 4; i++) { /* of every memory kind: b[2] and b[3] are checked through a copy */
+    for (int i = 0; i < 4; i++) { /* makes buffers of every memory kind; b[2] and b[3] are checked through a copy */
         b[i] = make_buffer(vk, n, i == 0 ? KD_VK_UPLOAD : i == 1 ? KD_VK_READBACK : KD_VK_DEVICE, "b");
         OK(kd_vk_fill(vk, "fill", b[i], 0, n * 4, 0, &error));
     }

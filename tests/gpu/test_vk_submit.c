@@ -42,7 +42,7 @@ static void many(void **state)
     }
     assert_int_equal(pools(vk), settled);
     assert_int_equal(kd_vk_allocated(vk), held);
-    OK(kd_vk_wait(vk, first, &error)); /* waits at once, because these were completed long ago */
+    OK(kd_vk_wait(vk, first, &error)); /* returns at once, because these submissions were completed long ago */
     OK(kd_vk_wait(vk, last, &error));
     for (int i = 0; i < n; i++)
         assert_int_equal(words(y)[i], submissions * each);
@@ -77,7 +77,7 @@ static void nothing_and_discarded(void **state)
     struct kd_vk_buffer *y = make_buffer(vk, n, KD_VK_READBACK, "y");
     OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 1, &error));
     OK(kd_vk_submit(vk, &before, &error));
-    OK(kd_vk_submit(vk, &after, &error)); /* nothing recorded */
+    OK(kd_vk_submit(vk, &after, &error)); /* no command is recorded */
     assert_int_equal(before, after);
     OK(kd_vk_fill(vk, "fill", y, 0, n * 4, 2, &error));
     kd_vk_discard(vk);
@@ -95,7 +95,7 @@ static void nothing_and_discarded(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* Prints the cost of a submission, and tests no bound; validation is off. */
+/* Prints the cost of a submission without validation, and tests no bound. */
 static void cost(void **state)
 {
     (void)state;

@@ -14,7 +14,7 @@ static VKAPI_ATTR void VKAPI_CALL no_barrier(VkCommandBuffer commands, VkPipelin
     (void)buffer, (void)n_image, (void)image;
 }
 
-/* Number of messages for a fill that a kernel then adds to. */
+/* Number of messages about a buffer that is filled and to which a kernel then adds. */
 static uint32_t fill_then_add(bool barriers)
 {
     struct kd_vk *vk = open_device(true);
@@ -34,8 +34,8 @@ static uint32_t fill_then_add(bool barriers)
     return messages;
 }
 
-/* Number of messages for a fill that a kernel then reads through binding k. The bindings are a uniform block, texels of
- * one float, of four, of one word, and of two. */
+/* Number of messages about a buffer that is filled and that a kernel then reads through binding k. The bindings are a
+ * uniform block, texels of one float, of four, of one word, and of two. */
 static uint32_t fill_then_read(int k, bool barriers)
 {
     struct kd_vk *vk = open_device(true);
@@ -71,7 +71,7 @@ static void synchronisation(void **state)
     assert_int_equal(fill_then_add(true), 0);
     assert_true(fill_then_add(false) > 0);
     for (int k = 0; k < 6; k++) {
-        if (k == 3) /* that binding is written */
+        if (k == 3) /* skipped, because this binding is written */
             continue;
         assert_int_equal(fill_then_read(k, true), 0);
         assert_true(fill_then_read(k, false) > 0);

@@ -109,7 +109,7 @@ class Access(daemon.Case):
 
 class Roles(Access):
     def assertRefused(self, answer):
-        """Every refusal has the same answer, word for word, whatever was wrong."""
+        """All refusals have the same answer, word for word, whatever the reason."""
         problem = self.assertProblem(answer, 401, "unauthorized")
         self.assertEqual(answer.header("WWW-Authenticate"), "Bearer")
         self.assertIsNone(answer.header("Set-Cookie"))
@@ -313,7 +313,7 @@ class Guesses(Access):
     def test_wrong_tokens_are_counted_by_address(self):
         self.assertEqual(self.ask(VIEW).status, 200)
         tries = [self.ask(f"wrong-0123456789-{i}", way=(own, bearer, cookie)[i % 3]) for i in range(40)]
-        self.assertIn([answer.status for answer in tries].count(401), range(20, 26))  # a try is allowed every 3 s
+        self.assertIn([answer.status for answer in tries].count(401), range(20, 26))  # one try is allowed in 3 s
         late = tries[-1]
         self.assertProblem(late, 429, "wrong-tokens")
         self.assertTrue(1 <= int(late.header("Retry-After")) <= 3)

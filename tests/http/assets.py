@@ -103,14 +103,14 @@ class LongDirectories(Case):
     """Grids whose ZIP has a directory of hundreds of thousands of members."""
 
     options = ("--client-share", 100)
-    MANY = 700000  # entries of 46 bytes, 31 MiB
+    MANY = 700000  # number of entries; at 46 bytes each they take 31 MiB
 
     def directory(self):
         size = 46 * self.MANY
         ends = b"PK\6\6" + bytes(20) + struct.pack("<4Q", self.MANY, self.MANY, size, 30)  # APPNOTE 4.3.14
         ends += b"PK\6\7" + bytes(4) + struct.pack("<QI", 30 + size, 1)
         ends += b"PK\5\6" + bytes(4) + struct.pack("<HHIIH", 0xFFFF, 0xFFFF, 0xFFFFFFFF, 0, 0)
-        return b"PK\3\4" + bytes(26) + (b"PK\1\2" + bytes(42)) * self.MANY + ends  # begins with a member
+        return b"PK\3\4" + bytes(26) + (b"PK\1\2" + bytes(42)) * self.MANY + ends  # the file begins with a member
 
     def put_when_there_is_room(self, data):
         """A client may send two such bodies at once: the others wait."""
@@ -132,8 +132,9 @@ class LongDirectories(Case):
 
     def test_they_cost_no_more_than_their_bytes(self):
         many = self.directory()
-        self.daemon.get("/v1/render?image.width=320&image.height=180")  # what a server does once is no part of the cost
-        plain = self.cost(bytes(len(many)), "not a")  # refused by its first bytes
+        # work that a server does only once is not counted as cost
+        self.daemon.get("/v1/render?image.width=320&image.height=180")
+        plain = self.cost(bytes(len(many)), "not a")  # this body is refused by its first bytes
         self.assertLess(self.cost(many, "at most 1024 members; it has 700000"), 2 * plain + 0.5)  # 0.5 s: 50 ticks
 
 
@@ -328,8 +329,8 @@ class Assets(Case):
         )
         elsewhere = (
             data[:-18] + b"\1\0" + data[-16:]
-            # the directory is on another disk, so that members would have to be found by reading and inflating from the
-            # front
+            # this directory says that it is on another disk; members could only be found by reading and inflating from
+            # the front
         )
         self.assertIn(
             "it is split over several disks",
@@ -458,7 +459,7 @@ class Sky(Case):
         self.assertEqual(server.post("/v1/render", scene).status, 200)
         again = self.put(sky, server=server)
         self.assertEqual((again.status, "token" in again.json()), (200, False), "nobody can delete it")
-        # Others are evicted for new ones a second after their last use, and the photograph is not.
+        # Other assets are evicted for new ones a second after their last use; the photograph is not.
         for seed in range(3):
             self.assertTrue(daemon.eventually(lambda seed=seed: self.put(png(seed=seed), server=server).status == 201))
         self.assertEqual(server.get(ASSETS).json()["sky"], told["sky"])
@@ -571,7 +572,7 @@ class State(Case):
             with open(path(i, kind), "wb") as f:
                 f.write(data)
 
-        write(0, "png", png(seed=9))  # other bytes
+        write(0, "png", png(seed=9))  # the file has other bytes than its name says
         write(1, "png", b"")
         write(2, "json", b'{"format":2}')
         write(3, "json", b'{"format":1,"token":"0","created":1}')
@@ -609,7 +610,7 @@ class State(Case):
         kept = [self.made(png(seed=i), server) for i in range(3)]
         self.assertProblem(self.put(png(seed=3), server=server), 429, "quota")
         self.assertEqual(server.stop(), 0)
-        server = self.start("--assets", 3, "--asset-keep-s", 1)  # this server does not know who owns them
+        server = self.start("--assets", 3, "--asset-keep-s", 1)  # this server does not know who owns the assets
         self.assertProblem(self.put(png(seed=3), server=server), 507, "assets-full")
         threading.Event().wait(1.2)
         self.assertEqual(server.get(self.at(kept[0])).status, 200)
@@ -664,7 +665,7 @@ class Scenes(Case):
         return {"image": {"width": 32, "height": 18}, "sky": {"model": "image", "image": image}}
 
     def answers(self, image):
-        """The answer to each kind of request, and where in the request the field is."""
+        """Yields the answer to each kind of request, and the place of the field in the request."""
         scene, at = self.scene(image), "/sky/image"
         yield self.daemon.get(f"/v1/render?image.width=32&image.height=18&sky.model=image&sky.image={image}"), at
         yield self.daemon.post("/v1/render", scene), at
@@ -705,8 +706,8 @@ class Scenes(Case):
         self.delete(asset)
 
     def test_others_go_on_while_one_is_read(self):
-        """The assets are read until a picture without an asset has been rendered; that would never happen if reading
-        them held the device."""
+        """Reading the assets takes until a picture without an asset has been rendered. If reading held the device, this
+        picture would never be rendered."""
         scene, answers = self.scene(self.made(png(64, 32, 9))["sha256"]), []
         scene["sky"]["seed"] = 4711
         server = daemon.Daemon("--drain-ms", 10)

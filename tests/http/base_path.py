@@ -92,7 +92,7 @@ class Below(daemon.Case):
         self.assertEqual(self.daemon.get(BASE + "/openapi.json").json()["servers"], [{"url": BASE}])
 
     def test_who_asks_cannot_choose_it(self):
-        """The base path cannot be chosen by a request: headers of a forwarding proxy may come from anybody."""
+        """A request cannot choose the base path, because anybody may send the headers of a forwarding proxy."""
         forwarded = {
             "X-Forwarded-Prefix": "/other",
             "X-Forwarded-Path": "/other",
@@ -109,8 +109,8 @@ class Below(daemon.Case):
 
 
 class Health(unittest.TestCase):
-    """Health is answered by the first bytes of a request, also when nothing else is answered: with the base path and
-    without it."""
+    """Health requests are recognised by their first bytes and are answered even when no other request is, with the base
+    path and without it."""
 
     def test_while_connections_are_at_their_limit(self):
         base = "/" + "long/" * 39 + "tail"  # 200 characters
@@ -142,7 +142,7 @@ class Health(unittest.TestCase):
 
 class Without(daemon.Case):
     def test_openapi_is_beside_what_it_describes(self):
-        """If a proxy removes a prefix, relative addresses are the only ones that work."""
+        """If a proxy removes a prefix, only relative addresses work."""
         self.assertEqual(self.daemon.get("/openapi.json").json()["servers"], [{"url": "."}])
 
     def test_where_there_is_no_path(self):

@@ -85,7 +85,7 @@ class Listed(Case):
                     self.assertLetIn(answer, origin)
 
     def test_what_scripts_may_read(self):
-        """Every header that some answer has, except those that belong to the browser."""
+        """Every header that occurs in an answer, except those that only the browser uses."""
         exposed = set(words(self.ask("GET", RENDER, GOOD).header("Access-Control-Expose-Headers")))
         text = "".join(path.read_text() for path in SOURCES.glob("*/*.c"))
         sent = {"X-Request-Id"} | {

@@ -245,7 +245,8 @@ class Owned(Case):
         return (server or self.daemon).get(self.at(one)).json()
 
     def delayed(self, job, server=None):
-        """The first status that says why the job waits. One answer: a second later the job may run again."""
+        """The first status that says why the job waits. Callers use this one answer, because the job may run again a
+        second later."""
         seen = []
         self.assertTrue(eventually(lambda: seen.append(self.status(job, server)) or "delayed" in seen[-1]), seen[-3:])
         return seen[-1]

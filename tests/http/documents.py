@@ -77,7 +77,7 @@ def blocks(text):
 
 
 def commands(block):
-    """The commands of a block that are run: its lines except those left out, with their continuation lines."""
+    """The commands of a block that are run: its lines with their continuation lines, except those left out."""
     kept, going_on = [], False
     for line in block.splitlines():
         left = going_on if going_on else any(line.startswith(begin) for begin in LEFT_OUT)
@@ -108,7 +108,7 @@ class Documents(unittest.TestCase):
             "venv-ehtim",
         ):  # commands in documents run in the folder of the repository
             pathlib.Path(cls.folder.name, name).symlink_to(ROOT / name)
-        pathlib.Path(cls.folder.name, "milky-way.png").symlink_to(ROOT / "docs/default.png")  # any picture
+        pathlib.Path(cls.folder.name, "milky-way.png").symlink_to(ROOT / "docs/default.png")  # any picture will do
         packages = filter(None, (str(ROOT / "clients/python/src"), os.environ.get("PYTHONPATH")))
         cls.environment = {
             **os.environ,

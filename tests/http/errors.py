@@ -48,7 +48,8 @@ class Scenes(daemon.Case):
                 self.assertLess(self.daemon.post(target, b"\xef\xbb\xbf" + document.encode()).status, 300)
 
     def test_mistakes_of_who_writes_json_by_hand(self):
-        """Each error is reported with its line and column; also in lists of rays, which have a parser of their own."""
+        """Each error is reported with its line and column. This includes lists of rays, which have a parser of their
+        own."""
         for value, words in (
             (".5", ".5 is 0.5 in JSON"),
             ("NaN", "NaN, which JSON lacks"),
@@ -171,7 +172,7 @@ class Scenes(daemon.Case):
         before = self.daemon.processor_s()
         answer = self.daemon.get(f"{RENDER}?" + "&".join(f"x{i}=1" for i in range(384)))
         self.assertProblem(answer, 422, "invalid-scene", "/x0")
-        # a suggestion is looked for once, for the name that is refused
+        # the server looks for a suggestion only once, for the name that it refuses
         self.assertLess(self.daemon.processor_s() - before, 1)
 
     def test_device_trouble_short_of_its_loss(self):

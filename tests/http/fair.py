@@ -20,12 +20,12 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "bench"))
 import daemon
 import fairness
 
-# factor: two clients halve the device, and the processes of the loads use the processor too; the rest is noise
+# factor on a picture's time: two clients share the device, the loads use the processor too, and the rest is noise
 SLOWER = 60
 
 
-# Factor on the time that a picture of 640 x 360 takes alone. Two clients halve the device; and with lavapipe the
-# processor time of the other client's requests is taken from it.
+# Factor on the time that a picture of 640 x 360 takes alone. Two clients share the device, and lavapipe also shares the
+# processor with the other client's requests.
 BESIDE = 10
 
 
@@ -54,7 +54,8 @@ class Fair(unittest.TestCase):
         bound = lambda solo: max(2000, SLOWER * solo)
         beside = fairness.run_one(daemon.COMMAND[0], "all of these", 3)
         if max(beside["picture_ms"]) >= bound(statistics.median(alone["picture_ms"])):
-            # Work that holds the device delays a picture each time. Other processes of the machine do so now and then.
+            # Measured again, because work that holds the device would delay a picture both times, and other processes
+            # only now and then.
             beside = fairness.run_one(daemon.COMMAND[0], "all of these", 3)
         solo = statistics.median(alone["picture_ms"])
         print(
@@ -106,7 +107,7 @@ class Pixel(unittest.TestCase):
 
 
 class NewKernels(unittest.TestCase):
-    """The shader cache is empty."""
+    """Tests of a server whose shader cache is empty."""
 
     NEW = "/v1/render?image.width=320&image.height=180&preset=jet"
     WARM = "/v1/render?image.width=64&image.height=36&camera.inclination_deg=%d"

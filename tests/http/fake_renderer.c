@@ -45,7 +45,7 @@ enum {
     MEANWHILE = 5,
     PATIENCE_MS = 60000
 };
-static _Atomic unsigned drawn; /* pictures rendered, by all renderers */
+static _Atomic unsigned drawn; /* number of pictures that all renderers have rendered */
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error)
@@ -104,8 +104,8 @@ static void wait_at_gate(void)
     close(may);
 }
 
-/* Called by every planning thread: a device called "held" blocks it; one called "gated" does so until the test lets
- * it go on, once it has rendered a picture. */
+/* Called by every planning thread: a device called "held" blocks the thread. A device called "gated", once it has
+ * rendered a picture, blocks it until the test lets it go on. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 {
     if (renderer->held)
@@ -130,7 +130,7 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     return kd_buffer_printf(out, "{\"name\":\"fake\"}\n");
 }
 
-/* A device called "measured" has a table; one called "slow" takes its time to report that it has none. */
+/* A device called "measured" has a table. A device called "slow" reports only after a while that it has none. */
 enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out,
                                          struct kd_error *error)
 {
@@ -316,7 +316,8 @@ static struct kd_probed_pixel *tell(const struct kd_plan *plan)
             .light = { 0.25f, 0.25f, 0.25f },
         };
     told->rays = told->each ? told->rays : 0;
-    if (plan->report.probe.steps && (told->steps = calloc(1, sizeof *told->steps))) { /* a start and nothing after it */
+    /* the path has a start and no further step */
+    if (plan->report.probe.steps && (told->steps = calloc(1, sizeof *told->steps))) {
         *told->steps = (struct kd_rays_steps) { .params = { .engine = plan->lens.setting.engine,
                                                             .steps = plan->lens.setting.steps },
                                                 .n = 1,
@@ -328,8 +329,8 @@ static struct kd_probed_pixel *tell(const struct kd_plan *plan)
     return told;
 }
 
-/* Black linear light, and maps of constant brightness: 1, and half of it for image order 1; with three samples a
- * side they are black too. */
+/* Black linear light, and maps of constant brightness: 1, and half of it for image order 1; with three samples a side
+ * the maps are black, too. */
 static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_frame *out,
                                   struct kd_error *error)
 {
@@ -401,7 +402,7 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
         kd_frame_finish(out);
         return KD_ENOMEM;
     }
-    const double t = scene->top.time; /* black at 0 */
+    const double t = scene->top.time; /* the picture is black at time 0 */
     if (plan->light.photometry)
         out->light = (struct kd_light_report) {
             .measured = true,
@@ -413,8 +414,8 @@ static enum kd_status draw(struct kd_renderer *renderer, const struct kd_scene *
     if (!out->lens_reused)
         out->timings[out->n_timings++] = (struct kd_timing) { "trace", scene->top.time };
     out->timings[out->n_timings++] = (struct kd_timing) { "total", scene->top.time };
-    out->timings[out->n_timings++] =
-        (struct kd_timing) { "slept", kd_clock_ms() - begun }; /* measured, because a busy machine wakes it late */
+    /* the time is measured, because a busy machine wakes the thread late */
+    out->timings[out->n_timings++] = (struct kd_timing) { "slept", kd_clock_ms() - begun };
     atomic_fetch_add(&drawn, 1);
     return KD_OK;
 }
@@ -459,7 +460,7 @@ enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struc
     return draw(renderer, scene, plan, true, go_on, &aside, out, error);
 }
 
-/* Ignores the light of the others: the result is black, like the picture itself. */
+/* Ignores the light of the other pictures. The result is black, like the picture itself. */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
                               const struct kd_preview_hook *preview, void *user, struct kd_frame *out,

@@ -80,8 +80,8 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
 
 int main(int argc, char **argv)
 {
-    struct kd_server_params params = { .client_share = 100 }; /* most tests reach a limit from one address, so it has
-                                                               * the whole share */
+    /* one client gets the whole share, because most tests reach a limit from one address */
+    struct kd_server_params params = { .client_share = 100 };
     struct kd_error error;
     const char *hosts[2] = { NULL, NULL }, *origins[2] = { NULL, NULL }, *embeds[2] = { NULL, NULL };
 

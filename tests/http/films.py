@@ -25,7 +25,7 @@ REAL = os.environ.get("FFMPEG") == "real"
 KEEPS = 'import sys, pathlib\nout = open(sys.argv[-1], "wb")\nout.write("\\n".join(sys.argv[1:]).encode() + b"\\n\\n" + sys.stdin.buffer.read())\n'
 COUNTS = 'import os\nopen(os.environ["KERRD_TEST_RUNS"], "a").write("x")\n' + KEEPS
 FAILS = 'import sys\nsys.stdin.buffer.read(9)\nsys.exit("\\x1b[31m/secret/place: Unknown encoder libx264\\x07\\nsecond line")\n'
-# A program that fails while its child keeps its standard error and goes on running.
+# A program that fails while its child goes on running with the same standard error.
 LEAVES = (
     'import os, pathlib, subprocess, sys\nsys.stdin.buffer.read(9)\nchild = subprocess.Popen(["sleep", "600"], stdin=subprocess.DEVNULL)\n'
     'pathlib.Path(os.environ["KERRD_TEST_PID"]).write_text(str(child.pid))\nsys.exit("no luck")\n'
@@ -84,7 +84,7 @@ class Films(Case):
         def ended():
             try:
                 return ") Z " in pathlib.Path(f"/proc/{number}/stat").read_text()
-            except OSError:  # it may end while the file is open
+            except OSError:  # the process may end while the file is open
                 return True
 
         self.assertTrue(daemon.eventually(ended))
@@ -281,7 +281,8 @@ class Kept(Films):
         self.ended(server)
 
     def test_a_kill_leaves_no_half_of_it(self):
-        """The server is killed while ffmpeg works, and while its output is copied."""
+        """The server is killed while ffmpeg works. A half copied film is put beside it, as by a kill while the output
+        is copied."""
         state = self.folder / "state"
         server, job, _ = self.film_of(HANGS, self.FRAMES, None, ("--state", state))
         client = server.connect()
@@ -324,7 +325,7 @@ class Kept(Films):
 class Read(Films):
     @classmethod
     def setUpClass(cls):
-        pass  # each has a server of its own
+        pass  # each film has a server of its own
 
     @classmethod
     def tearDownClass(cls):
@@ -405,8 +406,8 @@ class Read(Films):
             off = [a - b for a, b in zip(read["film"], read["png"], strict=True)]
             means = [sum(off[c::3]) / (479 * 271) for c in range(3)]
             rms = (sum(d * d for d in off) / len(off)) ** 0.5
-            # Measured: 1.1 of 255, with means within 0.13. With BT.601's matrix it would be 2.8, and red would be off
-            # by 2.1.
+            # The measured difference is 1.1 of 255, with means within 0.13. With BT.601's matrix it would be 2.8, and
+            # the mean of red would be off by 2.1.
             self.assertLess(rms, 2)
             self.assertLess(max(map(abs, means)), 0.4)
             self.ended(server)

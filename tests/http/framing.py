@@ -124,7 +124,7 @@ class Guard(daemon.Case):
                     while part := s.recv(65536):
                         got += part
                 except TimeoutError:
-                    pass  # kept alive
+                    pass  # the connection is kept alive
                 self.assertTrue(got.startswith(b"HTTP/1.1 "), got[:100])
                 self.assertEqual(got.split(b"\r\n\r\n", 1)[1], b"")
 
@@ -254,8 +254,7 @@ class Deadlines(daemon.Case):
     options = ("--header-ms", 400, "--body-ms", 700)
 
     def trickle(self, start, byte):
-        """Sends a byte from time to time. Returns the seconds until the connection ends, and the bytes that came
-        back."""
+        """Sends a byte at regular intervals. Returns the seconds until the connection ends, and the bytes received."""
         begun, got = time.monotonic(), b""
         with self.daemon.connect() as s:
             s.sendall(start)

@@ -89,7 +89,7 @@ class Richest(unittest.TestCase):
         one = self.daemon.post("/v1/playground", torn()).json()
         frames = []
 
-        def there():  # 204 while kernels are compiled
+        def there():  # the answer is 204 while kernels are compiled
             frames.append(self.daemon.get(f"/v1/playground/{one['id']}/frame.png", Origin=ORIGIN))
             return frames[-1].status != 204
 

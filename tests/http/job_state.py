@@ -88,7 +88,7 @@ class State(Case):
         self.assertEqual(len({frame["snapshot"] for frame in told[0]}), 8)
 
     def test_a_film_whose_bodies_end_the_server_makes_way(self):
-        """The server also ends while no frame is being made, though the film's bodies would move for half an hour."""
+        """The server ends at once while the film's bodies move towards a frame, which would take half an hour."""
         server = self.start()
         film = {
             "playground": {"preset": "swarm", "h_max": 1e-3, "budget": 1000000},
@@ -103,7 +103,8 @@ class State(Case):
             with open(os.path.join(self.folder, "jobs", job["id"], "job.json"), encoding="utf-8") as file:
                 return json.load(file)["attempts"]
 
-        for count in range(4):  # the first server had finished a frame, so that its end does not count against the job
+        # the end of the first server does not count as a failed attempt, because it had finished a frame
+        for count in range(4):
             self.assertTrue(daemon.eventually(lambda: attempts() == count), attempts())
             server.process.send_signal(signal.SIGKILL)
             server.wait()
@@ -114,8 +115,8 @@ class State(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_its_exposure_outlives_the_server(self):
-        """The exposure is measured only once. The next server would measure another one, because the fake renderer
-        starts a stop brighter."""
+        """The exposure is measured only once. A second measurement would give another value, because a new fake
+        renderer starts one stop brighter."""
         asked = {"scene": {**SCENE, "time": 200}, "keyframes": [{"frame": 2, "scene": {"camera": {"azimuth_deg": 9}}}]}
         server = self.start()
         self.until(self.make({"scene": SCENE}, server=server), "done", server)
@@ -134,7 +135,8 @@ class State(Case):
                 return {scene_of(z.read(n))["style"]["exposure"] for n in z.namelist()}
 
         self.assertEqual(found(job), {-1})
-        # these are frames of a version that gave each its own exposure, so that the rest have their own, too
+        # these frames are from a version that gave each frame its own exposure, so the remaining frames get their own,
+        # too
         path = os.path.join(self.folder, "jobs", other["id"])
         self.assertEqual(server.stop(), 0)
         with open(os.path.join(path, "job.json"), encoding="utf-8") as file:
@@ -167,7 +169,7 @@ class State(Case):
                 server = self.start()
             except RuntimeError:
                 self.fail("it did not start")
-        # If the first server finished the frame before, only the later starts were without a new frame.
+        # If the first server finished the frame before it was killed, only the later starts made no new frame.
         if "delayed" not in self.status(job, server):
             self.assertEqual(server.wait(), 1)
             server = self.start()

@@ -101,7 +101,7 @@ class Jobs(Case):
         self.assertEqual([s["sky"]["model"] for s in scenes], ["none"] * 4 + ["grid"] * 5)
         self.assertEqual(
             [s["style"]["exposure"] for s in scenes], [0] * 4 + [1] * 5
-        )  # words change in steps, too; 0 is the mean of the alternating 1 and -1
+        )  # fields with words change in steps, too; the exposure 0 is the mean of the alternating 1 and -1
 
     def test_exposure(self):
         """Frames between keyframes share one exposure, the median of nine, which their scenes and the job state. Each
@@ -205,7 +205,7 @@ class Jobs(Case):
         self.assertEqual(grown("job_frames_total"), 3)
         self.assertTrue(
             daemon.eventually(lambda: self.daemon.metrics()["kerrd_job_bytes"] == size)
-        )  # deleted jobs disappear in time
+        )  # deleted jobs disappear after a while
 
     def test_smooth(self):
         at = {0: 10, 10: 20, 15: 80, 40: 75, 50: 75}
@@ -328,7 +328,8 @@ class Jobs(Case):
             time.sleep(0.04)
         fractions = [s["fraction"] for s in seen]
         self.assertEqual(seen[-1]["state"], "done")
-        self.assertGreater(len({f for f in fractions if 0 < f < 0.25}), 1, fractions)  # progress within a frame
+        # the job reports progress within a frame
+        self.assertGreater(len({f for f in fractions if 0 < f < 0.25}), 1, fractions)
         self.assertGreater(len({s["finished"] for s in seen}), 3)
         last = [s["remaining_s"] for s in seen if s["finished"] == 3 and s["remaining_s"] is not None]
         self.assertTrue(last and all(0 <= s < 3 for s in last), last)
@@ -365,7 +366,7 @@ class Jobs(Case):
         self.assertGreater(len(data), 5)
         self.assertTrue(all(a["finished"] <= b["finished"] for a, b in zip(data, data[1:])))
         self.assertNotIn("token", answer.body.decode())
-        with self.stream(job, "/events") as s:  # the events of a job that has ended
+        with self.stream(job, "/events") as s:  # the job has ended, and its events are still served
             self.assertEqual(daemon.read_answer(s).body.count(b"event: end"), 1)
 
     def test_stream_as_they_come(self):
@@ -462,7 +463,7 @@ class Jobs(Case):
         seen, deadline = [], time.monotonic() + 20
         while len(seen) < 3 and time.monotonic() < deadline:
             answer = self.daemon.get(self.at(job, "/preview.png"))
-            if answer.status == 409:  # no frame exists
+            if answer.status == 409:  # no frame exists yet
                 self.assertFalse(seen)
             # this is the first frame; it is given until a part of the second has been rendered
             elif answer.header("Kerrd-Rows") is None:
@@ -513,7 +514,7 @@ class Jobs(Case):
         self.assertEqual(self.until(job, "failed")["error"], "something failed")
         self.assertTrue(
             daemon.eventually(lambda: self.status(job)["finished"] == 1)
-        )  # the frame before was still being encoded
+        )  # at that moment the previous frame was still being encoded
         self.assertIn(
             "something failed", self.assertProblem(self.daemon.get(self.at(job, "/result")), 409, "not-ready")["detail"]
         )
@@ -690,7 +691,7 @@ class Jobs(Case):
                     + body
                 )
         self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= files))
-        self.until(self.make({"scene": SCENE}), "done")  # no other job is before it
+        self.until(self.make({"scene": SCENE}), "done")  # this job does not wait, because no other job is before it
 
     def test_as_many_as_may(self):
         jobs = [self.make({"scene": SLOW}) for _ in range(4)]
@@ -756,7 +757,7 @@ class Planned(Case):
         self.server = daemon.Daemon("--device", "gated", "--drain-ms", 10, env=os.environ | self.gate.env)
         self.addCleanup(lambda: self.server.process.poll() is None and (self.server.process.kill(), self.server.wait()))
         self.job = self.make({"scenes": [SCENE] * 2}, server=self.server)
-        self.gate.asked()  # of the second frame
+        self.gate.asked()  # planning of the second frame has begun
 
     def test_others_are_answered(self):
         answer = self.server.request("GET", self.at(self.job), timeout=600)

@@ -141,7 +141,8 @@ def segments(data):
 
 
 def decode(data):
-    """(width, height, bytes of RGB, how many pixels in each direction share a sample of colour)."""
+    """Decodes a file. Returns (width, height, bytes of RGB, the number of pixels in each direction that share a sample
+    of colour)."""
     tables, codes, parts = {}, {}, []
     for marker, body in segments(data):
         if marker == 0xDB:

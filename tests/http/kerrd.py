@@ -216,7 +216,7 @@ class Telephone(unittest.TestCase):
             try:
                 while more := os.read(ours, 4096):
                     told += more
-            except OSError:  # the other end is closed
+            except OSError:  # reading fails once the other end is closed
                 pass
             self.assertEqual(server.wait(60), 0)
             terminal.close()
@@ -294,9 +294,9 @@ class Kerrd(unittest.TestCase):
         janskys = sum(struct.unpack(f"<{n * n}f", numbers[-4 * n * n :])) * (field / n * metres / parsecs) ** 2
         self.assertAlmostEqual(
             float(told["jy"]) / janskys, 1, delta=1e-3
-        )  # in both, the pixels of the critical curve have more rays
+        )  # both pictures have more rays in the pixels of the critical curve
         self.assertIsNone(self.daemon.get(TARGET).header("Kerrd-Flux"))
-        # the pictures to which the density applies
+        # The density gives exactly the requested flux in a picture like this one.
         looked_for = (
             "/v1/render?preset=riaf&image.width=128&image.height=128&image.critical_factor=1&volume.normalise_to_jy=1"
         )
@@ -420,7 +420,7 @@ class Kerrd(unittest.TestCase):
             with self.subTest(scene):
                 if scene.get("accuracy") and not self.has_float64():
                     self.skipTest("the device has no double precision")
-                for _ in range(5):  # on a very fast or busy machine nothing may come in between
+                for _ in range(5):  # on a fast or busy machine no picture may come in between
                     job, between = self.daemon.post("/v1/jobs", {"scene": scene}).json(), 0
                     while (status := self.daemon.get("/v1/jobs/" + job["id"]).json())["state"] == "running":
                         self.interrupt()
@@ -479,7 +479,7 @@ class Kerrd(unittest.TestCase):
         session = self.open({"image": {"width": 96, "height": 64}, "motion": {"time_rate": 1}})
         at, number = f"/v1/sessions/{session['id']}/frame", 0
         for quality, least_db in ((30, 24), (75, 29), (95, 36)):
-            for _ in range(20):  # repeated until both are of the same frame
+            for _ in range(20):  # repeated until both files show the same frame
                 lossy = self.daemon.get(f"{at}?lossy={quality}&after={number}")
                 number = int(lossy.header("Kerrd-Frame"))
                 exact = self.daemon.get(f"{at}?after={number - 1}")
@@ -615,13 +615,13 @@ class Kerrd(unittest.TestCase):
     def test_a_vanished_client_stops_its_list_of_particles(self):
         crowd = self.open({"disk": {"model": "particles", "particles": 4000000}, "image": {"width": 64, "height": 36}})
         target = f"/v1/sessions/{crowd['id']}/particles"
-        self.daemon.get(target + "?count=10")  # does what only the first list needs
+        self.daemon.get(target + "?count=10")  # the first list needs work that later lists do not repeat
         whole = float(re.search(r"particles;dur=([\d.]+)", self.daemon.get(target).header("Server-Timing"))[1]) / 1000
         for _ in range(10):
             with self.daemon.connect() as s:
                 s.sendall(f"GET {target} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
                 time.sleep(0.01)
-        self.assertLess(self.idle_after(), 5 * whole)  # there were ten requests
+        self.assertLess(self.idle_after(), 5 * whole)  # the ten requests would need ten times `whole`
 
     def event(self, session, words):
         """The first event of a session that contains the words."""
@@ -784,8 +784,8 @@ class Kerrd(unittest.TestCase):
         self.assertGreater(judged, 20)
 
     def test_named_stars_are_as_bright_as_they_are_where_space_is_flat(self):
-        """Whatever a projection does at its edges, its poles and its seam: from far away nothing is magnified, and over
-        all directions each star is listed once."""
+        """From far away no star is magnified, and each star is listed once over all directions, also at the edges,
+        poles and seams of a projection."""
         ask, sky = (
             "application/vnd.kerrd.stars+json",
             {"model": "catalogue", "limit_mag": 2.2, "orientation": "equatorial", "brightness": 1},
@@ -1097,8 +1097,7 @@ class Kerrd(unittest.TestCase):
                 again,
             )
             self.assertTrue(daemon.eventually(lambda: server.get(killed).json()["state"] == "done"))
-            missing = {number % 10 for number in range(20) if number not in have}  # spins
-            # a killed server forgets its last half second
+            missing = {number % 10 for number in range(20) if number not in have}  # spins; a kill loses the last 0.5 s
             self.assertEqual(server.get(killed).json()["lens_maps_traced"], traced + len(missing))
             for at in killed, whole:
                 for end, expected in files.items():
@@ -1116,7 +1115,7 @@ class Kerrd(unittest.TestCase):
                 time.sleep(0.3)
         self.assertLess(
             self.idle_after(), self.daemon.post("/v1/plan", scene).json()["estimate_ms"] / 1000
-        )  # in one of the three
+        )  # less than the time of one of the three pictures
         self.assertEqual(self.daemon.get(TARGET).status, 200)
 
 

@@ -14,7 +14,7 @@ MOVING = {
     "time": 5,
     "sky": {"model": "grid"},
     "motion": {"azimuth_rate_deg": 10},
-}  # none of its frames is the last
+}  # none of these frames is the last
 RESTING = {"image": {"width": 64, "height": 36}, "time": 5, "disk": {"emission_opacity": 0, "gas": {"amplitude": 0}}}
 
 
@@ -56,8 +56,8 @@ class Kinds(daemon.Owned):
         self.assertEqual(self.daemon.get(self.at(session, "/frame.png")).body, frame.body, "the same file")
 
     def test_the_last_frame_may_be_lossy_too(self):
-        """A client that requests JPEG gets it as long as the frame's pixels are there, then PNG. Others always get
-        PNG."""
+        """A client that requests JPEG gets JPEG while the frame's pixels exist, and PNG afterwards. Other clients
+        always get PNG."""
         session = self.make(RESTING)
         frame, number = None, 0
         while not frame or " final=1" not in frame.header("Kerrd-Quality"):
@@ -69,8 +69,8 @@ class Kinds(daemon.Owned):
         self.assertEqual((width, height), (64, 36))
 
         def gone(k):
-            """True if the pixels are gone, so that no other quality can be made. Otherwise each try makes another
-            quality, and there are at most five."""
+            """True if the pixels are gone, so that no other quality can be made. Otherwise each try makes a file of
+            another quality; a frame keeps at most five."""
             time.sleep(2**k)
             return self.get(session, f"last={k + 1}").header("Content-Type") == "image/png"
 

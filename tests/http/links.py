@@ -79,7 +79,7 @@ class Links(access.Access):
                 for ask in (self.works, lambda link: self.ask("HEAD", link)):
                     self.assertEqual(ask(signed(target)).status, 200)
                 self.assertProblem(self.ask("GET", target), 401, "unauthorized")
-        # there is no such job, which a visitor without access would not learn
+        # a visitor without access would not learn that there is no such job
         self.assertProblem(self.ask("GET", signed(f"/v1/jobs/{access.ID}/result")), 404, "not-found")
 
     def test_it_opens_nothing_else(self):
@@ -178,7 +178,7 @@ class Links(access.Access):
 
     def test_a_client_that_leaves_is_charged(self):
         """The picture of a client that has left is charged once it ends, like any other."""
-        link = signed(RENDER + "&time=5000", budget_ms=1)  # a fake picture takes its time
+        link = signed(RENDER + "&time=5000", budget_ms=1)  # a picture of the fake renderer takes `time` ms
 
         def metrics():
             return self.ask("GET", "/metrics", headers=access.own(access.VIEW)).body

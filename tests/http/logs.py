@@ -16,7 +16,7 @@ MADE = re.compile(r"[0-9a-f]{32}")
 
 class Logs(unittest.TestCase):
     def lines(self, asks, *options):
-        """The lines that the server logs while `asks` uses it."""
+        """The lines that the server logs while `asks` sends it requests."""
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-ms", 10, "--log", 2, "--log-format", "json", *options, stderr=log)
             self.addCleanup(server.process.kill)
@@ -95,7 +95,8 @@ class Logs(unittest.TestCase):
                 self.assertEqual(line.get("parent_id"), parent if good else None)
 
     def test_bytes_are_those_of_the_answer(self):
-        """With several answers on one connection each line has its own number of bytes, headers included."""
+        """If one connection has several answers, each line has the number of bytes of its own answer, headers
+        included."""
 
         def asks(server):
             with server.connect() as s:

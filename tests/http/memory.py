@@ -1,4 +1,5 @@
-"""Memory that a server holds, to find what a refusal has not freed. Every test of refusals may use it.
+"""Measures the memory that a server holds, to find memory that a refusal has not freed. Any test of refusals may use
+this module.
 
 before = memory.held(server)
 for _ in range(200): refuse(server)
@@ -10,7 +11,7 @@ import re
 
 import daemon
 
-SLACK = 192 << 10  # bytes: pages of the heap that some thread touches late
+SLACK = 192 << 10  # bytes that may remain: pages of the heap that a thread touches for the first time
 
 # malloc returns blocks of 64 KiB and more to the system at once, and all threads share one heap. Otherwise the heap's
 # own behaviour would hide a leak.

@@ -127,7 +127,8 @@ class Metrics(daemon.Case):
         )
 
     def test_a_duration_is_in_its_bucket(self):
-        """An event stream closed after half a second is above 250 ms, and its sum is in seconds."""
+        """An event stream that is closed after half a second counts in the buckets above 250 ms, and its sum is in
+        seconds."""
         session = self.daemon.request("POST", "/v1/sessions", "{}").json()
         labels = {"route": "/v1/sessions/{id}/events"}
         with self.daemon.connect() as s:
@@ -165,7 +166,8 @@ class Metrics(daemon.Case):
         self.assertEqual(value["kerrd_device_lost"], 0)
 
     def test_what_is_kept_after_a_rest(self):
-        """After each period of activity the state is stored once. The fake renderer counts this as bytes of kernels."""
+        """After each period of activity the renderer stores its state once. The fake renderer reports this as an
+        additional byte of kernels."""
         server = daemon.Daemon("--rest-ms", 200)
         self.addCleanup(server.stop)
 

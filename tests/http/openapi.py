@@ -543,8 +543,8 @@ class OpenApi(daemon.Case):
                     self.assertTrue(status in (200, 201, 202) if good else status == 422, status)
 
     def test_what_is_refused_for_its_form_is_told(self):
-        """For each operation, whatever its path refers to, the document lists each status that a malformed request
-        gets."""
+        """For each operation, whether or not the resource of its path exists, the document lists each status that a
+        malformed request gets."""
         lines = {
             "a length of 26 digits": "Content-Length: " + 26 * "9",
             "a length that is none": "Content-Length: x",
@@ -615,8 +615,8 @@ class OpenApi(daemon.Case):
         return int(answer.split()[1])
 
     def test_links_lead_to_what_was_made(self):
-        """Each answer that creates something links to the operations at its address. The owner's operations take its
-        token in the query, as the links show."""
+        """Each answer that creates something links to the operations at its address. Links to the owner's operations
+        have the token in the query."""
         paths = self.document["paths"]
         for path, method, status in (
             ("/v1/sessions", "post", "201"),
@@ -748,7 +748,7 @@ class OpenApi(daemon.Case):
         self.assertEqual((path.fate, path.result.end, len(path.series.rows)), ("bound", "duration", 3))
         self.assertAlmostEqual(
             path.frequencies.coordinate.phi, 10**-1.5, places=12
-        )  # Kepler's third law is exact for circles round a hole without spin
+        )  # Kepler's third law is exact for circular orbits round a hole without spin
         many = call(
             "post_orbits",
             body=models.OrbitsRequest(

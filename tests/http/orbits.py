@@ -35,7 +35,7 @@ class Orbits(daemon.Case):
         return answer
 
     def stream(self, document):
-        """A socket on which the answer arrives."""
+        """Sends a request, and returns the socket on which its answer arrives."""
         body = json.dumps(document).encode()
         s = self.daemon.connect(60)
         s.sendall(
@@ -45,7 +45,8 @@ class Orbits(daemon.Case):
         return s
 
     def test_steps_of_which_nothing_comes(self):
-        """From 5e19 M a fall of 10000 M is too short to change r, so that the search for its end is given up."""
+        """At 5e19 M a fall of 10000 M is too short to change r, so that the search for the end of the fall is given
+        up."""
         answer = self.post(
             {
                 "orbit": {"position": {"r": 5.528809622814662e19}},
@@ -72,7 +73,7 @@ class Orbits(daemon.Case):
         self.assertEqual(list(rows[0])[-7:], ["alpha", "beta", "right", "up", "inwards", "delay", "off"])
         sizes = [math.hypot(row["alpha"], row["beta"]) for row in rows]
         self.assertLess(max(sizes) - min(sizes), 1e-5)
-        # the image is at r + 1 M and a little more, because light is bent
+        # the radius of the image is r + 1 M and a little more, because light is bent
         self.assertTrue(10.5 < sizes[0] < 11.5, sizes[0])
         self.assertIsNone(rows[0]["right"])
         text = self.good(circle, Accept="text/csv").body.decode().splitlines()
@@ -167,11 +168,11 @@ class Orbits(daemon.Case):
         mercury = strict(self.good({"orbit": {"case": "mercury"}, "samples": 0}).body)
         self.assertEqual(f"{mercury['advance']['periastron_arcsec_per_century']:.2f}", "42.98")
         self.assertNotIn("series", mercury)
-        # the spin of this case is 0, which leaves room for the charge
+        # the spin of this case is 0, so that the charge may be 0.9
         self.good({"orbit": {"case": "mercury"}, "charge": 0.9, "samples": 0})
         fall = strict(self.good({"spin": 0.5, "orbit": {"case": "plunge"}, "samples": 10}).body)
         self.assertEqual((fall["fate"], fall["result"]["end"]), ("plunge", "horizon"))
-        self.assertEqual(fall["series"]["rows"][-1][2], None)  # t at the horizon
+        self.assertEqual(fall["series"]["rows"][-1][2], None)  # t is infinite at the horizon
 
     def test_charge(self):
         """Without spin E and L follow from E^2 = f (1 + L^2/r^2) at both turning points, f = 1 - 2/r + Q^2/r^2."""
@@ -229,7 +230,7 @@ class Orbits(daemon.Case):
         self.assertLess(time.monotonic() - start, 5)
         for s in streams:
             s.close()
-        # the requests ended with their clients, so that four are accepted again
+        # the requests ended when their clients left, so that four are accepted again
         self.assertTrue(daemon.eventually(lambda: all(self.post(GENERIC).status == 200 for _ in range(4))))
 
     def test_the_queue_is_bounded(self):

@@ -114,7 +114,7 @@ class Paths(Case):
                     self.assertAlmostEqual(
                         camera["inclination_deg"], 8 * clock(frame / 8), places=12, msg=(word, frame)
                     )
-        # The observer's own clock is at 3 of 12 where 3 t^2 - 2 t^3 is 1/4.
+        # The observer's own clock shows 3 of 12 M at the time t for which 3 t^2 - 2 t^3 is 1/4.
         bend = [
             {"frame": 3, "scene": {"camera": {"inclination_deg": 90}}},
             {"frame": 12, "scene": {"camera": {"inclination_deg": 0}}},
@@ -153,8 +153,8 @@ class Paths(Case):
             self.assertEqual(found[2]["inclination_deg"], 40)
 
     def looks(self, camera, looks, keyframes=(), spin=0.9):
-        """For four frames on the way inwards, with a turn: the directions that were written, and those by the
-        formulas."""
+        """Compares the directions that the job has written with those by the formulas, for four frames on the way
+        inwards with a turn."""
         keys = [{"frame": 3, "scene": {"camera": {"r": camera["r"] / 2, "azimuth_deg": 30}}, **dict(keyframes)}]
         return self.cameras({**camera, "yaw_deg": 77, "pitch_deg": -11}, keys, spin, look_at=looks)
 
@@ -196,8 +196,8 @@ class Paths(Case):
                     self.same(c, aberrated(z.straight(at[0], at[1] - c.get("azimuth_deg", 0), at[2]), (0, 0, turned)))
 
     def test_it_falls_and_looks_at_the_hole(self):
-        """The path leads through the horizon. Without spin the camera looks straight ahead. With spin it looks outside
-        in the direction that the velocity of rain gives, which continues smoothly inside."""
+        """The path leads through the horizon. Without spin the camera looks straight ahead. With spin its direction
+        follows from the velocity of rain, and continues smoothly inside the horizon."""
         keys = [{"frame": 6, "proper_time": "horizon"}, {"frame": 8, "proper_time": "end"}]
         for c in self.cameras({"r": 6, "observer": "infall", "yaw_deg": 20}, keys, 0, look_at="hole"):
             self.assertLess(hypot(c["yaw_deg"], c["pitch_deg"]), 1e-6)

@@ -157,7 +157,7 @@ class Physics(daemon.Case):
         self.assertAlmostEqual(mode["quality_cubic"], 2.1 + 11.3 * 0.68**3, delta=1e-14)
         self.assertGreater(mode["quality_cubic_error"], 0.7)
         self.assertLess(abs(mode["fit_quality_error"]), 0.009)
-        # 1/(2 pi) of it over 60 solar masses of 4.9255 us each
+        # the real part over 2 pi and over 60 solar masses of 4.9255 us each
         self.assertAlmostEqual(mode["frequency_hz"], 0.52397510 / 2 / math.pi / (60 * 4.925490947e-6), delta=1e-5)
         self.assertAlmostEqual(
             mode["wave"], math.exp(10 * mode["omega_im"]) * math.cos(10 * mode["omega_re"]), delta=1e-14
@@ -205,7 +205,7 @@ class Physics(daemon.Case):
                 hz, damping = self.fitted(samples)
                 self.assertAlmostEqual(hz / numbers["sound_hz"], 1, delta=2e-4)
                 self.assertAlmostEqual(damping / numbers["sound_damping_s"], 1, delta=2e-3)
-                # compare with the curve, sample by sample
+                # compares the sound with the curve, sample by sample
                 unit = numbers["t_s"] or 4.925490947e-6 * float(re.search("mass_msun=([^&]*)", query)[1])
                 self.assertAlmostEqual(
                     numbers["frequency_hz"] * 2 * math.pi * unit / numbers["omega_re"], 1, delta=1e-6
@@ -306,7 +306,8 @@ class Physics(daemon.Case):
 
     def test_bending(self):
         far, near = self.values("deflection?spin=0&b=1e6"), self.values("deflection?spin=0.9&b=2:8:7")
-        self.assertAlmostEqual(far["angle"], 4.0000117810151178e-6, delta=1e-19)  # tests/oracle/deflection_reference.py
+        # this number is from tests/oracle/deflection_reference.py
+        self.assertAlmostEqual(far["angle"], 4.0000117810151178e-6, delta=1e-19)
         self.assertEqual((far["angle"], far["weak"]), (far["angle_retrograde"], 4e-6))
         for b, angle, against in zip(range(2, 9), near["angle"], near["angle_retrograde"]):
             self.assertEqual((angle is None, against is None), (b < 2.844, b < 6.832))
@@ -330,7 +331,7 @@ class Physics(daemon.Case):
         self.assertAlmostEqual(end["rate_msun_yr"] * values["peak_eddington"], values["peak_msun_yr"], delta=1e-12)
 
     def test_nearly_edge_on(self):
-        """At exactly the values that a refusal names as allowed, the request is accepted."""
+        """If a refusal names the allowed values, the request is accepted at exactly these values."""
         above, below = (self.values(f"redshift?phi_deg=200&inclination_deg={i}") for i in (89.9, 90.1))
         self.assertAlmostEqual(above["g"], below["g"], delta=1e-9)
         for inside in (89.91, 90.09):
@@ -402,9 +403,9 @@ class Physics(daemon.Case):
         self.assertRegex(answer.header("Server-Timing"), r"^queue;dur=[\d.]+, compute;dur=[\d.]+$")
 
 
-# Each takes more than ten seconds of one core. In some a point is cheap, in others it is not.
+# Each of these takes more than ten seconds of one core. Some have many cheap points, others have expensive points.
 LONG = ("redshift?r=6:60:100000&phi_deg=0", "qnm?n=3&l=4&m=4&spin=0.9998:0.9999:30000", "scale?spin=0:0.999:100000")
-SHORT = "/v1/physics/qnm?spin=0:0.9:10"  # more than a moment
+SHORT = "/v1/physics/qnm?spin=0:0.9:10"  # a request that takes some time
 
 
 class Long(daemon.Case):
@@ -426,7 +427,8 @@ class Long(daemon.Case):
                 for short in ("/healthz", KERR + "?spin=0:0.9:10"):
                     self.assertEqual(self.daemon.get(short).status, 200)
                 s.setblocking(False)
-                with self.assertRaises(BlockingIOError):  # the other request is still working, for seconds of a core
+                # the other request is still in progress and takes seconds of a core
+                with self.assertRaises(BlockingIOError):
                     s.recv(1)
         with contextlib.ExitStack() as streams:
             for target in LONG[:2]:
@@ -434,8 +436,8 @@ class Long(daemon.Case):
             self.assertLess(self.seconds(SHORT), 60)  # the short request takes turns with the long ones
 
     def test_it_ends_with_its_client(self):
-        """A server that stops waits for the requests that it has accepted. That takes long, unless their client has
-        disconnected."""
+        """A server that stops waits for the requests that it has accepted. That takes long, except for requests whose
+        client has disconnected."""
         for target in LONG:
             with self.subTest(target):
                 other = daemon.Daemon("--drain-ms", 10)
@@ -452,7 +454,7 @@ class Long(daemon.Case):
                 streams.enter_context(self.begin(LONG[0]))
             self.daemon.reaches("turns_unfinished", 8)
             self.assertProblem(self.daemon.get(SHORT), 503, "queue-full")
-            self.seconds(KERR)  # a short request
+            self.seconds(KERR)  # a short request is answered
         self.assertTrue(daemon.eventually(lambda: self.daemon.get(SHORT).status == 200))
 
     def test_the_domain_is_told_late_too(self):
@@ -505,7 +507,7 @@ class Limits(daemon.Case):
                 other.reaches("turns_unfinished", 1)
                 daemon.vanish(s)
                 self.assertTrue(daemon.eventually(lambda: other.metrics()["kerrd_turns_unfinished"] == 0))
-        # Each whole would take several seconds of a core (test_an_integral_may_take_so_long).
+        # Each complete integral would take several seconds of a core (test_an_integral_may_take_so_long).
         self.assertLess(other.processor_s(), 1.5 * len(ENDLESS))
         self.assertEqual(other.stop(), 0)
 
@@ -666,13 +668,15 @@ class Integrals(daemon.Case):
         want = math.cos(math.radians(10)) * face / (math.pi * (1000 * 3.0856775814913673e16) ** 2)
         self.assertAlmostEqual(totals[0] / want, 1, delta=0.01)
         self.assertAlmostEqual(totals[1] / totals[0], 1, delta=1e-3)
-        # at cos(10 degrees) = 0.9848: (1 + 2.06 mu)/(1 + 4.12/3), and between 0.95 and 1 of Chandrasekhar's table XXIV
+        # limb darkening at cos(10 degrees) = 0.9848: (1 + 2.06 mu)/(1 + 4.12/3), and Chandrasekhar's table XXIV between
+        # 0.95 and 1
         self.assertAlmostEqual(totals[2] / totals[0], 1.2761, delta=2e-3)
         self.assertAlmostEqual(totals[3] / totals[0], 1.2573, delta=2e-3)
 
     def test_light_that_returns(self):
-        """The light that arrives, over all directions and frequencies, is the share of the luminosity that escapes by
-        /v1/physics/returning: at once if returning light is ignored, in the end if the disk absorbs it."""
+        """The light that arrives, over all directions and frequencies, agrees with the escaping share of the luminosity
+        of /v1/physics/returning. That is the share that escapes at once if returning light is ignored, and the share
+        that escapes in the end if the disk absorbs it."""
         nodes = ((0.0694318442, 0.1739274226), (0.3300094782, 0.3260725774), (0.6699905218, 0.3260725774))
         nodes += ((0.9305681558, 0.1739274226),)
         asked = {"spin": 0.9, "outer": 1e4, "frequencies": 150, "frequency_min_hz": 1e13, "frequency_max_hz": 1e20}
@@ -697,9 +701,9 @@ class Integrals(daemon.Case):
         self.assertAlmostEqual(peaks[1]["t_max_k"] / peaks[0]["t_max_k"], 1.0678, delta=1e-3)
 
     def test_polarised_spectra(self):
-        """Far from the hole the light of each ring has the polarisation of Chandrasekhar's table XXIV; next to a fast hole
-        scattered light turns it from the disk's plane to its axis, the more the higher the energy (Schnittman & Krolik
-        2009)."""
+        """Far from the hole the light of each ring has the polarisation of Chandrasekhar's table XXIV; next to a fast
+        hole scattered light turns the polarisation from the disk's plane to its axis, at high energies more than at low
+        ones (Schnittman & Krolik 2009)."""
         asked = {"limb": "scattering", "polarization": "yes", "frequencies_hz": [1e14, 1e15]}
         far = {**asked, "inner": 1e5, "outer": 1e6, "inclination_deg": 60}
         columns = self.post("spectrum", far).json()["columns"]
@@ -756,12 +760,12 @@ class Integrals(daemon.Case):
         mean = [(low + high) / 2 for low, high in zip(photons["energy_low"], photons["energy_high"])]
         total = sum(m * n for m, n in zip(mean, photons["share"]))
         for m, n, e in zip(mean, photons["share"], line["share"]):
-            self.assertAlmostEqual(m * n / total, e, delta=3e-4)  # g varies over a bin by 1.7 %
+            self.assertAlmostEqual(m * n / total, e, delta=3e-4)  # tolerance: g varies by 1.7 % over a bin
 
     def test_visibilities_of_a_bright_rectangle(self):
         """The fake renderer's maps have uniform brightness. Their transform is the product of two sums of a geometric
         row, sin(n x)/(n sin x)."""
-        # x for a baseline u is this times u
+        # for a baseline u, x is this times u
         pixel = math.pi * 1e9 * 56 / 32 * 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16)
         rows = lambda n, x: 1 if x == 0 else math.sin(n * x) / (n * math.sin(x))
         document = {

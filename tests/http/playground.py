@@ -182,7 +182,7 @@ class Playground(daemon.Owned):
             with self.subTest(body):
                 answer = self.patch(play, body)
                 if body == {"rate": 5, "waves": False, "remove": [1], "change": [{"id": 1, "mass": 1}]}:
-                    self.assertEqual(answer.status, 200)  # the body was changed and then removed
+                    self.assertEqual(answer.status, 200)  # the body was first changed and then removed
                     before = self.status(play)
                     continue
                 self.assertProblem(answer, status)
@@ -193,7 +193,7 @@ class Playground(daemon.Owned):
         self.assertTrue(daemon.eventually(lambda: self.status(play)["t"] > going["t"] + 50))
 
     def test_steps_are_those_of_the_command_line(self):
-        """Steps equal those of the command line to the bit, also through a change, however the time is divided."""
+        """Steps equal those of the command line to the bit, however the time is divided, and also after a change."""
         kerrd = os.environ["KERRD"]
         for document in (
             {"preset": "disruption", "debris_per_body": 2000},
@@ -795,7 +795,7 @@ class Stopping(unittest.TestCase):
         streams = [server.connect() for _ in range(2)]
         for s, rest in zip(streams, ("events", "bodies?after=99999999&wait_ms=60000")):
             s.sendall(f"GET /v1/playground/{play['id']}/{rest} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
-        text = streams[0].recv(65536)  # the stream has begun
+        text = streams[0].recv(65536)  # reads the beginning of the stream
         server.terminate()
         while data := streams[0].recv(65536):
             text += data
@@ -823,7 +823,7 @@ class Films(job_case.Case):
                 subprocess.run([kerrd, "playground", begin, "--time", str(time), "-o", end], check=True, timeout=600)
                 return end.read_bytes()
 
-            torn = after(self.STAR, 1000)  # a snapshot in the middle of the tidal disruption, far on in time
+            torn = after(self.STAR, 1000)  # a snapshot in the middle of the tidal disruption, at a large time
             for document, more in (
                 (self.STAR, {}),
                 (json.loads(torn), {"scene": {"time": -1000}}),

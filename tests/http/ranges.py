@@ -18,7 +18,7 @@ WHOLE, BEYOND = "whole", "beyond"
 
 
 def table(n):
-    """Values of Range, and the part of n bytes they ask for: first and last, or the whole, or nothing that exists."""
+    """Values of Range, and the part of n bytes that each requests: its first and last byte, WHOLE or BEYOND."""
     return {
         "bytes=0-0": (0, 0),
         "bytes=0-9": (0, 9),
@@ -157,7 +157,7 @@ class Ranges(Case):
                     self.assertEqual(head.header(name), whole.header(name), (target, name))
 
     def test_if_range(self):
-        """Only a strong tag of the present content lets a part be sent (RFC 9110 13.1.5)."""
+        """A part is sent only if If-Range has a strong tag of the present content (RFC 9110 13.1.5)."""
         for target, headers in self.kinds():
             whole = self.ask(target, **headers)
             tag = whole.header("ETag")
@@ -181,7 +181,7 @@ class Ranges(Case):
             self.assertWhole(self.ask(target, Range=f"bytes={len(whole.body)}-", If_Range='"x"', **headers), whole)
 
     def test_preconditions_come_first(self):
-        """If-Match, then If-None-Match, then If-Range and Range (RFC 9110 13.2.2)."""
+        """Preconditions are evaluated in this order: If-Match, If-None-Match, If-Range and Range (RFC 9110 13.2.2)."""
         for target, headers in self.kinds():
             whole = self.ask(target, **headers)
             tag, n = whole.header("ETag"), len(whole.body)
@@ -201,8 +201,8 @@ class Ranges(Case):
                 self.assertPart(self.ask(target, Range="bytes=3-8", **headers, **given), whole, 3, 8)
 
     def test_digests(self):
-        """Digests of what is sent and of the whole that it is a part of, where the ETag contains them (RFC 9530),
-        whatever is requested."""
+        """If the ETag contains a digest, the answer has digests of its content and of the whole representation (RFC
+        9530), whatever is requested."""
         for target, headers in self.kinds():
             for wanted in {}, {"Want-Content-Digest": "sha-256=10"}, {"Want-Content-Digest": "sha-256=0"}:
                 whole = self.ask(target, **headers, **wanted)

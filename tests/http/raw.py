@@ -81,7 +81,7 @@ REFUSED = {
     "name with a blank": (get(b"Ho st: x"), {400}),
     "name with a bracket": (get(b"(x): 1"), {200, 400}),
     "line without a colon": (get(b"nonsense"), {400}),
-    # no HTTP at all
+    # bytes that are not HTTP at all
     "hello of TLS": (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03" + b"\0" * 60 + b"\r\n\r\n", set()),
     "preface of HTTP/2": (b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n", set()),
     "one word": (b"GET\r\n\r\n", set()),
@@ -155,7 +155,8 @@ class Raw(daemon.Case):
                 self.judge(name, answers[1:], closed)
 
     def test_beside_uploads(self):
-        """Others are not affected: uploads in the middle of body, chunk and header continue after each of these."""
+        """Other connections are not affected. Uploads that are in the middle of a body, a chunk or a header continue
+        after each invalid request."""
         half = {
             "body": (POST + b"Content-Length: 2\r\n\r\n{", b"}"),
             "chunk": (CHUNKED + b"1\r\n{\r\n1\r\n", b"}\r\n0\r\n\r\n"),

@@ -506,7 +506,7 @@ class Closed(daemon.Case):
                     self.assertNotIn("sky", ray)
 
     def test_redshift_of_circular_orbits(self):
-        a, inclination = 0.5, 70  # ISCO at 4.233
+        a, inclination = 0.5, 70  # the ISCO is at 4.233
         rays = [[-9, 2], [9, 2], [0.5, -6], [3, 7]]
         for (alpha, _), ray in zip(
             rays, self.ask(spin=a, observer={"inclination_deg": inclination}, rays=rays)["rays"]
@@ -536,14 +536,15 @@ class Closed(daemon.Case):
         self.assertNotIn("charge", self.ask(spin=0, rays=[[7, 1]]))
 
     def test_gas_that_plunges(self):
-        # A hole seen from above: lambda = 0. Light that leaves inwards, that is after the turning point, is shifted
-        # less.
+        # The hole is seen from above, so that lambda = 0. Light that leaves inwards reaches its turning point first,
+        # and is shifted less.
         answer = self.ask(spin=0, observer={"inclination_deg": 0}, rays=[[5.1, 0], [5.22, 0]])
-        before = answer["rays"][0]["crossings"][0]  # the ray is captured, so that it is on its way inwards
+        before = answer["rays"][0]["crossings"][0]  # the ray is captured, so that it moves inwards here
         self.assertEqual(answer["rays"][0]["fate"], "captured")
         r, b = before["r"], 5.1
         self.assertLess(r, 6)
-        # Falling from the ISCO: E = sqrt(8/9), p.u by hand for a = 0, with the photon outwards and the gas inwards.
+        # Gas that falls from the ISCO has E = sqrt(8/9). p.u is computed by hand for a = 0, with the photon moving
+        # outwards and the gas inwards.
         e, ur = math.sqrt(8 / 9), -math.sqrt((6 / r - 1) ** 3 / 9)
         pr = math.sqrt(1 - b * b * (1 - 2 / r) / r**2) / (1 - 2 / r)
         self.assertLess(abs(before["g"] * (e / (1 - 2 / r) - pr * ur) - 1), 1e-12)
@@ -676,7 +677,8 @@ class Load(daemon.Case):
         self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= files))
 
     def test_one_too_many(self):
-        slow = {"rays": some_rays(60000), "accuracy": {"engine": "mino-rkn6", "steps": 12}}  # a minute each
+        # each request takes a minute
+        slow = {"rays": some_rays(60000), "accuracy": {"engine": "mino-rkn6", "steps": 12}}
         held = [send(self.daemon, slow) for _ in range(3)]
         self.daemon.reaches("rays_unfinished", 3)
         answer = self.daemon.post(RAYS, {"rays": [[1, 2]]})

@@ -49,7 +49,9 @@ OF_EACH_READER = {
     "post /v1/sessions, long",
     "post /v1/playground, long",
 }
-WARM = 2  # repetitions before the first measurement: they make what is made once, and heaps reach their size
+# repetitions before the first measurement, in which memory is allocated that stays allocated, and heaps reach their
+# size
+WARM = 2
 NPZ = "application/x-npz"
 UVFITS = "application/x-uvfits"
 MEMBERS = (
@@ -113,7 +115,8 @@ def with_entries(data, n):
 
 
 def grids():
-    """Invalid grids, by name: each member missing, damaged, of another shape, and longer than permitted."""
+    """Invalid grids by name. In each of them one member is missing, damaged, of another shape, or longer than
+    permitted."""
     good = assets.grid(0.5)
     members = members_of(good)
     zeros = lambda n: assets.npy("<f8", (n,), bytes(8 * n))

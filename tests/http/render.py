@@ -120,7 +120,7 @@ class Render(daemon.Case):
         self.assertEqual(by_query.body, by_body.body)
 
     def test_a_style_in_a_query(self):
-        """A style may be anywhere in the query: fields that the query itself sets keep their values."""
+        """A style may be anywhere in the query. Fields that the query itself sets keep their values."""
         tags = [
             self.daemon.get(RENDER + "&style.bloom=0.25&style.name=dngr&disk.redshift=true").header("ETag"),
             self.daemon.get(RENDER + "&style.name=dngr&disk.redshift=true&style.bloom=0.25").header("ETag"),

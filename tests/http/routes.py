@@ -64,8 +64,8 @@ class Routes(daemon.Case):
                     json.loads(got.body)
 
     def settled(self):
-        """The metrics once only this request is under way, because an answer is counted shortly after its last byte has
-        arrived."""
+        """Returns the metrics once no other request is in progress, because an answer is counted shortly after its last
+        byte has arrived."""
         figures = {}
 
         def alone():
@@ -173,7 +173,7 @@ class Routes(daemon.Case):
             text = self.daemon.get("/" + name)
             self.assertEqual(text.status, 200, name)
             if not text.header("Content-Type").startswith("text/"):
-                continue  # a picture or a film
+                continue  # skipped, because these files are pictures and films
             others = {
                 posixpath.normpath(posixpath.join(posixpath.dirname(name), other))
                 for other in re.findall(r"""(?:from ?|import ?\(?|new URL\()['"]([\w./-]+)['"]""", text.body.decode())
@@ -192,7 +192,7 @@ class Routes(daemon.Case):
                 self.assertEqual(self.daemon.post("/v1/plan", scene.body).status, 200)
         self.assertEqual(
             self.daemon.get("/v1/presets/m87-eht").json(), self.daemon.get("/v1/presets/m87").json()
-        )  # a former name
+        )  # a former name of the preset
         self.assertEqual(self.daemon.get("/v1/presets/m87-EHT").status, 404)
 
     def test_a_small_picture_of_a_preset(self):
@@ -456,7 +456,7 @@ class Routes(daemon.Case):
 
 
 class Held(daemon.Case):
-    """The thread that answers everything else is stopped, and all connections are in use."""
+    """Health is answered while the thread that answers all other requests is stopped and all connections are in use."""
 
     options = ("--device", "held", "--connections", 8, "--header-ms", 30000)
 
@@ -469,7 +469,7 @@ class Held(daemon.Case):
             for s in crowd[:20]:
                 s.sendall(b"GET /v1/device HTTP/1.1\r\nHost: localhost\r\n\r\n")
             crowd += [self.daemon.connect() for _ in range(200)]
-            for s in crowd[-100:]:  # also connections that have begun a health request and never finish it
+            for s in crowd[-100:]:  # some connections begin a health request and never finish it
                 s.sendall(b"GET /healthz HTTP/1.1\r\n")
             for path in ("/healthz", "/readyz", "/metrics"):
                 self.assertEqual(self.daemon.get(path).status, 200)
@@ -496,8 +496,8 @@ def slice_ns(thread):
 
 class Prompt(daemon.Case):
     def test_health_asks_for_short_turns(self):
-        """The front thread and the thread of the health routes request short slices. No other thread does, because then
-        the request would have no effect."""
+        """The front thread and the thread of the health routes request short slices. No other thread does, because
+        short slices for all threads would have no effect."""
         if slice_ns(os.getpid()) is None:
             self.skipTest("this kernel tells no slices")
         for path in ("/healthz", "/v1/device", "/v1/render?" + daemon.SMALL, "/readyz"):

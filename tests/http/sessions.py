@@ -39,7 +39,7 @@ class Sessions(daemon.Owned):
     def test_frames_are_no_narrower_than_was_asked(self):
         body = json.dumps(
             {**SCENE, "image": {"width": 640, "height": 360}, "time": 60}
-        )  # milliseconds, while a frame should take 33
+        )  # milliseconds a frame; the target is 33
         for query, pointer in (
             ("min_scale=0.2", "min_scale"),
             ("min_scale=1.01", "min_scale"),
@@ -371,7 +371,8 @@ class Sessions(daemon.Owned):
             struck = self.strike(session, '{"amplitude": 0.003}').json()
             frames = until_it_rests()
             self.assertGreater(len(frames), 8)
-            ends = struck["scene"]["style"]["ringdown_time"] + math.log(3.072) / 0.08137  # where a 1024th is left
+            # the ringdown ends when a 1024th is left
+            ends = struck["scene"]["style"]["ringdown_time"] + math.log(3.072) / 0.08137
             self.assertLess(frames[-2]["time"], ends)
             self.assertTrue(ends - 0.005 < frames[-1]["time"] < ends + 2, (ends, frames[-1]))
             self.assertTrue(frames[-1]["quality"]["final"] and frames[-1]["quality"]["sketch"] is False)
@@ -400,7 +401,7 @@ class Sessions(daemon.Owned):
             self.daemon.get(self.at(session, "/particles?fields=x,y,z,energy")), 422, "invalid-parameters"
         )
         self.assertIn("count is 10000000 with 16 bytes a particle; it must be 1 to 8388608", problem["detail"])
-        head = self.daemon.request("HEAD", self.at(session, "/particles"))  # all particles, as x, y and z
+        head = self.daemon.request("HEAD", self.at(session, "/particles"))  # the file has all particles, as x, y and z
         self.assertEqual(
             (head.status, head.header("Kerrd-Count"), head.header("Kerrd-Fields"), head.body),
             (200, "10000000", "x,y,z", b""),
@@ -492,7 +493,7 @@ class Sessions(daemon.Owned):
         remaining time is in seconds."""
         session = self.open(
             {**SCENE, "image": {"width": 64, "height": 36, "samples": 2}, "time": 60}
-        )  # 1.8 s with four rays a pixel
+        )  # this picture takes 1.8 s with four rays a pixel
         told, number, revision = [], 0, 0
         for inclination in 30, 31, 32, 33:  # pictures are coarser as long as something changes
             wanted = self.patch(session, {"camera": {"inclination_deg": inclination}}).json()["revision"]
@@ -542,8 +543,8 @@ class Sessions(daemon.Owned):
         for _ in range(5):
             session = self.open(
                 {"image": {"width": 4000, "height": 3000}, "time": 60}
-            )  # encoding the first frame takes long,
-            self.patch(session, {"image": {"width": 64, "height": 36}, "time": 0})  # and that of the next one does not
+            )  # encoding the first frame takes long
+            self.patch(session, {"image": {"width": 64, "height": 36}, "time": 0})  # encoding this frame is quick
             self.assertEqual(self.frame(session, 1).header("Kerrd-Revision"), "2")
             time.sleep(0.2)
             self.assertEqual(self.frame(session).header("Kerrd-Revision"), "2")
@@ -599,7 +600,7 @@ class Sessions(daemon.Owned):
 
     def test_a_fall_goes_on_by_itself(self):
         begun = time.monotonic()
-        session = self.open({**self.FALL, "motion": {"proper_time_rate": 0.05}})  # a fall of minutes
+        session = self.open({**self.FALL, "motion": {"proper_time_rate": 0.05}})  # this fall takes minutes
         first = self.assertOnRain(session)
         number, clocks = 0, []
         for _ in range(4):
@@ -776,8 +777,8 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.status(session)["revision"], 1)
 
     def test_those_that_move_share_the_device(self):
-        """A single session renders frames of 30 ms in full. For each of two moving sessions they are too long, but not
-        beside one at rest."""
+        """A single session renders frames of 30 ms in full. If two sessions move, each renders less. A session at rest
+        does not change this."""
         moving = {**MOVING, "image": {"width": 220, "height": 40}, "time": 30}
         resting = self.open({**moving, "motion": {}})
         self.frame(resting)
@@ -991,7 +992,7 @@ class Sessions(daemon.Owned):
             event = self.event({**struck, "time": time_, "style": {"ringdown": 0.5, "ringdown_time": 100}})
             self.assertEqual((event["simulation"]["time_rate"], event["simulation"]["particles"]), (1e-3, 2000))
             self.assertEqual("ringdown" in event["simulation"], wave is not None)
-            if wave is not None:  # the mode of a = 0.5: tests/oracle/qnm_reference.py
+            if wave is not None:  # the mode of a = 0.5, from tests/oracle/qnm_reference.py
                 self.assertAlmostEqual(event["simulation"]["ringdown"], wave, delta=1e-3)
 
     def exposures(self, s, n):
@@ -1005,11 +1006,12 @@ class Sessions(daemon.Owned):
         session = self.open(MOVING)
         with self.stream(session, "/events", "text/event-stream") as s:
             seen = self.exposures(s, 12)
-            self.assertEqual(abs(seen[0]), 1)  # a picture by itself has its own exposure
+            self.assertEqual(abs(seen[0]), 1)  # a single picture has its own exposure
             self.assertGreater(len(set(seen)), 6, seen)
-            for one, two in zip(seen, seen[1:]):  # measured one by one, the pictures would have 1, -1, 1, ...
+            # if each picture measured its exposure, the exposures would be 1, -1, 1, ...
+            for one, two in zip(seen, seen[1:]):
                 self.assertLess(abs(two - one), 0.7, seen)
-            self.patch(session, {"motion": None})  # a scene at rest is a picture by itself
+            self.patch(session, {"motion": None})  # a scene at rest is a single picture
             while abs(seen[-1]) != 1:
                 seen += self.exposures(s, 1)
         session = self.open({**MOVING, "style": {"exposure": 0.25}})
@@ -1017,8 +1019,8 @@ class Sessions(daemon.Owned):
             self.assertEqual(set(self.exposures(s, 5)), {0.25})
 
     def test_slow_reader_gets_the_newest(self):
-        """What was sent before the reader stalled is in the kernel's buffers. After that it gets the newest frame,
-        since there is no queue in between."""
+        """A reader that stalls gets the frames that are in the kernel's buffers, and then the newest frame, because
+        there is no queue in between."""
         session = self.open({**NOISE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}})
         with self.stream(session, "/frames", "application/x-kerrd-frames") as s:
             s.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 18)
@@ -1036,8 +1038,8 @@ class Sessions(daemon.Owned):
         self.assertLess(numbers[0], number)
 
     def test_little_waits_in_the_kernel(self):
-        """What the kernel holds for a stalled reader will be out of date, so there must be little of it:
-        TCP_NOTSENT_LOWAT."""
+        """Data that the kernel holds for a stalled reader will be out of date. TCP_NOTSENT_LOWAT keeps their amount
+        small."""
         session = self.open({**NOISE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}})
         with self.stream(session, "/frames", "application/x-kerrd-frames") as s:
             n = 0
@@ -1167,7 +1169,7 @@ class Sessions(daemon.Owned):
             self.assertEqual(int(answer.header("Kerrd-Frame")), number + 1)
 
     def test_a_patch_ends_a_refinement_that_waits_its_turn(self):
-        """The refinement waits behind that of another session."""
+        """The refinement waits for that of another session."""
         with self.stream(self.open(), "/events"):
             _, _, first = self.refining({**self.LONG, "time": 1000})
             with first:

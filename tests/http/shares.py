@@ -52,7 +52,7 @@ class Device(Case):
             waited = float(re.search(r"queue;dur=([0-9.]+)", answer.header("Server-Timing"))[1])
             self.assertLess(waited, 1500)
         long.setblocking(False)
-        self.assertRaises(BlockingIOError, long.recv, 1)  # it is not done yet
+        self.assertRaises(BlockingIOError, long.recv, 1)  # the long picture is not done yet
 
     def test_long_pictures_of_two_clients_go_on_side_by_side(self):
         first = self.begin(LONG % 60000)
@@ -218,8 +218,9 @@ class Kernels(Case):
         self.assertTrue(daemon.eventually(lambda: own.metrics()["kerrd_renders_unfinished"] == 0))
 
     def test_the_kernels_of_a_views_pixels_are_compiled_ahead(self):
-        """As soon as the view has its last frame, before anyone asks for a pixel. Meanwhile pictures whose kernels are
-        there are rendered, and a picture that lacks a kernel waits."""
+        """The kernels for the explanation of a pixel are compiled as soon as the view has its last frame, before anyone
+        requests a pixel. Meanwhile pictures whose kernels are there are rendered, and a picture that lacks a kernel
+        waits."""
         own = daemon.Daemon()
         self.addCleanup(own.stop)
         kernels = 'kerrd_kept_bytes{kind="kernels"}'
@@ -333,7 +334,8 @@ class Allowance(Case):
         self.assertGreater(self.refused("127.0.0.3", "GET", RENDER), 60 * 4)
 
     def test_a_job_waits_and_leaves_a_half(self):
-        """A few jobs of 40 frames empty the bucket of one second to a half, and it fills for one more in 9 s."""
+        """A job of 40 frames waits once it has used half of the bucket of one second. After 9 s there is room for one
+        more frame."""
         own, at = "127.0.0.4", "/v1/jobs/"
         made = self.ask(own, "POST", "/v1/jobs", {"scenes": [{**self.SMALL, "time": 150 + i / 100} for i in range(40)]})
         self.assertEqual(made.status, 202, made.body)
@@ -393,7 +395,7 @@ class Tasks(Case):
         slow = {
             "rays": [[5, i * 1e-3] for i in range(20000)],
             "accuracy": {"engine": "mino-rkn6", "steps": 12},
-        }  # 1 ms each
+        }  # each frame takes 1 ms
         self.fill(4, "POST", "/v1/rays", json.dumps(slow).encode())
         self.look("rays_unfinished", "POST", "/v1/rays", {"rays": [[5, 1]]})
 
@@ -567,8 +569,8 @@ class Connections(Case):
                 before = self.daemon.open_files()
                 self.hold(begin)
                 self.assertEqual({self.ask("127.0.0.2", "GET", "/v1/presets").status for _ in range(20)}, {200})
-                # Of 200 simultaneous connections some are turned away before they count as this client's. It tries
-                # until it has all that it may have.
+                # Of 200 simultaneous connections some are turned away before they count as this client's. The client
+                # tries until it has as many connections as it may have.
                 self.assertTrue(daemon.eventually(lambda: self.hold(begin, 20) or self.refused()))
                 self.doCleanups()
                 self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before))

@@ -29,7 +29,8 @@ class Stop(unittest.TestCase):
         server.terminate()
         self.assertTrue(daemon.eventually(lambda: server.get("/readyz").status == 503, 0.9))
         self.assertEqual(server.get("/healthz").status, 200)
-        late = in_background(server.get, RENDER + "&time=1")  # still accepted while load balancers notice the stop
+        # the request is still accepted, until load balancers have noticed the stop
+        late = in_background(server.get, RENDER + "&time=1")
         server.reaches("renders_unfinished", 3)
         time.sleep(1.2)  # by then the drain is over, and the first render is under way
         refused = server.get(RENDER)
@@ -101,7 +102,7 @@ class Stop(unittest.TestCase):
 
     def test_a_device_that_is_opened_again(self):
         server = daemon.Daemon("--device", "mends", "--drain-ms", 10)
-        # 6 s, in slices: a picture that is half done starts again
+        # takes 6 s in slices; a picture that is half done starts again
         beside = in_background(server.get, RENDER + "&time=200&image.samples=2")
         self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_renders_unfinished"]))
         session = server.post("/v1/sessions", {"image": {"width": 64, "height": 36}, "time": 5}).json()
@@ -116,7 +117,7 @@ class Stop(unittest.TestCase):
         for told in (
             "missed its deadline",
             "reopened 3 times",
-        ):  # a request that loses the device twice gets an error; and the fourth loss is one too many
+        ):  # a request that loses the device twice gets an error, and the fourth loss ends the server
             answer = server.get(RENDER + "&time=-1")
             self.assertEqual((answer.status, answer.json()["type"]), (500, "urn:kerrd:problem:device-lost"))
             self.assertIn(told, answer.json()["detail"])

@@ -85,7 +85,7 @@ class Sweeps(Case):
         )
 
     def test_what_a_sweep_may_cost(self):
-        """What is limited is not the number of scenes but their estimated time and bytes."""
+        """The limits are on the estimated time and bytes of the scenes, and not on their number."""
         many = {"camera.inclination_deg": "1:100:1", "spacetime.spin": "0:0.95:0.05", "style.exposure": "0:4:1"}
         job = self.make({"scene": {"image": {"width": 2, "height": 2}}, "axes": many})
         self.assertEqual(job["frames"], 10000)
@@ -108,7 +108,8 @@ class Sweeps(Case):
         )
 
     def test_how_many_cubes_are_fetched_at_once(self):
-        """One client may fetch three. A client that was refused may fetch when one of the three has finished."""
+        """One client may fetch three results at once. A further request is refused until one of the three has
+        finished."""
         job = self.make(
             {
                 "scene": {"image": {"width": 1000, "height": 1000, "layers": ["rgb"]}},
@@ -144,7 +145,7 @@ MOST = pair(
     camera__inclination_deg="1:100:1",
     spacetime__spin="0:0.99/100",
     style__exposure="0:9:1",
-)  # the maximum number of scenes
+)  # this is the maximum number of scenes
 
 
 class Plans(Case):

@@ -208,7 +208,7 @@ class Proxies:
         self.assertEqual(status, 201, body)
         frames = []
 
-        def there():  # 204 while kernels are compiled
+        def there():  # the answer is 204 while kernels are compiled
             frames.append(self.ask("GET", f"/v1/playground/{json.loads(body)['id']}/frame.png", Kerrd_Access=TOKEN))
             return frames[-1][0] != 204
 

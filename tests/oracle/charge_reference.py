@@ -97,7 +97,8 @@ def flux(a, q, r, photon, isco):
 
 
 def peak(a, q, photon, isco):
-    """Where the slope of the flux vanishes, to some 1e-17. The slope is by differences of the distance from r = 1."""
+    """The radius at which the slope of the flux vanishes, to some 1e-17. The slope comes from differences over the
+    distance from r = 1."""
     f, h = lambda y: flux(a, q, 1 + y, photon, isco), mpf(10) ** -9
     low, high = mp.log(isco - 1), mp.log(3 * isco - 1)
     while high - low > mpf(10) ** -18:

@@ -47,7 +47,7 @@ static inline double redshift_of_plunge(const struct plunge_by_metric *gas, doub
     double delta = r * r - 2 * r + a * a + q * q, pp = r * r + a * a + a * a * f;
     double itt = -pp / delta, itp = -a * f / delta, ipp = (1 - f) / delta, irr = delta / (r * r);
     double ut = -itt * e + itp * l, up = -itp * e + ipp * l, energy2 = -itt * e * e + 2 * itp * e * l - ipp * l * l;
-    double ur_down = -sqrt((energy2 - 1) / irr); /* inwards; k_theta^2 = eta at the equator */
+    double ur_down = -sqrt((energy2 - 1) / irr); /* the gas moves inwards; k_theta^2 = eta at the equator */
     double null = -itt + 2 * itp * lambda - ipp * lambda * lambda - eta / (r * r);
     double kr_down = sign * sqrt(null / irr);
     return 1 / (ut - lambda * up - irr * kr_down * ur_down);

@@ -35,7 +35,7 @@ def lowest(a, lam, eta):
         r -= step
         if abs(step) < mpf(10) ** (5 - mp.dps):
             break
-    return (r, potential(a, lam, eta)(r)) if r > 1 else (r, mpf(1))  # no minimum outside: nothing turns the ray
+    return (r, potential(a, lam, eta)(r)) if r > 1 else (r, mpf(1))  # without a minimum outside, the ray does not turn
 
 
 def on_line(a, u, start, direction, bound):
@@ -77,7 +77,8 @@ def exponents(a, lam, eta):
         return 2 * quad(lambda x: f(z * sin(x) ** 2) / sqrt(n + a * a * z * sin(x) ** 2), mp.linspace(0, pi / 2, 5))
 
     mino = over(lambda v: mpf(1))
-    about = over(lambda v: lam / (1 - v)) if lam != 0 else pi  # over the axis it is the limit lambda -> 0+
+    # for the orbit over the axis this is the limit lambda -> 0+
+    about = over(lambda v: lam / (1 - v)) if lam != 0 else pi
     azimuth = about + a * ((r * r + a * a - a * lam) / delta - 1) * mino
     time = over(lambda v: a * (lam - a * (1 - v))) + (r * r + a * a) * (r * r + a * a - a * lam) / delta * mino
     return r, mino, sqrt(bend) * mino, azimuth, time
@@ -94,8 +95,8 @@ def polar_time(a, u, alpha, beta, order):
 
 
 def radial_time(a, u, alpha, beta, source):
-    """Mino time from infinity to the source radius: on the way in if there is no turning point, otherwise on the way
-    out again."""
+    """Mino time from infinity to the source radius. The ray reaches it on its way in if there is no turning point, and
+    otherwise on its way out again."""
     lam, eta = constants(a, u, alpha, beta)
     A, K = a * a - eta - lam * lam, eta + (lam - a) ** 2
     roots = polyroots([1, 0, A, 2 * K, -a * a * eta], maxsteps=500, extraprec=400)

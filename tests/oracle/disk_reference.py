@@ -34,7 +34,7 @@ def flux(a, r, isco):
         w, energy, momentum, _ = orbit(a, x)
         return (energy - w * momentum) * slopes(a, x)[1]
 
-    # in ln r and in pieces, because the integrand changes quickly near the ISCO and slowly far out
+    # the integral is in ln r and in pieces, because the integrand changes quickly near the ISCO and slowly far out
     edges = [isco * (r / isco) ** (mpf(i) / 4) for i in range(5)]
     total = quad(lambda y: share(mp.e**y) * mp.e**y, [mp.log(x) for x in edges], method="gauss-legendre")
     w, energy, momentum, _ = orbit(a, r)

@@ -54,13 +54,13 @@ struct ks_photon ks_from_infinity_charged(double a, double charge, double u, dou
 {
     double s = sqrt((1 - u) * (1 + u)), l = -alpha * s, r = 1e6;
     double q = (alpha * alpha - a * a) * u * u + beta * beta;
-    /* The part of the path from infinity to here, by the first terms of the series in 1/r. */
+    /* Azimuth of the path between infinity and this place, by the first terms of the series in 1/r. */
     double t = 1 / r, pull = a * a - l * l - q, here = u + s * beta * t + 0.5 * (pull - 2 * a * a * u * u) * u * t * t;
     double delta = r * r - 2 * r + a * a + charge * charge, w = r * r + a * a - a * l;
     double big = w * w - delta * (q + (l - a) * (l - a));
     double angular = q + here * here * (a * a - l * l / ((1 - here) * (1 + here)));
     struct ks_photon p = { .a = a, .r = r, .u = here, .energy = 1, .momentum = l, .q = charge };
-    p.p_r = sqrt(big) / delta; /* it arrives moving outwards */
+    p.p_r = sqrt(big) / delta; /* the photon arrives moving outwards */
     p.p_theta = copysign(sqrt(fmax(angular, 0)), beta);
     /* The coordinate time from r_o to here, minus r_o + 2 ln r_o, by the same series. */
     p.delay = -r - 2 * log(r) + (4 - charge * charge + a * a * u * u - 0.5 * pull) * t;
@@ -92,7 +92,7 @@ struct ks_photon ks_from_camera_charged(double a, double charge, double r, doubl
 {
     const double mass = 2 * r - charge * charge;
     double c = cos(theta), s = sin(theta), sigma = r * r + a * a * c * c, delta = r * r + a * a - mass;
-    double g[4][4] = { { 0 } }; /* t, r, theta, phi */
+    double g[4][4] = { { 0 } }; /* components in the order t, r, theta, phi */
     g[0][0] = -(1 - mass / sigma);
     g[0][3] = g[3][0] = -a * mass * s * s / sigma;
     g[1][1] = sigma / delta;

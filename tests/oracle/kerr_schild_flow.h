@@ -17,7 +17,7 @@ static real radius(real a, const real *x)
 {
     real rho2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - a * a;
     real root = sqrt(rho2 * rho2 + 4 * a * a * x[2] * x[2]);
-    /* Avoids cancellation for either sign. */
+    /* Each form avoids cancellation for one sign. */
     return sqrt(rho2 > 0 ? 0.5 * (rho2 + root) : 2 * a * a * x[2] * x[2] / (root - rho2));
 }
 
@@ -188,7 +188,7 @@ static struct ks_path run(const struct system s, state y, bool mirrored, int max
     real h = 0.05 * radius(s.a, y);
     for (int step = 0; step < 20000; step++) {
         real r = radius(s.a, y), v = sqrt(y[3] * y[3] + y[4] * y[4] + y[5] * y[5]) + 2 * fabs(s.energy) / r;
-        h = fmin(h, 0.25 * r / v); /* too short to cross the plane twice */
+        h = fmin(h, 0.25 * r / v); /* the step is too short to cross the plane twice */
         real error = extrapolate(&s, y, h, next);
         if (!(error < KS_ACCEPT) && h > 1e-9) {
             h *= 0.5;

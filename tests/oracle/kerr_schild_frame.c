@@ -4,7 +4,7 @@
 
 enum { T, R, THETA, PHI };
 
-/* 2r, with charge 2r - q^2. */
+/* The mass term 2r, or 2r - q^2 with charge. */
 static double mass_of(const struct ks_place *at) { return 2 * at->r - at->q * at->q; }
 
 /* The inverse metric: t and phi do not mix, and all components are finite where Delta vanishes. */

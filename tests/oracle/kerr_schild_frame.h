@@ -1,8 +1,9 @@
 /* Observers' frames in ingoing Kerr-Schild coordinates (t, r, theta, phi), which are regular at the outer horizon:
  *   ds^2 = -dt^2 + dr^2 + Sigma dtheta^2 + (r^2 + a^2) sin^2 dphi^2 - 2a sin^2 dr dphi + (2r/Sigma) (dt + dr - a
  *     sin^2 dphi)^2.
- * All is computed by contraction with the inverse of that metric. It shares no formula with src/physics: no tetrad
- * in closed form, no Boyer-Lindquist coordinates, no component formula of a boost. Double precision. */
+ * All numbers are computed by contraction with the inverse of that metric. This code shares no formula with
+ * src/physics: no tetrad in closed form, no Boyer-Lindquist coordinates, no component formula of a boost. Double
+ * precision. */
 #ifndef KD_TESTS_KERR_SCHILD_FRAME_H
 #define KD_TESTS_KERR_SCHILD_FRAME_H
 

@@ -165,7 +165,7 @@ struct ks_screen ks_screen_near(const struct ks_place *at, const struct ks_frame
     }
     for (int i = 0; i < 3; i++)
         across[i] /= sqrt(size);
-    for (int i = 0; i < 3; i++) /* x rotated to look up */
+    for (int i = 0; i < 3; i++) /* `up` is x, rotated */
         side[i] = look[(i + 1) % 3] * across[(i + 2) % 3] - look[(i + 2) % 3] * across[(i + 1) % 3];
     ks_seen(f, look, p);
     to_cartesian(at, o.x, p, o.k);
@@ -208,7 +208,7 @@ static double omega_of(struct hole o, double r)
     return 0.5 * (low + high);
 }
 
-/* Velocity of the gas at x: on a circle; within the ISCO falling with the ISCO's E and L. */
+/* Velocity of the gas at x. It moves on a circle, or falls within the ISCO with the ISCO's E and L. */
 static void gas(struct hole o, const double *x, double r_isco, double u[4])
 {
     const double a = o.a;
@@ -270,7 +270,8 @@ static void judge(const struct state *s, struct hole hole, enum ks_field field, 
     }
     memcpy(before[2], b, sizeof b);
     across(g, before[2], before, 2);
-    /* The direction outside their span. Of four vectors outside it, the longest component is taken. */
+    /* The direction outside the span of the other two. Of the coordinate vectors, the one with the longest component
+     * outside the span is taken. */
     double most = 0;
     for (int n = 0; n < 4; n++) {
         double v[4] = { 0 };

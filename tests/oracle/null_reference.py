@@ -59,7 +59,7 @@ def series(a, lam, eta, state, side, q2=0):
     # chi' = a w (2 - a lam w)/(1 - 2w + a^2 w^2); the last terms of t' = w (8 - 2 a lam - 4 a^2 w)/(same);
     # (1 - side w')(1/w^2 + 2/w) = -(A + 2K w + C w^2)(1 + 2w)/(1 + side w')
     count = len(V)
-    # with charge 2r becomes 2r - q^2 everywhere
+    # with charge 2r - q^2 replaces 2r everywhere
     den = [(k == 0) - 2 * W[k] + (a * a + q2) * W2[k] for k in range(count)]
     P = divide([a * (2 * W[k] - (a * lam + q2) * W2[k]) for k in range(count)], den)
     rest = 4 * a * a + q2 * (4 - q2 - a * lam)
@@ -91,7 +91,7 @@ def trace(a, u, radius, alpha, beta, outward, orders, q=0):
     dw = sqrt(1 + A * w * w + 2 * K * w**3 + C * w**4) * (-1 if outward else 1)
     n, dn = [s, mpf(0), u], [-beta * u, alpha, beta * s]
     phi = mpf(0)
-    # azimuths count from the direction in the image, so that the frame is turned to let the ray start along +x
+    # azimuths count from the direction in the image, so the frame is turned such that the ray starts along +x
     if s == 0:
         phi = atan2(alpha, -beta * u)
         dn = [sqrt(alpha**2 + beta**2), mpf(0), mpf(0)]
@@ -107,7 +107,7 @@ def trace(a, u, radius, alpha, beta, outward, orders, q=0):
             side = -side
             state = state[:5] + (state[5] + side * 2 * (1 / w - 2 * log(w)),)
         W, N, X, T = series(a, lam, eta, state, side, q2)
-        # the radius of convergence from the last coefficients
+        # radius of convergence, estimated from the last coefficients
         rho = min(
             (max(abs(c[k]) for c in (W, X, T) for k in (j, j - 1)) + mpf(10) ** -60) ** (mpf(-1) / j)
             for j in (ORDER - 4, ORDER - 12)

@@ -130,7 +130,7 @@ static struct motion motion_of(const struct series_ray *r)
 static struct place start_of(const struct series_ray *r, const struct motion *m)
 {
     struct place p = { .n = { r->sine, 0, r->cosine }, .dn = { -r->beta * r->cosine, r->alpha, r->beta * r->sine } };
-    if (r->sine == 0) { /* azimuths count from the direction in the image */
+    if (r->sine == 0) { /* on the axis azimuths count from the direction in the image */
         p.dn[0] = hypotl(r->alpha, r->beta);
         p.dn[1] = p.dn[2] = 0;
     }

@@ -91,7 +91,8 @@ class Orbit:
         self.rest = lambda r: -(c[0] * r * r + c[1] * r + c[2])
         self.z = 1 - x * x
         flat = a * a * self.b
-        self.pace = lambda u: sqrt(q + l * l + flat - flat * self.z - flat * u * u)  # z+ from the sum of the roots
+        # z+ follows from the sum of the roots
+        self.pace = lambda u: sqrt(q + l * l + flat - flat * self.z - flat * u * u)
 
     def r(self, x):
         return self.p / (1 + self.e * cos(x))
@@ -118,7 +119,7 @@ class Orbit:
 
 def integral(f, end, i, start=0):
     pieces = max(2, int(abs(end - start) / pi * 6) + 1)
-    axis = mp.floor(start / pi) * pi + pi / 2  # where phi of an orbit that passes near the axis changes fastest
+    axis = mp.floor(start / pi) * pi + pi / 2  # here phi of an orbit that passes near the axis changes fastest
     near = [axis + side * mpf(10) ** -k for side in (1, -1) for k in range(1, 6)]
     return quad(lambda x: f(x)[i], sorted(linspace(start, end, pieces + 1) + [x for x in near if start < x < end]))
 

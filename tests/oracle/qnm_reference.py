@@ -165,7 +165,7 @@ def wronskian(a, m, omega, lam, far, terms):
     gap = 2 * (sqrt if isinstance(omega, mpc) else cmath.sqrt)((1 - a) * (1 + a))
     outer, r = 1 + gap / 2, far
     y, dy = infinity(a, m, omega, lam, r, 3 * terms)
-    # the path is no straight line, because near r+ the waves keep their size only on the real axis
+    # the path has a corner, because near r+ the waves keep their size only on the real axis
     for goal in (10 + 0 * r, outer + gap / 4 + 0 * r):
         while r != goal:
             room = 0.5 * min(abs(r - outer), abs(r - outer + gap))
@@ -177,8 +177,8 @@ def wronskian(a, m, omega, lam, far, terms):
 
 
 def mode(m, a, omega, sep, final):
-    """The mode by the secant method from the guess; None if the guess was too far off. Near a = 1 the wave changes fast
-    at the horizon and its series cancels, so that more digits are used."""
+    """The mode by the secant method from the guess; Returns None if the guess was too far off. Near a = 1 the wave
+    changes fast at the horizon and its series cancels, so that more digits are used."""
     gap = 2 * np.sqrt((1 - a) * (1 + a))
     exact = final or a > 0.6 or omega.imag < -0.4  # 16 digits are not enough for overtones either
     mp.dps = (26 if final else 16) + int(0.5 * abs((2 + gap) * omega - a * m) / gap)
@@ -191,8 +191,8 @@ def mode(m, a, omega, sep, final):
     def at(w):
         nonlocal sep
         sep = separation(m, a * w, sep, final)
-        # the factor e^(i w r) r^nu that infinity() left out; without it the function has the same root but hardly any
-        # slope
+        # this is the factor e^(i w r) r^nu that infinity() left out. Without it the function has the same root, but
+        # hardly any slope
         left = (exp if exact else cmath.exp)(1j * (w - omega) * (far + 2 * (log if exact else cmath.log)(far)))
         return left * wronskian(a, m, w, sep + a * a * w * w - 2 * a * m * w, far, terms)
 

@@ -41,7 +41,7 @@ def impact(u, psi):
         low, high, rising = mpf(10) ** -9, sqrt(mpf(27)) * (1 - mpf(10) ** -20), lambda b: turned(b, u, False)
     elif turned(edge * (1 - mpf(10) ** -25), u, False) >= psi:
         low, high, rising = mpf(10) ** -9, edge * (1 - mpf(10) ** -25), lambda b: turned(b, u, False)
-    else:  # beyond the turning point: the more a ray turns, the closer to the hole it passes
+    else:  # beyond the turning point a ray turns more if it passes closer to the hole
         low, high, rising = (
             edge * (1 - mpf(10) ** -25),
             sqrt(mpf(27)) * (1 + mpf(10) ** -20),

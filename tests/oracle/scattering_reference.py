@@ -38,7 +38,7 @@ def h_of(s, mu):
 
 def main():
     s_l, s_r = mpf(3) / 4, mpf(3) / 8
-    rule = [((1 + x) / 2, w / 2) for x, w in GaussLegendre(mp).calc_nodes(4, 100)]  # in x, with mu = x^2
+    rule = [((1 + x) / 2, w / 2) for x, w in GaussLegendre(mp).calc_nodes(4, 100)]  # quadrature in x, with mu = x^2
     moment_l = sum(w * 2 * x * x**2 * h_of(s_l, x**2) for x, w in rule)
     moment_r = [sum(w * 2 * x * x ** (2 * k) * h_of(s_r, x**2) for x, w in rule) for k in (1, 2)]
     l1, r1 = h_of(s_l, mpf(1)), h_of(s_r, mpf(1))

@@ -117,7 +117,7 @@ def quantities(ray):
 
 
 def changes(of, x):
-    """The sum of |x_k d/dx_k| for each of the numbers of(x), over the x_k that are not zero."""
+    """For each number of of(x), the sum of |x_k d/dx_k| over the x_k that are not zero."""
     here, total = of(x), None
     for k, value in enumerate(x):
         if value == 0 or value == inf or (k == 1 and value in (90, 180)):
@@ -270,7 +270,7 @@ def critical():
     b = 3 * sqrt(mpf(3))
     yield "a = 0: 3 sqrt 3", 0.0, 45, b * mpf("0.8"), b * mpf("0.6")
     a = mpf(0.9)
-    # the orbit without angular momentum, which is seen from the axis
+    # an observer on the axis sees the orbit without angular momentum
     r = findroot(lambda x: spherical(a, x)[0], mpf("2.6"))
     b = sqrt(spherical(a, r)[1] + a * a)
     yield "a = 0.9 on the axis", 0.9, 0, mpf("0.6") * b, mpf("0.8") * b

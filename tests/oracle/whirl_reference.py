@@ -41,7 +41,7 @@ def whirl(a, energy):
 
 
 def rates(a, energy, l, w):
-    """The integrands of Mino time, proper time, t, phi."""
+    """The integrands of Mino time, proper time, t and phi."""
     r = 1 / w
     delta, past = r * r - 2 * r + a * a, energy * (r * r + a * a) - a * l
     return 1, r * r, (r * r + a * a) * past / delta + a * (l - a * energy), l - a * energy + a * past / delta
@@ -90,7 +90,7 @@ def row(a, energy_text, beside):
     roots = sorted(x.real for x in polyroots(c, maxsteps=1000, extraprec=400) if abs(im(x)) < mpf(10) ** -25)
     low = [x for x in roots if x > 0 and x < minimum] if energy < 1 else []
     start = FAR if not low or low[0] < FAR else low[0]
-    if value(c, minimum) > 0:  # the body falls in, from the outer turning point if that is within 100
+    if value(c, minimum) > 0:  # the body falls in. It starts at the outer turning point if that is within 100
         if start == FAR:
             sums = inwards(a, energy, l, FAR, horizon, minimum)
         else:
@@ -100,7 +100,7 @@ def row(a, energy_text, beside):
             second = inwards(a, energy, l, middle, horizon, minimum)
             sums = [first[i].real + second[i] for i in range(2)] + [mpf(0)] * 2
         fate = "WHIRL_PLUNGE"
-    elif energy < 1:  # a radial period
+    elif energy < 1:  # the integrals of a radial period
         outer, inner = low[0], low[1]
         middle = 1 / (1 / inner + 1) if outer < FAR else (outer + inner) / 2
         parts = [to_turn(a, energy, l, middle, x, [y for y in roots if y != x]) for x in (outer, inner)]

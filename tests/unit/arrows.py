@@ -10,8 +10,8 @@ import re
 import sys
 import tempfile
 
-# What each module may include besides itself. The server uses no Vulkan type, so it does not include vk. A new module
-# needs a row here.
+# The modules that each module may include besides itself. The server uses no Vulkan type, so it does not include vk. A
+# new module needs a row here.
 MODULES = {
     "base": set(),
     "document": {"base"},

@@ -10,7 +10,7 @@ import re
 import sys
 
 HOMES = {"src/physics/spacetime/hole.h", "shaders/ray/hole.glsl"}
-# Files with lines that look like Delta and may stand there: the number of these lines, and the reason.
+# Files with allowed lines that look like Delta: the number of these lines, and the reason.
 OTHERS = {"src/physics/waves/qnm.c": (1, "Leaver's coefficients: w is a frequency")}
 # r^2 - 2r + a^2 and 1 - 2w + a^2 w^2 as they are usually written, and their factors.
 R, W = r"(?:\w+(?:->|\.))?r", r"(?:\w+(?:->|\.))?w"

@@ -248,7 +248,7 @@ static void begins_where_it_is_told_to_expect(void **state)
     assert_int_equal(s.governor.paces[0].rung, 0);
     run(&s, DRAG, 60e3);
     assert_int_equal(s.changes, 0);
-    /* too late: already measured */
+    /* this estimate is too late, because the cost has been measured */
     kd_governor_expect(&s.governor, &(struct kd_frame_cost) { .rays_ms = 1, .total_ms = 1 });
     assert_true(s.governor.paces[1].rung > 0);
     /* For a larger picture the estimate scales with the smaller one's cost. */
@@ -339,7 +339,7 @@ static void recovers_from_a_slow_beginning(void **state)
         s.load = 1;
         run(&s, DRAG, 4500); /* the wait after a slow frame, and a few climbs */
         assert_int_equal(rung_of(&s, DRAG), 0);
-        run(&s, PLAY, 600); /* as soon as the drag counts as over */
+        run(&s, PLAY, 600); /* after this time the drag counts as over */
         assert_int_equal(rung_of(&s, PLAY), 0);
         assert_true(s.last.final);
     }
@@ -407,7 +407,7 @@ static void drags_across_an_octave_go_on(void **state)
         assert_true(s.governor.paces[1].count >= before && before > 8);
         assert_true(frame(&s));
     }
-    for (int i = 0, anew = 0; i <= 200; i++) { /* by a factor of ten in small steps */
+    for (int i = 0, anew = 0; i <= 200; i++) { /* the number of particles grows by a factor of ten in small steps */
         s.asked.disk.particles = (uint32_t)(141000 * pow(10, i / 200.));
         change(&s, true);
         anew += !s.governor.paces[1].count;
@@ -554,7 +554,7 @@ static void load_that_comes_and_goes_is_followed(void **state)
         run(&s, DRAG, 30e3);
         assert_true(s.changes <= 7);
         s.load = 1;
-        run(&s, DRAG, 15e3); /* it climbs back without further changes */
+        run(&s, DRAG, 15e3); /* the governor climbs back without further changes */
         assert_int_equal(s.governor.paces[1].rung, 0);
         run(&s, DRAG, 60e3);
         assert_true(s.changes <= 8);
@@ -743,7 +743,7 @@ static void mixed_changes_do_not_flicker(void **state)
     }
 }
 
-/* A picture too large for its lens map to be cached. */
+/* The picture is so large that its lens map is not cached. */
 static void lens_maps_that_are_never_kept(void **state)
 {
     (void)state;
@@ -795,7 +795,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         run(&s, i % 2 ? DRAG : PLAY, 5000 * uniform());
         change(&s, i % 3);
         double changed = s.now;
-        assert_true(frame(&s)); /* at once, at the present rung */
+        assert_true(frame(&s)); /* the frame is rendered at once, at the present rung */
         const bool final = s.last.final, slow = s.now > changed + 150;
         struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
         if (!slow) { /* the shown quality is the one in use */
@@ -857,7 +857,8 @@ static void a_change_breaks_into_refinement(void **state)
     frame(&s);
     refine_to_rest(&s, &frames);
     assert_int_equal(frames, 5); /* 1, 2, 4 and 8 rays along a side, then a frame in double precision */
-    kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .total_ms = 1 }); /* of the old scene */
+    /* a frame of the old scene */
+    kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .total_ms = 1 });
     assert_true(isinf(kd_governor_decide(&s.governor, s.now).wait_ms));
 }
 

@@ -30,7 +30,7 @@ struct truth {
     double traced, reused, pixels;
     double fixed, hidden; /* ms independent of the size: reported, and not reported */
     double noise;         /* relative to the time, uniformly distributed */
-    double spikes, spike; /* how often a spike occurs, and the factor by which it lengthens a frame */
+    double spikes, spike; /* rate of spikes, and the factor by which a spike lengthens a frame */
     bool silent;          /* reports only the total */
 };
 

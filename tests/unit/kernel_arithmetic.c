@@ -40,7 +40,7 @@ struct spirv {
     const char *kernel;
     const uint32_t *words;
     size_t n;
-    bool motion; /* it follows rays by steps */
+    bool motion; /* the kernel follows rays by steps */
 };
 #define PLAIN(name, motion) { #name, kd_spv_##name##_plain, sizeof kd_spv_##name##_plain / 4, motion },
 #define FINAL(name, motion) { #name, kd_spv_##name, sizeof kd_spv_##name / 4, motion },
@@ -136,7 +136,7 @@ static void what_must_not_be_reordered(void **state)
     assert_true(found >= 10); /* the functions still have these names */
 }
 
-/* Counts decorations of all operations of these kinds. */
+/* Counts the precise additions, subtractions and multiplications. */
 static int decorated(const struct spirv *s)
 {
     size_t at = 5;

@@ -1,4 +1,5 @@
-/* Memory limits of a process, from simulated /proc and /sys as on real machines and in containers. */
+/* Tests how the memory limit of a process is found. /proc and /sys are simulated, as they are on real machines and in
+ * containers. */
 #include "base/memory_limit.h"
 
 #include <setjmp.h>
@@ -99,7 +100,7 @@ static void version_2(void **state)
     put("/sys/fs/cgroup/a/b/memory.stat",
         "anon 5\nfile 9\nworkingset_inactive_file 1\ninactive_file 536870912\nactive_file 3\n");
     assert_int_equal(limit().left, 1536 * MIB);
-    put("/sys/fs/cgroup/a/memory.max", "1073741824\n"); /* a parent group may have the tighter limit */
+    put("/sys/fs/cgroup/a/memory.max", "1073741824\n"); /* a parent group may have the lower limit */
     put("/sys/fs/cgroup/a/memory.current", "943718400\n");
     assert_int_equal(limit().left, 124 * MIB);
     put("/sys/fs/cgroup/a/memory.current", "1073745920\n"); /* more than the limit is in use, so nothing is left */

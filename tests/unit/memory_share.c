@@ -34,10 +34,10 @@ static void a_device_that_is_the_host(void **state)
     (void)state;
     struct kd_capacity c = device(18 * GIB, true);
     kd_memory_narrow(&c, &container, 0);
-    /* with half as much on the host, three quarters */
+    /* if the host has half as much memory, three quarters of it */
     assert_true(c.memory_bytes <= GIB && c.memory_bytes > GIB * 9 / 10);
     assert_string_equal(c.memory_by, "the memory.max of a control group");
-    c = device(GIB / 2, true); /* less than what is free on the host */
+    c = device(GIB / 2, true); /* the device has less memory than is free on the host */
     kd_memory_narrow(&c, &container, 0);
     assert_int_equal(c.memory_bytes, GIB / 2);
     assert_null(c.memory_by);
@@ -87,7 +87,7 @@ static void plans_keep_to_it(void **state)
     assert_int_equal(plan_of(3840, 2160, &c, &error), KD_OK);
     c = device(18 * GIB, false);
     kd_memory_narrow(&c, &container, 0);
-    assert_int_equal(plan_of(8192, 8192, &c, &error), KD_OK); /* 0.4 GiB of pixels and of the file */
+    assert_int_equal(plan_of(8192, 8192, &c, &error), KD_OK); /* the pixels and the file take 0.4 GiB */
     kd_memory_narrow(&c, &(struct kd_memory_limit) { GIB / 2, 0, container.by }, 0);
     assert_int_equal(plan_of(8192, 8192, &c, &error), KD_ETOOBIG);
     assert_non_null(strstr(error.message, "GiB of host memory"));

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-/* A file: version, header text padded to `length` (0: unpadded), then zeros. */
+/* Builds a file: the version, the header text padded to `length` (0: unpadded), then zeros. */
 struct file {
     uint8_t *data;
     size_t size;

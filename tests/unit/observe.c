@@ -152,7 +152,7 @@ static void test_chi2_of_visibilities_is_that_of_ehtim(void **state)
     kd_observation_finish(&o);
 }
 
-/* A model in closed form: a ring of Gaussians of 4 uas at 30 positions, brighter in one direction. */
+/* The model in closed form: a ring of 30 Gaussians of 4 uas, brighter in one direction. */
 #define UAS (M_PI / 180 / 3.6e9)
 struct sources { const struct kd_comparison *c; };
 static void sources_at(const struct kd_comparison *c, double size, double angle_deg, double (*out)[2])
@@ -483,8 +483,8 @@ static void test_a_table_that_is_shorter_than_its_rows(void **state)
     free(data);
 }
 
-/* A file that is cut anywhere is an error, unless the missing part is not needed. Nothing beyond the end is read (the
- * sanitizers watch). */
+/* A file that is cut anywhere is an error, except where the missing part is not read. Nothing beyond the end is read
+ * (the sanitizers watch). */
 static void test_files_that_are_cut(void **state)
 {
     (void)state;
@@ -509,7 +509,8 @@ static void test_files_that_are_cut(void **state)
     }
 }
 
-/* Replaces all visibilities of a file by 0.1 + 0.2 i, and compares the reported ones with the file. */
+/* Replaces all visibilities of a file by 0.1 + 0.2 i, and compares the values that the function reports with the
+ * file. */
 static void simulate(const struct kd_observation *o, uint8_t *file, size_t size, uint64_t seed, bool exact)
 {
     double (*model)[2] = calloc(o->n, sizeof *model), (*out)[2] = calloc(o->n, sizeof *out);
@@ -548,7 +549,7 @@ static void test_files_that_are_damaged(void **state)
 }
 
 /* The second group of the file has the time and the baseline of the first, BSCALE 2 and BZERO 0.5. The simulated file
- * has the model. The group that was left out is empty, so that it is flagged. */
+ * has the model. The group that was left out has no data and is therefore flagged. */
 static void test_simulated_file(void **state)
 {
     (void)state;

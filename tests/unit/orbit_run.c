@@ -199,8 +199,9 @@ static void to_its_end_instead(void **state)
     struct kd_orbit_sample *samples =
         follow("{\"samples\":3,\"orbit\":{\"p\":8,\"e\":0.5},\"duration\":{\"periods\":2,\"or_end\":true}}", UINT64_MAX,
                &request, &run);
-    assert_float_equal(samples[0].place.r, 16. / 3, 1e-6);            /* the radius of the periapsis */
-    assert_float_equal(samples[1].place.r, samples[2].place.r, 1e-6); /* after one period and after two */
+    assert_float_equal(samples[0].place.r, 16. / 3, 1e-6); /* 16/3 is the radius of the periapsis */
+    /* the samples are one period and two periods after the start */
+    assert_float_equal(samples[1].place.r, samples[2].place.r, 1e-6);
     kd_orbit_request_finish(&request);
     free(samples);
 }

@@ -109,9 +109,9 @@ static void next_to_the_whirl_itself(void **state)
         "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":3,\"outward\":true},\"samples\":9}",
     };
     static const char *const answered[] = {
-        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":4},\"samples\":9}", /* the circle */
-        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":3},\"samples\":9}", /* starts away from it,
-                                                                                               * in both directions */
+        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":4},\"samples\":9}", /* the unstable circle */
+        "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":3},\"samples\":9}", /* beside the circle, on
+                                                                                                 either side */
         "{\"spin\":0,\"orbit\":{\"energy\":1,\"angular_momentum\":4,\"r\":20,\"outward\":true},\"samples\":9}",
     };
     struct kd_error error;

@@ -109,7 +109,7 @@ static void has_a_free_place_only(void **state)
     ahead(&all, "b");
     ahead(&all, "c");
     assert_int_equal(fetch(&all, "d", KD_OK), 1);
-    assert_int_equal(fetch(&all, "b", KD_OK) + fetch(&all, "c", KD_OK), 0); /* "a" was the oldest */
+    assert_int_equal(fetch(&all, "b", KD_OK) + fetch(&all, "c", KD_OK), 0); /* "a" is gone, because it was the oldest */
     kd_panoramas_finish(&all);
 }
 
@@ -152,7 +152,7 @@ static void put(const char *path, long at, uint8_t byte)
     assert_int_equal(fclose(file), 0);
 }
 
-/* The position in the file of the first word of a texel. */
+/* The file offset of the first word of a texel. */
 static long place(uint32_t row, uint32_t column) { return 32 + 4 * ((long)row * KD_MILKY_WAY_WIDTH + column); }
 
 /* A Milky Way read from the stored file equals the one that was made, to the bit. If the file is of another seed,
@@ -175,7 +175,8 @@ static void what_is_kept_is_what_was_made(void **state)
     put(path, place(300, 7), 0xa5); /* damage in a row that is not compared with a computed one */
     assert_false(kd_milky_way_recall(path, 1, kept));
     memcpy(kept, made, bytes);
-    kept[(size_t)512 * KD_MILKY_WAY_WIDTH + 9] ^= 1; /* an intact file whose values were computed differently */
+    /* the file is intact, but its values differ from those that the program computes */
+    kept[(size_t)512 * KD_MILKY_WAY_WIDTH + 9] ^= 1;
     kd_milky_way_keep(path, 1, kept);
     assert_false(kd_milky_way_recall(path, 1, kept));
     free(again);
@@ -193,7 +194,7 @@ static void what_is_kept_is_what_was_made(void **state)
     free(made);
 }
 
-/* If the folder cannot be written, only time is lost. */
+/* If the folder is not writable, the Milky Way is made anew each time, and nothing fails. */
 static void nowhere_to_keep_it(void **state)
 {
     (void)state;

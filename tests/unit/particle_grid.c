@@ -32,8 +32,8 @@ static void spread(const struct kd_scene *scene, const struct kd_particle_grid *
     }
 }
 
-/* Compared with 250 000 radii, to the Poisson error of a row of 10 000 particles, the longest row there is. (With
- * 4096 radii some rows stay empty even with ten million particles, which shows as rings of light.) */
+/* The shares are those of 250 000 radii within the Poisson error of a row of 10 000 particles, the longest possible
+ * row. With only 4096 radii some rows stay empty even for ten million particles, and rings of light appear. */
 static void no_row_shows_single_radii(void **state)
 {
     (void)state;

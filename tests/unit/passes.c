@@ -118,7 +118,7 @@ static void each_is_in_a_plan_and_each_figure_learned(void **state)
             fail_msg("no pass is measured for \"%s\"", kd_figures[i].word);
 }
 
-/* An emitter with buffers of its own has a way to fill them. If that is a pass, a pass of this name exists. */
+/* Each emitter with buffers of its own names the function or the pass that fills them. A pass that it names exists. */
 static void emitters_are_prepared(void **state)
 {
     (void)state;
@@ -258,8 +258,8 @@ static bool says(const char *json, const char *name)
     return found;
 }
 
-/* Rays that 32-bit arithmetic cannot decide are traced again if kernels make the lens map, but not if it is made
- * from listed rays. */
+/* If kernels make the lens map, rays that 32-bit arithmetic cannot decide are traced again. They are not traced again
+ * if the map is made from listed rays. */
 static void arithmetic_is_told(void **state)
 {
     (void)state;

@@ -38,7 +38,7 @@ static void symmetric(void **state)
     }
 }
 
-/* From z = y + iv: sqrt(z) + sqrt(conj z) = 2 Re sqrt(z), and |z|, without cancellation for either sign of y. */
+/* For z = y + iv: sqrt(z) + sqrt(conj z) = 2 Re sqrt(z), and |z|, without cancellation for either sign of y. */
 static struct kd_carlson_arg conjugate(double x, double y, double v)
 {
     double root = hypot(y, v);
@@ -113,8 +113,8 @@ static void legendre(void **state)
     }
 }
 
-/* F(am(u)|m) = u, down to 1 - m = 1e-15, where K is 19 and a small error in the modulus would show. The rounding of
- * K itself is worth K/u relative to u. */
+/* Tests F(am(u)|m) = u down to 1 - m = 1e-15. There K is 19, so that a small error in the modulus would show. The
+ * rounding of K itself is worth K/u relative to u. */
 static void jacobi(void **state)
 {
     (void)state;

@@ -68,8 +68,8 @@ static bool spherical(const struct kd_hole *hole, double r, double *lambda, doub
     return *eta > 0;
 }
 
-/* A ray inside the curve of these labels has another fate than one outside it, at 1e-9 of the distance from its
- * middle. */
+/* A ray inside the curve of these labels falls into the hole, and a ray outside it escapes. The rays are 1e-9 of the
+ * curve's radius away from it. */
 static void edge_of_the_shadow(void **state)
 {
     (void)state;
@@ -103,7 +103,8 @@ static void edge_of_the_shadow(void **state)
     assert_true(seen > 400);
 }
 
-/* Rates of azimuth and time by Carter's equations (1968), less lambda/sin^2 theta and the part with cos^2 theta. */
+/* Rates of azimuth and time by Carter's equations (1968), without the terms in lambda/sin^2 theta and in cos^2
+ * theta. */
 static void rates(void **state)
 {
     (void)state;
@@ -193,8 +194,8 @@ static void extremes(void **state)
     }
 }
 
-/* The direction of escape by the bend agrees with the closed form's. The azimuth of the bend is a sum of other
- * terms. */
+/* The direction of escape that kd_null_bend computes agrees with that of the closed form. The azimuths of the two are
+ * sums of different terms. */
 static void bends(void **state)
 {
     (void)state;

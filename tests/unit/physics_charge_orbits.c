@@ -61,7 +61,7 @@ static void whole_disk(void **state)
     assert_true(worst[0] < 1e-15 && worst[1] < 2e-15 && worst[2] < 2e-15 && worst[3] < 3e-15);
 }
 
-/* The bound: r is a double, so a number that changes by d from one double to the next is known to within d. */
+/* The bound of each number is its change from one double r to the next, because r is rounded to a double. */
 static void orbits(void **state)
 {
     (void)state;
@@ -79,7 +79,8 @@ static void orbits(void **state)
     }
 }
 
-/* A small charge changes all numbers by little: nothing cancels. One that underflows changes no bit. */
+/* A small charge changes all numbers by little, because nothing cancels. A charge whose square underflows changes no
+ * bit. */
 static void small_charges(void **state)
 {
     (void)state;
@@ -197,7 +198,7 @@ static void rain(void **state)
     }
 }
 
-/* A ray next to the critical curve of a charged hole has the fate of its side of the curve. */
+/* About a charged hole, a ray just inside the critical curve falls in and one just outside it escapes. */
 static void curve(void **state)
 {
     (void)state;
@@ -223,7 +224,8 @@ static void curve(void **state)
                                                      .alpha = middle + (p.alpha - middle) * by,
                                                      .beta = p.beta * by };
                     const struct kd_null_path path = kd_null_trace(&ray);
-                    if (path.status != KD_NULL_OK) /* both horizons and the orbit coincide within rounding */
+                    /* skipped, because both horizons and the orbit coincide within rounding */
+                    if (path.status != KD_NULL_OK)
                         continue;
                     if ((path.fate == KD_NULL_ESCAPED) != (side > 0))
                         fail_msg("a = %.17g, q = %.17g, r = %g, u = %g, point %d: %s", e->a, e->q, o.radius,

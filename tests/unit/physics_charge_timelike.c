@@ -117,9 +117,9 @@ static struct kd_orbit_place followed(const struct kd_orbit *o, const struct kd_
     return kd_orbit_path_place(&path);
 }
 
-/* Bound orbits are followed for somewhat more than a radial period by the closed form and by both integrators. An orbit
- * closer to the separatrix than to 0 magnifies the errors of all of them, and so do the rounded constants of the
- * oracle's start. */
+/* Bound orbits are followed for somewhat more than a radial period by the closed form and by both integrators. If the
+ * orbit is closer to the separatrix than to 0, it magnifies the errors of all three, also those of the rounded
+ * constants from which the oracle starts. */
 static void bound_orbits(void **state)
 {
     (void)state;
@@ -141,7 +141,7 @@ static void bound_orbits(void **state)
     }
 }
 
-/* Falls and flights from a place, with a velocity as an observer there measures it. */
+/* Bodies that fall or fly off from a place with a velocity that an observer there measures. */
 static void free_motion(void **state)
 {
     (void)state;
@@ -196,7 +196,7 @@ static void precession_without_spin(void **state)
     }
 }
 
-/* Innermost stable orbits about holes without spin, in tilted planes: by the separatrix of the general shape. */
+/* The innermost stable orbit in tilted planes about a hole without spin, found as the separatrix of general orbits. */
 static void separatrix_without_spin(void **state)
 {
     (void)state;

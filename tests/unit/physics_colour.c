@@ -61,7 +61,7 @@ static void published_chromaticities(void **state)
         { 5000, 0.3451, 0.3516, 3e-4 },
         { 6500, 0.3135, 0.3237, 3e-4 },
         { 10000, 0.2807, 0.2884, 3e-4 },
-        { 1e9, 0.2399, 0.2341, 3e-4 }, /* the last row: the limit of infinite T */
+        { 1e9, 0.2399, 0.2341, 3e-4 }, /* the last row is the limit of infinite T */
     };
     for (size_t i = 0; i < COUNT(table); i++) {
         struct xy c = chromaticity(kd_colour_blackbody(table[i].t));
@@ -133,7 +133,7 @@ static void stefan_and_boltzmann(void **state)
 }
 
 /* Published values (683 lm/W times the fraction): 95 lm/W at the maximum, near 6600 K, and at 7000 K; 54.7 at 4000
- * K; 15 at 2800 K. It falls on both sides of the maximum. The bounds are half a unit of the last digit. */
+ * K; 15 at 2800 K. The efficacy falls on both sides of the maximum. The bounds are half a unit of the last digit. */
 static void luminous_efficacy(void **state)
 {
     (void)state;
@@ -171,7 +171,7 @@ static void the_matrix_of_srgb(void **state)
         struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { l * x, l * y, l * (1 - x - y) });
         near("red", 0, c.r, i == 0 || i == 3, 5e-4);
         near("green", 0, c.g, i == 1 || i == 3, 5e-4);
-        near("blue", 0, c.b, i == 2 || i == 3, 1e-3); /* 0.0722 has three digits */
+        near("blue", 0, c.b, i == 2 || i == 3, 1e-3); /* tolerance: the published 0.0722 has three digits */
     }
 }
 
@@ -208,7 +208,8 @@ static void unit_colours(void **state)
             fail_msg("%g K: redder than the cooler body before it", t);
         last = c.r;
     }
-    struct kd_colour_rgb white = kd_colour_blackbody_unit(6600); /* the Planckian nearest to grey in red and blue */
+    /* at this temperature the red and the blue of a black body are nearest to equal */
+    struct kd_colour_rgb white = kd_colour_blackbody_unit(6600);
     near("red of the whitest", 6600, white.r, 1, 0.06);
     near("green of the whitest", 6600, white.g, 1, 0.06);
     near("blue of the whitest", 6600, white.b, 1, 0.06);

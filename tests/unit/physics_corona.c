@@ -81,8 +81,8 @@ static void test_flat_ring(void **state)
     kd_corona_finish(&corona);
 }
 
-/* Without spin the azimuth of a ray is the integral of b/sqrt(1 - b^2 u^2 (1 - 2u)) over u = 1/r, and its time is that
- * of 1/(u^2 (1 - 2u) sqrt(...)). Both are computed by midpoints. */
+/* Without spin the azimuth of a ray is the integral of b/sqrt(1 - b^2 u^2 (1 - 2u)) over u = 1/r, and its time is the
+ * integral of 1/(u^2 (1 - 2u) sqrt(...)). Both are computed by midpoints. */
 static void test_direct_time(void **state)
 {
     static const double cases[][2] = { { 5, 60 }, { 5, 30 }, { 20, 60 }, { 100, 80 } };
@@ -125,7 +125,8 @@ static void test_direct_time(void **state)
     }
 }
 
-/* A wide corona is the mean of its rings, weighted by their circumferences; here the rings are midpoints of a grid. */
+/* A wide corona is the mean of its rings, weighted by their circumferences; the test takes the midpoints of a grid as
+ * rings. */
 static void test_shapes(void **state)
 {
     static const struct kd_corona_shape shapes[] = { { 0, 12, 3, 3, KD_CORONA_ZAMO },
@@ -196,8 +197,8 @@ static void send(double a, double radius, double height, enum kd_corona_motion m
         const double z = 1 - 2 * (k + 0.5) / n, turn = k * M_PI * (3 - sqrt(5)), across = sqrt(1 - z * z),
                      m[3] = { z, across * cos(turn), across * sin(turn) }, energy = gamma * (1 + v * m[2]),
                      along = gamma * (m[2] + v) / energy;
-        /* The oracle traces light that arrives from a direction. Mirrored in phi, its path is that of light that leaves
-         * in this direction. */
+        /* The oracle traces light that arrives from a direction. Light that leaves in this direction takes the same
+         * path, mirrored in phi. */
         struct ks_photon p =
             ks_from_camera(a, r, atan2(off, height), true, (const double[]) { m[0] / energy, m[1] / energy, -along });
         const struct ks_path path = ks_trace(p, 1);
@@ -258,7 +259,8 @@ static void test_photons(void **state)
                     got += light, got_late += light * time[j];
                 }
             }
-            /* photons of the last bin leave the source in a strip that is narrower than their spacing */
+            /* photons that reach the last bin leave the source within a strip narrower than the spacing of the sampled
+             * directions */
             within("photons of a ring", a, bins[b], got / want, 1, b + 2 < COUNT(bins) ? scatter(n) : 2 / sqrt(n));
             within("their mean time", a, bins[b], got_late / got / (late / want), 1,
                    b + 2 < COUNT(bins) ? scatter(n) : 1 / sqrt(n));
@@ -307,8 +309,8 @@ static void test_flat_echo(void **state)
     }
 }
 
-/* The echo by rays of the oracle. Light of the image plane is summed as in tests/unit/physics_line.c; its delay is that
- * of the source's photons which met the disk nearby. */
+/* The echo by rays of the oracle. Light of the image plane is summed as in tests/unit/physics_line.c. Its delay is
+ * interpolated from the source's photons that met the disk nearby. */
 static int by_radius(const void *x, const void *y)
 {
     const struct photon *a = x, *b = y;
@@ -372,7 +374,7 @@ static void test_echo(void **state)
     }
 }
 
-/* The transform equals the sum over the bins of the impulse response, which are short compared with the period. */
+/* The transform equals the sum over the bins of the impulse response. The bins are short compared with the period. */
 static void test_transform(void **state)
 {
     enum { BINS = 2, TIMES = 4000 };

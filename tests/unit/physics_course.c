@@ -94,7 +94,7 @@ static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
             say(ray, "phi of crossing", n, p->phi, oracle.phi[n], phi);
         if (!(fabs(p->delay - oracle.delay[n]) <= delay))
             say(ray, "delay of crossing", n, p->delay, oracle.delay[n], delay);
-        if (!(fabs(p->phi - closed.crossing[n].phi) <= phi)) /* the number of turns counts, too */
+        if (!(fabs(p->phi - closed.crossing[n].phi) <= phi)) /* the azimuths include the number of turns */
             say(ray, "turns of crossing", n, p->phi, closed.crossing[n].phi, phi);
     }
     int there = 0; /* crossings beyond the ends of the path, at larger or smaller radii, are not part of it */
@@ -204,7 +204,7 @@ static void between_crossings(void **state)
     assert_true(judged > 300);
 }
 
-/* Errors: no such ray exists, or its course has more places than there is room for. */
+/* Errors are returned if no such ray exists, or if its course has more places than the array. */
 static void without_a_course(void **state)
 {
     struct kd_null_place places[10];
@@ -232,7 +232,7 @@ static void without_a_course(void **state)
     assert_int_equal(course.n, 10);
 }
 
-/* The place of that crossing; NULL if the course has none. */
+/* The place of the n-th crossing; NULL if the course has fewer crossings. */
 static const struct kd_null_place *crossing_of(const struct kd_null_course *course, const struct kd_null_place *places,
                                                int n)
 {
@@ -295,7 +295,7 @@ static void from_within(void **state)
                          allowed = 1e-8 + fabs(other->r / q->r - 1) + fabs(other->phi - q->phi);
             if (!(fabs(q->r / r - 1) <= allowed))
                 say(&ray, "r of crossing", q->crossing, q->r, r, allowed * r);
-            /* inside the horizon Boyer-Lindquist azimuth does not exist, and next to it grows without bound */
+            /* Boyer-Lindquist azimuth grows without bound next to the horizon, and does not exist inside it */
             if (r < 1.02 * horizon(a))
                 continue;
             const double twist = root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : 0,

@@ -80,7 +80,7 @@ static void published_shapes(void **state)
             near(fabs(x.delta), M_PI, 2e-15, "delta", 0, k);
             near(x.tau, root27 * M_PI, 1e-14, "tau", 0, k);
         }
-    double e = 1e-12; /* 1 - a; from the pole everything depends smoothly on it */
+    double e = 1e-12; /* e is 1 - a. Seen from the pole, all results depend smoothly on it */
     struct kd_critical pole = curve_of(1 - e, 1, INFINITY, KD_OBSERVER_STATIC);
     struct kd_critical_point p = kd_critical_at(&pole, 1);
     near(p.rho, 2 + 2 * sqrt(2), 2 * e, "rho over the pole", 1, 1);
@@ -114,8 +114,8 @@ static void equatorial_orbits_keep_time(void **state)
     }
 }
 
-/* Orbits given by their radius or by their place on the curve satisfy the conditions of a double root, R = R' = 0, in
- * textbook form. */
+/* Orbits given by their radius or by their place on the curve satisfy R = R' = 0, the textbook conditions of a double
+ * root. */
 static void orbits_are_double_roots(void **state)
 {
     (void)state;
@@ -232,7 +232,7 @@ static void the_edge_from_nearby(void **state)
                 double right = x * cos(c.centre) + cos(rho) * sin(c.centre);
                 double inwards = cos(rho) * cos(c.centre) - x * sin(c.centre);
                 struct kd_covector photon = kd_tetrad_covector(&c.tetrad, (double[]) { 1, inwards, up, -right });
-                if (photon.energy <= 0.05) /* in the ergosphere: the ray has no alpha and beta */
+                if (photon.energy <= 0.05) /* skipped, because in the ergosphere the ray may have no alpha and beta */
                     continue;
                 struct kd_null_ray ray = { .hole = kd_hole_of(a),
                                            .radius = r,
@@ -277,7 +277,7 @@ static double polygon(double a, double u, int n)
         double eta = r * r * r * (4 * a * a - r * (r - 3) * (r - 3)) / (a * a * (r - 1) * (r - 1));
         double alpha = -lambda / s, beta = sqrt(fmax(eta, 0));
         if (k)
-            area += (alpha - alpha0) * (beta + beta0); /* both halves */
+            area += (alpha - alpha0) * (beta + beta0); /* counts both halves */
         alpha0 = alpha, beta0 = beta;
     }
     return area;

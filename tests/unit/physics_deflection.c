@@ -85,8 +85,8 @@ static void the_sun(void **state)
     close_to("the sun", 0, b, kd_deflection(kd_hole(0), b) / arcsec, 1.7512, 1e-4);
 }
 
-/* The two ways of computing the angle agree where they meet, at b = 20. The angle falls with b, and is larger for a
- * hole that rotates against the light. */
+/* The two methods of computing the angle agree at b = 20, where the code changes between them. The angle falls with b,
+ * and is larger for a hole that rotates against the light. */
 static void smooth_and_monotone(void **state)
 {
     (void)state;

@@ -132,8 +132,8 @@ static double redshift_by_contraction(double a, double r, double lambda)
     return 1 / (ut * (1 - omega * lambda));
 }
 
-/* The contraction itself loses digits by cancellation towards the photon orbit: at a = 0.998 to about 1e-15 over
- * 0.02 of the terms. */
+/* The contraction loses digits by cancellation towards the photon orbit. At a = 0.998 the difference is 0.02 of its
+ * terms, whose rounding is about 1e-15. */
 static void redshift_with_spin(void **state)
 {
     (void)state;
@@ -145,8 +145,8 @@ static void redshift_with_spin(void **state)
                          redshift_by_contraction(spins[i], r, lambda), 1e-12);
 }
 
-/* The contraction loses digits in energy2 - 1 at the ISCO, where it vanishes to third order, and everywhere
- * in 1/Delta at the horizon: so from 1.05 r+ to 0.9 r_isco, for photons that can be there. */
+/* The contraction loses digits in energy2 - 1 at the ISCO, where it vanishes to third order, and in 1/Delta at the
+ * horizon. The test therefore covers 1.05 r+ to 0.9 r_isco, with photons that can be there. */
 static void redshift_of_plunging_gas(void **state)
 {
     (void)state;
@@ -192,7 +192,7 @@ static void plunging_at_both_ends(void **state)
     }
 }
 
-/* Compares with the same physics computed in grams and with Newton's G, which is known to 2.2e-5; T goes as M^(-1/4).
+/* The reference is the same physics in grams with Newton's G, which is known to 2.2e-5. T is proportional to M^(-1/4).
  * The fourth root of the flux adds no error. */
 static void temperature_in_kelvin(void **state)
 {

@@ -47,8 +47,8 @@ static void frequencies(void **state)
                1e-14 * pow(r, -1.5));
 }
 
-/* Compared with geodesics of small eccentricity, by elliptic functions: the azimuth runs ahead of its mean by the
- * shear. The orbit starts at periastron, r = r0 (1 - e cos kappa t), so that phi lags by shear r0 e sin(kappa t)/kappa.
+/* The reference is geodesics of small eccentricity by elliptic functions. By the shear their azimuth runs ahead of its
+ * mean. The orbit starts at periastron, r = r0 (1 - e cos kappa t), so that phi lags by shear r0 e sin(kappa t)/kappa.
  * This holds to first order in e over the distance to the ISCO. */
 static void shear(void **state)
 {
@@ -78,8 +78,8 @@ static void potentials(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(potential_reference); i++) {
         const struct potential_reference *p = &potential_reference[i];
-        /* Where a L < 0 two terms cancel, so that the error is relative to their size. Next to the horizon sqrt(r - r+)
-         * is known to 1e-16 of r+. */
+        /* If a L < 0, two terms cancel, and the error is relative to their size. Next to the horizon the error of r -
+         * r+ is 1e-16 of r+. */
         double near = 1e-15 / (p->r - kd_hole(p->a)->outer),
                drag = fabs(kd_kerr_dragging(kd_hole(p->a), p->r, 0) * p->l);
         double loss = 2e-15 + fmin(near, 1e-9);
@@ -90,8 +90,7 @@ static void potentials(void **state)
     }
 }
 
-/* V is flat at its extrema, so the error of their radii is that of the condition of L(r) alone: 1e-13 except near
- * the ISCO. */
+/* V is flat at its extrema, so the error of their radii is that of L(r) alone: 1e-13 except near the ISCO. */
 static void turning_points(void **state)
 {
     (void)state;

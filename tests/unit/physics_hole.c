@@ -47,7 +47,7 @@ static long double exact_root2(double a, double q)
     return ldexpl((long double)(((wide)1 << 106) - x * x - y * y), -106);
 }
 
-/* With charge, up to a^2 + q^2 = 1 - 1e-12. */
+/* The same for charged holes, up to a^2 + q^2 = 1 - 1e-12. */
 static void charged(void **state)
 {
     (void)state;

@@ -23,9 +23,9 @@ static void close_to(const char *what, double a, double e, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* Third derivatives of the quadrupole moments by differences of 40 points on the ellipse would be noisy; the
- * equation of motion x'' = -x/r^3 gives them exactly: d3(x_i x_j) = -(4/r^3)(x_i v_j + v_i x_j) + (6 r v/r^5) x_i
- * x_j, and d2(x_i x_j) = 2 v_i v_j - 2 x_i x_j/r^3. Traces are subtracted. */
+/* The losses by the third derivatives of the quadrupole moments. Differences would be noisy. The equation of motion x''
+ * = -x/r^3 gives the derivatives exactly: d3(x_i x_j) = -(4/r^3)(x_i v_j + v_i x_j) + (6 r v/r^5) x_i x_j, and d2(x_i
+ * x_j) = 2 v_i v_j - 2 x_i x_j/r^3. Traces are subtracted. */
 struct loss { double energy, momentum; /* d/dt, for eta = 1 */ };
 
 static struct loss radiated(double a, double e)
@@ -57,7 +57,7 @@ static struct loss radiated(double a, double e)
     return sum;
 }
 
-/* E = -eta/(2a), L = eta sqrt(a (1 - e^2)): the rates of a and e follow from the losses. */
+/* The rates of a and e follow from the losses by E = -eta/(2a) and L = eta sqrt(a (1 - e^2)). */
 static void rates(void **state)
 {
     (void)state;
@@ -86,8 +86,8 @@ static void time_by_quadrature(void **state)
     }
 }
 
-/* Peters 1964: a circle lasts a^4/(4 beta); for e -> 1 the ratio to it is 768/425 (1 - e^2)^(7/2), and the next term
- * is smaller by sqrt(1 - e^2). */
+/* Peters 1964: a circular orbit lasts a^4/(4 beta). For e -> 1 an orbit lasts 768/425 (1 - e^2)^(7/2) times as long,
+ * and the next term is smaller by sqrt(1 - e^2). */
 static void limits(void **state)
 {
     (void)state;
@@ -100,7 +100,7 @@ static void limits(void **state)
     }
 }
 
-/* Along a(e) the time left falls at the rate that da/dt gives: by differences of second order. */
+/* Along a(e) the remaining time decreases at the rate that da/dt gives. Its slope is a difference of second order. */
 static void axis_and_time_agree(void **state)
 {
     (void)state;

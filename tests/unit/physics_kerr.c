@@ -51,8 +51,9 @@ static void the_isco_orbit(void **state)
     }
 }
 
-/* Between the photon orbit and the ISCO, just outside it, near and far: the radii in the table are exact doubles.
- * Halfway to the photon orbit at 1 - a = 1e-12, r - 1 is 8e-5, and the rounding of sqrt(r) alone is worth 1e-12. */
+/* Orbits between the photon orbit and the ISCO, just outside it, near and far. The radii in the table are exact
+ * doubles. Halfway to the photon orbit at 1 - a = 1e-12, r - 1 is 8e-5, and the rounding of sqrt(r) alone causes an
+ * error of 1e-12. */
 static void any_orbit(void **state)
 {
     (void)state;
@@ -85,9 +86,9 @@ static void numbers_in_print(void **state)
     close_to("efficiency", 0.998, 0, kd_kerr_efficiency(kd_hole(0.998)), 0.321, 5e-4 / 0.321);
 }
 
-/* E and L of circular orbits both have their minimum at the ISCO. At 5 % of the gap to either side they differ by a
- * hundred thousand ulp. The slope there is a symmetric difference of step h, whose error is h^2 times the third
- * derivative. */
+/* E and L of circular orbits both have their minimum at the ISCO. At 5 % of the distance to the photon orbit on either
+ * side, they differ from it by a hundred thousand ulp. The slope there is a symmetric difference of step h, whose error
+ * is h^2 times the third derivative. */
 static void the_isco_is_the_minimum(void **state)
 {
     (void)state;

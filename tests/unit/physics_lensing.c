@@ -34,7 +34,8 @@ static void against_the_oracle(void **state)
         double d = kd_lensing_edge(&c, &p, e->order, e->source);
         if (!(fabs(d / e->distance - 1) < 4e-14 + 1e-16 / sqrt(1 - e->spin)))
             fail_msg("row %zu: %.17g, not %.17g", i, d, e->distance);
-        /* d gives the source back; d ln r/d ln d is some 10 at most, except at infinity and at the horizon */
+        /* kd_lensing_source of d is the source. |d ln r/d ln d| is at most some 10, except at infinity and at the
+         * horizon */
         double r = kd_lensing_source(&c, &p, e->order, d);
         if (e->source == 6 && !(fabs(r / 6 - 1) < 1e-12))
             fail_msg("row %zu: source at %.17g", i, r);
@@ -56,8 +57,8 @@ static void the_rings_of_gralla_holz_wald(void **state)
     }
 }
 
-/* The same edges are found by rays in closed form, as close to the critical curve as alpha and beta can resolve. Just
- * inside an edge the source is nearer. */
+/* The same edges are found by rays in closed form, as long as alpha and beta can resolve the distance from the critical
+ * curve. Just inside an edge the source is nearer. */
 static void rays_agree(void **state)
 {
     (void)state;
@@ -89,8 +90,8 @@ static void rays_agree(void **state)
 }
 
 /* From order to order d falls by a factor that tends to e^-gamma, at any source radius; the difference from that
- * limit falls by about the same factor, or is of order d. Up to n = 30, where d is 1e-41 at a = 0 and still has all
- * its digits. Near a = 1 the limit is reached late. */
+ * limit falls by about the same factor, or is of order d. The test goes to n = 30, where d is 1e-41 at a = 0 and still
+ * has all its digits. Near a = 1 the limit is reached only at high orders. */
 static void demagnification(void **state)
 {
     (void)state;
@@ -127,7 +128,7 @@ static void where_there_is_none(void **state)
     assert_true(isnan(kd_lensing_edge(&c, &p, 0, 6)) && isnan(kd_lensing_edge(&c, &p, 1, 1)) &&
                 isnan(kd_lensing_edge(&c, &p, 1, NAN)));
     assert_true(isinf(kd_lensing_source(&c, &p, 2, 0.5)) && kd_lensing_source(&c, &p, 2, -0.5) == 0);
-    struct kd_critical flat = curve_of(0.9, 0); /* rays in the plane */
+    struct kd_critical flat = curve_of(0.9, 0); /* seen from the plane */
     struct kd_critical_point end = kd_critical_at(&flat, 0);
     assert_true(isnan(kd_lensing_edge(&flat, &end, 2, 6)));
 }

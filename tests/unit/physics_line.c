@@ -55,11 +55,11 @@ static double redshift(const struct kd_hole *hole, double r, double lambda)
     return 1 / (gas.ut * (1 - gas.omega * lambda));
 }
 
-/* Light of a ring reaches the image plane at the place from which a ray integrated backwards meets the ring, with
- * that redshift and that angle to the normal: |p_z| of the reference over the energy in the gas's frame.
- * Interpolation leaves 3e-4 of r at 75 degrees and a = 0.998, and next to nothing elsewhere; mu = g sqrt(eta)/r has
- * that error of r and, where light grazes the disk, twice that of beta. g depends on the place by alpha alone, which
- * the reference is given too: only rounding is left. */
+/* A ray that is integrated backwards from the place of a ring's image meets the ring, with the same redshift and the
+ * same angle to the normal. The reference's cosine of this angle is |p_z| over the energy in the gas's frame.
+ * Interpolation leaves an error of 3e-4 of r at 75 degrees and a = 0.998, and almost none elsewhere. mu = g sqrt(eta)/r
+ * has that error of r and, where light grazes the disk, twice that of beta. g depends on the place through alpha alone,
+ * which the reference is given too, so that only rounding is left. */
 static void test_rings_are_where_rays_lead(void **state)
 {
     static const double holes[][2] = { { 0, 0 }, { 0.9, 0 }, { 0.998, 0 }, { -0.7, 0 }, { 0, 0.95 }, { 0.6, -0.79 } },
@@ -115,8 +115,9 @@ static void test_nodes(void **state)
         }
 }
 
-/* Next to edge on, between nodes too, places of a ring are within 2e-3 of r of those that are found individually.
- * For these spins and inclinations no table could be made when a line from the centre could meet a ring three times. */
+/* Next to edge-on, places of a ring are within 2e-3 of r of those that are found individually, also between nodes. With
+ * these spins and inclinations a line from the centre may meet a ring three times, so that tables by such lines
+ * failed. */
 static void test_next_to_edge_on(void **state)
 {
     static const struct {
@@ -158,7 +159,8 @@ static void test_inclinations(void **state)
 
 enum { EDGES = 60 };
 
-/* The sum over rays, each traced individually, on a polar grid, even in ln rho and squeezed as the disk's image is. */
+/* Sums over individually traced rays on a polar grid. The grid is even in ln rho, and squeezed like the image of the
+ * disk. */
 static void sum_over_rays(const struct kd_hole *hole, double i, double outer, const double *edges, double *in)
 {
     const int across = 500, around = 400;
@@ -186,8 +188,8 @@ static void sum_over_rays(const struct kd_hole *hole, double i, double outer, co
         in[e] /= all;
 }
 
-/* A sum with a given tolerance is within this error of the sum over rays. It is not many times more accurate, which
- * would be wasted work. Its total is within 0.2 parts in a thousand of that of the most accurate sum. */
+/* A profile with a given tolerance is within this error of the sum over rays. It is not many times more accurate,
+ * because that would be wasted work. Its total is within 0.2 parts in a thousand of that of the most accurate sum. */
 static void tolerated(double a, double i, const struct kd_line_params *closest, const double *edges, const double *in,
                       double total)
 {
@@ -206,8 +208,8 @@ static void tolerated(double a, double i, const struct kd_line_params *closest, 
     within("total", a, i, profile.total / total, 1, 2e-4);
 }
 
-/* The sum over 200 000 rays is itself off by up to 5e-4; with 36 times as many rays by 1e-4. The profile's estimate of
- * its error must hold, and be below the requested 0.3 %. */
+/* The sum over 200 000 rays has an error of up to 5e-4; with 36 times as many rays it is 1e-4. The profile's estimate
+ * of its error must hold, and be below the requested 0.3 %. */
 static void test_cumulative_share(void **state)
 {
     static const struct {
@@ -318,7 +320,7 @@ static void test_face_on(void **state)
         struct kd_line_profile profile;
         struct kd_error error;
         assert_int_equal(kd_line_profile(&image, &params, edges, 5, share, &profile, &error), KD_OK);
-        /* the rings have equal widths in r; a ring has the area pi d(b^2), where its ray gives b, and g = sqrt(1 - 3/r)
+        /* the rings have equal widths in r; a ring has the area pi d(b^2), with b of its ray, and g = sqrt(1 - 3/r)
          */
         double in[5] = { 0 }, all = 0, b2 = 0;
         for (int k = 0; k <= 4000; k++) {
@@ -368,7 +370,7 @@ static void test_lamp(void **state)
     assert_true(kd_lamppost_init(&lamp, kd_hole(0), 2000, 2, 1000, 10000));
     for (double r = 1200; r < 9000; r *= 1.7)
         within("flat", 0, r, kd_lamppost_at(&lamp, r) / (2000 / (4 * M_PI * pow(r * r + 4e6, 1.5))), 1, 0.01);
-    /* Without spin the profile follows from the slope of r by differences. */
+    /* Without spin the profile follows from the slope of r, computed by differences. */
     for (double h = 3, q = 0; h < 50; h *= q > 0 ? 2.3 : 1, q = 0.9 - q) {
         const struct kd_hole hole = kd_hole_charged(0, q);
         const double isco = kd_kerr_isco(&hole);
@@ -419,7 +421,7 @@ static struct start start_of(const struct kd_hole *hole, double u, double alpha,
 }
 
 /* The Jacobian d(g, r)/d(alpha, beta), by differences over h between rays of the reference. The rays' error of 1e-11
- * divided by the step is 1e-8; the square of the step leaves 1e-6. */
+ * divided by the step gives an error of 1e-8, and the square of the step gives 1e-6. */
 static double slopes_of(const struct kd_hole *hole, double u, double alpha, double beta, double h)
 {
     struct start l = start_of(hole, u, alpha - h, beta), r = start_of(hole, u, alpha + h, beta),
@@ -439,7 +441,7 @@ static void test_transfer_function(void **state)
     (void)state;
     for (size_t k = 0; k < COUNT(cases); k++) {
         double a = cases[k].a, i = cases[k].i, r = cases[k].r, u = cos(i * RADIAN), alpha, beta,
-               h = 2e-3 * fmin(1, r * u); /* less than the width of the near side next to edge on */
+               h = 2e-3 * fmin(1, r * u); /* a step less than the width of the near side next to edge-on */
         const struct kd_hole hole = kd_hole_charged(a, cases[k].q);
         struct kd_transfer_ring ring;
         assert_true(kd_disk_image_init(&image, &hole, i * RADIAN));

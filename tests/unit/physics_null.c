@@ -64,9 +64,9 @@ static void crossings(void **state)
     }
 }
 
-/* The error estimates must not be so large that anything passes: errors of direct images are a few roundings, those
- * of the next order up to a hundred times more (half a turn near the photon sphere multiplies by up to e^pi), and
- * the estimates grow in proportion. */
+/* The error estimates must not be so large that any error passes. Errors of direct images are a few roundings. Those of
+ * the next order are up to a hundred times larger, because half a turn near the photon sphere multiplies them by up to
+ * e^pi. The estimates grow in proportion. */
 static void accuracy(void **state)
 {
     (void)state;
@@ -144,7 +144,7 @@ static void continuity(void **state)
                 struct kd_null_path q = kd_null_trace(&near[j]);
                 assert_int_equal(p.crossings, q.crossings);
                 for (int n = 0; n < p.crossings; n++) {
-                    double allowed = j < 2 ? 1e-11 : 1e-6; /* the axis: sqrt(2e-15) in the inclination */
+                    double allowed = j < 2 ? 1e-11 : 1e-6; /* next to the axis the inclination changes by sqrt(2e-15) */
                     within(k, n, "r nearby", fabs(q.crossing[n].r / p.crossing[n].r - 1), allowed);
                     within(k, n, "phi nearby", fabs(q.crossing[n].phi - p.crossing[n].phi), allowed);
                     within(k, n, "delay nearby", fabs(q.crossing[n].delay - p.crossing[n].delay), allowed * 100);
@@ -164,8 +164,8 @@ static void continuity(void **state)
     within(0, 0, "r below beta = 0", fabs(kd_null_trace(&down).crossing[0].r / r - 1), 1e-12);
 }
 
-/* Across the axis: alpha -> 0 from the two sides gives azimuths that differ by 2 pi. alpha = 0 gives exactly one of
- * them. */
+/* Across the axis: alpha -> 0 from the two sides gives two azimuths that differ by 2 pi. At alpha = 0 the azimuth is
+ * exactly one of these two. */
 static void the_axis(void **state)
 {
     (void)state;
@@ -194,7 +194,8 @@ static void observers_along_a_ray(void **state)
     far.radius = 1e7;
     struct kd_null_path q = kd_null_trace(&far);
     assert_true(p.crossings == q.crossings && p.crossings > 0);
-    for (int n = 0; n < p.crossings; n++) { /* the part of the way beyond 1e7 that is left out is b^2/2r */
+    /* the part of the path beyond 1e7, which is left out, has the length b^2/2r */
+    for (int n = 0; n < p.crossings; n++) {
         within(0, n, "r from 1e7", fabs(p.crossing[n].r / q.crossing[n].r - 1), 2e-5);
         within(0, n, "delay from 1e7", fabs(q.crossing[n].delay - 1e7 - 2 * log(1e7) - p.crossing[n].delay), 1e-4);
     }
@@ -258,8 +259,8 @@ static void principal_rays(void **state)
     within(0, 0, "phi in the plane", fabs(p.sky_phi + turn), 1e-14);
 }
 
-/* All 32 orders near the critical curve. Each half turn takes the same time, until errors have grown to the distance
- * from the photon sphere. All numbers are finite, and the estimates grow. */
+/* Rays near the critical curve have all 32 orders. Each half turn takes the same time, until the error has grown to the
+ * distance from the photon sphere. All numbers are finite, and the estimates grow. */
 static void many_orders(void **state)
 {
     (void)state;
@@ -277,7 +278,8 @@ static void many_orders(void **state)
         within(0, n, "half a turn", fabs(fabs(p.crossing[n].phi - p.crossing[n - 1].phi) - M_PI), 1e-12);
         assert_true(isnan(p.crossing[n].error_r) == 0 && p.crossing[n].error_r > 0);
     }
-    for (int n = 2; n < 5; n++) /* 3 sqrt(3) per radian: pi sqrt(27) for half a turn */
+    /* light at the photon sphere needs a time of sqrt(27) per radian, so half a turn takes pi sqrt(27) */
+    for (int n = 2; n < 5; n++)
         within(0, n, "delay of half a turn", fabs(p.crossing[n].delay - p.crossing[n - 1].delay - M_PI * sqrt(27)),
                0.1);
     assert_true(p.crossing[4].error_r > 100 * p.crossing[2].error_r);
@@ -295,8 +297,8 @@ static double critical_scale(struct kd_null_ray ray, double x, double y)
     return high;
 }
 
-/* Rays a few roundings apart agree to within their estimates, also where they linger at the photon sphere and where
- * they reach the horizon: there a rounding of r changes phi and t by thousands of roundings. */
+/* Rays a few roundings apart agree to within their error estimates, also where they linger at the photon sphere or
+ * reach the horizon. At the horizon a rounding of r changes phi and t by thousands of roundings. */
 static void neighbours(void **state)
 {
     (void)state;
@@ -341,7 +343,7 @@ static void exactly_critical(void **state)
         for (int n = 1; n < 3; n++)
             within(k + 50, n, "r at the photon sphere", fabs(p.crossing[n].r - 3), n == 1 ? 0.05 : 0.003);
     }
-    assert_in_range(uncertain, 10, 60); /* some 16 roundings to either side */
+    assert_in_range(uncertain, 10, 60); /* the uncertain rays lie within some 16 roundings to either side */
 }
 
 int main(void)

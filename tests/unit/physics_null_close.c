@@ -45,7 +45,7 @@ static struct kd_null_radial_sum from(const struct kd_null_motion *m, const stru
     return kd_null_radial_integrals(&q, &at, true);
 }
 
-/* The allowed errors are those of the difference of two integrals, relative to the largest of both. */
+/* The allowed errors are relative to the larger of the two integrals whose difference is tested. */
 static void integrals(void **state)
 {
     (void)state;

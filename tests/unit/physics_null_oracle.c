@@ -52,7 +52,7 @@ static void say(const struct kd_null_ray *ray, const char *what, int n, double g
 
 /* The reference has an error of 1e-12 a step in a coordinate that is 1e6 at first, some 1e-11 on arrival. Errors of
  * both methods grow along the way by the condition number, which the estimates contain, times about ten DBL_EPSILON.
- * `start` is the error of the reference's start. Returns whether there was anything to compare. */
+ * `start` is the error of the reference's start. Returns whether the two had anything to compare. */
 static void compare(const struct kd_null_ray *ray, struct ks_photon photon, double start)
 {
     struct kd_null_path p = kd_null_trace(ray);
@@ -95,9 +95,9 @@ static void from_infinity(void **state)
     }
 }
 
-/* The photon of `ray` at the ray's radius: p_r = +-sqrt(R)/Delta, p_theta = beta; false if there is none. Not on the
- * axis, where the reference's start is made for large radii; and not at the horizon, where the change of coordinates
- * loses a factor 1/Delta. */
+/* The photon of `ray` at the ray's radius: p_r = +-sqrt(R)/Delta, p_theta = beta; false if there is none. False also on
+ * the axis, where the reference's start is valid at large radii only, and at the horizon, where the change of
+ * coordinates loses a factor 1/Delta. */
 static bool photon_of(const struct kd_null_ray *ray, struct ks_photon *photon)
 {
     double a = ray->hole.a, u = ray->cos_theta, r = ray->radius, s = sqrt((1 - u) * (1 + u)), lambda = -ray->alpha * s;
@@ -182,8 +182,8 @@ static void charged_to_the_last_digits(void **state)
 {
     (void)state;
     if (LDBL_MANT_DIG < 64)
-        skip();                             /* the reference would have no more digits than the closed form */
-    double worst = 0, worst_phi[2] = { 0 }; /* index 1: nearly extremal holes */
+        skip();                             /* skipped where long double has no more digits than double */
+    double worst = 0, worst_phi[2] = { 0 }; /* worst_phi[1] is that of nearly extremal holes */
     int compared = 0;
     uint64_t seed = 5;
     for (int i = 0; i < charged_rays; i++) {
@@ -198,7 +198,7 @@ static void charged_to_the_last_digits(void **state)
         const struct ks_path k = ks_trace_long(photon, 16), beside = ks_trace_long(moved, 16);
         assert_int_equal(p.status, KD_NULL_OK);
         if (k.crossings != beside.crossings || k.fate != beside.fate)
-            continue; /* a ray at an edge, where kappa has no difference */
+            continue; /* skipped: at an edge the difference for kappa does not exist */
         assert_true((p.fate == KD_NULL_ESCAPED) == (k.fate == KS_ESCAPED));
         assert_int_equal(p.crossings, k.crossings < ORDERS ? k.crossings : ORDERS);
         for (int n = 0; n < p.crossings; n++, compared++) {

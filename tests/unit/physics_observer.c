@@ -24,7 +24,7 @@ typedef long double vector[4], matrix[4][4];
 static void metric(const struct kd_vantage *at, matrix g)
 {
     long double a = at->hole.a, r = at->r, u = at->u, s = at->s, sigma = r * r + a * a * u * u;
-    /* not r^2 - 2r + a^2, which cancels near the horizon; sqrtl so that the digits of the code's double are all used */
+    /* r^2 - 2r + a^2 would cancel near the horizon. sqrtl makes this more accurate than the code's double */
     long double root = sqrtl((1 - a) * (1 + a)), delta = (r - 1 - root) * (r - 1 + root);
     vector time = { [T] = 1, [PHI] = -a * s * s }, turn = { [T] = -a, [PHI] = r * r + a * a };
     for (int i = 0; i < 4; i++)
@@ -121,8 +121,8 @@ static void everywhere(check *each)
         assert_true(seen[k] > (int)(COUNT(spins) * COUNT(angles) * COUNT(heights)) / 2);
 }
 
-/* The relative rounding of Delta or g_tt, which vanish at the edge. It is the rounding of r (or of cos(theta), as
- * far as that moves the edge), divided by the distance to the edge. */
+/* The relative rounding of Delta or g_tt, which vanish at the edge. It is the rounding of r, or the shift of the edge
+ * by the rounding of cos(theta), divided by the distance to the edge. */
 static double rounding(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
     double edge = fmax(kd_observers[m->observer].outside(&at->hole, at->u), at->hole.outer),
@@ -155,7 +155,7 @@ static void slope(const struct kd_vantage *at, matrix out)
             out[i][j] = (g[0][i][j] - 8 * g[1][i][j] + 8 * g[2][i][j] - g[3][i][j]) / (12 * h);
 }
 
-/* The radial force on a body that neither rises nor leaves its latitude, 1/2 u^i u^j d_r g_ij, relative to its size. */
+/* The radial force on a body that stays at its radius and latitude, 1/2 u^i u^j d_r g_ij, relative to its size. */
 static double force(const struct kd_vantage *at, const vector up)
 {
     matrix d;
@@ -278,7 +278,7 @@ static void orthonormal_at(const struct kd_observer_motion *m, const struct kd_v
                         : -1,
                  rounding(m, at) + cancelled(m, at, down[i], up[j]), "product", m, at);
     /* The time leg points to the future. The other legs point outwards, away from the north pole and along the
-     * rotation, carried by a boost. */
+     * rotation, before the boost. */
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO);
     const struct kd_tetrad rest = kd_observer_tetrad(&zamo, at);
     const struct kd_covector *const still[] = { &rest.t, &rest.r, &rest.theta, &rest.phi };
@@ -308,7 +308,8 @@ static struct ks_frame frame_by_oracle(const struct kd_observer_motion *m, const
     double u[4] = { 0 }, x[4] = { 1, m->velocity[0], m->velocity[1], m->velocity[2] };
     double gamma = 1 / sqrt(1 - (x[1] * x[1] + x[2] * x[2] + x[3] * x[3]));
     if (m->observer == KD_OBSERVER_INFALL)
-        ks_inwards(&at, 1, frame->t.energy, m->fall_momentum, 0, u); /* E is tested elsewhere */
+        /* takes E from the code, because E is tested elsewhere */
+        ks_inwards(&at, 1, frame->t.energy, m->fall_momentum, 0, u);
     for (int i = 0; i < 4 && m->observer == KD_OBSERVER_VELOCITY; i++)
         for (int k = 0; k < 4; k++)
             u[k] += gamma * x[i] * base.e[i][k];
@@ -326,7 +327,7 @@ static struct ks_frame frame_by_oracle(const struct kd_observer_motion *m, const
 static void constants_at(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame)
 {
     double bound = 100 * rounding(m, at) * (1 + 1 / at->s);
-    /* the axes of a static frame are not those of a boosted one */
+    /* skipped for static observers, because the axes of their frames are not those of boosted frames */
     if (bound > 1e-4 || at->s < 1e-3 || m->observer == KD_OBSERVER_STATIC)
         return;
     const struct ks_place place = { at->hole.a, at->r, atan2(at->s, at->u) };
@@ -370,7 +371,7 @@ static void constants(void **state)
     everywhere(constants_at);
 }
 
-/* The square of the Lorentz factor of the observer relative to one of zero angular momentum. */
+/* The square of the observer's Lorentz factor in the frame of an observer of zero angular momentum. */
 static double square_gamma(const struct kd_observer_motion *m, const struct kd_vantage *at,
                            const struct kd_tetrad *frame)
 {
@@ -389,7 +390,7 @@ static void back_and_forth_at(const struct kd_observer_motion *m, const struct k
     const double gamma = 1 / sqrt(1 - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     const struct kd_tetrad moving =
         kd_tetrad_boosted(frame, (double[]) { gamma, gamma * v[0], gamma * v[1], gamma * v[2] });
-    /* The condition of the answer: E and L of a frame next to an edge are nearly proportional. */
+    /* The condition number of the answer. Next to an edge E and L of the frame are nearly proportional. */
     double bound = 300 * 2.2e-16 * (1 + frame->phi.momentum / fabs(at->r * frame->t.energy)) *
                    (1 + at->r / fabs(frame->phi.momentum));
     bound *= 4 * square_gamma(m, at, frame);

@@ -97,7 +97,7 @@ static void places_are_the_quadratures(void **state)
     }
 }
 
-/* Both methods agree with the quadratures, with enough steps that only rounding remains, including that of the
+/* Both methods agree with the quadratures. The steps are so many that only rounding remains, including that of the
  * constants. */
 static void paths_are_the_quadratures(void **state)
 {
@@ -109,7 +109,7 @@ static void paths_are_the_quadratures(void **state)
             struct kd_orbit_state start = kd_orbit_start(&o, NAN, true);
             struct kd_orbit_path path;
             kd_orbit_path_init(&path, &o, &start, (enum kd_orbit_method)method);
-            /* the wider the orbit, the sharper is the peak of 1/w^2 at apastron */
+            /* a wider orbit needs more steps, because its peak of 1/w^2 at apastron is sharper */
             int n = (int)ceil(e->mino * e->mino_theta * 160 / sqrt(1 - e->e));
             for (int k = 0; k < n; k++)
                 kd_orbit_path_step(&path, e->mino / n);
@@ -136,7 +136,7 @@ static void falls_are_the_quadratures(void **state)
                 kd_orbit_path_step(&path, h);
             path = kd_orbit_path_to_radius(&path, 20 * h, 1 / e->to);
             struct kd_orbit_place at = kd_orbit_path_place(&path);
-            /* the error of the time of arrival that the rounding of r, a double, causes */
+            /* tolerance: the rounding of r to a double causes this error of the time of arrival */
             close_to(i, "Mino time", at.mino, e->mino, 1e-12);
             close_to(i, "r", at.r, e->to, 1e-13 * e->to);
             close_to(i, "proper time", at.proper, e->proper, 2e-11 * e->proper);
@@ -262,7 +262,7 @@ static void circles_at_the_edge(void **state)
         struct kd_orbit inside = shape(a, nextafter(isco, 0), 0, 1);
         assert_int_equal(inside.fate, KD_ORBIT_PLUNGE);
         assert_true(kd_orbit_start(&inside, NAN, true).w > inside.w_high); /* starts inwards */
-        /* the nearer to the ISCO, the longer the plunge takes; so the start is 2 % inside */
+        /* the plunge starts 2 % inside the ISCO, because it takes longer the nearer its start is to the ISCO */
         struct kd_orbit well_inside = shape(a, 0.98 * isco, 0, 1);
         struct kd_orbit_state start = kd_orbit_start(&well_inside, NAN, true);
         struct kd_orbit_path path;
@@ -287,7 +287,8 @@ static void constants_and_back(void **state)
         if (kd_orbit_from_constants(kd_hole(e->spin), o.energy, o.momentum, o.carter, NAN, &back, &error))
             fail_msg("row %zu: %s", i, error.message);
         assert_int_equal(back.fate, KD_ORBIT_BOUND);
-        /* tolerance: E near 1 has lost digits of 1 - E^2, and a narrow range of r has lost half of its digits */
+        /* tolerance: E near 1 has lost digits of 1 - E^2, and if the range of r is narrow, it has lost half of its
+         * digits */
         double bound = 1e-14 / o.binding * condition(e) / fmax(e->e, 1e-7);
         close_to(i, "periastron", back.w_high, o.w_high, bound * o.w_high);
         close_to(i, "apastron", back.w_low, o.w_low, bound * o.w_low);
@@ -507,7 +508,8 @@ static void bad_input(void **state)
     refused("/e", kd_orbit_from_shape(kd_hole(0), 8, -0.1, 1, &o, &error), &error);
     refused("/p", kd_orbit_from_shape(kd_hole(0), 6.9, 0.5, 1, &o, &error), &error);
     refused("/p", kd_orbit_from_shape(kd_hole(0), 1.9, 0, 1, &o, &error), &error);
-    refused("/p", kd_orbit_from_shape(kd_hole(0), 2.9, 0, 1, &o, &error), &error); /* inside the photon orbit */
+    /* refused, because p is inside the photon orbit */
+    refused("/p", kd_orbit_from_shape(kd_hole(0), 2.9, 0, 1, &o, &error), &error);
     refused("/p", kd_orbit_from_shape(kd_hole(0), INFINITY, 0, 1, &o, &error), &error);
     refused("/carter", kd_orbit_from_constants(kd_hole(0), 0.95, 3, -1, NAN, &o, &error), &error);
     refused("/r", kd_orbit_from_constants(kd_hole(0), 0.95, 3, 0, 1.9, &o, &error), &error);

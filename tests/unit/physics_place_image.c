@@ -75,9 +75,9 @@ static void test_the_plane_of_a_hole_that_spins(void **state)
     }
 }
 
-/* A hole without spin has no preferred equator: a place at (theta, phi) from an observer in the plane is at an angle
- * psi from the line to the observer, in some plane through that line, and is seen at (right, up) = b (cos, sin) of
- * that plane's position angle. */
+/* A hole without spin has no preferred equator. An observer in the plane looks at a place (theta, phi). The place and
+ * the line to the observer span a plane, in which the place is at an angle psi from that line. It is seen at (right,
+ * up) = b (cos, sin) of that plane's position angle. */
 static void test_off_the_plane_without_spin(void **state)
 {
     (void)state;
@@ -92,8 +92,8 @@ static void test_off_the_plane_without_spin(void **state)
         const double psi = acos(n[0]), b = hypot(here.alpha, here.beta);
         const double side = atan2(n[2], n[1]);
         assert_true(fabs(turn(atan2(here.beta, here.alpha) - side)) < 1e-6);
-        /* The place in the equator, seen at 60 degrees, that is at this angle from the line of sight: cos(psi) =
-         * sin(60) cos(phi'). */
+        /* Azimuth phi' of the place in the equator that is at the angle psi from the line of sight, for an inclination
+         * of 60 degrees: cos(psi) = sin(60) cos(phi'). */
         const double c = cos(psi) / sin(60 * RADIAN);
         if (fabs(c) > 1)
             continue;

@@ -96,7 +96,7 @@ static void conserved(void **state)
     }
 }
 
-/* Next to the ISCO the body turns as fast as the circular orbit. */
+/* Next to the ISCO the body has the angular velocity of the circular orbit. */
 static void leaves_the_circle(void **state)
 {
     (void)state;

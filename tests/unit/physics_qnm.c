@@ -32,7 +32,7 @@ static void close_to(const char *what, int l, int m, int n, double a, double com
                  creal(got), cimag(got), creal(want), cimag(want));
 }
 
-/* The header promises 1e-13 up to a = 0.99 and 1e-12 beyond. */
+/* The header states an error of 1e-13 up to a = 0.99 and 1e-12 beyond. */
 static void another_method(void **state)
 {
     (void)state;
@@ -100,7 +100,7 @@ static void public_tables(void **state)
 }
 
 /* In the whole domain each mode is one curve, without a jump to a neighbouring one. A walk in steps so fine that it
- * cannot change curves passes every value that is found individually, and a walk back returns to the start. Most
+ * cannot change curves meets every value that kd_qnm finds individually, and a walk back returns to the start. Most
  * neighbours are 1e-2 away. */
 static void one_branch(void **state)
 {

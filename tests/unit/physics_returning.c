@@ -205,7 +205,7 @@ static const struct kd_hole *holes(size_t i)
     return &all[i];
 }
 
-/* Tested for rings at the ISCO and at 3 times its radius. */
+/* Light of rings at the ISCO and at 3 times its radius arrives where the test's rays arrive. */
 static void light_of_a_ring_goes_where_followed_rays_go(void **state)
 {
     (void)state;
@@ -236,8 +236,8 @@ static void light_of_a_ring_goes_where_followed_rays_go(void **state)
 
 enum { BINS = 8, RINGS = 24 };
 /* Light of the whole disk of Page & Thorne. shares: shares of its luminosity. energy, deficit: for s = 1/8, 2/8, ...,
- * what the rings within r = r_isco/s^2 receive. This is the energy in the gas's frame, and the angular momentum that
- * the light lacks to move with the gas. */
+ * what the rings within r = r_isco/s^2 receive. energy is measured in the gas's frame. deficit is the angular momentum
+ * that the light lacks compared with the gas. */
 struct sums {
     struct kd_returning_shares shares;
     double energy[BINS], deficit[BINS], momentum; /* momentum: L of the gas times the energy, summed over all rings */
@@ -320,8 +320,8 @@ static void the_kernel_is_that_of_followed_rays(void **state)
 }
 
 /* The gas radiates what accretion releases, and nothing else: E at infinity of all light that leaves the converged disk
- * for good is 1 - E(ISCO), and of the light that returns for the first time as much arrives as left. The work F_t of
- * the stress is part of this balance. */
+ * for good is 1 - E(ISCO), and the light that returns for the first time arrives without loss. The work F_t of the
+ * stress is part of this balance. */
 static void energy_is_conserved(void **state)
 {
     (void)state;
@@ -406,8 +406,8 @@ static void reflected_light_is_as_warm_as_followed_rays(void **state)
     free(table);
 }
 
-/* Reflected light carries away the light that returns. The fluxes add to that of a disk that absorbs all light; neither
- * is negative. */
+/* Reflected light carries away the light that returns. The sum of the two fluxes is the flux of a disk that absorbs all
+ * light. Neither is negative. */
 static void reflection_changes_no_flux(void **state)
 {
     (void)state;

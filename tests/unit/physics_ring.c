@@ -55,9 +55,9 @@ static void without_spin(void **state)
     }
 }
 
-/* The reference's ray from the image meets the plane where the ring is. Its own start has an error of 1e-9 (r = 1e6
- * stands for infinity, with the first terms of the series beyond); an error of alpha is magnified on the way by
- * about 25 each half turn. */
+/* The reference's ray from the image meets the plane at the ring. The start of that ray has an error of 1e-9, because
+ * it is at r = 1e6, with the first terms of a series for the rest of the way. Each half turn magnifies an error of
+ * alpha by about 25. */
 static void with_spin(void **state)
 {
     static const double cases[][5] = {
@@ -109,7 +109,7 @@ static void everywhere(void **state)
     assert_true(several > 0);
 }
 
-/* Height and distance are as accurate as r - r+: at 1 - a = 1e-12 that is 1e-16 of 1, over a range of 1e-6. */
+/* Height and distance are as accurate as r - r+. At 1 - a = 1e-12 this has an error of 1e-16 over a range of 1e-6. */
 static void embedding(void **state)
 {
     (void)state;

@@ -69,8 +69,8 @@ static void bases(const double n[3], double l[3], double r[3])
     r[0] = -n[1] / level, r[1] = n[0] / level, r[2] = 0;
 }
 
-/* stokes: I_l, I_r and U, with I_l + I_r = 1. Scatters the light into the direction n; returns the ratio of the
- * intensity to its maximum. */
+/* Scatters light into the direction n, and returns the ratio of the intensity to its maximum. stokes: I_l, I_r and U,
+ * with I_l + I_r = 1. */
 static double scattered_into(const double from[3], const double stokes[3], const double n[3], double out[3])
 {
     double l0[3], r0[3], l[3], r[3];

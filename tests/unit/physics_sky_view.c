@@ -36,7 +36,7 @@ static const struct seer {
       6,
       { .observer = KD_OBSERVER_KEPLERIAN },
       0.94280904158206336,
-      3.4641016151377544 }, /* sqrt(8/9), sqrt(12) */
+      3.4641016151377544 }, /* energy sqrt(8/9), momentum sqrt(12) */
     { "rain", 0, 75, 20, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
     { "rain", 0.9, 110, 2, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
     { "rain", 0.9, 75, HORIZON, { .observer = KD_OBSERVER_INFALL, FALL }, 1, 0 },
@@ -101,7 +101,8 @@ static struct kd_sky_view view_of(const struct seer *s)
     return view;
 }
 
-/* Energy at infinity of light that is seen with energy 1 in the direction (right, up, inwards), and the light's origin.
+/* Returns the energy at infinity of light that is seen with energy 1 in the direction (right, up, inwards). Also finds
+ * the light's origin.
  */
 static double oracle_energy(const struct seer *s, const struct ks_frame *f, const double k[3], enum ks_fate *fate)
 {
@@ -190,7 +191,7 @@ static void extremes(void **state)
         const struct ks_frame f = frame_of(&seers[i]);
         const struct kd_sky_view v = view_of(&seers[i]);
         const double step = 1e-5;
-        /* a static observer sees the whole sky with the same shift, which follows from the lapse */
+        /* a static observer sees the same shift, that of the lapse, in all directions */
         if (seers[i].motion.observer == KD_OBSERVER_STATIC) {
             double want = 1 / oracle_energy(&seers[i], &f, (double[]) { 0, 0, 1 }, NULL);
             assert_true(fabs(v.least / want - 1) < 1e-12 && fabs(v.greatest / want - 1) < 1e-12);
@@ -228,8 +229,8 @@ static void round_disks(void **state)
     }
 }
 
-/* The solid angle is compared with the integral over its boundary's distance from a centre, where this is simple, and
- * with counted directions. */
+/* The solid angle is compared with counted directions, and for simple boundaries with the integral of the boundary's
+ * distance from a centre. */
 static void solid_angles(void **state)
 {
     (void)state;

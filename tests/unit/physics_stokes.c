@@ -36,7 +36,7 @@ struct disk {
     double theta, isco, largest, hottest_k;
 };
 
-/* Planck's law without 2 h nu^3/c^2, at the temperature that is `ratio` times the largest one. */
+/* Planck's law without 2 h nu^3/c^2. The temperature is `ratio` times the disk's highest temperature. */
 static double planck(const struct disk *d, double ratio, double energy)
 {
     return 1 / expm1(energy * 1e3 * 1.602176634e-19 / (KD_K_J_K * d->hottest_k * ratio));
@@ -47,7 +47,7 @@ static double heat(const struct disk *d, double r)
     return pow(kd_disk_flux_page_thorne(&d->hole, r) / d->largest, 0.25);
 }
 
-/* The atmosphere at many cosines; the nearest one is taken. */
+/* A table of the atmosphere's light at many cosines. The nearest cosine is taken. */
 enum { FINE = 20000 };
 static struct kd_scattered emission[FINE + 1];
 static struct kd_scattering_functions reflection[FINE + 1];
@@ -178,8 +178,7 @@ static void frame_of(const struct disk *d, const double *x, double legs[4][4])
     };
     static const int order[4] = { 0, 3, 2, 1 };
     memcpy(legs, raw, sizeof raw);
-    /* The outward leg is orthogonal to both Killing vectors, that is, to the velocity and to the projected azimuthal
-     * one. */
+    /* The outward leg is orthogonal to the velocity and to the projected azimuthal Killing vector. */
     for (int n = 0; n < 4; n++) {
         double *v = legs[order[n]];
         for (int k = 0; k < n; k++) {
@@ -193,8 +192,8 @@ static void frame_of(const struct disk *d, const double *x, double legs[4][4])
     }
 }
 
-/* Light at a place of the plane: r, its energy and direction in the gas's frame, and the components of the two
- * transported vectors along l and r of scattering.h. */
+/* Light that meets the plane at the radius r. energy, n: its energy and direction in the gas's frame. l, r_: components
+ * of the two transported vectors along l and r of scattering.h. */
 struct met { double r, energy, n[3], l[2], r_[2]; };
 
 /* Unit vectors l and r of scattering.h for a direction in components along the legs. */
@@ -447,8 +446,9 @@ static void polarisation_is_that_of_samples(void **state)
                 judge(spins[a], inclinations[i], samples ? samples : suite[a][i]);
 }
 
-/* Summed over directions and energies, the ratio of scattered to direct light is first.returns / first.escapes of the
- * kernel of returning light, less the share that meets the disk or the hole again. */
+/* The ratio of scattered to direct light, summed over directions and energies, follows from the kernel of returning
+ * light. It is first.returns / first.escapes, less the share of scattered light that meets the disk or the hole
+ * again. */
 static void scattered_light_is_what_returned(void **state)
 {
     (void)state;

@@ -33,7 +33,7 @@ static void in_print(void **state)
     close_to("fallback", kd_tidal_fallback_time(t) * metre_s, 3.5e6, 0.02);
     close_to("in days", kd_tidal_fallback_time(t) * metre_s / 86400, 41, 0.01);
     close_to("Hills", kd_tidal_hills_mass(t, kd_hole(0)) / sun, 1.1e8, 0.05);
-    /* at its peak a rate of 2.97 solar masses a year, a third of a solar mass in 41 days */
+    /* the rate at its peak is 2.97 solar masses a year, which is a third of a solar mass in 41 days */
     close_to("peak", kd_tidal_fallback_rate(t, kd_tidal_fallback_time(t)) / sun * 3.15576e7 / metre_s, 2.97, 0.01);
     close_to("beta", kd_tidal_penetration(t, kd_tidal_radius(t) / 2), 2, 1e-15);
 }

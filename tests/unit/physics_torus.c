@@ -1,5 +1,5 @@
-/* Tests of the torus of Fishbone & Moncrief, compared with the equation of motion: pressure supports the gas, d ln h =
- * g_ab,r u^a u^b dr/2, integrated from the inner edge. */
+/* Tests of the torus of Fishbone & Moncrief, compared with the equation of motion of gas that pressure supports, d ln h
+ * = g_ab,r u^a u^b dr/2, integrated from the inner edge. */
 #include "physics/disk/torus.h"
 #include "physics/spacetime/hole.h"
 
@@ -78,8 +78,9 @@ static long double exact(long double a, long double l, long double r, long doubl
     return 0.5L * (log1pl(u2) - logl(lapse2)) - u2 - 2 * a * r / big * l;
 }
 
-/* ln h contains half the logarithm of Delta: next to the horizon its error is the rounding of r+ over r - r+, at any
- * spin. When Delta was computed as r^2 - 2r + a^2, which cancels, the error was 700 times that at a = 0.999999. */
+/* ln h contains half the logarithm of Delta. Next to the horizon its error is therefore the rounding of r+ over r - r+,
+ * at any spin. When Delta was computed as r^2 - 2r + a^2, which cancels, the error was 700 times that at a =
+ * 0.999999. */
 static void enthalpy_holds_beside_the_horizon(void **state)
 {
     (void)state;

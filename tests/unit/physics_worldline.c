@@ -1,6 +1,6 @@
-/* Tests of observers that move by their own clock. They are compared with Hamilton's equations in ingoing Kerr-Schild
- * coordinates, integrated through the horizon by Runge and Kutta's method of fourth order, with derivatives of the
- * metric by differences. This uses no separation of variables, and no integral over r. */
+/* Tests of observers that move with their proper time. They are compared with Hamilton's equations in ingoing
+ * Kerr-Schild coordinates, integrated through the horizon by Runge and Kutta's method of fourth order, with derivatives
+ * of the metric by differences. This uses no separation of variables, and no integral over r. */
 #include "kerr_schild_frame.h"
 #include "physics/spacetime/infall.h"
 #include "physics/spacetime/kerr.h"
@@ -159,7 +159,7 @@ static void rain_in_schwarzschild(void **state)
         const struct kd_worldline_place got = kd_worldline_after(&m, &at, whole - left);
         const double r = pow(3 / sqrt(2) * left, 2. / 3);
         const struct fall rain = { 0, 0, 20, 0, 0, 0 };
-        /* the remaining time is small compared with both numbers, whose difference it is */
+        /* tolerance: the remaining time is a small difference of two large numbers */
         near("r", &rain, whole - left, got.r / r, 1, 1e-12 + 1e-14 * whole / left);
         near("time", &rain, whole - left, got.time, advanced(20) - advanced(r) - r + 20, 1e-11);
         near("azimuth", &rain, whole - left, got.azimuth, 0, 0);
@@ -220,9 +220,9 @@ static void others_stay_and_go_round(void **state)
             }
 }
 
-/* Next to the inner horizon of fast holes, E = 1 and L = 2/a, by quadrature in 40 digits of the same doubles. P
- * vanishes at r = 1, so that all that is integrated is small. P has an absolute error of 4e-16, and its size is about
- * the distance between the horizons; the bound is 100 times the ratio. */
+/* Falls with E = 1 and L = 2/a next to the inner horizon of fast holes. The reference is a quadrature in 40 digits of
+ * the same doubles. P vanishes at r = 1, and its size is about the distance between the horizons. Its absolute error is
+ * 4e-16. The bound is 100 times the ratio of the two. */
 static void falls_between_horizons_that_almost_coincide(void **state)
 {
     (void)state;

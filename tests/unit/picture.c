@@ -27,8 +27,7 @@ static void encode(const struct kd_scene *scene, const struct kd_plan *plan, str
     encode_as(scene, plan, NULL, file);
 }
 
-/* A caller that already knows the scene's hash (from the answer's ETag) can pass it instead of having it computed
- * again. */
+/* A caller that knows the scene's hash from the answer's ETag can pass it. The hash is then not computed again. */
 static void a_hash_that_is_known_is_taken(void **state)
 {
     (void)state;

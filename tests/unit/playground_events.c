@@ -30,7 +30,7 @@ static void pairs_spiral_in_as_peters_says(void **state)
         const double expected =
             2 * (kd_inspiral_time(0.25, d0 / 2, 0) - kd_inspiral_time(0.25, d1 / 2, 0)) / amplification;
         double t = 0, d = d0;
-        /* The semi-major axis from the energy, which does not oscillate as the distance does: E = -m1 m2/(2 a). */
+        /* The semi-major axis follows from the energy, E = -m1 m2/(2 a). Unlike the distance, it does not oscillate. */
         while (d > d1 && t < 2 * expected) {
             playground_advance(p, expected / 2000);
             t = p->t;
@@ -67,7 +67,7 @@ static void spiral_in(double mass, double amplification)
     while (r > r1 && p->t < 2 * expected) {
         playground_advance(p, expected / 1000);
         const double e =
-            kd_playground_totals(p).energy / mass; /* energy of a circle over the mass: (4 - r)/(2 (r - 2)^2) */
+            kd_playground_totals(p).energy / mass; /* a circular orbit has the energy (4 - r)/(2 (r - 2)^2) per mass */
         const double x = (-0.5 - sqrt(0.25 + 4 * e)) / (2 * e); /* e = 1/x^2 - 1/(2 x), x = r - 2 */
         r = x + 2;
     }
@@ -151,7 +151,7 @@ static void mergers_keep_mass_and_momentum(void **state)
         p, (struct kd_playground_body) { .mass = 3e-4, .radius = 0.5, .x = { 1e5, 5, 0.1 }, .v = { 0.01, -0.2, 0 } });
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-4, .radius = 0.3, .x = { 1e5, -5, 0 }, .v = { 0, 0.3, 0.01 } });
-    /* The bodies are so fast that they do not touch at the end of any step. */
+    /* The bodies are so fast that they touch only within a step, and at no step's end. */
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-5, .radius = 0.01, .x = { -1e5, -5, 0 }, .v = { 0, 0.99, 0 } });
     playground_put(
@@ -188,7 +188,7 @@ static void debris_comes_back_as_the_fifth_third_power(void **state)
     assert_true(fabs(p->spent.torn_mass / 1e-6 - 1) < 1e-12);
     p->params.h_max = 1e4;
     playground_advance(p, 1.5e7);
-    /* dM/deps is flat: t_min = 2 pi (2 deps)^(-3/2) */
+    /* dM/deps is flat, so the first piece returns at t_min = 2 pi (2 deps)^(-3/2) */
     const double first = 2 * M_PI * pow(2 * source->spread, -1.5);
     double sw = 0, sx = 0, sy = 0, sxx = 0, sxy = 0, line = 0;
     uint32_t early = 0;
@@ -211,8 +211,8 @@ static void debris_comes_back_as_the_fifth_third_power(void **state)
     kd_playground_destroy(p);
 }
 
-/* J. Guillochon & E. Ramirez-Ruiz 2013, figure 10: at depth 0.7 a fifth to a quarter of the mass is lost. A star whose
- * depth at periastron is d has lost the fraction that the fit gives for d. */
+/* J. Guillochon & E. Ramirez-Ruiz 2013, figure 10: at depth 0.7 a fifth to a quarter of the mass is lost. The fit gives
+ * the fraction that a star loses at the depth d of its periastron. */
 static void a_grazing_star_sheds_and_goes_on(void **state)
 {
     (void)state;
@@ -279,8 +279,8 @@ static void scenes_that_mean_harm_stay_finite(void **state)
         }
 }
 
-/* All bodies are captured in one sub-step, or all bodies shed mass in every sub-step. Either must cost a few passes
- * over all pairs, not one for each body. With gravity "kerr" two cases must stop at the budget: steps that would
+/* All bodies are captured in one sub-step, or all shed mass in every sub-step. Each case must cost a few passes over
+ * all pairs, and not one pass for each body. With gravity "kerr" two cases must stop at the budget: steps that would
  * never end, and times so large that adding a step does not change them. */
 static void harm_is_bounded(void **state)
 {
@@ -383,7 +383,7 @@ static void far_debris_moves(void **state)
         kd_debris_finish(&debris[i]);
 }
 
-/* A snapshot after mergers of the heaviest and widest bodies can be read again. */
+/* After the heaviest and widest bodies have merged, a snapshot can be read back. */
 static void the_greatest_merge(void **state)
 {
     (void)state;

@@ -82,7 +82,7 @@ static void the_velocity_told_begins_the_same_motion(void **state)
     kd_playground_destroy(q);
 }
 
-/* Bodies that fall in or fly away are reported; no body has a speed of c. */
+/* Bodies that fall in or fly away are reported. No body reaches the speed of light. */
 static void who_leaves_is_told(void **state)
 {
     (void)state;
@@ -107,8 +107,8 @@ static void who_leaves_is_told(void **state)
 }
 
 /* A body that starts on a circle, next to one, or at a turning point up to rounding, is never refused. The middle of
- * the motion is the maximum of W. There W determines the rate of oscillation, apart from its cubic part, which
- * contributes the square of the width. */
+ * the motion is the maximum of W. There W gives the rate of oscillation. The cubic part of W changes this rate by the
+ * square of the width. */
 static void circles_are_no_refusals(void **state)
 {
     (void)state;
@@ -227,7 +227,7 @@ static void bodies_are_at_one_time(void **state)
     kd_playground_destroy(q);
 }
 
-/* Time has a largest value, which is reported. No snapshot may exceed it. */
+/* The playground's time has a largest value, and reaching it is reported. No snapshot may exceed it. */
 static void time_has_an_end(void **state)
 {
     (void)state;
@@ -279,7 +279,7 @@ static void snapshots_start_again_to_the_bit(void **state)
     } cases[] = {
         { "{\"preset\":\"disruption\",\"debris_per_body\":300,\"debris_capacity\":250}", 2600, 400 },
         { "{\"preset\":\"disruption\",\"debris_per_body\":200000,\"debris_capacity\":200000,\"h_max\":100}", 2760,
-          60 }, /* debris bounds the step */
+          60 }, /* with debris, which limits the step */
         { "{\"preset\":\"binary\"}", 3000, 4000 },
         { "{\"preset\":\"system\",\"waves\":true,\"amplification\":10}", 100, 100 },
         { "{\"gravity\":\"kerr\",\"spin\":0.9,\"charge\":0.4,\"bodies\":[{\"position\":[9,1,2],\"velocity\":[-0.05,0.3,"

@@ -6,8 +6,8 @@ static void add(struct kd_playground *p, double mass, double x, double y, double
     playground_put(p, (struct kd_playground_body) { .mass = mass, .x = { x, y, 0 }, .v = { vx, vy, 0 } });
 }
 
-/* A thousand turns of an ellipse round the hole, and of a bound pair. The error of the energy oscillates; its mean over
- * the last tenth equals that over the first within a hundredth of the amplitude. */
+/* A body takes a thousand turns of an ellipse round the hole; so does a bound pair. The error of the energy oscillates.
+ * Its mean over the last tenth of the time equals that over the first tenth within a hundredth of the amplitude. */
 static void energy_has_no_trend_over_a_thousand_orbits(void **state)
 {
     (void)state;
@@ -72,8 +72,8 @@ static void circles_stay_outside_six_and_plunge_inside(void **state)
     }
 }
 
-/* From rest far away, with the angular momentum 4 of the marginally bound circle: with 1.001 times that it turns
- * back, with 0.999 times that it falls in. */
+/* A body starts far away with the energy of rest at infinity. The marginally bound circle has the angular momentum 4.
+ * With 1.001 times this value the body turns back; with 0.999 times it falls in. */
 static void the_marginally_bound_orbit_is_at_four(void **state)
 {
     (void)state;
@@ -94,7 +94,8 @@ static void the_marginally_bound_orbit_is_at_four(void **state)
     }
 }
 
-/* The result is the same to the bit however the time is divided into calls, also if a budget stops them. */
+/* The result does not depend on how the time is divided into calls, to the last bit. This holds also for calls that a
+ * budget stops. */
 static void calls_do_not_matter(void **state)
 {
     (void)state;

@@ -151,7 +151,7 @@ static void debris_is_all_there(void **state)
         assert_true((size_t)d->rows * d->columns <= KD_SHOW_NODES && d->rows >= 2 && d->columns >= 2);
         const double all = (double)(n - free_) / N;
         assert_true(fabs(s.worth / all - 1) < 1e-4 && fabs(s.phi - vphi / N) < 1e-4 * all);
-        if (shape != 1) /* the ring is thick: there the velocity along e_r is not that along the plane */
+        if (shape != 1) /* skipped for the thick ring, because off the plane e_r is not parallel to it */
             assert_true(fabs(s.r / (vr / N) - 1) < 1e-3);
         kd_dynamic_bodies_release(dynamic);
     }
@@ -189,7 +189,7 @@ static void a_star_is_shown(void **state)
     struct kd_playground *p = playground_read("{\"preset\":\"disruption\"}");
     struct kd_playground_params looks = p->params;
     struct kd_error error = { 0 };
-    playground_advance(p, 2600); /* a part of the star is left */
+    playground_advance(p, 2600); /* now a part of the star is left */
     const double rate = p->rate;
     looks.debris_depth = 3;
     looks.debris_temperature_k = 7000;
@@ -217,8 +217,8 @@ static double width_of(const struct kd_playground *p)
     return scene.camera.field_m;
 }
 
-/* The view is as wide as the distance of the bodies requires, or of the debris if that is wider: nine in ten pieces are
- * within half of it. */
+/* The view is 2.4 times as wide as the distance of the farthest body, or as the radius that contains nine in ten pieces
+ * of debris, if that is larger. */
 static void a_view_is_as_wide_as_what_there_is(void **state)
 {
     (void)state;
@@ -246,8 +246,8 @@ static void a_view_is_as_wide_as_what_there_is(void **state)
     kd_playground_destroy(p);
 }
 
-/* Pieces already torn off keep their weight, whatever number of pieces is set for later bodies, also in a snapshot.
- * With two stars the pieces of each keep their weight. */
+/* Pieces that are torn off keep their weight when another number of pieces is set for later bodies. This holds in a
+ * snapshot, too, and for the pieces of each of two stars. */
 static void a_piece_keeps_its_worth(void **state)
 {
     (void)state;

@@ -147,7 +147,7 @@ static void impossible_sides_are_refused(void **state)
     with_sides(8, 0, "8 x 0");
     with_sides(32769, 6, "32769 x 6");
     with_sides(8, 0xffffffffu, "4294967295");
-    with_sides(32768, 32768, "too short"); /* 3 GiB of pixels from 400 bytes */
+    with_sides(32768, 32768, "too short"); /* 400 bytes claim to hold 3 GiB of pixels */
 }
 
 /* Decodes with a chunk of `type` with this body inserted before the first IDAT. */
@@ -214,7 +214,7 @@ static void no_text_is_lost_in_silence(void **state)
     struct kd_buffer file = { 0 }, out = { 0 };
     static const uint8_t text[] = "\0\0\0\5tEXtkey\0x\0\0\0\0";
     struct kd_png png;
-    sample(&file, 8); /* this file has two texts */
+    sample(&file, 8); /* makes a file with two texts */
     size_t before = (size_t)((uint8_t *)memmem(file.data, file.size, "IDAT", 4) - file.data) - 4;
     kd_buffer_append(&out, file.data, before);
     for (int n = 3; n <= 110; n++) {
@@ -238,7 +238,7 @@ static void latin1_becomes_utf8(void **state)
     struct kd_buffer file = { 0 };
     struct kd_png png;
     sample(&file, 8);
-    /* In place: the value of the tEXt chunk becomes two Latin-1 letters. */
+    /* Replaces the value of the tEXt chunk by two Latin-1 letters. */
     uint8_t *value = memmem(file.data, file.size, "kerrd:scene", 11);
     memcpy(value + 12, "\xe4\xff", 2);
     seal(file.data, file.size);

@@ -76,7 +76,8 @@ static void check_header(const uint8_t *data, uint32_t length, uint32_t width, u
     assert_memory_equal(data + 8, tail, 5);
 }
 
-static size_t least_in_strips; /* filtered bytes of a frame, by the engine under test */
+/* the engine under test divides a frame with at least this many filtered bytes into strips */
+static size_t least_in_strips;
 
 /* The file is IHDR, sRGB, an IDAT for each strip, IEND and nothing else, each with a valid CRC; zlib checks the sum
  * of the stream, and no bytes are left over. A frame below 1 MiB has one IDAT. */
@@ -197,7 +198,7 @@ static void pieces_are_one_stream(void **state)
             struct kd_buffer out = { 0 };
             uint32_t sum = 1;
             if (kd_deflate_create(engine, level, &deflate, NULL))
-                continue; /* tested above */
+                continue; /* skipped, because it is tested above */
             for (uint32_t i = 0; i < ROOM; i++)
                 data[i] = (uint8_t)(kind == 0           ? 0
                                     : kind == 1         ? random_bits()
@@ -219,8 +220,8 @@ static void pieces_are_one_stream(void **state)
         }
 }
 
-/* Streams of every length, of input that ends at a page that must not be read: for the code in assembler, which the
- * sanitizers cannot watch. */
+/* Encodes input of every length that ends at a page without read access. This finds reads past the end in the assembler
+ * code, which the sanitizers cannot watch. */
 static void streams_of_every_length(void **state)
 {
     (void)state;
@@ -235,7 +236,7 @@ static void streams_of_every_length(void **state)
         for (uint32_t i = 0; i < ROOM; i++)
             memory[page + i] = (uint8_t)(random_bits() % (i % 5000 < 2500 ? 3 : 256));
         if (kd_deflate_create(engine, 1, &deflate, NULL))
-            continue; /* tested above */
+            continue; /* skipped, because it is tested above */
         for (size_t n = 0; n <= ROOM; n += n < SHORT ? 1 : 1 + random_bits() % 9000)
             for (int end = 0; end < 2; end++) {
                 const uint8_t *data = memory + page + (end ? ROOM - n : 0);
@@ -265,7 +266,7 @@ static void appends_the_same_bytes(void **state)
         assert_int_equal(b.size, a.size + 4);
         assert_memory_equal(b.data, "head", 4);
         assert_memory_equal(b.data + 4, a.data, a.size);
-        assert_true(a.size < 320 * 180); /* a dithered ramp: a third of its bytes at most */
+        assert_true(a.size < 320 * 180); /* a dithered ramp takes at most a third of its bytes */
         kd_buffer_finish(&a);
         kd_buffer_finish(&b);
         kd_buffer_finish(&c);

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 #include <libdeflate.h>
 
-/* The linker directs the module's own calls here (--wrap); libpng allocates through the module. */
+/* The linker redirects the module's calls to these functions (--wrap). libpng allocates through the module. */
 void *__real_malloc(size_t size);
 void *__real_realloc(void *old, size_t size);
 void *__real_calloc(size_t n, size_t size);
@@ -26,7 +26,7 @@ void *__wrap_malloc(size_t size) { return fails() ? NULL : __real_malloc(size); 
 void *__wrap_realloc(void *old, size_t size) { return fails() ? NULL : __real_realloc(old, size); }
 void *__wrap_calloc(size_t n, size_t size) { return fails() ? NULL : __real_calloc(n, size); }
 
-enum { SIDE = 64, TALL = 11264 /* eight strips */ };
+enum { SIDE = 64, TALL = 11264 /* a picture of this height has eight strips */ };
 
 static enum kd_status encode(struct kd_buffer *out, struct kd_error *error)
 {

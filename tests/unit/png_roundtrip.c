@@ -65,7 +65,7 @@ static void pixels_survive(void **state)
     round_trip(1, 32768, 16, 1);
 }
 
-/* Noise, ramps and flat parts, at either depth. */
+/* Fills a picture of either bit depth with noise, ramps and flat parts. */
 static void fill_picture(uint8_t *pixels, uint32_t width, uint32_t height, size_t step)
 {
     for (uint32_t y = 0; y < height; y++)
@@ -73,8 +73,8 @@ static void fill_picture(uint8_t *pixels, uint32_t width, uint32_t height, size_
             *pixels++ = (uint8_t)(y % 300 < 100 ? random_bits() >> 28 : y % 300 < 200 ? i * y >> 6 : 0);
 }
 
-/* A picture of several strips is the same file on any number of threads, and has the right pixels; the same for rows
- * so long that each is a strip. */
+/* A picture of several strips is the same file on any number of threads, and has the right pixels; The same holds for
+ * rows so long that each is a strip. */
 static void strips_survive(uint32_t width, uint32_t height, int depth, int level)
 {
     static const unsigned threads[] = { 1, 2, 3, 7, 0 };
@@ -116,8 +116,8 @@ static void large_pictures_survive(void **state)
     strips_survive(23, 32768, 16, 5);
 }
 
-/* Rows that repeat downwards, or that are the mean of left and above, are small only with the matching filter. With any
- * other they take as many bytes as noise. */
+/* Rows that repeat downwards, or that are the mean of left and above, compress well only with the matching filter. With
+ * any other filter they take as many bytes as noise. */
 static void each_row_has_the_filter_that_suits_it(void **state)
 {
     (void)state;

@@ -68,7 +68,7 @@ static void test_a_child_that_stays(void **state)
     assert_true(kd_program_over(&p, &code) && code == -1);
 }
 
-/* A descriptor that a library left open, without close-on-exec, is not inherited by the program. */
+/* The program does not inherit a descriptor that a library has opened without close-on-exec. */
 static void test_it_has_four_descriptors(void **state)
 {
     (void)state;

@@ -14,7 +14,8 @@
 
 static void sleep_ms(double ms) { nanosleep(&(struct timespec) { .tv_nsec = (long)(1e6 * ms) }, NULL); }
 
-/* Checks every 2 ms, for as long as a busy machine may need; returns the seconds that were reported last. */
+/* Checks every 2 ms until `ms` have passed, which is long enough for a busy machine. Returns the seconds that were
+ * reported last. */
 static double look(struct kd_pulse *pulse, double ms, bool beats)
 {
     double s = 0;

@@ -89,8 +89,7 @@ static void defaults_answer(void **state)
         for (size_t i = 0; i < answer.points * kd_quantities[q]->n_outputs; i++)
             finite += isfinite(answer.values[i]);
         assert_true(2 * finite > answer.points * kd_quantities[q]->n_outputs);
-        /* A request with default values is cheap: it takes at most some 50 ms, except for the kernel of returning
-         * light. */
+        /* A request with default values takes at most some 50 ms, except for the kernel of returning light. */
         assert_true(kd_quantity_cost_ms(&answer.request) < 400);
         cJSON_Delete(parsed(&answer));
         kd_quantity_answer_finish(&answer);
@@ -121,7 +120,7 @@ static void points_of(struct kd_quantity_request request, size_t i)
     kd_quantity_answer_finish(&curve);
 }
 
-/* Values kept from point to point do not change the results, whether or not other parameters are ranges. */
+/* Values that are cached from point to point do not change the results, whether or not other parameters are ranges. */
 static void points_stand_alone(void **state)
 {
     (void)state;
@@ -221,7 +220,7 @@ static void ranges_nest(void **state)
     kd_quantity_answer_finish(&answer);
 }
 
-/* In a curve along r, a property of the hole alone is a single number. */
+/* If r is a range, the answer gives a property of the hole as a single number. */
 static void json_of_a_curve(void **state)
 {
     (void)state;

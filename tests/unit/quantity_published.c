@@ -132,9 +132,9 @@ static void constants(void **state)
     published("astronomical unit over the radius of the sun", KD_AU_M / KD_R_SUN_M, 215.032, 5e-4);
 }
 
-/* The energy that reaches infinity is 1 - E(ISCO) per unit of accreted mass: F is the flux per proper time and
- * proper area, r dr dphi on both faces, and -u_t of what it carries is E. In x = sqrt(r_isco/r), where both are
- * smooth and vanish at the ends, by Simpson's rule. */
+/* The energy that reaches infinity is 1 - E(ISCO) per unit of accreted mass: F is the flux per proper time and proper
+ * area, r dr dphi on both faces, and carries the energy E = -u_t. The integral is by Simpson's rule in x =
+ * sqrt(r_isco/r), in which F and E are smooth and vanish at the ends. */
 static void energy_is_conserved(void **state)
 {
     (void)state;
@@ -172,8 +172,8 @@ static void face_on(void **state)
 }
 
 /* The azimuth that rain from r covers until the inner horizon, by Simpson's rule. In the coordinates of C. Doran 2000,
- * eq. 16 and 18, it is constant. They differ from ingoing Kerr-Schild azimuth by the integral of -a/((r^2 + a^2) (1 +
- * (2r/(r^2 + a^2))^(1/2))) dr. */
+ * eq. 16 and 18, it is constant. Doran's azimuth differs from ingoing Kerr-Schild azimuth by the integral of -a/((r^2 +
+ * a^2) (1 + (2r/(r^2 + a^2))^(1/2))) dr. */
 static double rain_turns(double a, double r)
 {
     enum { PARTS = 2000 };
@@ -199,13 +199,13 @@ static void fall(void **state)
     published("rain, 8 M to the horizon", ASK("infall", "proper_time_to_horizon", "r=8"),
               sqrt(2) / 3 * (pow(8, 1.5) - pow(2, 1.5)), 1e-12);
     published("the longest time within", ASK("infall", "proper_time_to_end", "r=1", "infall_energy=0"), 0.5 * M_PI - 1,
-              1e-12); /* tolerance: the angle is pi from 2 M on */
+              1e-12); /* E = 0 is a fall from rest at 2 M, which takes pi */
     published("from rest", ASK("infall", "proper_time_to_end", "r=10", "infall_from=10"), 0.5 * M_PI * sqrt(500),
               1e-10);
     published("halfway", ASK("infall", "proper_time_to_end", "r=5", "infall_from=10"),
               0.5 * sqrt(500) * (0.5 * M_PI - 1), 1e-10);
-    /* Rain in the coordinates of Painleve and Gullstrand: the energy of ingoing light over what rain measures of it
-     * is 1 plus rain's velocity, sqrt(2/r). */
+    /* Rain in the coordinates of Painleve and Gullstrand: ingoing light has 1 + v times the energy at infinity that
+     * rain measures, with rain's velocity v = sqrt(2/r). */
     published("starlight behind rain", ASK("infall", "g_behind", "r=8"), 2.0 / 3, 1e-14);
     published("starlight behind rain at the horizon", ASK("infall", "g_behind", "r=2"), 0.5, 1e-14);
     published("starlight behind rain within", ASK("infall", "g_behind", "r=0.5"), 1.0 / 3, 1e-14);

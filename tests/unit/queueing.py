@@ -89,8 +89,8 @@ class Queues(unittest.TestCase):
                 self.near([float(wait > 1e-9) for wait in found], chance)
 
     def test_two_connections_a_server_wait_longer_than_one(self):
-        """A request that waits at a server waits for this server although the other may be free. Yet the two ways of
-        waiting differ by no more than a service time."""
+        """A request in a server's queue waits for this server, although another server may be free. Yet the wait
+        differs from that at HAProxy by no more than a service time."""
         one, two = (statistics.mean(waits(4, 0.7, 10000, exponential, 9, maxconn)[0]) for maxconn in (1, 2))
         self.assertGreater(two, 1.2 * one)
         self.assertLess(two, one + MEAN)

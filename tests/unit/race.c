@@ -1,5 +1,5 @@
-/* A program with a data race: two threads add to one number without a lock. It exists only for the thread sanitizer,
- * which must end it with an error. */
+/* A program with a data race: two threads add to one number without a lock. The thread sanitizer must end it with an
+ * error. */
 #include <pthread.h>
 #include <stddef.h>
 

@@ -39,8 +39,8 @@ static void trace_one(const struct kd_rays_params *params, double alpha, double 
 
 static bool same_azimuth(double a, double b, double bound) { return fabs(remainder(a - b, 2 * M_PI)) < bound; }
 
-/* The reference starts at 1e6 M with a series, good to about 1e-9; the error grows by a factor of up to 23 with each
- * order. */
+/* The reference starts at 1e6 M with a series, which has an error of about 1e-9. This error grows by a factor of up to
+ * 23 with each order. */
 static void against_the_oracle(void **state)
 {
     (void)state;
@@ -140,7 +140,7 @@ static bool count(void *user, double fraction)
     return ++watch->calls < 3;
 }
 
-/* A list shared among threads gives the same results as each ray alone; and it stops when it is cancelled. */
+/* Threads that share a list of rays give the same results as each ray alone. They stop when the list is cancelled. */
 static void many(void **state)
 {
     (void)state;
@@ -214,7 +214,7 @@ static void observers_that_move(void **state)
     } cases[] = {
         { 0.9, 7, 60, { .observer = KD_OBSERVER_STATIC } },
         { -0.7, 30, 100, { .observer = KD_OBSERVER_STATIC } },
-        { 0.998, 1.5, 80, { .observer = KD_OBSERVER_ZAMO } }, /* in the ergosphere: energies below 0, too */
+        { 0.998, 1.5, 80, { .observer = KD_OBSERVER_ZAMO } }, /* in the ergosphere some rays have energies below 0 */
         { 0.5, 12, 30, { .observer = KD_OBSERVER_ZAMO } },
         { 0.9, 8, 85, { .observer = KD_OBSERVER_KEPLERIAN } },
         { 0.9, 9, 70, { .observer = KD_OBSERVER_RETROGRADE } },
@@ -260,7 +260,7 @@ static void observers_that_move(void **state)
             crossings++;
         }
         if (path.fate == KS_ESCAPED)
-            assert_true(fabs(cos(end.theta) - path.u) < 1e-4 && /* the error grows with the turns */
+            assert_true(fabs(cos(end.theta) - path.u) < 1e-4 && /* the allowed error grows with the number of turns */
                         same_azimuth(end.phi, path.sky_phi - twist(p.spin, p.r), 1e-4));
     }
     assert_true(crossings > 40 && reversed > 0);
@@ -302,7 +302,7 @@ static void refused(void **state)
     table[10].p.inclination_deg = NAN;
     table[11].p.orders = 0, table[12].p.orders = 17;
     table[13].p.precision = KD_PRECISION_F32, table[14].p.steps = 4;
-    table[15].p.engine = KD_ENGINE_MINO_RKN6; /* without a renderer */
+    table[15].p.engine = KD_ENGINE_MINO_RKN6; /* this engine needs a renderer, and there is none */
     table[16].p.engine = KD_ENGINE_COUNT;
     for (size_t i = 0; i < sizeof table / sizeof *table; i++) {
         struct kd_ray_crossing c[2 * ORDERS];

@@ -34,7 +34,7 @@ static void expect(const char *name, int flags, size_t most, int cause)
 static void test_no_files(void **state)
 {
     (void)state;
-    assert_int_equal(mkfifoat(at, "pipe", 0600), 0); /* nobody will ever write to it */
+    assert_int_equal(mkfifoat(at, "pipe", 0600), 0); /* a pipe to which nobody ever writes */
     assert_int_equal(symlinkat("data", at, "link"), 0);
     int fd = openat(at, "huge", O_CREAT | O_WRONLY, 0600);
     assert_int_equal(ftruncate(fd, (off_t)3 << 30), 0);
@@ -83,7 +83,7 @@ static int end(void **state)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         unlinkat(at, names[i], 0);
     close(at);
-    return rmdir(folder); /* fails if anything else is left in it */
+    return rmdir(folder); /* rmdir fails if the folder is not empty */
 }
 
 int main(void)

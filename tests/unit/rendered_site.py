@@ -18,7 +18,7 @@ GOOD = {
     "s.css": "a { background: url(p.png) }",
     "p.png": "",
 }
-BAD = {  # what is put into index.html, and the words of the message about it
+BAD = {  # text that is put into index.html -> words of the message about it
     '<script src="https://a.org/x.js"></script>': "asks another server: https://a.org/x.js",
     '<img src="//a.org/p.png">': "asks another server: //a.org/p.png",
     '<link rel="preconnect" href="http://a.org">': "asks another server: http://a.org",

@@ -71,8 +71,8 @@ static void expect(const char *name, const char *text)
     assert_string_equal(found, text);
 }
 
-/* After a power cut there is the old file or the new one: the bytes reach the disk before the name, and the name
- * before success is reported. */
+/* After a power cut there is the old file or the new one: the bytes reach the disk before the file is renamed, and the
+ * new name before success is reported. */
 static void test_order(void **state)
 {
     (void)state;
@@ -84,7 +84,7 @@ static void test_order(void **state)
     errno = 0;
     assert_false(kd_replace_file(path_of("a"), "two", 3));
     assert_int_equal(errno, EIO);
-    folder_sync_errno = EINVAL; /* a file system that does not support it */
+    folder_sync_errno = EINVAL; /* a file system on which fsync of a folder is not supported */
     assert_true(kd_replace_file(path_of("a"), "three", 5));
     folder_sync_errno = 0;
     expect("a", "three");

@@ -69,14 +69,14 @@ static double swept(double b)
 
 static const double closest = 5.19615242270663188; /* b of the critical curve */
 
-/* The tangent of the angle from the hole, for a ray whose b is above the critical one by that much. */
+/* The tangent of the angle from the hole's centre at which a ray is seen whose b exceeds the critical b by `above`. */
 static double tangent(double above)
 {
     const double s = closest * (1 + above) * sqrt(1 - 2 / RADIUS) / RADIUS;
     return s / sqrt(1 - s * s);
 }
 
-/* Inverse: the logarithm of how far above the critical b the ray is that covers this azimuth. */
+/* The inverse of swept(): the logarithm of the excess over the critical b of the ray that covers this azimuth. */
 static double above_of(double azimuth)
 {
     double low = log(1e-6), high = log(1.0);
@@ -105,7 +105,7 @@ static size_t judge(double psi, double angle, double *place, double *area)
         const double slope = (swept(closest * (1 + exp(above + h))) - swept(closest * (1 + exp(above - h)))) /
                              (atan(tangent(exp(above + h))) - atan(tangent(exp(above - h))));
         const double want = step * step * pow(1 + t * t, -1.5) * sin(psi) * fabs(slope) / sin(atan(t));
-        if (want > KD_RIM_BRIGHTEST / KD_STAR_LEAST) /* too faint for the brightest star */
+        if (want > KD_RIM_BRIGHTEST / KD_STAR_LEAST) /* here an image of even the brightest star is too faint */
             continue;
         const struct kd_star_image *best = NULL;
         for (size_t i = 0; i < n_seen; i++)
@@ -163,8 +163,8 @@ static double shown(double u, double off)
                 area);
 }
 
-/* A place next to the critical curve, and the star in the direction in which the reference's ray from this place
- * ends. */
+/* A place next to the critical curve. (x, y): the star in the direction to which the reference's ray from this place
+ * goes. */
 struct place { double u, off, x, y; };
 
 static struct kd_vec star_of(double spin, double inclination, struct place *at)
@@ -223,7 +223,8 @@ static void by_the_oracle(void **state)
     }
 }
 
-/* From a pixel to its direction and back gives the same pixel, in every projection and from infinity. */
+/* The conversion of a pixel to its direction and back gives the same pixel, in every projection and for an observer at
+ * infinity. */
 static void seeing_is_looking(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of the origin of rays next to the critical curve. It is compared with integration in Kerr-Schild coordinates,
- * and with the closed form for each ray of the rim. */
+/* Tests of the place on the sky from which rays next to the critical curve come. It is compared with integration in
+ * Kerr-Schild coordinates, and with the closed form for each ray of the rim. */
 #include "kerr_schild.h"
 #include "render/view/camera.h"
 #include "render/view/rim_sky.h"
@@ -35,8 +35,8 @@ static bool looks(double spin, double r, double inclination, enum kd_observer ob
     return true;
 }
 
-/* One of the rays, chosen by a number: its grid, its row and column there, and its place along the curve and
- * distance from it. */
+/* A ray of a grid: the grid, the row and column, the place along the curve, and the distance from the curve. It is
+ * chosen by a number. */
 struct ray {
     const struct kd_rim_grid *grid;
     uint32_t row, k;

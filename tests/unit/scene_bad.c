@@ -262,8 +262,8 @@ static void names_are_found(void **state)
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         size_t length = strlen(cases[i].text);
-        char *exact =
-            malloc(length ? length : 1); /* of exactly this size, so that a sanitizer detects a read past the end */
+        /* exactly as long as the text, so that a sanitizer detects a read past the end */
+        char *exact = malloc(length ? length : 1);
         memcpy(exact, cases[i].text, length);
         if (kd_scan_names(exact, length, "axes") != cases[i].there)
             fail_msg("%s", cases[i].text);

@@ -7,7 +7,7 @@
 #include <cjson/cJSON.h>
 #include <limits.h>
 
-/* A value, as JSON and as text of a command line, is accepted in both ways or in neither. */
+/* Checks that a value is accepted both as JSON and as text of a command line, or refused as both. */
 static void expect(const struct kd_row *field, const char *json, const char *text, bool accepted, double stored)
 {
     struct kd_scene a, b, before;
@@ -68,7 +68,8 @@ static void bounds_are_inclusive(void **state)
         expect_number(field, 1e300, false);
         if (whole) {
             expect_number(field, field->least + 0.5, false);
-            expect_number(field, 4294967296.0 + field->least, false); /* wraps to the minimum in 32 bits */
+            /* this number would wrap to the minimum in 32 bits */
+            expect_number(field, 4294967296.0 + field->least, false);
         }
     }
 }
@@ -108,7 +109,7 @@ static void types_are_strict(void **state)
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_row *field = &kd_fields[i];
         bool truth = field->kind == KD_KIND_BOOL;
-        if (field->kind == KD_KIND_ASSET) /* the text given to --set is a name, whatever it would be in JSON */
+        if (field->kind == KD_KIND_ASSET) /* --set takes any text as a name, also a text that is a number in JSON */
             continue;
         for (size_t n = 0; n < sizeof never / sizeof *never; n++)
             expect(field, never[n], never[n], false, 0);
@@ -323,8 +324,8 @@ static enum kd_field_nature nature_of(const char *section, const char *name)
     return kd_field_pages[kd_field_find(section, name) - kd_fields].nature;
 }
 
-/* Each group on the page has some fields in front, so that none opens empty. Some known fields have the right
- * nature. */
+/* Each group on the page has at least one field that is shown at once, so that no group opens empty. Some known fields
+ * have the right nature. */
 static void natures_and_groups(void **state)
 {
     (void)state;

@@ -73,8 +73,8 @@ static void documents_merge(void **state)
     assert_true(isinf(scene.camera.r));
 }
 
-/* By RFC 7396 null sets a field or a section to its default, and what is not named stays. A failing patch changes
- * nothing. */
+/* By RFC 7396 null sets a field or a section to its default. Fields that a patch does not name stay. A failing patch
+ * changes nothing. */
 static void patches(void **state)
 {
     (void)state;
@@ -210,9 +210,9 @@ static void old_names_are_read(void **state)
     kd_scene_smooth(&picture); /* the default scene, over which a picture's document is read */
     assert_int_equal(support_parse(&picture, hot_spot, NULL), KD_OK);
     assert_int_equal(kd_scene_preset(&preset, "hot-spot", NULL), KD_OK);
-    picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* documents of that time lack this field */
-    picture.sky.brightness = preset.sky.brightness;               /* nor did this word */
-    picture.source = preset.source;                               /* nor did these fields */
+    picture.spacetime.distance_pc = preset.spacetime.distance_pc; /* documents of that time lack the distance */
+    picture.sky.brightness = preset.sky.brightness;               /* and the brightness of the sky */
+    picture.source = preset.source;                               /* and the source */
     assert_memory_equal(&picture, &preset, sizeof picture);
     struct kd_scene scene = of("{\"spots\":[{\"r\":10},{\"r\":11},{\"r\":12},{\"r\":13}]}");
     patched(&scene, "{\"spot2\":{\"r\":20},\"spot3\":null,\"spot1\":{\"size\":2}}");
@@ -249,7 +249,7 @@ static void elements_are_set(void **state)
     assert_int_equal(kd_scene_set(&scene, "spot1.r", "8", &error), KD_OK);
     expect_spots(&scene, 3, (double[]) { 8, 9, 12 });
     kd_scene_defaults(&scene);
-    assert_int_equal(kd_scene_set(&scene, "spot2.brightness", "0", &error), KD_OK); /* its default already */
+    assert_int_equal(kd_scene_set(&scene, "spot2.brightness", "0", &error), KD_OK); /* this is its default already */
     assert_int_equal(scene.spots.count, 0);
     assert_true(kd_scene_same_path("spot2.r", "spots.1.r") && kd_scene_same_path("spots.0.r", "spot1.r") &&
                 kd_scene_same_path("time", "time"));
@@ -341,7 +341,7 @@ static void a_field_in_microarcseconds(void **state)
     assert_true(again.camera.field_m == 41 && isinf(again.camera.field_uas));
     assert_int_equal(kd_scene_set(&again, "camera.field_uas", "100", &error), KD_OK);
     assert_true(fabs(again.camera.field_m / 104.7396457 - 1) < 1e-7);
-    patched(&again, "{\"camera\":{\"field_uas\":null}}"); /* the width stays */
+    patched(&again, "{\"camera\":{\"field_uas\":null}}"); /* null of the width in uas leaves the width as it is */
     assert_true(fabs(again.camera.field_m / 104.7396457 - 1) < 1e-7 && isinf(again.camera.field_uas));
     patched(&scene, "{\"camera\":null}");
     assert_true(scene.camera.field_m == 46 && isinf(scene.camera.field_uas));
@@ -459,7 +459,7 @@ static void hash_feels_each_field(void **state)
         default: value = kd_row_holds(field, value + 1) ? value + 1 : value - 1;
         }
         if (field->kind == KD_KIND_ASSET)
-            assert_int_equal(kd_field_store(&scene, field, last, /* any hash */
+            assert_int_equal(kd_field_store(&scene, field, last, /* any hash will do */
                                             &(struct kd_value) { KD_VALUE_STRING, 0, original }, NULL),
                              KD_OK);
         else
@@ -526,8 +526,8 @@ static void locale_does_not_matter(void **state)
 }
 
 /* Counts how often the reader of a large document lets other work go first while it reads and frees the document. A
- * high number shows that its pieces are short. The test also measures the share of this thread's time that the longest
- * piece took. */
+ * high number shows that its pieces are short. Also measures the share of the thread's time that the longest piece
+ * took. */
 static unsigned pauses;
 static double last_s, longest_s, longest_share;
 static double thread_s(void)
@@ -590,7 +590,7 @@ static void long_strings_are_read_in_pieces(void **state)
     snprintf(text, all, "{\"a\":1,\"long\":\"%s\",\"b\":[\"%s\",2],\"%s\":\"\\\"%s\"}", x, x, x, x);
     struct kd_error error = { 0 };
     cJSON *root = read_large(text, strlen(text), &error);
-    assert_true(pauses >= 2 * 4 * n >> 20); /* once when scanned, and once when copied */
+    assert_true(pauses >= 2 * 4 * n >> 20); /* the reader pauses both when it scans a piece and when it copies it */
     const cJSON *b = cJSON_GetObjectItemCaseSensitive(root, "b"), *last = b->next;
     assert_string_equal(cJSON_GetObjectItemCaseSensitive(root, "long")->valuestring, x);
     assert_string_equal(cJSON_GetArrayItem(b, 0)->valuestring, x);
@@ -647,7 +647,8 @@ static void long_strings_with_escapes_are_read_in_pieces(void **state)
         assert_memory_equal(all + length * i, one, length);
     cJSON_Delete(root);
     free(text);
-    mallopt(M_PERTURB, 0); /* filling memory is not the reader's work, and would be one long piece */
+    /* otherwise glibc would fill the memory, which is not the reader's work, in one long piece */
+    mallopt(M_PERTURB, 0);
     const size_t many = (size_t)12 << 20;
     text = malloc(2 * many + 10);
     for (size_t shift = 0; shift < 2; shift++) { /* only escapes, beginning at an even and at an odd place */
@@ -655,7 +656,8 @@ static void long_strings_with_escapes_are_read_in_pieces(void **state)
         for (size_t i = 0; i < many; i++, end += 2)
             memcpy(end, "\\n", 2);
         strcpy(end, "\"]");
-        /* on a busy machine the kernel's work for memory may fall on one piece, so the best of several tries counts */
+        /* the best of several tries counts, because on a busy machine the kernel's memory management may delay one
+         * piece */
         double share = 1;
         for (int attempt = 0; attempt < 10 && share >= 0.15; attempt++) {
             root = read_large(text, strlen(text), &error);
@@ -664,7 +666,7 @@ static void long_strings_with_escapes_are_read_in_pieces(void **state)
             share = longest_share < share ? longest_share : share;
             cJSON_Delete(root);
         }
-        assert_true(share < 0.15); /* cJSON takes a fifth of the time for the string */
+        assert_true(share < 0.15); /* cJSON alone would spend a fifth of the time on the string */
     }
     memcpy(end - 12, "\\ud83d\\u0041", 12);
     assert_null(read_large(text, strlen(text), &error));

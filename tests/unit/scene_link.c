@@ -39,7 +39,7 @@ static char *link_of(const struct kd_scene *scene)
     return text.data ? (char *)text.data : strdup("");
 }
 
-/* Equal except for the size of the picture, which is not part of a link. */
+/* Asserts that two scenes are equal, except for the size of the picture, which is not part of a link. */
 static void assert_same(const struct kd_scene *scene, const char *link)
 {
     struct kd_scene back = read_link(link);
@@ -207,7 +207,8 @@ static void changes_are_told(void **state)
     }
 }
 
-/* A preview shows the same height as a picture of 16:9: tan(fov/2) and the width grow by (1200/630)/(16/9). */
+/* A preview shows as much of the sky from top to bottom as a picture of 16:9. tan(fov/2) and the width grow by
+ * (1200/630)/(16/9). */
 static void a_preview_is_as_high(void **state)
 {
     (void)state;

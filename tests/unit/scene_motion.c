@@ -29,7 +29,7 @@ static void a_smooth_disk_rests(void **state)
     assert_true(kd_emit_moves(&scene));
     scene.motion.time_rate = 0;
     assert_false(kd_emit_moves(&scene));
-    for (int sign = -1; sign <= 1; sign += 2) { /* at the limits of time */
+    for (int sign = -1; sign <= 1; sign += 2) { /* also at the limits of time */
         scene.motion.time_rate = sign * 1e6;
         scene.top.time = sign * (1e12 - 1);
         assert_true(kd_emit_moves(&scene));
@@ -45,7 +45,7 @@ static void rings_move_while_time_does(void **state)
     (void)state;
     struct kd_scene scene = struck(0.5, 0.01);
     assert_true(kd_emit_moves(&scene));
-    scene.top.time = 999.999; /* before the ringdown begins */
+    scene.top.time = 999.999; /* this time is just before the ringdown begins */
     assert_false(kd_emit_moves(&scene));
     kd_scene_advance(&scene, 1e-3);
     assert_true(kd_emit_moves(&scene));
@@ -58,12 +58,12 @@ static void rings_move_while_time_does(void **state)
     scene.disk.model = KD_DISK_NONE;
     assert_false(kd_emit_moves(&scene));
     scene = struck(0.5, 1);
-    scene.accuracy.orders = 1; /* the change hides the ringdown from the picture */
+    scene.accuracy.orders = 1; /* with one order only, the ringdown does not show in the picture */
     assert_false(kd_emit_moves(&scene));
 }
 
-/* The slope of the sRGB curve at white is 0.44. When the motion ends, less than half of one of 255 steps remains, and
- * it ends before a fortieth of a step is left. The decay time is computed by another method. */
+/* The slope of the sRGB curve at white is 0.44. When the motion ends, the remaining change is between a fortieth and a
+ * half of one of 255 steps. The decay time is computed by another method. */
 static void it_ends_when_it_cannot_be_seen(void **state)
 {
     (void)state;
@@ -87,8 +87,8 @@ static void it_ends_when_it_cannot_be_seen(void **state)
     }
 }
 
-/* An infalling observer moves, whatever there is to see, until it is at the last place where a camera can be. An
- * orbiting one counts as moving only if something in the scene is not axially symmetric. */
+/* An infalling observer moves until the last place where a camera can be, whatever the scene shows. An orbiting one
+ * counts as moving only if something in the scene is not axially symmetric. */
 static void an_observer_goes_on_by_its_own_clock(void **state)
 {
     (void)state;
@@ -129,8 +129,8 @@ static void an_observer_goes_on_by_its_own_clock(void **state)
     assert_true(kd_scene_time_goes_on(&scene));
 }
 
-/* With slow light, `time` is the time of a clock far away: for rain in Schwarzschild's metric it advances by the
- * integral of 2/(r - 2) dr in addition. */
+/* With slow light, `time` is the time of a clock far away. For rain in Schwarzschild's metric it advances further than
+ * proper time, by the integral of 2/(r - 2) dr. */
 static void slow_light_has_the_far_clock(void **state)
 {
     (void)state;

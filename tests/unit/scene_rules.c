@@ -7,7 +7,7 @@
 
 struct rule {
     const char *json;
-    const char *pointer; /* NULL: valid */
+    const char *pointer; /* place of the mistake; NULL: the document is valid */
     const char *fragment;
 };
 
@@ -279,7 +279,7 @@ static void fields_fit_each_other(void **state)
     }
 }
 
-/* The inner edge may be at the ISCO itself, to the last bit, but not one step inside it. */
+/* The inner edge may be exactly at the ISCO, but not at the next smaller double. */
 static void inner_edge_may_touch_the_isco(void **state)
 {
     (void)state;

@@ -116,8 +116,8 @@ static void rain_sees_flat_space(void **state)
         }
 }
 
-/* Lengths along the axes of the frame: dr = sqrt(Delta/Sigma), dphi = 1/sqrt(g_phiphi) for an observer of zero
- * angular momentum in the equatorial plane. */
+/* The distance of the eyes near the hole. For an observer of zero angular momentum in the equatorial plane, a unit of
+ * length is dr = sqrt(Delta/Sigma) or dphi = 1/sqrt(g_phiphi). */
 static void near_eyes_are_as_far_apart_as_they_say(void **state)
 {
     (void)state;
@@ -135,7 +135,7 @@ static void near_eyes_are_as_far_apart_as_they_say(void **state)
             const double turn = 0.1 / sqrt(r * r + a * a + 2 * a * a / r);
             assert_true(fabs(tan(eye.camera.azimuth_deg * (M_PI / 180)) - turn) < 1e-13);
             assert_true(fabs(eye.camera.r - r * hypot(1, turn)) < 1e-12 && eye.camera.yaw_deg > 0);
-            scene.camera.yaw_deg = 90; /* right is outwards */
+            scene.camera.yaw_deg = 90; /* now the camera's right is outwards */
             eye = kd_scene_eye(&scene, 1);
             assert_true(fabs(eye.camera.r - r - 0.1 * sqrt(1 - 2 / r + a * a / (r * r))) < 1e-12 &&
                         fabs(eye.camera.azimuth_deg) < 1e-12);

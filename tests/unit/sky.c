@@ -81,7 +81,7 @@ static double determinant(const struct kd_rotation *r)
            m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
-/* No orientation mirrors the sky. The thing after which an orientation is named lies where it should, whatever the
+/* No orientation mirrors the sky. The object after which an orientation is named lies at its stated place, whatever the
  * inclination. */
 static void orientations(void **state)
 {
@@ -158,7 +158,7 @@ static void made_up_stars(void **state)
     kd_stars_finish(&real);
 }
 
-/* The packed format has nine bits for the largest channel. */
+/* In the packed format the largest channel has nine bits. */
 static void packing(void **state)
 {
     (void)state;

@@ -163,8 +163,8 @@ static void credits(void **state)
 
 enum { WIDTH = 512, HEIGHT = 256 };
 
-/* Draws a pattern along the meridians, a wave with a period of that number of texels. Measures in the row of that
- * latitude, at a level, what is left of its amplitude, and the row's mean. */
+/* Draws a wave in longitude with the given period in texels. Measures the remaining amplitude and the mean in the row
+ * of the given latitude at a mipmap level. */
 static void wave(bool even, double period, double latitude, int level, double *amplitude, double *mean)
 {
     struct kd_sky_picture p = { WIDTH, HEIGHT, malloc(3 * sizeof(float) * WIDTH * HEIGHT), even };
@@ -191,8 +191,8 @@ static void wave(bool even, double period, double latitude, int level, double *a
     free(words);
 }
 
-/* At a latitude of 86 degrees 32 texels are as wide as 2.2 at the equator. At the level whose texels are as wide as 4
- * texels of level 0, nothing of that wave remains. At level 0, and next to the equator, the wave remains. */
+/* At a latitude of 86 degrees 32 texels are as wide as 2.2 texels at the equator. At level 2, whose texels are 4 texels
+ * of level 0 wide, such a wave has vanished. At level 0, and next to the equator, it remains. */
 static void poles(void **state)
 {
     (void)state;
@@ -200,7 +200,7 @@ static void poles(void **state)
     wave(true, 32, 86, 2, &amplitude, &mean);
     NEAR(amplitude, 0, 0.05);
     NEAR(mean, 1, 5e-3);
-    wave(true, 32, 86, 0, &amplitude, &mean); /* sin(x)/x for the mean over 14.3 texels */
+    wave(true, 32, 86, 0, &amplitude, &mean); /* the mean over 14.3 texels multiplies a wave by sin(x)/x */
     NEAR(amplitude, 0.70, 0.03);
     wave(true, 32, 0.5, 2, &amplitude, &mean);
     NEAR(amplitude, 0.97, 0.03);

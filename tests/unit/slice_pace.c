@@ -1,4 +1,5 @@
-/* The size of submissions follows the time that they take: on a busy machine they stay as long as on an idle one. */
+/* Tests that the number of items in a submission follows the measured time. A submission on a busy machine takes as
+ * long as on an idle one. */
 #include "render/device/slice_pace.h"
 
 #include <setjmp.h>
@@ -29,7 +30,8 @@ static void an_idle_device(void **state)
     (void)state;
     struct kd_slice_pace pace = { 0 };
     assert_float_equal(run(&pace, 1, 1, NS), KD_SLICE_MS, 0.2);
-    assert_float_equal(run(&pace, 100, 0.5, NS), KD_SLICE_MS / 2, 0.2); /* no longer than estimated */
+    /* the submission takes no longer than estimated */
+    assert_float_equal(run(&pace, 100, 0.5, NS), KD_SLICE_MS / 2, 0.2);
     assert_int_equal(kd_slice_items(&pace, NS, 7), 7);
     assert_int_equal(kd_slice_items(&pace, 1e12, MOST), 1);
 }

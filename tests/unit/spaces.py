@@ -16,7 +16,9 @@ import tempfile
 
 KERNELS = ["shaders/" + name + ".spv.h" for name in ("expose", "post_texels", "rays_f64")]
 
-if not any(shutil.which(name) for name in ("cc", "gcc", "clang")):  # everything else is compiled for another machine
+if not any(
+    shutil.which(name) for name in ("cc", "gcc", "clang")
+):  # skipped where everything is compiled for another machine
     print("skipped: no compiler for this machine")
     sys.exit(77)
 

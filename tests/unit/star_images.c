@@ -29,8 +29,8 @@ static enum kd_status keep(void *user, const struct kd_star_image *image)
     return KD_OK;
 }
 
-/* A pinhole camera that looks along x, y to the left, z upwards, `wide` from the middle to the edge; side -1:
- * mirrored. */
+/* A pinhole camera that looks along x, y to the left, z upwards, `wide` is the tangent of the angle from the middle to
+ * the edge; side -1 mirrors the picture. */
 static struct kd_vec seen_at(double x, double y, double wide, int side)
 {
     const double unit = tan(wide) / (WIDTH / 2.0), right = side * (x - WIDTH / 2.0) * unit,
@@ -56,8 +56,8 @@ static struct kd_sky_map map_of(const struct sky *sky)
 }
 
 /* Each star in the picture has one image, at the place that the camera gives. It has the pixel's own solid angle, cos^3
- * over the square of the distance. Left stays left unless the camera mirrors. If the observer circles, the star that an
- * image belongs to is the one rotated back. */
+ * over the square of the distance. Left stays left unless the camera mirrors. If the observer circles the hole, the
+ * star of an image is found after the rotation is undone. */
 static void a_plain_camera(void **state)
 {
     (void)state;
@@ -119,7 +119,7 @@ static void doubles_and_holes(void **state)
     assert_int_equal(seen.n, 2);
     assert_true(fabs(seen.of[0].x - 29.7) < 0.01 && !seen.of[0].mirrored &&
                 fabs(seen.of[1].x - (WIDTH - 30.7)) < 0.01 && seen.of[1].mirrored);
-    for (int i = 0; i < 2; i++) /* the triangle that contains it */
+    for (int i = 0; i < 2; i++) /* rays of the triangle that contains the first image */
         sky.rays[(40 + i) * WIDTH + 30].x = NAN;
     seen.n = 0;
     assert_int_equal(kd_star_images(&map, sky.stars, 1, keep, &seen), KD_OK);

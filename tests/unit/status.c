@@ -1,5 +1,5 @@
-/* Tests of steps that can fail: each step is taken once, none is taken after a failed one, and resources are released
- * in both cases. */
+/* Tests of sequences of steps that can fail. Each step is taken at most once, and none after a failed step. Resources
+ * are released in both cases. */
 #include "base/error.h"
 
 #include <setjmp.h>

@@ -1,6 +1,6 @@
-/* Tests that an integral that nobody waits for any more ends at once, at any point of its computation, and leaves
- * nothing incomplete in a cache. kd_pause returns true from its Nth call on, for many N. Images and tables of a hole
- * are cached, so each N has a hole whose spin differs by 1e-9. Afterwards some of these integrals are computed without
+/* Tests that an integral that nobody waits for any more ends at once, at any point of its computation, and leaves no
+ * incomplete result in a cache. kd_pause returns true from its Nth call on, for many N. Images and tables of a hole are
+ * cached, so each N has a hole whose spin differs by 1e-9. Afterwards some of these integrals are computed without
  * interruption. Their values must be those of an integral that was never interrupted. */
 #include "base/pause.h"
 #include "integral/request.h"
@@ -19,7 +19,7 @@
 enum { STOPS = 6, WHOLE = 3, AFTER = 40 }; /* AFTER: largest number of pauses that follow an interruption */
 #define APART 1e-9                         /* difference between two spins */
 
-static unsigned long calls, stops_at; /* stops_at: 0: never */
+static unsigned long calls, stops_at; /* stops_at: number of the pause that interrupts; 0: none */
 
 static bool count(void)
 {
@@ -30,7 +30,7 @@ static bool count(void)
 static const struct {
     const char *name;
     enum kd_integral what;
-    const char *fields; /* but the spin */
+    const char *fields; /* all fields except the spin */
 } cases[] = {
     { "line of a power law", KD_INTEGRAL_LINE, "\"inclination_deg\":60,\"bins\":50,\"tolerance\":0" },
     { "line of a ring", KD_INTEGRAL_LINE,
@@ -78,7 +78,8 @@ static double *whole(int i, double spin, size_t *rows)
     return values;
 }
 
-/* False: it had ended before. Where other threads help, this one has fewer pauses than another time. */
+/* Returns false if the integral had ended before. If other threads help, this thread pauses less often than in another
+ * run. */
 static bool interrupt(int i, double spin, unsigned long at)
 {
     struct kd_integral_request request;

@@ -157,8 +157,8 @@ static void what_is_refused(void **state)
     }
 }
 
-/* Each value may be valid and their combination not. A style is set before the fields that it sets. An axis creates the
- * list element that it belongs to. */
+/* Each value may be valid while their combination is not. A style is set before the fields that it sets. An axis
+ * creates the list element that it belongs to. */
 static void combinations(void **state)
 {
     struct kd_scene scene;
@@ -227,7 +227,8 @@ static void those_that_share_a_lens_map_follow_one_another(void **state)
     for (unsigned i = 0; i < s->scenes; i++) {
         unsigned frame = order.frames[i], before = i ? order.frames[i - 1] : 0;
         assert_int_equal(seen[frame]++, 0);
-        changes += !i || frame / 4 % 3 != before / 4 % 3 || frame % 2 != before % 2; /* inclination or spin */
+        /* the inclination or the spin has changed */
+        changes += !i || frame / 4 % 3 != before / 4 % 3 || frame % 2 != before % 2;
     }
     assert_int_equal(changes, 6);
     assert_int_equal(order.frames[0], 0);

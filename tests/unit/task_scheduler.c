@@ -143,11 +143,11 @@ static void test_a_queue_is_destroyed_while_turns_are_paused(void **state)
         jobs[i] = (struct kd_scheduler_job) { .turn = compute, .done = count_done };
         kd_scheduler_push(scheduler, &jobs[i]);
     }
-    while (atomic_load(&computing) <= kd_cores()) /* so that at least one of them has paused */
+    while (atomic_load(&computing) <= kd_cores()) /* waits until at least one turn has paused */
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);
     assert_int_equal(pthread_create(&thread, NULL, destroy, scheduler), 0);
-    nanosleep(&(struct timespec) { .tv_nsec = 50000000 }, NULL); /* the queue is being closed, and turns are under
-                                                                  * way */
+    /* now the queue is being closed while turns are in progress */
+    nanosleep(&(struct timespec) { .tv_nsec = 50000000 }, NULL);
     atomic_store(&over, true);
     for (const double since = kd_clock_ms(); !atomic_load(&destroyed) && kd_clock_ms() - since < PATIENCE_MS;)
         nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL);

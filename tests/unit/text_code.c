@@ -52,9 +52,10 @@ static void what_is_no_code_is_refused(void **state)
         { "Kyh+", "must be base64url", KD_EINVAL },
         { "Kyh=", "must be base64url", KD_EINVAL },
         { "K", "must be base64url", KD_EINVAL },
-        { "KyhKLU4tsS3Ozc8vyTACAB", "must be base64url", KD_EINVAL },       /* bits left over after the last byte */
-        { "KyhKLU4tsU1PLEpPzCsp", "must be one deflated text", KD_EINVAL }, /* cut off */
-        { "KyhKLU4tsU1PLEpPzCspTQQAAA", "must be one deflated text", KD_EINVAL }, /* a byte behind its end */
+        /* the code has bits left over after the last byte */
+        { "KyhKLU4tsS3Ozc8vyTACAB", "must be base64url", KD_EINVAL },
+        { "KyhKLU4tsU1PLEpPzCsp", "must be one deflated text", KD_EINVAL },       /* the stream is cut off */
+        { "KyhKLU4tsU1PLEpPzCspTQQAAA", "must be one deflated text", KD_EINVAL }, /* a byte follows the stream's end */
         { "YwAA", "must be one deflated text", KD_EINVAL },                       /* NUL */
         { longest, "longer than 2048", KD_ETOOBIG },
     };

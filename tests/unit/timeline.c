@@ -171,7 +171,8 @@ static void what_is_no_path_is_refused(void **state)
             fail_msg("%s: %s %s", wrong[i].keys, error.pointer, error.message);
         assert_null(t.keys);
     }
-    /* An error between two valid keyframes: on the way from a fall to an orbit, the clock has no valid observer. */
+    /* Between two valid keyframes there may be an error: on the way from a fall to an orbit, the scene has no valid
+     * observer. */
     struct kd_timeline t = made(RAIN,
                                 "[{\"at\":1,\"proper_time\":2},{\"at\":2,\"scene\":{\"camera\":{\"observer\":"
                                 "\"velocity\"}},\"proper_time\":0}]",
@@ -220,8 +221,8 @@ static double seconds_of(const struct kd_timeline *t, int frames)
     return least;
 }
 
-/* Angles that go the shorter way accumulate turns from the first key on. Nevertheless a frame needs only the keys next
- * to it. */
+/* Angles go the shorter way from key to key, and their turns add up from the first key on. Nevertheless a frame needs
+ * only the keys next to it. */
 static void a_great_many_keys(void **state)
 {
     (void)state;
@@ -239,7 +240,7 @@ static void a_great_many_keys(void **state)
         }
     const double slow = seconds_of(&t, 1000), quick = seconds_of(&few, 1000);
     print_message("a frame: %.1f us of %d keys, %.1f us of %d\n", slow * 1e3, MANY, quick * 1e3, SOME);
-    /* neither fits in a cache; if the time were proportional to the number of keys, the ratio would be ten */
+    /* neither timeline fits in a cache; if the time were proportional to the number of keys, the ratio would be ten */
     assert_true(slow < 5 * quick);
     kd_timeline_finish(&t);
     kd_timeline_finish(&few);

@@ -104,7 +104,7 @@ static double light_of(const void *user, double r, double g, double mu)
                                                                         : pow(r / p->break_r, -p->outer_index);
     double limb = p->limb == KD_LIMB_LAOR         ? 1 + 2.06 * mu
                   : p->limb == KD_LIMB_HAARDT     ? log(1 + 1 / mu)
-                  : p->limb == KD_LIMB_SCATTERING ? kd_limb_at(p->limb, mu) /* tested by physics_limb.c */
+                  : p->limb == KD_LIMB_SCATTERING ? kd_limb_at(p->limb, mu) /* physics_limb.c tests this law */
                                                   : 1;
     return emitted * limb * g * g * g * (p->energy ? g : 1);
 }
@@ -119,7 +119,7 @@ static double worst_of(const double *share, const double *want, int bins)
     return worst;
 }
 
-struct truth { double error, known; }; /* the uncertainty of `error` */
+struct truth { double error, known; }; /* known: the uncertainty of `error` */
 
 static struct truth truth_of(const struct asked *q, const double *share, double told)
 {
@@ -181,7 +181,7 @@ static struct truth truth_of_grids(const struct asked *q, const double *share, s
         apart = fmax(apart, fabs(one[e] - other[e]));
         one[e] = 0.5 * (one[e] + other[e]);
     }
-    return (struct truth) { worst_of(share, one, q->bins), 2 * apart }; /* four standard errors or so */
+    return (struct truth) { worst_of(share, one, q->bins), 2 * apart }; /* some four standard errors */
 }
 
 static void describe(const struct asked *q, double told, struct truth t)

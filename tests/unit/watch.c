@@ -1,5 +1,5 @@
-/* A build that watches its threads aborts where a thread breaks a rule, and only there. Each rule is broken once, in a
- * process of its own. */
+/* Tests that a build that watches its threads aborts when a thread breaks a rule, and only then. Each rule is broken
+ * once, in a process of its own. */
 #include "base/watch.h"
 
 #include <fcntl.h>

@@ -48,7 +48,8 @@ class Alone(Browser):
         self.assertNotEqual(float(self.field(page, "camera.azimuth_deg")), 0)
 
     def test_buttons_come_with_the_pointer(self):
-        """Buttons also come with the keyboard's focus. A key that shows a hidden button does not press it."""
+        """Hidden buttons also appear when they get the keyboard's focus. A key that makes a button appear does not
+        press it."""
         page = self.open()
         page.keyboard.press("f")
         shown = lambda: page.evaluate('() => getComputedStyle(document.querySelector(".buttons")).opacity') == "1"

@@ -28,7 +28,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "docs/examples"
 HAPROXY = shutil.which("haproxy") or shutil.which("haproxy", path="/usr/sbin")
 JUPYTER = ROOT / "venv-jupyter/bin/jupyter-server"
-USER = "/user/someone@example.org/"  # as JupyterHub names a user
+USER = "/user/someone@example.org/"  # the path that JupyterHub gives to a user
 TINY = {"image": {"width": 64, "height": 36}, "motion": {"time_rate": 1}}
 
 
@@ -119,7 +119,7 @@ class Behind(browser.Browser):
         self.assertEqual(self.ask("PATCH", at, {"camera": {"azimuth_deg": 50}})[0], 403)
 
     def stream(self, path, marker, n, **headers):
-        """The bytes of a stream up to the n-th marker, which must arrive without waiting for the end of the stream."""
+        """The bytes of a stream up to the n-th marker, which must arrive before the stream ends."""
 
         def read(answer):
             got = b""
@@ -206,7 +206,7 @@ class Jupyter(Behind):
         home.joinpath("kerrd").write_text("#!/bin/sh\nexec " + shlex.quote(browser.KERRD) + ' "$@"\n')
         home.joinpath("kerrd").chmod(0o755)
         env = {**os.environ, "HOME": str(home), "JUPYTER_CONFIG_DIR": str(home), "PATH": f"{home}:{os.environ['PATH']}"}
-        env.pop("PYTHONPATH", None)  # it belongs to another virtual environment
+        env.pop("PYTHONPATH", None)  # PYTHONPATH belongs to another virtual environment
         cls.proxy = subprocess.Popen(
             [
                 JUPYTER,

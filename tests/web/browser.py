@@ -25,7 +25,8 @@ try:
 except ImportError:
     Axe = None
 
-PATIENCE_MS = 240_000  # after which an expected event counts as missing; a busy machine is slow
+# time after which an expected event counts as missing; it is long, because a busy machine is slow
+PATIENCE_MS = 240_000
 AT_REST = "#stage[data-final=true]"
 FINE = '#stage[data-final=true][data-samples="2"]'
 VIEWS = ("lensing", "orbits", "playground", "physics", "scale")
@@ -36,7 +37,7 @@ READY = {
     "physics": "#curves .card:last-child canvas",
     "scale": "#scale-rows tr",
 }
-RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]  # of axe
+RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]  # the sets of axe's rules
 KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / "screenshots"
 # KERRD_SLOW="4 400": scripts of every page run at a quarter of their speed, and every answer comes 400 ms late
 # (docs/web.md).
@@ -134,7 +135,7 @@ class Browser(unittest.TestCase):
             + "#"
             + ("" if "pace=" in fragment else "pace=fast&")
             + (fragment if "preset=" in fragment else "preset=default&" + fragment)
-        )  # the scene does not depend on the first view
+        )  # this scene does not depend on the first view
         page.wait_for_selector(wait, timeout=PATIENCE_MS, state="attached")
         return page
 
@@ -246,7 +247,7 @@ class Browser(unittest.TestCase):
         self.assertTrue(daemon.eventually(still))
 
     def axe(self, page):
-        """Checks that axe finds no fault. If axe is not installed, nothing is checked, and test_axe reports this."""
+        """Checks that axe finds no fault. Without axe this checks nothing, and test_axe reports that."""
         if Axe:
             results = Axe().run(page, options={"runOnly": RULES}).response
             self.assertGreater(len(results["passes"]), 5)

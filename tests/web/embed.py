@@ -29,7 +29,7 @@ class Embed(Browser):
         cls.origin = cls.site.origin
         super().setUpClass("--embed-origin", cls.origin if cls.listed else "https://elsewhere.example")
 
-    def tearDown(self):  # requests go to the other site as well
+    def tearDown(self):  # the pages' requests go to the other site as well
         for context in self.contexts:
             for page in context.pages:
                 page.goto("about:blank")
@@ -119,7 +119,7 @@ class Listed(Embed):
         self.assertEqual(page.get_by_role("button", name="Move it").count(), 1)
 
     def test_the_client_of_the_package(self):
-        """clients/javascript in a browser, in a page of another origin; tests/javascript has all that it does."""
+        """clients/javascript in a browser, in a page of another origin; tests/javascript tests all of its functions."""
         client = ROOT.joinpath("clients/javascript/client.js").read_text()
         page = self.show("")
         page.route("**/client.js", lambda route: route.fulfill(body=client, content_type="text/javascript"))

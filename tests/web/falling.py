@@ -28,7 +28,7 @@ class Falling(Browser):
         def asked():
             for x in (100, 120):
                 page.mouse.move(x, x)
-            page.wait_for_timeout(600)  # the page sends the request once a pointer rests
+            page.wait_for_timeout(600)  # the page sends the request when the pointer rests
             return next((q for q in self.requests if q.url.endswith("/v1/render")), None)
 
         self.assertTrue(daemon.eventually(asked))
@@ -163,7 +163,7 @@ class Falling(Browser):
         page.wait_for_selector("#fall-got:visible")
 
     def test_the_captions_come_in_order(self):
-        """Whatever the spin and the start: the radii fall, and the last caption is shown before the fall ends."""
+        """For each spin and start the radii decrease, and the last caption is shown before the fall ends."""
         page = self.open("lang=en&disk.model=none")
         for spin, r in ((-0.9, 20), (0, 20), (0.998, 20), (0.5, 5)):
             with self.subTest(spin=spin, r=r):
@@ -199,8 +199,8 @@ class Falling(Browser):
         self.there(page, "Falling freely", "#fall-where")
 
     def test_the_first_picture_of_the_fall(self):
-        """The panel says at once that a picture is computed, and the first picture of the falling observer ends that:
-        all later ones are held back. The time is printed."""
+        """The panel says at once that a picture is being computed. The first picture of the falling observer removes
+        this message; the test holds back all later ones. The time is printed."""
         page, held, fallen = self.open(), [], []
 
         def gate(route):
@@ -271,7 +271,7 @@ class Falling(Browser):
         page.focus("#fall-at")
         page.keyboard.press("ArrowRight")
         self.assertTrue(daemon.eventually(lambda: self.told(page, "where") == "Within the horizon"))
-        self.expected = "422"  # an observer at rest cannot exist there
+        self.expected = "422"  # the server refuses an observer at rest at this place
         self.open_groups(page)
         page.select_option('[data-path="camera.observer"] select', "static")
         self.assertFalse(page.is_visible("#fall"), "who changes the observer has the camera")
@@ -309,7 +309,8 @@ class Falling(Browser):
         page.focus(box)
         page.evaluate("box => document.querySelector(box).select()", box)
         selected = page.input_value(box)
-        page.set_viewport_size({"width": 420, "height": 400})  # changes the scene: the picture fits the window
+        # this changes the scene, because the picture fits the window
+        page.set_viewport_size({"width": 420, "height": 400})
         for _ in range(2):
             shown = page.inner_text("#status")
             self.assertTrue(daemon.eventually(lambda told=shown: page.inner_text("#status") != told))
@@ -390,7 +391,7 @@ class Falling(Browser):
         self.assertTrue(daemon.eventually(lambda: page.is_hidden("#star")))
         self.assertEqual(len([r for r in self.requests if r.url.endswith("/v1/render")]), asked, "once is enough")
         self.open_groups(page)
-        page.check("#over-names")  # names for users without a pointer
+        page.check("#over-names")  # this shows names to users without a pointer
         self.assertTrue(daemon.eventually(lambda: page.locator("#overlay text").count() == 16))
         self.there(page, images[0]["name"], "#over-names-words")
         words = page.inner_text("#over-names-words")
@@ -417,7 +418,7 @@ class Falling(Browser):
         self.assertFalse(page.is_visible("#star"), lost)
 
     def test_a_name_stays_while_the_picture_turns(self):
-        """The pointer rests where a star passes. The star's mark moves with it, at the speed of the picture."""
+        """The pointer rests where a star passes. The mark moves with the star, at the speed of the picture."""
         page = self.open(
             SKY + "&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial&motion.azimuth_rate_deg=0.5",
             wait="#stage[data-final]",

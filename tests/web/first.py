@@ -18,7 +18,7 @@ class First(Browser):
             text = route.fetch().text()
             changed, n = re.subn(
                 r"""(first_view ?= ?)(['"])[^'"]*\2""", rf'\1"{first}"', text
-            )  # the script as it is written, or minified
+            )  # matches the script as it is written and minified
             self.assertEqual(n, 1)
             route.fulfill(body=changed, content_type="text/javascript")
 
@@ -152,8 +152,8 @@ class First(Browser):
         return page, release, patches
 
     def test_a_slow_server_shows_a_recording(self):
-        """The recording begins at the still and drifts. At the first touch it stands, the session is set to its time and
-        camera, and it stays until the first picture from there."""
+        """The recording begins at the still and drifts. At the first touch the recording stops, and the session gets
+        its time and camera. The recording stays visible until the session's first picture arrives."""
         page, release, patches = self.landed(lambda n: False)
         page.wait_for_selector(self.LOOP)
         wide, high = page.evaluate("(({ videoWidth, videoHeight }) => [videoWidth, videoHeight])(loop)")
@@ -212,7 +212,7 @@ class First(Browser):
         self.assertTrue(daemon.eventually(lambda: page.evaluate(begun) == "null"))
 
     def test_where_there_is_no_recording(self):
-        """There is no recording in a high window, whose height it would not fill, nor for a user who wants no
+        """There is no recording in a high window, whose height it would not fill, nor for a user who prefers reduced
         motion."""
         for options in {"viewport": {"width": 390, "height": 844}}, {"reduced_motion": "reduce"}:
             page, release, _ = self.landed(lambda n: False, **options)
@@ -237,7 +237,8 @@ class First(Browser):
         self.linked(page, "camera.azimuth_deg=")
 
     def test_before_the_first_touch_half_the_width_is_kept(self):
-        """Half the width is kept also where pictures of it take long. After the first touch a drag may make them narrower."""
+        """Before the first touch, pictures keep half of the width even if they take long. After it a drag may make them
+        narrower."""
         page, _, patches = self.landed(lambda n: True)
         self.linked(page, "camera.azimuth_deg=")
         asked = [r.url for r in self.requests if "min_scale=" in r.url]
@@ -260,7 +261,7 @@ class First(Browser):
         self.assertTrue(daemon.eventually(lambda: page.text_content("#play") == "Play"))
 
     def test_a_preset_after_another_has_its_own_colours(self):
-        """A named style sets its colours anew at the server, so that colours which both scenes share must be sent
+        """A named style resets its colours at the server. Colours that both scenes share must therefore be sent
         again."""
         page = self.open()
         names = [preset["name"] for preset in self.daemon.get("/v1/presets").json()["presets"]]
@@ -339,7 +340,7 @@ class First(Browser):
         )
         self.assertEqual(page.locator('#gallery [tabindex="0"]').count(), 1, "one stop of the tab key")
         card("smooth").focus()
-        page.keyboard.press("ArrowLeft")  # to the preset before; smooth is the last
+        page.keyboard.press("ArrowLeft")  # moves to the preset before `smooth`, which is the last
         there = lambda: page.evaluate("document.activeElement.dataset.preset")
         self.assertTrue(daemon.eventually(lambda: there() not in (None, "smooth")))
         name = there()
@@ -381,8 +382,8 @@ class First(Browser):
         self.assertEqual(names, first + between + last)
 
     def test_the_landing_does_not_shift(self):
-        """Sum of the layout shifts, as Lighthouse counts them; 0.05 is half of what it calls good. And the largest
-        paint is known."""
+        """Sum of the layout shifts, as Lighthouse counts them; 0.05 is half of what it calls good. The largest paint is
+        measured, too."""
         page = self.page(self.context(viewport={"width": 1350, "height": 940}, locale="en-US"))
         page.add_init_script("""window.shift = 0; window.largest = 0;
             new PerformanceObserver(list => { for (const e of list.getEntries()) if (!e.hadRecentInput) shift += e.value; }).observe({ type: 'layout-shift', buffered: true });

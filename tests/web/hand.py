@@ -203,7 +203,7 @@ class Hand(Browser):
             y = box["y"] + 12
             touch((195, y), (195 + way * 40, y), (195 + way * 110, y + 4))
             page.wait_for_selector(f"#gallery [data-preset={chosen}][aria-pressed=true]")
-        stands("low", "out of the way")  # the swipe was no tap on the handle of the sheet
+        stands("low", "out of the way")  # the swipe did not count as a tap on the handle of the sheet
         touch((195, line["y"] + 12), (170, line["y"] + 12))
         touch((195, line["y"] + 12), (130, line["y"] - 60))
         tilt = self.field(page, "camera.inclination_deg")
@@ -269,7 +269,7 @@ class Hand(Browser):
             self.linked(page, has)
             page.wait_for_selector("#undo:enabled")
             page.click("#undo")
-            # the address may or may not have contained the width that fits the window
+            # the address may have contained the width that fits the window
             self.assertTrue(
                 daemon.eventually(lambda: "preset=default" in state() and not set(state()) - set(before)),
                 (state(), before),
@@ -449,7 +449,7 @@ class Hand(Browser):
             r.url.partition("min_scale=")[2].partition("&")[0] for r in self.requests if "min_scale=" in r.url
         ]
         self.assertEqual((asked(), page.input_value("#pace")), (["0.5"], "auto"))
-        page.keyboard.press("Shift")  # the first touch, after which Auto may take less
+        page.keyboard.press("Shift")  # the first touch, after which Auto may choose a smaller picture
         page.evaluate('for (const id of ["all", "group-more"]) document.getElementById(id).open = true')
         for pace, least in (("sharp", "1"), ("fast", "0.25"), ("auto", "0.5")):
             page.select_option("#pace", pace)

@@ -59,7 +59,7 @@ class Lensing(Browser):
         for view in VIEWS[1:]:
             page.click(f"nav [data-view={view}]")
             page.wait_for_selector(READY[view])
-            page.wait_for_timeout(500)  # a few answers may still follow
+            page.wait_for_timeout(500)  # waits for a few late answers
         sizes = {}
         for request in self.requests:
             goes_on = any(part in request.url for part in ("/frame", "/v1/render?", "/v1/playground/"))
@@ -342,7 +342,7 @@ class Lensing(Browser):
         bar, ticks = page.locator(".key-light i").bounding_box(), page.locator(".key-ticks span")
         self.assertEqual(ticks.all_inner_texts(), ["0", "5", "10", "15", "20"])
         places = [box["x"] + box["width"] / 2 for box in (tick.bounding_box() for tick in ticks.all())]
-        for x, kelvin in zip(places, (0, 5, 10, 15, 20)):  # light 1 is 1e10 K, and white is light 2
+        for x, kelvin in zip(places, (0, 5, 10, 15, 20)):  # a light of 1 is 1e10 K, and white is a light of 2
             self.assertAlmostEqual((x - bar["x"]) / bar["width"], kelvin / 20, delta=5e-3)
         self.shot(page, "scales")
         # The colours of the bar are those of the server's own, whose bar has 112 pixels.
@@ -364,8 +364,8 @@ class Lensing(Browser):
         self.assertLess(max(off), 16, off)
 
     def test_photon_rings_have_axes(self):
-        """Each order is drawn where its light is. For light of a small disk at 20 M each is closer to the curve than
-        the one before by e^-gamma. The wheel reduces the number of decades."""
+        """Each order is drawn at the place of its light. The light of a small disk at 20 M is closer to the curve at
+        each order, by the factor e^-gamma. The wheel reduces the number of decades."""
         page = self.open("lang=en&preset=photon-rings", "#stage[data-final]")
         page.wait_for_selector("#overlay .order >> nth=5", state="attached")
         names, places, high = (
@@ -384,8 +384,8 @@ class Lensing(Browser):
         self.assertTrue(daemon.eventually(lambda: float(self.field(page, "camera.ring_decades_min")) > least))
 
     def test_the_style_of_a_radio_telescope(self):
-        """The style's fields appear with it. Controls that make no sense without false colours are hidden otherwise.
-        Where one of them prevents a change, this is explained."""
+        """A style's fields appear when it is chosen. Without false colours their controls are hidden. If one of them
+        prevents a change, the page explains this."""
         self.expected = "422"  # the answer to a colour bar without its colours
         page = self.open("lang=en&preset=edge-on")
         self.open_groups(page)
@@ -582,8 +582,8 @@ class Lensing(Browser):
         self.shot(page, "ticks")
 
     def test_ticks_follow_the_charge(self):
-        """The gas of a charged hole goes further in, to r = 4.006 M instead of 6 M, and ticks lie over it. Light from r,
-        seen face-on, is seen at about r + 1 (A. M. Beloborodov 2002, ApJ 566, L85). The second image is left out."""
+        """The gas of a charged hole extends to r = 4.006 M instead of 6 M, and ticks lie over it. Light from r, seen
+        face-on, is seen at about r + 1 (A. M. Beloborodov 2002, ApJ 566, L85). The second image is left out."""
         view = "lang=en&spacetime.spin=0&camera.inclination_deg=0&camera.field_m=24&disk.outer=11&disk.taper=0&accuracy.orders=1"
         for charge, isco in ("0", 6), ("0.999", 4.006):
             page = self.open(f"{view}&spacetime.charge={charge}&polarization.model=synchrotron&over=polarization")
@@ -700,7 +700,7 @@ class Lensing(Browser):
         )
         self.assertGreater(min(seen["on"], seen["off"]), 1500, seen)
         self.assertGreater(seen["lit_on"] / seen["on"], 0.998, seen)
-        # light is visible through the gaps of a dashed line
+        # tolerance: light is visible through the gaps of a dashed line
         self.assertLess(seen["lit_off"] / seen["off"], 0.006, seen)
 
     def test_lines_of_a_near_camera_lie_on_the_disk(self):
@@ -737,7 +737,7 @@ class Lensing(Browser):
         self.open_groups(page)
         page.fill('[data-path="spacetime.spin"] input[type=number]', "2")
         page.keyboard.press("Enter")
-        page.wait_for_timeout(300)  # in this time the page keeps the refused value
+        page.wait_for_timeout(300)  # during this time the page keeps the refused value
         self.assertEqual(
             (self.field(page, "spacetime.spin"), page.locator('[data-path="spacetime.spin"] input:invalid').count()),
             ("2", 1),

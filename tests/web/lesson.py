@@ -165,7 +165,7 @@ class Lesson(Browser):
         self.assertEqual(tongues(english), 4 * [None])
 
     def test_a_picture_at_rest_is_small(self):
-        """Otherwise thirty pupils would fetch a megabyte each whenever the picture rests."""
+        """Pupils get JPEG. With PNG thirty pupils would fetch a megabyte each whenever the picture rests."""
         teacher = self.teach("lang=en&preset=gas&pause=1")
         pupil, came = self.page(self.context(locale="en-US")), []
         pupil.on("response", lambda r: "last=" in r.url and r.status == 200 and came.append(r))
@@ -307,7 +307,7 @@ class Lesson(Browser):
         before = self.picture(pupil)
         self.drag(teacher, 0, 120)
         self.assertTrue(daemon.eventually(lambda: self.picture(pupil) != before))
-        self.expected = "404"  # the session before, and the lesson that has ended
+        self.expected = "404"  # 404 for the former session and for the lesson that has ended
         teacher.get_by_role("button", name="End", exact=True).click()
         self.there(pupil, "The lesson has ended.", "#told")
         self.assertEqual(teacher.locator("#lesson").count(), 0)
@@ -373,7 +373,7 @@ class Lesson(Browser):
         self.there(page, "The lesson has ended.", "#told")
 
     def test_a_message_goes_with_its_cause(self):
-        """The picture at rest does not change, so that no new one comes that could take a message away."""
+        """The picture rests, so that no new picture comes that could remove a message."""
         self.expected = "Failed to load resource"
         teacher = self.teach()
         pupil = self.follow(self.link(teacher))
@@ -460,7 +460,7 @@ class Lesson(Browser):
         teacher.get_by_role("button", name="Ask the class").click()
         pupil.locator("#choices button").first.click()
         pupil.wait_for_selector("#choices [aria-pressed=true]")
-        pupil.keyboard.press("Tab")  # the outline of the focus is another one
+        pupil.keyboard.press("Tab")  # moves the focus away, whose outline could be mistaken for the mark
         outline = lambda node: node.evaluate("node => getComputedStyle(node).outlineStyle")
         buttons = pupil.locator("#choices button")
         self.assertEqual((outline(buttons.first), outline(buttons.last)), ("solid", "none"))
@@ -502,7 +502,7 @@ class Tokens(Browser):
         self.assertTrue(pupil.locator("#copy").is_hidden(), "a copy needs the role render")
         helper = self.enter(teacher.input_value("#lesson-invite input"), self.TEACHER)
         helper.wait_for_selector("#copy:visible")
-        self.expected = "40"  # 401, and 403 for the copy
+        self.expected = "40"  # 401 for the lesson and 403 for the copy
         copy = lambda page: page.goto(page.evaluate("document.getElementById('copy').href"))
         copy(pupil)
         self.there(pupil, "needs a token with the role render; yours has the role view", "#status")

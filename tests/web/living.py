@@ -183,7 +183,7 @@ class Living(Browser):
         page.wait_for_selector("#light tbody tr >> nth=5")
         self.assertLess(
             value(page.locator("#light tbody th").first.inner_text()), struck, "the curve goes on over a strike"
-        )  # the oldest points of a long curve are dropped
+        )  # a long curve loses its oldest points
 
         def saved():
             with page.expect_download() as download:
@@ -333,7 +333,7 @@ class Living(Browser):
         self.assertTrue(daemon.eventually(lambda: self.clock(page) > before + 90))
         self.assertEqual(
             [r.url for r in self.requests[asked:] if "/v1/" in r.url and "qnm" not in r.url], []
-        )  # the sound follows from the strike
+        )  # only the sound of the strike requests something: qnm
 
         def later():
             link = dict(pair.split("=") for pair in page.evaluate("location.hash")[1:].split("&"))

@@ -79,7 +79,8 @@ def sentences(folder, approximations):
 
 
 def faults(folder, approximations):
-    """A sentence for each message that a language lacks, has in vain, or has with other values than the English."""
+    """Yields a sentence for each message that a language lacks, that the page does not use, or whose placeholders
+    differ from the English."""
     english = {}
     for name, said, place in messages(folder):
         if name is None:

@@ -34,8 +34,8 @@ class Orbits(Browser):
         self.assertIn("42.98″", page.inner_text("#orbit-facts"))
 
     def test_less_angular_momentum_turns_it_into_a_plunge(self):
-        """The constants of motion start as those of the shown orbit. L then passes the separatrix, and the picture is
-        never blank."""
+        """The constants of motion start as those of the shown orbit. L is then moved past the separatrix, and the
+        picture is never blank."""
         page = self.open("lang=en&view=orbits", "#orbit-picture .front")
         page.wait_for_selector("#orbit-facts >> text=bound")
         before = self.facts(page)
@@ -137,7 +137,7 @@ class Orbits(Browser):
         page.wait_for_function(
             '() => document.getElementById("in-orbit-orbit").value === "thrown" && location.hash.includes("orbit.orbit=thrown")'
         )
-        # At first the farthest point was at 16 M, drawn 70 units from the centre.
+        # Before the drag the farthest point was at 16 M, drawn 70 units from the centre.
         self.assertAlmostEqual(float(page.input_value("#in-orbit-r")), 16 * 40 / 70, delta=0.4)
         page.wait_for_selector("#orbit-facts >> text=bound")
         page.wait_for_function('() => document.getElementById("orbit-live").textContent.startsWith("t = 0 M")')

@@ -312,7 +312,7 @@ class Others(unittest.TestCase):
         )
 
     def test_the_embedded_element(self):
-        """A poster first, then a live picture after a touch, in the page /embed."""
+        """The page /embed shows a poster, and after a touch a live picture."""
         self.daemon.stop()
         self.daemon = daemon.Daemon("--embed-origin", "https://a.example")
         self.start((800, 600))
@@ -326,7 +326,7 @@ class Others(unittest.TestCase):
         self.shot("embed")
 
     def elsewhere(self, listed):
-        """A page of another origin with the element, and with /embed in a frame."""
+        """A page of another origin contains the element, and /embed in a frame."""
         site = Site()
         self.addCleanup(site.close)
         self.daemon.stop()
@@ -350,7 +350,7 @@ class Others(unittest.TestCase):
         self.wait(f"return !{inside}.querySelector('canvas').hidden")
 
     def answered(self, route):
-        """The number of requests of a route that had what they asked for."""
+        """The number of successful requests of a route."""
         name = f'kerrd_request_seconds_count{{route="{route}",status="2xx"}} '
         lines = self.daemon.get("/metrics").body.decode().splitlines()
         return sum(int(line.removeprefix(name)) for line in lines if line.startswith(name))
@@ -364,7 +364,7 @@ class Others(unittest.TestCase):
         self.shot("elsewhere")
 
     def test_no_other_page_shows_it(self):
-        """The browser refuses the module, by CORS, and the frame, by frame-ancestors."""
+        """The browser refuses the module because of CORS, and the frame because of frame-ancestors."""
         self.elsewhere(listed=False)
         self.assertIs(self.browser.js("return window.came"), False)
         self.assertIs(self.browser.js("return document.querySelector('kerr-hole').shadowRoot === null"), True)
@@ -373,7 +373,7 @@ class Others(unittest.TestCase):
         self.assertEqual((self.answered("/embed/{code}"), self.answered("/web/{file}")), (1, 1))
 
     def test_the_story(self):
-        """Its text is there, each chapter has a picture, and a slider changes the one beside it."""
+        """The story has its text and a picture in each chapter, and a slider changes the picture beside it."""
         self.start()
         self.browser.go(f"http://127.0.0.1:{self.daemon.port}/story")
         self.assertGreater(self.browser.js("return document.body.innerText.length"), 8000)
@@ -409,7 +409,7 @@ class Others(unittest.TestCase):
         self.shot("pupil")
 
     def test_small_windows(self):
-        """Windows as narrow as a telephone, or the narrowest that this browser allows; and 1440 x 900 at 200 %."""
+        """Tests windows as narrow as a telephone, or as narrow as this browser allows, and 1440 x 900 at 200 %."""
         self.start((500, 844))
         for size in ((500, 844), (720, 450)):
             self.browser.resize(*size)
@@ -442,6 +442,6 @@ if __name__ == "__main__":
         atexit.register(screen.terminate)
         os.environ.update(
             WEBKIT_DISABLE_COMPOSITING_MODE="1", LIBGL_ALWAYS_SOFTWARE="1", LC_ALL="C.UTF-8"
-        )  # there is no GPU
+        )  # the machine may have no GPU
     daemon.COMMAND[:] = [os.path.abspath(sys.argv[1]), "serve"]
     unittest.main(argv=[sys.argv[0], *sys.argv[2:], "-v"])

@@ -31,7 +31,7 @@ UNSEEN = """() => {
         .map(node => node.outerHTML.slice(0, 120)).slice(0, 8);
 }"""
 
-LANGUAGES = ("it", "de")  # besides English
+LANGUAGES = ("it", "de")  # languages of the page besides English
 
 
 class Pages(Browser):
@@ -88,7 +88,7 @@ class Pages(Browser):
         return self.daemon.get(f"/web/locale/{lang}.json").json()
 
     def said(self, lang, sentences):
-        """How the page puts sentences of the server: text, and "en" where it has no translation."""
+        """The page's translations of sentences of the server: the text, and "en" if there is no translation."""
         page = self.open("lang=" + lang)
         return page.evaluate(
             'async all => { const { said } = await import("./web/words/i18n.js"); return all.map(one => said(one)).map(({ text, lang }) => [text, lang]); }',
@@ -100,7 +100,8 @@ class Pages(Browser):
         for lang in LANGUAGES:
             fields = self.words(lang)["fields"]
             paths = [re.sub(r"\.\d+\.", ".", path) for path, _, _ in rows(self.schema())]
-            shown = [path for path in paths if path not in ("image.width", "image.height")]  # the page sets these
+            # excluded, because the page sets these fields itself
+            shown = [path for path in paths if path not in ("image.width", "image.height")]
             left = [path for path in shown if path not in fields and path.split(".")[-1] not in fields]
             self.assertEqual(left, [], lang)
 
@@ -226,7 +227,7 @@ class Pages(Browser):
         self.assertGreaterEqual(len(buttons), 4)
 
     def test_an_approximation_is_translated_by_its_name(self):
-        """A correction of a comma in the server's sentence loses no translation."""
+        """If a comma of the server's sentence is corrected, the translation is still found."""
         page = self.page(self.context())
         listed = self.daemon.get("/v1/approximations").json()
         for row in listed["approximations"]:
@@ -385,7 +386,7 @@ class Pages(Browser):
         page.wait_for_selector("body[data-view=physics]")
         self.assertTrue(daemon.eventually(lambda: page.input_value("#in-qnm-spin") == "0.9"))
         self.assertEqual(len([r for r in self.requests if r.url.endswith("/app.js")]), loaded, "without a new load")
-        page.evaluate('() => { location.hash = "lang=it&spacetime.spin=0.5"; }')  # as if typed by a user
+        page.evaluate('() => { location.hash = "lang=it&spacetime.spin=0.5"; }')  # changes the address as a user would
         page.wait_for_selector("html[lang=it] " + AT_REST)
         self.assertTrue(daemon.eventually(lambda: self.field(page, "spacetime.spin") == "0.5"))
         page.go_back()
@@ -411,7 +412,7 @@ class Pages(Browser):
             self.quiet(page)
             return listeners()
 
-        for _ in range(2):  # late answers of the first round add some
+        for _ in range(2):  # late answers of the first round add listeners
             round_()
         counts = [round_() for _ in range(4)]
         self.assertLessEqual(counts[-1] - counts[0], 3, counts)
@@ -464,7 +465,7 @@ class Pages(Browser):
         }""",
             view,
         )
-        self.assertGreater(count, 4)  # the view of real scale has five
+        self.assertGreater(count, 4)  # the view of real scale alone has five charts
         self.assertEqual(bare, [])
 
 

@@ -54,8 +54,8 @@ class Panel(Browser):
         self.assertTrue(daemon.eventually(lambda: "camera.inclination_deg=33" in page.evaluate("location.hash")))
 
     def test_each_field_stands_in_its_group(self):
-        """A field is in front if the table of fields says so, and otherwise folded behind a summary. The fields of the
-        button that starts and stops time are beside it."""
+        """A field is in front if the table of fields says so, and otherwise folded behind a summary. The fields for the
+        button that starts and stops time are beside the button."""
         page, schema = self.open(), self.schema()
         self.assertEqual(tuple(schema["x-groups"]), GROUPS)
         there = page.evaluate("""() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => [node.dataset.path,
@@ -210,7 +210,7 @@ class Panel(Browser):
         self.assertTrue(page.is_disabled('[data-path="image.samples"] input[type=range]'))
 
     def test_a_sky_and_an_observer_have_their_own_fields(self):
-        """There is also a sentence that describes the choice, in both languages."""
+        """A sentence describes the choice, in both languages."""
         page, told = self.open("lang=en&camera.r=30&sky.model=grid&pause=1"), {}
         self.open_groups(page)
         sky = {

@@ -22,7 +22,7 @@ PAINT = """([longitude, latitude, type, width, height]) => {
     c.fill();
     return canvas.toDataURL(type);
 }"""
-# The place of the reddest part of what panorama.js makes of it: size, longitude and latitude, degrees.
+# The place of the reddest part of the panorama that panorama.js makes: size, longitude and latitude in degrees.
 TURN = """async ([url, equatorial]) => {
     const { panorama } = await import('./web/controls/panorama.js'),
         bytes = Uint8Array.from(atob(url.split(',')[1]), c => c.charCodeAt(0)),

@@ -18,7 +18,7 @@ class Physics(Browser):
         self.assertGreaterEqual(cards.count(), 9)
         for i in range(cards.count()):
             name = cards.nth(i).get_attribute("id")
-            cards.nth(i).scroll_into_view_if_needed()  # some curves are drawn only when they are in sight
+            cards.nth(i).scroll_into_view_if_needed()  # some curves are drawn only when they are visible
             self.assertTrue(daemon.eventually(lambda: self.drawn(page, f"#{name} canvas")["coloured"] > 300), name)
             page.click(f"#{name} summary >> nth=0")
             page.wait_for_selector(f"#{name} tbody tr >> nth=5")
@@ -354,7 +354,8 @@ class Physics(Browser):
         self.assertEqual(page.title(), "Real size: M87* – kerrd")
         for hole in ("m87", "sgra"):
             page.wait_for_selector(f"#sky-{hole} .beam:not([hidden])")
-        # The rings of the pictures, measured as the telescope's are, are as wide as those within their errors.
+        # The rings of the pictures, measured by the telescope's method, have the diameters of the telescope's rings
+        # within their errors.
         page.wait_for_selector("#sky-sgra [data-ring]")
         for hole, wide, off in (("m87", 42, 3), ("sgra", 51.8, 2.3)):
             ring = float(page.get_attribute(f"#sky-{hole} .sky-stack", "data-ring"))
@@ -412,7 +413,7 @@ class Physics(Browser):
         rR/sigma^2: the profile is exp(-(r^2 + R^2)/2 sigma^2) I0(z)."""
         side, pixel, wide, beam, middle = 75, 2.0, 3.0, 20.0, (2.6, -3.2)
 
-        def bessel(order, z):  # by its integral
+        def bessel(order, z):  # the Bessel function by its integral
             return sum(
                 math.exp(z * (math.cos(t) - 1)) * math.cos(order * t)
                 for t in (math.pi * (k + 0.5) / 400 for k in range(400))
@@ -438,8 +439,8 @@ class Physics(Browser):
                 "async given => (await import('./web/views/scale/ring.js')).ringOf(...given)",
                 [light, side, pixel, beam],
             )
-            self.assertAlmostEqual(found["diameter"], 2 * r, delta=0.4)  # radii are in steps of 0.25
-            self.assertLess(found["spread"], 1)  # maxima between pixels, interpolated linearly
+            self.assertAlmostEqual(found["diameter"], 2 * r, delta=0.4)  # tolerance: radii are in steps of 0.25
+            self.assertLess(found["spread"], 1)  # tolerance: maxima lie between pixels and are interpolated linearly
             self.assertAlmostEqual(found["x"], middle[0], delta=0.5)
             self.assertAlmostEqual(found["y"], middle[1], delta=0.5)
 
@@ -512,7 +513,7 @@ class Physics(Browser):
         length = [row[0] for row in drawn]
         told = ask("visibility", {"lengths": length, "angles_deg": [0, 90]})["columns"]["amplitude"]
         for k, (_, north, east) in enumerate(drawn):
-            self.assertAlmostEqual(north / told[k], 1, delta=6e-3)  # three digits are asked for
+            self.assertAlmostEqual(north / told[k], 1, delta=6e-3)  # the page requests three digits
             self.assertAlmostEqual(east / told[len(drawn) + k], 1, delta=6e-3)
         self.assertGreater(max(abs(north / east - 1) for _, north, east in drawn), 0.3, "they differ")
         compared = ask(
@@ -530,7 +531,7 @@ class Physics(Browser):
         dots, curve = table(phases, 0), table(phases, 1)
         self.assertEqual([len(one) > 2 for one in models], [True, True])
         for k, known in enumerate(models):
-            near = []  # the curve at the lengths of the triangle's data
+            near = []  # points of the curve at the lengths of the triangle's data
             for at, _, model in dots:
                 if min(abs(model - one) for one in known) > 0.06:
                     continue

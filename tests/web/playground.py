@@ -152,7 +152,7 @@ class Playground(Browser):
         self.assertTrue(daemon.eventually(lambda: self.bodies()[only][3] > 0.1 and abs(self.bodies()[only][4]) < 0.02))
         self.assertTrue(
             daemon.eventually(lambda: page.input_value("#play-body") == str(only))
-        )  # the server has the body before its answer reaches the page
+        )  # waits, because the server has the body before its answer reaches the page
         page.fill("#play-body-mass", "0.002")
         page.press("#play-body-mass", "Tab")
         self.assertTrue(daemon.eventually(lambda: abs(self.bodies()[only][6] - 0.002) < 1e-9))
@@ -296,7 +296,8 @@ class Playground(Browser):
         self.assertGreaterEqual(again["t"] if "t" in again else again["state"]["t"], was["t"])
 
     def test_the_chirp_is_heard_where_somebody_wants_it(self):
-        """There is no sound before a gesture. Once switched on it stays on, and once off it stays off."""
+        """There is no sound before a gesture. Sound that is switched on stays on, and sound that is switched off stays
+        off."""
         count = "window.opened = 0; { const Real = AudioContext; window.AudioContext = class extends Real { constructor() { super(); window.opened++; } }; }"
         context = self.context(viewport={"width": 1200, "height": 900})
         context.add_init_script(count)
@@ -309,7 +310,8 @@ class Playground(Browser):
         self.assertEqual(page.evaluate("opened"), 1)
         self.assertIn("Heard as with a hole of", page.inner_text("#play-heard"))
         begin = float(page.get_attribute("#play-sound", "data-hz"))
-        self.assertTrue(90 < begin < 400, begin)  # the frequency rises until a busy machine reports it
+        # the bounds are wide, because the frequency rises until a busy machine reports it
+        self.assertTrue(90 < begin < 400, begin)
         page.wait_for_function('hz => Number(document.getElementById("play-sound").dataset.hz) > 1.1 * hz', arg=begin)
         page.reload()
         page.wait_for_selector(THERE)
@@ -403,10 +405,10 @@ class Playground(Browser):
 
     def test_a_picture_that_takes_long_says_so(self):
         context, held = self.context(viewport={"width": 1200, "height": 900}), []
-        passing = [1]  # number of pictures that go through at once; a request that waits in vain brings no picture
+        passing = [1]  # number of pictures that go through at once; a request without a result brings no picture
 
         def hold(route):
-            if passing[0] > 1:  # the test is over, and the page may end while an answer is fetched
+            if passing[0] > 1:  # after the test the page may end while an answer is fetched
                 return route.continue_()
             if passing[0]:
                 answer = route.fetch()

@@ -217,7 +217,7 @@ class Saving(Browser):
         held = []
         page.route("**/v1/jobs", lambda route: held.append(route))
         page.click("#save")
-        page.click("#save-cancel")  # before the server has answered
+        page.click("#save-cancel")  # cancels before the server has answered
         self.assertEqual(page.inner_text("#save-told"), "Cancelled.")
         self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
         held[0].continue_()
@@ -305,7 +305,7 @@ class Saving(Browser):
         keys, scenes = self.made(page, "#film-orbit")
         self.assertEqual(
             (keys, len(scenes)), ([{"frame": 59, "scene": {"camera": {"azimuth_deg": 34}}}], 4)
-        )  # one step from the starting value
+        )  # this is one step from the starting value
         self.assertEqual([round(s["camera"]["azimuth_deg"], 9) % 360 for s in scenes], [40, 158, 276, 34])
         page.wait_for_selector("#film-preview:visible")
         self.there(page, "Saved.", "#film-told")

@@ -38,7 +38,7 @@ class Sessions(Browser):
             page = self.page(self.context())
             page.route(
                 "**/frame?*", lambda route: route.continue_() if "after=0" in route.request.url else None
-            )  # the next picture never comes
+            )  # holds back the next picture for ever
             page.route(
                 re.compile(r"/v1/sessions/[^/?]+$"),
                 lambda route: (
@@ -73,7 +73,7 @@ class Sessions(Browser):
             ("it", "Il server calcola la prima immagine: 25 %, mancano 4 s", "prossima immagine: 25 %, mancano 4 s"),
         ):
             page = self.page(self.context())
-            page.route("**/frame?*", lambda route: None)  # the frame never comes
+            page.route("**/frame?*", lambda route: None)  # holds back the frame for ever
             page.route(re.compile(r"/v1/sessions/[^/?]+$"), told(0))
             page.goto(self.base + f"#lang={lang}&preset=default&pace=fast")
             self.there(page, words, "#first")
@@ -122,14 +122,14 @@ class Sessions(Browser):
         self.assertEqual((len(gone), len(opened())), (1, 2))
 
     def test_a_session_that_ends_while_nobody_looks(self):
-        """The session is opened anew when a user looks again. It has the size that the window then has."""
+        """When a user returns to the view, the page opens the session anew, with the present size of the window."""
         page = self.open()
         self.expected = "404"
         own = next(r.response().json() for r in self.requests if "/v1/sessions?" in r.url)
         page.click("nav [data-view=physics]")
         page.wait_for_selector(READY["physics"])
-        # A poll under way gets the end of the session. If the last picture came just as the user left the view, there
-        # is no poll, and the page notices later.
+        # A poll in progress learns that the session has ended. If the last picture came just when the user left the
+        # view, there is no poll, and the page notices later.
         self.daemon.request("DELETE", "/v1/sessions/" + own["id"], headers={"Authorization": "Bearer " + own["token"]})
         page.wait_for_timeout(300)
         page.click("nav [data-view=lensing]")
@@ -157,7 +157,7 @@ class Sessions(Browser):
                 page.goto(f"{self.base}#preset=default&lang=en&view={view}")
                 page.wait_for_selector(f"{told} >> text=The server does not answer – trying again")
                 page.unroute(fails)
-                if view != "physics":  # the view "physics" changes by itself
+                if view != "physics":  # the view "physics" changes without a user
                     page.click(f'{told} button:has-text("Try again")')
                     # A browser may remember that a module could not be loaded (Chromium 150 does, 156 does not). The
                     # user's next try then reloads the page.

@@ -41,7 +41,7 @@ def read_code(dark, size):
         upwards = not upwards
     text = "".join(map(str, map(int, bits)))
     take = lambda at, n: int(text[at : at + n], 2)
-    at = 12 if take(0, 4) == 7 else 0  # the character set, UTF-8, may come first
+    at = 12 if take(0, 4) == 7 else 0  # an indication of the character set, UTF-8, may come first
     if take(at, 4) != 4:
         raise ValueError("not a code of bytes")
     return bytes(take(at + 12 + 8 * i, 8) for i in range(take(at + 4, 8)))
@@ -89,7 +89,7 @@ class Share(Browser):
         self.assertLess(len(code), 40, "the name of the preset and no more")
 
     def test_a_code_for_telephones(self):
-        """The code is drawn when it is asked for, and holds the link."""
+        """The QR code is drawn on request, and contains the link."""
         page = self.open("lang=it&preset=smooth&pause=1")
         url = self.share(page)
         self.assertFalse([r for r in self.requests if "lean-qr" in r.url], "nothing is loaded before")
@@ -176,7 +176,7 @@ class Share(Browser):
         self.assertGreater(light[2], 2000)
 
     def test_a_film_begins(self):
-        """If the scene looks the same from all sides and nothing moves in it, the film changes the spin."""
+        """If the scene looks the same from all sides and at all times, the film changes the spin."""
         page = self.open("lang=en&preset=smooth&pause=1")
         asked = []
         page.on("request", lambda request: request.url.endswith("/v1/jobs") and asked.append(request.post_data_json))
@@ -189,7 +189,8 @@ class Share(Browser):
         self.there(page, "Cancelled.", "#film-told")
 
     def test_a_film_whose_module_comes_late_or_not_at_all(self):
-        """The button waits for the films' module, however long it takes; without it the page says so."""
+        """The button waits until the module for films is loaded, however long that takes. If it cannot be loaded, the
+        page says so."""
         self.expected = "Failed to load resource"
         page = self.open("lang=en&preset=smooth&pause=1")
         held, asked = [], []

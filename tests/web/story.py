@@ -13,7 +13,8 @@ import daemon
 
 
 class Parts(html.parser.HTMLParser):
-    """What both languages share: chapters, pictures, controls, guesses with the right answer, links to views."""
+    """The common parts of both languages: chapters, pictures, controls, guesses with the right answer, links to
+    views."""
 
     kept = ("id", "preset", "spin", "inclination", "scene", "poster", "min", "max", "step", "value", "data-set")
     kept += ("data-for", "data-says", "data-right", "type")
@@ -42,7 +43,7 @@ class Story(Browser):
         return int(re.search(rf"^{name} (\d+)", self.read("metrics"), re.MULTILINE)[1])
 
     def live(self, page, name):
-        """Whether the picture is live; then its canvas is shown."""
+        """True if the picture is live, that is, if its canvas is shown."""
         return page.evaluate(f"!document.querySelector('#{name}').shadowRoot?.querySelector('canvas').hidden")
 
     def show(self, page, name):
@@ -169,7 +170,7 @@ class Story(Browser):
         guess = page.locator(".guess button").first
         guess.click()
         outline = lambda node: node.evaluate("node => getComputedStyle(node).outlineStyle")
-        page.keyboard.press("Tab")  # the outline of the focus is another one
+        page.keyboard.press("Tab")  # moves the focus away, whose outline could be mistaken for the mark
         self.assertEqual(guess.get_attribute("aria-pressed"), "true")
         self.assertEqual((outline(guess), outline(page.locator(".guess button").last)), ("solid", "none"))
         self.shot(page, "forced-story")

@@ -1,6 +1,6 @@
 // Estimates the remaining time: the time since the start, times the share left, over the share done in that time.
-const least_ms = 3000; // an estimate needs this time
-const least_share = 0.02; // and this share
+const least_ms = 3000; // time that must have passed before the first estimate
+const least_share = 0.02; // share that must be done before the first estimate
 const smoothing = 0.2; // weight of the newest estimate
 
 // Returns left(share): seconds, or null without an estimate. share: 0 to 1, or null before it begins.

@@ -12,7 +12,7 @@ export class Problem extends Error {
 
 export const too_large = 'urn:kerrd:problem:too-large';
 
-// Whether another attempt may succeed: there was no answer, or the server had a temporary error.
+// True if another attempt may succeed: there was no answer, or the server had a temporary error.
 export const passes = error => !(error instanceof Problem) || error.status >= 500 || error.status === 429;
 
 export async function ask(url, options) {

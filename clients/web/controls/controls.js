@@ -166,7 +166,7 @@ function row(field, scene) {
   };
 }
 
-// Which details are open is kept in sessionStorage: it survives a reload but is not part of a link.
+// The names of open details are kept in sessionStorage. They survive a reload, but are not part of a link.
 function remember(details, usual) {
   const key = 'open ' + details.id;
   try {
@@ -251,7 +251,7 @@ export function buildControls(scene, living_root) {
 
   function show() {
     const grown = lists.map(grow).some(yes => yes);
-    let others = false; // whether the visible fields have changed
+    let others = false; // true if the visible fields have changed
     for (const r of rows) {
       const hidden = !meansSomething(scene, r.path);
       if (r.node.hidden !== hidden) (r.node.hidden = hidden), (others = true);

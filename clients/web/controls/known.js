@@ -1,4 +1,4 @@
-// What the page knows about single fields beyond the schema. A field that is not named here has a control as well.
+// Knowledge of the page about single fields, beyond the schema. A field that is not named here has a control as well.
 
 export const left_out = ['image.width', 'image.height']; // set by the window
 export const beside_time = ['time', 'motion.time_rate']; // shown beside the buttons that start and stop time
@@ -73,7 +73,7 @@ function hasChoice(scene, name) {
 // The value by which a switch turns its section off.
 const off = field => field.choices?.[0] ?? field.minimum;
 
-// Whether a field has an effect, by the schema and by the server's statements on the current scene.
+// True if a field has an effect, by the schema and by the server's statements on the current scene.
 export function meansSomething(scene, path) {
   const field = scene.fields.get(path),
     dot = path.lastIndexOf('.'),

@@ -10,7 +10,7 @@ const galactic = [
   [0.4941094279, -0.44482963, 0.7469822445],
   [-0.867666149, -0.1980763734, 0.4559837762],
 ];
-const equatorial = galactic[0].map((_, j) => galactic.map(axis => axis[j])); // its transpose
+const equatorial = galactic[0].map((_, j) => galactic.map(axis => axis[j])); // the transpose of `galactic`
 
 // Turns pixels of a panorama in equatorial coordinates, with the same convention: longitude 0 in the middle and growing
 // to the left, latitude upwards.

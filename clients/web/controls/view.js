@@ -13,7 +13,7 @@ const tap_px = 4; // a tap may move by up to this
 const pace_ms = 30; // least time between two updates of the scene during a drag: pictures follow no faster
 const near_r = 10; // M, within which a drag looks around by default
 
-// Whether a drag turns the camera itself rather than moving it round the hole. A choice by hand is kept in the address.
+// True if a drag turns the camera itself rather than moving it round the hole. A choice by hand is kept in the address.
 function looker(scene) {
   const button = byId('look'),
     how = byId('how'),
@@ -55,7 +55,7 @@ export function handle(stage, scene) {
   const pointers = new Map(),
     { looks, toggle } = looker(scene);
   let begin = null,
-    tapped = null, // where the only finger was put down, as long as it has not moved
+    tapped = null, // place at which the only finger was put down, as long as it has not moved
     since = -Infinity, // time at which the fingers were last followed
     timer = 0;
 
@@ -65,8 +65,8 @@ export function handle(stage, scene) {
   const far = () => get('r') === 'infinity';
   const narrows = () => looks() && !['equirectangular', 'fulldome'].includes(get('projection'));
 
-  // What the wheel and a pinch change. At infinity, and where a drag looks around, it is the field of view. Elsewhere
-  // it is the distance, which stays outside every static limit (r = 2) unless the camera is already inside.
+  // The field that the wheel and a pinch change. At infinity, and where a drag looks around, it is the field of view.
+  // Elsewhere it is the distance, which stays outside every static limit (r = 2) unless the camera is already inside.
   function reach() {
     if (get('projection') === 'ring')
       return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };

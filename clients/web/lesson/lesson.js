@@ -28,7 +28,7 @@ const memory = {
   },
 };
 
-// What follows # in the address of a copy.
+// The part after # in the address of a copy.
 function linkOf(scene) {
   const time = linkedTime(scene.get('time')),
     query = new URLSearchParams(link.entries('').filter(([key]) => !own.includes(key) && !key.startsWith('pair.')));
@@ -66,8 +66,8 @@ function wayBack(id) {
 
 function panel(scene, session) {
   let lesson = memory.get(),
-    sent = {}, // what this page sent last: session, link and words
-    turn = Promise.resolve(), // the request before
+    sent = {}, // session, link and words that this page sent last
+    turn = Promise.resolve(), // the previous request
     timer = 0,
     ended = false,
     drawn = ''; // state of the question that the panel shows now

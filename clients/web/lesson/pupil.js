@@ -3,8 +3,8 @@
 import { lang, t } from '../words/language.js';
 
 const beat_ms = 1000; // between two requests for the state of the lesson
-const again_ms = 2000; // after a request that failed
-const quality = 80, // of moving pictures
+const again_ms = 2000; // time from a failed request to the next one
+const quality = 80, // JPEG quality of moving pictures
   fine = 92; // JPEG quality of a picture at rest: less than a third of the bytes of an exact one
 
 const id = /[0-9a-f]{16}/.exec(location.hash)?.[0],
@@ -34,10 +34,10 @@ at('name').value = remember('pupil-name', () => '');
 
 let session = null, // the session that the teacher shows
   question = null,
-  refused = '', // why the pupil's last choice was not taken
+  refused = '', // the reason why the pupil's last choice was not taken
   ended = false;
 
-// What is wrong with the lesson, and with its pictures. The first message that is not empty is shown.
+// Messages about problems of the lesson, and of its pictures. The first message that is not empty is shown.
 const wrong = { lesson: '', pictures: '…' };
 function tell(of, words) {
   wrong[of] = words;

@@ -102,7 +102,7 @@ function fallen({ r, proper_time_to_horizon: left }) {
   return `r = ${number(r, 3)} M, ${horizon}; `;
 }
 
-// Why a picture has fewer pixels than the window.
+// The reason why a picture has fewer pixels than the window.
 function lessened({ narrow, part }) {
   if (narrow) return t('accuracy.a-wider-one-would', ' (a wider one would take over 0.1 s)');
   if (part < 1)

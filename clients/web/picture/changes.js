@@ -8,7 +8,7 @@ const least_samples = 2;
 export const samples = scene =>
   scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
-// Whether the page draws the scales of a scene (over/key.js). If the scene cannot have them, the session asks for them
+// True if the page draws the scales of a scene (over/key.js). If the scene cannot have them, the session asks for them
 // all the same, so that the server names the reason. During a lesson the scales are in the picture, which the pupils'
 // pages show as it is.
 const keyed = scene =>

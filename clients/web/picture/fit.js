@@ -22,7 +22,7 @@ function wide(path, base) {
   return by > 1 ? Math.max(base, Math.min(Number(value.toPrecision(4)), most[path])) : base;
 }
 
-// Whether the window is high enough to show a preset at its own width.
+// True if the window is high enough to show a preset at its own width.
 export const fits = ({ clientWidth: width, clientHeight: height }) => width > 0 && width <= widest * height;
 
 export function buildFit(scene) {

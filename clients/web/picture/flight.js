@@ -27,8 +27,8 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
     from.flight.push(one);
   }
 
-  // If pictures come only after changes, further requests would wait in vain and occupy the connections of those that
-  // carry changes.
+  // If pictures come only after changes, further requests would wait for nothing, and would occupy connections that
+  // requests with changes need.
   const depth = () => (!moving() ? 1 : line.far() && !goesOn() ? 2 : line.depth());
   const behind = from => Math.max(from.frame - 1, ...from.flight.map(({ after }) => after)) + 1;
 

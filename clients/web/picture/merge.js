@@ -20,7 +20,7 @@ export function mergePatch(before, after) {
 // Fields of the camera that a drag or a key changes.
 const by_hand = ['azimuth_deg', 'inclination_deg', 'yaw_deg', 'pitch_deg', 'field_m', 'fov_deg', 'r'];
 
-// Whether a patch only moves the camera by hand. The server's statements on the scene do not depend on that.
+// True if a patch only moves the camera by hand. The server's statements on the scene do not depend on that.
 export const moves = ({ camera, ...rest }) =>
   camera != null &&
   !Object.keys(rest).length &&

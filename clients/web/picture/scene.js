@@ -10,7 +10,8 @@ const patience_ms = 1000;
 const link_ms = 1000;
 const hand_ms = 200; // without a move for so long, a drag has come to rest
 const aside = ['tile']; // sections that the page does not use, because it shows whole pictures
-const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace', 'lesson']; // keys of a link without a dot
+// keys of a link without a dot
+const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace', 'lesson'];
 
 // Elements of a list have paths of their own: spots.0.r.
 function* flatten(schema, prefix = '') {
@@ -107,7 +108,7 @@ export class Scene extends EventTarget {
   #timer = 0;
   #hand = 0; // timer of a drag, until it comes to rest
   #clock = null; // timer of the clock without pictures
-  #linked = 0; // when the address was last updated
+  #linked = 0; // time of the latest update of the address
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody presses Play
   varies = []; // the changes that another time or azimuth would cause, as the server states them (docs/live.md)
   emitters = []; // the scene's emitters, as the server states them
@@ -287,7 +288,7 @@ export class Scene extends EventTarget {
     this.#clock = null;
   }
 
-  // Whether time runs but moves nothing visible, so that no pictures report the time.
+  // True if time runs but moves nothing visible, so that no pictures report the time.
   resting = () => this.#clock != null;
 
   // Stops or resumes everything that moves by itself.
@@ -306,7 +307,7 @@ export class Scene extends EventTarget {
     );
   }
 
-  // Whether the session's pictures follow each other without changes.
+  // True if the session's pictures follow each other without changes.
   streams = () => this.goesOn() && !this.recorded;
 
   // Takes values that the server has changed.

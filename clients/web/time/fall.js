@@ -53,13 +53,13 @@ export function buildFall(scene) {
   ].map(byId);
   let way = null, // the answer of /v1/physics/infall for the start; last: the radius where the fall ends here
     before = null,
-    held = false, // whether the scene was held before the fall
+    held = false, // true if the scene was held before the fall
     left = 0, // proper time left to the end, M
     r = 0, // its radius, M
     given = 0, // the radius that was set in the scene
     rate = 0, // the pace that was set in the scene
-    waits = false, // whether the first picture of the fall has not come yet
-    seen = 0, // when the last picture of the fall came, by performance.now()
+    waits = false, // true if the first picture of the fall has not come yet
+    seen = 0, // time of the latest picture of the fall, by performance.now()
     gap = 0, // seconds between its pictures: a maximum that decays
     guide = null, // the captions and the sound of a guided fall (guide.js)
     guided_s = 0; // as fold_s, in a guided fall

@@ -9,7 +9,7 @@ export const seconds = 90; // longer if the server makes few pictures a second
 const pitch_hz = 440; // frequency of the tone for an observer far away and at rest
 const loudness = 0.12;
 const glide_s = 0.25;
-const [width, height, rate] = [1280, 720, 30]; // of the film
+const [width, height, rate] = [1280, 720, 30]; // width, height and pictures a second of the film
 const bits = 8e6; // a second
 const last_ms = 3000; // the last caption stays in the film for so long
 const forms = ['video/webm;codecs=vp9,opus', 'video/webm;codecs=vp8,opus', 'video/mp4'];

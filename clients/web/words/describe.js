@@ -1,4 +1,4 @@
-// Descriptions of what is shown, for the page's title and for screen readers.
+// Descriptions of the shown view, for the page's title and for screen readers.
 import { byId, paced } from '../base/dom.js';
 import { number, said, t } from './i18n.js';
 
@@ -9,7 +9,7 @@ const views = {
   playground: t('common.throw', 'Throw'),
   scale: t('common.real-size', 'Real size'),
 };
-const seen = {}; // what each view shows, by the view's name
+const seen = {}; // functions that describe a view, by the view's name
 
 // Sets the description of a view; the page's title contains it while the view is open.
 export function entitle(view, what) {

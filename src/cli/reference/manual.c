@@ -179,7 +179,7 @@ static void write_exit_status(struct kd_writer *w)
                 "and its JSON pointer if there is one.\n");
 }
 
-/* Whether a text of the page mentions `kerrd NAME`. */
+/* True if a text of the page mentions `kerrd NAME`. */
 static bool names(const struct kd_context *context, const char *name)
 {
     char text[80];

@@ -12,7 +12,7 @@
  * today. Returns false if there is no such command. */
 bool kd_manual_page(struct kd_writer *w, const char *command);
 
-/* What pages contain besides the option tables: examples and environment variables. tests/cli/manual.py runs the
+/* Examples and environment variables, which pages contain besides the option tables. tests/cli/manual.py runs the
  * examples in this order, in a folder that is empty at first. */
 struct kd_example {
     const char *command; /* command whose page has the example */

@@ -43,7 +43,7 @@ static bool is_placeholder(const char *text, size_t length)
     return capital;
 }
 
-/* Whether the text is like FILE, FILE.csv or SCENE.json: capitals and an extension, which only FILE may lack. */
+/* True if the text is like FILE, FILE.csv or SCENE.json: capitals and an extension, which only FILE may lack. */
 static bool is_file(const char *text, size_t length)
 {
     const char *dot = memchr(text, '.', length);

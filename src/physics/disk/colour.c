@@ -15,7 +15,7 @@ static double planck(double wavelength, double temperature)
 struct kd_colour_xyz kd_colour_blackbody(double temperature)
 {
     struct kd_colour_xyz sum = { 0, 0, 0 };
-    /* both ends of the colour-matching functions vanish, so the plain sum is the trapezoidal rule */
+    /* the colour-matching functions vanish at both ends, so the plain sum is the trapezoidal rule */
     for (int i = 0; i < KD_CIE1931_COUNT; i++) {
         double b =
             planck((KD_CIE1931_FIRST_NM + i * KD_CIE1931_STEP_NM) * 1e-9, temperature) * KD_CIE1931_STEP_NM * 1e-9;
@@ -43,7 +43,8 @@ double kd_colour_srgb_encode(double linear)
 struct kd_colour_rgb kd_colour_blackbody_unit(double temperature)
 {
     struct kd_colour_xyz xyz = kd_colour_blackbody(temperature);
-    if (!(xyz.y > 0)) /* below about 60 K the visible light underflows: the limit is the deepest red of the gamut */
+    /* below about 60 K the visible light underflows; the colour tends to the deepest red of the gamut */
+    if (!(xyz.y > 0))
         return (struct kd_colour_rgb) { 1 / 0.2126, 0, 0 };
     struct kd_colour_rgb c = kd_colour_xyz_to_srgb((struct kd_colour_xyz) { xyz.x / xyz.y, 1, xyz.z / xyz.y });
     double low = fmin(c.r, fmin(c.g, c.b));

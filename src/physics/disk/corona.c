@@ -74,8 +74,8 @@ struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, do
 
 static double mismatch(const struct kd_corona_photon *p, double r) { return p->r > 0 ? log(p->r / r) : -INFINITY; }
 
-/* Finds the x = ln tan(delta/2) whose ray along chi meets the ring, from a guess of it and of d ln r/dx, by the secant
- * method within a bracket: r grows with x. */
+/* Finds the x = ln tan(delta/2) whose ray along chi meets the ring, from a guess of x and of d ln r/dx. It uses the
+ * secant method within a bracket, because r grows with x. */
 static bool find(const struct kd_corona_source *source, double chi, double r, double slope, double *found,
                  struct kd_corona_photon *photon)
 {
@@ -134,7 +134,8 @@ static struct kd_corona_light nodes_of(double centre, double width, double inner
 static void fill_radii(const struct kd_corona_light *c, double radii[KD_CORONA_RINGS])
 {
     const double last = c->first + (KD_CORONA_RINGS - 1) * c->step;
-    for (int k = 0; k < KD_CORONA_RINGS; k++) /* s - ln r has the sign of ln r - centre, which brackets the root */
+    /* The sign of s - ln r is that of ln r - centre, which brackets the root. */
+    for (int k = 0; k < KD_CORONA_RINGS; k++)
         radii[k] = exp(log_radius_of(c, c->first + k * c->step, fmin(c->first, c->centre), fmax(last, c->centre)));
 }
 
@@ -209,9 +210,9 @@ void kd_corona_finish(struct kd_corona *c)
     c->log_part = c->time = NULL;
 }
 
-/* Makes n angles. If n is more than the smallest number, every second one exists already. The sum over a period
- * converges as a power of n, so that after a doubling the error is about the square of the last change. The power 1.5
- * of the change is reported. */
+/* Makes n angles. If n exceeds the smallest number, every second angle exists already. The sum over a period converges
+ * as a power of n, so that after a doubling the error is about the square of the last change. The power 1.5 of the
+ * change is reported. */
 static enum kd_status take_angles(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
                                   const double *radii, int n)
 {
@@ -342,8 +343,8 @@ static bool slopes(const struct kd_corona_source *source, const double m[3], dou
     return true;
 }
 
-/* Finds the direction m whose light arrives at `want`, by Newton's method from m; *solid: the solid angle a unit of the
- * chart's area. */
+/* Finds the direction m whose light arrives at `want`, by Newton's method from m; *solid: solid angle per area of the
+ * chart. */
 static bool aim(const struct kd_corona_source *source, const double want[2], double m[3], double *solid)
 {
     double at[2], axes[2][3], rate[2][2];
@@ -404,7 +405,8 @@ static void straight(const struct kd_corona_source *source, double cos_i, double
     m[2] = sin_i * sin(azimuth);
 }
 
-/* Aims from m in this number of steps, by way of directions between the one where its light arrives and the wanted one.
+/* Aims from m in this number of steps. Intermediate targets lie between the direction in which the light of m arrives
+ * and the wanted one.
  */
 static bool aim_by_steps(const struct kd_corona_source *source, const double want[2], int steps, double m[3],
                          double *solid)
@@ -421,8 +423,8 @@ static bool aim_by_steps(const struct kd_corona_source *source, const double wan
     return true;
 }
 
-/* Aims from m. If that fails, aims from other lines, further and further from the first, which may be bent down to the
- * plane or into the hole. */
+/* Aims from m. If that fails, because the ray of m is bent down to the plane or into the hole, aims from other
+ * directions, further and further from m. */
 static bool aim_anew(const struct kd_corona_source *source, double cos_i, double azimuth, const double want[2],
                      double m[3], double *solid)
 {

@@ -51,8 +51,8 @@ struct kd_corona_source {
     struct kd_tetrad frame;
 };
 
-/* False if nothing can move like that there: the speed would be 1 or more, or the place is within KD_CORONA_LEAST times
- * the radius of the ergosphere. */
+/* False if no ring can have this motion at its place: the speed would be 1 or more, or the place is within
+ * KD_CORONA_LEAST times the radius of the ergosphere. */
 #define KD_CORONA_LEAST 1.05
 /* Least ratio of height to largest radius that KD_CORONA_ANGLES resolve: for a ring, and for other shapes. */
 #define KD_CORONA_FLATTEST 0.05
@@ -85,12 +85,12 @@ enum { KD_CORONA_PARTS = 64 };
 struct kd_corona_ring { double radius, height, weight; };
 int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring out[KD_CORONA_PARTS]);
 
-/* What one ring of a corona sends to the rings of the disk, by angle. */
+/* The light that one ring of a corona sends to the rings of the disk, by angle. */
 struct kd_corona {
     struct kd_corona_light light;
     int angles;
-    /* Both by ring and angle, malloc'd. log_part: ln of the angle's part of epsilon; time: coordinate time from source
-     * to disk. */
+    /* Arrays by ring and angle, malloc'd. log_part: ln of the angle's part of epsilon; time: coordinate time from
+     * source to disk. */
     double *log_part, *time;
 };
 
@@ -100,7 +100,7 @@ struct kd_corona {
 enum kd_status kd_corona_init(struct kd_corona *corona, const struct kd_corona_source *source, double photon_index,
                               double inner, double outer);
 void kd_corona_finish(struct kd_corona *corona);
-/* Writes each angle's part of epsilon and its time at r. */
+/* Writes, for each angle, the part of epsilon and the time at the radius r. */
 void kd_corona_parts(const struct kd_corona *corona, double r, double *part, double *time);
 
 /* The light of a ring that reaches an observer at infinity without meeting the plane, from `n` azimuths. */

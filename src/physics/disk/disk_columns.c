@@ -20,13 +20,14 @@ enum {
     NARROW = 8,   /* number of cells across a narrow disk, at least */
     SEARCHED = 24 /* steps of the golden section to the smallest radius of a column */
 };
-#define ASIDE 0.01 /* of a column's width: the distance of a ray for the slope of r */
+#define ASIDE 0.01 /* distance of the rays for the slope of r, as a fraction of a column's width */
 #define SHORTER 0.61803398874989485
 
-/* What is seen instead of the disk. */
+/* Values for a ray that shows no point of the disk. */
 enum { WITHIN = -1, BEYOND = -2 };
 
-/* A place on a column: what is seen, and the radius of the first crossing; 0: captured before, INFINITY: none. */
+/* A place on a column, with the face or value seen there and the radius of the first crossing. The radius is 0 if the
+ * ray is captured before, and INFINITY if it escapes. */
 struct place {
     struct kd_disk_end seen;
     double first;
@@ -59,7 +60,7 @@ struct column {
 
 static bool lit(const struct kd_disk_end *end) { return end->order >= 0; }
 
-/* dr/dalpha at one beta, from a ray on either side; 0 if both show something else. */
+/* dr/dalpha at one beta, from a ray on either side; 0 if neither ray shows the disk. */
 static double slope_at(const struct column *column, const struct kd_disk_end *at)
 {
     for (int k = -1; k <= 1; k += 2) {
@@ -87,8 +88,8 @@ static bool close_to(const struct column *column, const struct kd_disk_end *x, c
     return x->order == y->order && (x->r < split) == (y->r < split) && fabs(log(y->r / x->r)) < column->step;
 }
 
-/* Halves a cell until r is even enough in it, or an edge is found to 2^-DEEPEST of the first division. Half of a cell
- * with an edge is counted to each end. */
+/* Halves a cell until r is even enough in it, or an edge is found to 2^-DEEPEST of the first division. A cell with an
+ * edge is divided equally between its two ends. */
 static void divide(const struct column *column, const struct kd_disk_end *x, const struct kd_disk_end *y, int depth)
 {
     const double length = y->beta - x->beta;

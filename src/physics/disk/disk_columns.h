@@ -10,7 +10,7 @@
 
 #include "physics/disk/disk_image.h"
 
-/* A place of a column. order: 0 for the upper face, 1 for the lower one. */
+/* A place of a column. order: 0 on the upper face, 1 on the lower face. */
 struct kd_disk_end {
     double beta, r;
     int order;

@@ -16,7 +16,7 @@ enum { POINTS = 6 }; /* number of nodes that an interpolation uses */
 #define NODES 1e-7  /* error of ln r at the nodes */
 #define PLACE 1e-12 /* error of ln r at a single requested place */
 #define BENDS 10.   /* maximum relative change of a slope per unit of ln r */
-/* error of a slope: this value if only the slope of flat space is known; otherwise this fraction of the error of the
+/* error of a slope if only the slope of flat space is known; otherwise the error is this fraction of that of the
  * extrapolation from the preceding rings */
 #define DRIFTS 0.2
 #define FLATTEST 0.1  /* all slopes that occur lie between this and its inverse */
@@ -55,7 +55,7 @@ double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, dou
 {
     struct kd_null_motion m = kd_null_motion_of(&image->hole, image->cos_i, image->sin_i, alpha, beta);
     if (!(m.eta > 0))
-        return m.k > 27 ? INFINITY : 0; /* vortical: the ray never meets the plane */
+        return m.k > 27 ? INFINITY : 0; /* a vortical ray never meets the plane */
     struct kd_null_roots roots = kd_null_roots_of(&m);
     return kd_null_radius_after(&m, &roots, kd_null_polar_first(&m));
 }
@@ -210,7 +210,8 @@ static bool make_ring(struct kd_disk_image *image, int k)
 
 bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole, double inclination)
 {
-    const double cosine = fabs(cos(inclination)), c = cosine < 1e-15 ? 0 : cosine; /* pi/2 is rounded */
+    /* pi/2 is rounded, so that its cosine is not 0 */
+    const double cosine = fabs(cos(inclination)), c = cosine < 1e-15 ? 0 : cosine;
     memset(image, 0, sizeof *image);
     image->hole = *hole, image->cos_i = c, image->sin_i = sin(inclination);
     image->isco = kd_kerr_isco(hole), image->horizon = hole->outer;

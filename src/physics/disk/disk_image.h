@@ -33,7 +33,8 @@ struct kd_disk_image {
     double isco, horizon, origin;
     int angles;                                                      /* 64 to 512: more towards edge-on; 0: no table */
     double cosine[KD_DISK_IMAGE_ANGLES], sine[KD_DISK_IMAGE_ANGLES]; /* of directions */
-    double stretch[KD_DISK_IMAGE_RINGS + 1][KD_DISK_IMAGE_ANGLES];   /* R; row 0: infinity; the last row: the ISCO */
+    /* R; row 0 is that of infinity, the last row that of the ISCO */
+    double stretch[KD_DISK_IMAGE_RINGS + 1][KD_DISK_IMAGE_ANGLES];
 };
 
 /* inclination in radians, 0 to pi. Next to edge-on there is no table: only the functions below that trace one ray and

@@ -11,8 +11,9 @@
 enum { PANELS = 32, GAUSS = 3 };
 static const double at_gauss[GAUSS] = { -0.7745966692414834, 0, 0.7745966692414834 },
                     share_gauss[GAUSS] = { 5. / 18, 8. / 18, 5. / 18 };
-/* fraction of the change from every second node that is reported: the table's error falls at best as the sixth power
- * of the step, so twice the step shows 63 times the error (as in line_profile.c) */
+/* The sum with every second node differs from the full sum; this fraction of the difference is reported as the error.
+ * The table's error falls at best as the sixth power of the step, so the difference is 63 times the error (as in
+ * line_profile.c) */
 #define TABLE 0.125
 /* cos i below which the error of sums does not yet fall as the square of the cells. In this range, sums at random
  * had errors of up to 2.1 times the estimate (tests/unit/told_spectra.c), so four times the estimate is reported. */
@@ -40,7 +41,7 @@ static double stretch_of(const struct ring *ring, double apart, int j, int n)
     return fabs(a_r * along(ring->beta, j, n) - b_r * along(ring->alpha, j, n));
 }
 
-/* Returns the step in ln r to its neighbours. */
+/* Sets up a ring at r. Returns the step in ln r to its neighbours. */
 static double go_to(const struct kd_disk_image *image, double r, int skip, int n, struct ring *ring)
 {
     const double apart = kd_disk_image_step(image, r, APART);
@@ -89,7 +90,7 @@ static void integrate(const struct kd_disk_image *image, const struct kd_disk_sp
         for (int k = 0; k < GAUSS; k++) {
             if (kd_pause())
                 return;
-            /* ln r = ln inner + span s^2, since T varies as the square root of r - r_isco. */
+            /* ln r = ln inner + span s^2, because T varies as the square root of r - r_isco. */
             double s = (i + 0.5 + 0.5 * at_gauss[k]) / panels;
             add_ring(image, p, p->inner * exp(span * s * s), span * 2 * s * share_gauss[k] / panels, looks.skip, n,
                      frequencies, n_f, ring, sum);

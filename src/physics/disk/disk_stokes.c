@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STEP 0.02   /* of ln T */
+#define STEP 0.02   /* step of ln T between nodes */
 #define COLDEST -10 /* ln T of node 0; T is over the largest temperature of the disk */
 enum {
     RINGS = 24,   /* nodes in s = sqrt(r_isco/r) at which reflected light is computed */
@@ -68,7 +68,7 @@ static struct meeting meeting_of(const struct kd_hole *hole, double r, double e,
     return m;
 }
 
-/* Light that a ring reflects: for each node of the cosine and of ln T, its Fourier series in the azimuth. */
+/* Light that a ring reflects, as a Fourier series in the azimuth for each node of the cosine and of ln T. */
 struct mirror {
     const struct kd_hole *hole;
     const struct kd_disk_spectrum_params *p;
@@ -180,7 +180,7 @@ static void cheb_weights(const double *nodes, int n, double x, double *weights)
         weights[j] /= sum;
 }
 
-/* All that a spectrum needs. */
+/* State of the computation of a spectrum. */
 struct work {
     struct kd_disk_stokes *out;
     const struct kd_disk_image *image;

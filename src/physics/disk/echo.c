@@ -149,7 +149,7 @@ static double overlap(double low, double high, const double *edges, size_t i)
     return fmax(0, fmin(high, edges[i + 1]) - fmax(low, edges[i])) / (high - low);
 }
 
-/* Bins that a range touches: first to end - 1. */
+/* The bins that a range overlaps, from first to end - 1. */
 struct touched { size_t first, end; };
 
 /* Spreads light evenly over the times from `from` to `to`. */
@@ -188,7 +188,7 @@ static void add_part(const struct view *view, const struct cell *c, size_t ring,
                  wide = REACH(g), late = AT(time, across, along) - zero, slow = REACH(time);
     double before = 0, before_part = 0;
     struct touched all = { s->times, 0 };
-    /* begins with the last angle, because it is the first one's neighbour */
+    /* starts from the last angle, because it is the neighbour of the first one */
     for (size_t k = n > 1 ? 0 : 1; k <= n; k++) {
         const size_t j = (k + n - 1) % n;
         const double bright = light * ((1 - across) * parts[0][j] + across * parts[1][j]),
@@ -293,8 +293,7 @@ done:
     return status;
 }
 
-/* Light of the corona at a ring. log_epsilon: ln epsilon. mean: mean of t_1. of: for each frequency, the mean of exp(2
- * pi i f (t_1 - mean)). */
+/* Light of the corona at a ring. mean: mean of t_1. of: mean of exp(2 pi i f (t_1 - mean)) at each frequency. */
 struct beat { double log_epsilon, mean, *of; /* real and imaginary parts */ };
 
 static void fill_beat(const struct view *view, size_t i, const double *frequencies, size_t n, struct beat *beat)

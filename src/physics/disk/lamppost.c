@@ -28,7 +28,7 @@ static double mismatch(const struct kd_hole *hole, double h, double delta, doubl
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* Finds the angle delta at which the light that meets the ring starts, from a guess, by the secant method within a
+/* Finds the starting angle delta of the light that meets the ring, from a guess, by the secant method within a
  * bracket. */
 static bool find(const struct kd_hole *hole, double h, double r, double slope, double *delta)
 {
@@ -60,7 +60,7 @@ bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, doub
             delta += fmin(lamp->step / slope, 0.5 * (M_PI - delta));
         if (!find(hole, h, r, slope, &delta))
             return false;
-        /* The slope of ln r in delta grows as r/h, so the step is scaled by its inverse. */
+        /* The slope of ln r in delta grows as r/h, so the step is scaled by the inverse of the slope. */
         double near = 1e-4 * fmin(1, 1 / slope) * fmin(delta, M_PI - delta);
         slope = (mismatch(hole, h, delta + near, r) - mismatch(hole, h, delta - near, r)) / (2 * near);
         if (!(slope > 0) || !isfinite(slope))

@@ -59,7 +59,8 @@ struct strip {
 
 struct sum {
     const double *edges;
-    int bins, last; /* last: the bin that last received light, because neighbouring cells fall nearby */
+    int bins, last; /* last: the bin that last received light, where the search starts, because neighbouring cells have
+                       similar energies */
     double *in;     /* light in each bin */
     double total;
 };
@@ -223,7 +224,7 @@ struct by_columns {
     };
 };
 
-/* g at the middle of a cell, `part` of its width aside; the disk ends at its edges. */
+/* g at the distance of `part` of a cell's width from its middle. The disk ends at its edges. */
 static double beside(const struct by_columns *u, const struct kd_disk_cell *cell, double part)
 {
     const double aside = part * cell->width,
@@ -284,8 +285,8 @@ static void integrate(const struct kd_disk_image *image, const struct kd_line_pa
     add_rings(image, &outside, received, looks, work, s);
 }
 
-/* Edges of the bins of the sums: the requested ones, and more between and beyond them, because the error estimate needs
- * many. If two sums are compared at a few edges only, they may agree there by chance. */
+/* Edges of the bins of the sums. They are the requested edges, and more edges between and beyond them, because the
+ * error estimate needs many. If two sums are compared at a few edges only, they may agree there by chance. */
 struct edges {
     double *at;
     int n, bins;       /* number of requested edges; bins of the sums */
@@ -332,7 +333,7 @@ static struct range energies(const struct kd_disk_image *image, const struct kd_
     return range;
 }
 
-/* Adds edges from `from` on and below `to`: the first one, and within the line one at each LOOKED-th part of it. */
+/* Adds edges in [from, to): one at `from`, and within the line one at each LOOKED-th part of its range. */
 static int divide(double from, double to, const struct range *line, double *at)
 {
     double low = fmax(from, line->low), high = fmin(to, line->high);
@@ -387,10 +388,11 @@ enum { LEVELS = 5 }; /* 16, 8, 4, 2 and 1 times fewer rings and angles */
  * one, sums[*n], is the answer. Returns the estimated error.
  *
  * The error of the cells falls as the square of their size, so that halving changes the sum by three times the
- * remaining error: three quarters of the difference are reported, for safety. Near edge-on, where this does not hold
- * yet, the whole difference is reported, from at least four sums. Two sums may agree by chance, so at least a
- * quarter of what the halving before suggests is reported. The error of the table falls as the sixth power of its
- * step, so that twice the step shows 63 times the error: an eighth is reported, and near edge-on a quarter. */
+ * remaining error. For safety three quarters of the difference are reported. Near edge-on, where this does not hold
+ * yet, the whole difference is reported, from at least four sums. Two sums may agree by chance. The reported error is
+ * therefore at least a quarter of the error that the halving before suggests. The error of the table falls as the sixth
+ * power of its step, so that the sum with twice the step differs by 63 times the error. An eighth of the difference is
+ * reported, and near edge-on a quarter. */
 static double approach(const struct kd_disk_image *image, const struct kd_line_params *p,
                        const struct received *received, const struct edges *edges, struct work *work,
                        struct sum sums[LEVELS + 1], int *n)

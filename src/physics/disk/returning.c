@@ -74,7 +74,7 @@ static struct kd_null_path path_of(const struct kd_hole *hole, const struct ring
     return kd_null_trace_fast(&ray);
 }
 
-/* 1/r of crossing n. INFINITY: the ray is captured before; -INFINITY: it escapes before. */
+/* 1/r of crossing n. INFINITY if the ray is captured before, -INFINITY if it escapes before. */
 static double follow(const struct kd_hole *hole, const struct ring *o, double cos_chi, double x, int n)
 {
     const struct light p = light_of(o, sine(x), cos_chi);
@@ -149,7 +149,7 @@ static struct rule rule_of(void)
     return rule;
 }
 
-/* 1/r of the second crossing of the ray that has its first at the ISCO. */
+/* 1/r of the second crossing of the ray whose first crossing is at the ISCO. */
 static double beyond(const struct kd_hole *hole, const struct ring *o, double isco, double cos_chi, double *guess)
 {
     *guess = edge(hole, o, cos_chi, 0, 1 / isco, *guess);
@@ -246,7 +246,7 @@ static void add_strip(const struct ring *o, enum kd_limb limb, const struct rule
     }
 }
 
-/* Adds the light along one chi to the sums of where it goes. */
+/* Adds the light along one chi to the sums for its destinations. */
 static void add_side(const struct ring *o, enum kd_limb limb, const struct rule *rule, const struct parts *parts,
                      struct side side, struct kd_returning_ring *sum)
 {
@@ -508,7 +508,7 @@ static void make_ring(void *user, size_t i)
     table->energy.returns[i] = shares.energy.returns, table->energy.falls_in[i] = shares.energy.falls_in;
 }
 
-/* Returns false if nobody waits for the table any more. */
+/* Makes the table. Returns false if nobody waits for it any more. */
 static bool make(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
 {
     struct making m = { .table = table, .rule = rule_of() };

@@ -34,11 +34,12 @@
 
 enum { KD_RETURNING_RINGS = 24 };
 
-/* Shares of light, by where it goes. Their sum is 1. */
+/* Shares of light by destination. Their sum is 1. */
 struct kd_returning_shares { double returns, falls_in, escapes; };
 
-/* Where the light of a ring at r >= ISCO goes when it first leaves the disk. photons: shares of the photons. energy:
- * shares of their energy at infinity. error: the larger deviation of the two sums of shares from 1. Takes some 4 ms. */
+/* Destinations of the light of a ring at r >= ISCO when it first leaves the disk. photons: shares of the photons.
+ * energy: shares of their energy at infinity. error: the larger deviation of the two sums of shares from 1. Takes some
+ * 4 ms. */
 struct kd_returning_ring {
     struct kd_returning_shares photons, energy;
     double error;
@@ -72,9 +73,10 @@ struct kd_returning {
      * angular momentum. */
     double once[KD_RETURNING_RINGS], lacks[KD_RETURNING_RINGS];
     struct kd_returning_list { double returns[KD_RETURNING_RINGS], falls_in[KD_RETURNING_RINGS]; } photons, energy;
-    struct kd_returning_shares first;  /* shares of Page & Thorne's luminosity, by where the light goes first */
-    struct kd_returning_shares lastly; /* shares of the same luminosity, by where the light ends; `returns` is 0 */
-    double hottest, largest;           /* radius of the largest F; the largest F, over Mdot */
+    struct kd_returning_shares first; /* shares of Page & Thorne's luminosity by the light's first destination */
+    /* shares of the same luminosity by the light's last destination; `returns` is 0 */
+    struct kd_returning_shares lastly;
+    double hottest, largest; /* radius of the largest F; the largest F, over Mdot */
     /* Matrices for kd_reflection_init. They give r^3 Int g^5 F T/pi f(mu_e) mu dOmega at the nodes, where F and T are
      * the flux and the temperature of the light that rings emit: warmth_of from r^(15/4) F T at the nodes, echo_of from
      * r^3 F T. */

@@ -24,7 +24,7 @@ static struct rule gauss(void)
 }
 
 /* H(mu) for the characteristic function psi = scale (1 + two mu^2 + four mu^4): 1/H = sqrt(1 - 2 psi0) + the integral
- * of psi(m) m H(m)/(mu + m), psi0 being the integral of psi (section 38, equation 12), from its values at the nodes.
+ * of psi(m) m H(m)/(mu + m), where psi0 is the integral of psi (section 38, equation 12), from its values at the nodes.
  * root is that square root. */
 struct law { double scale, two, four, root; };
 

@@ -15,7 +15,7 @@ double kd_synchrotron_depth_unit(void)
     return kd_synchrotron_light_unit() * KD_C_M_S * KD_C_M_S / (2 * KD_H_J_S * GHZ * GHZ * GHZ);
 }
 
-/* e^2/(m_e c) cm^-3/GHz in the unit of absorptivity, as log2. */
+/* log2 of e^2/(m_e c) cm^-3/GHz in the unit of absorptivity. */
 static double depth_scale(void)
 {
     return log2(CLASSICAL / (KD_ELECTRON_KG * KD_C_M_S) * CM3 / GHZ / kd_synchrotron_depth_unit());

@@ -91,7 +91,7 @@ static double charged_flux(const struct kd_hole *hole, double r)
     return fmax(0, (3 * r - 4 * q2) / (2 * at.s * r * at.p2) * bracket) / (4 * M_PI * r);
 }
 
-/* A function that is positive where the flux grows with r; the place is s_0 + beyond. (P^2)' = 2r - 3 + a/s. */
+/* A function that is positive where the flux grows with r, at the place s = s_0 + beyond. (P^2)' = 2r - 3 + a/s. */
 static double charged_growth(const void *user, double beyond)
 {
     struct charged o = *(const struct charged *)user;
@@ -158,7 +158,7 @@ static double share(double along, double left, const void *context)
     return r->turns * (beyond + r->gap) * slope_of_bracket(r->a, r->y0, beyond);
 }
 
-/* A function that is positive where the flux grows with r; the place is x0 + span. */
+/* A function that is positive where the flux grows with r, at the place x = x0 + span. */
 static double growth(const void *user, double span)
 {
     struct rise r = *(const struct rise *)user;
@@ -180,7 +180,7 @@ double kd_disk_peak_page_thorne(const struct kd_hole *hole)
 
 double kd_disk_peak_shakura_sunyaev(const struct kd_hole *hole)
 {
-    return 49. / 36 * kd_kerr_isco(hole); /* where the derivative of (1 - sqrt(r_in/r))/r^3 vanishes */
+    return 49. / 36 * kd_kerr_isco(hole); /* here the derivative of (1 - sqrt(r_in/r))/r^3 vanishes */
 }
 
 double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda)

@@ -28,9 +28,10 @@ double kd_disk_peak_shakura_sunyaev(const struct kd_hole *hole);
  * for a photon of lambda = L/E. Cunningham 1975, ApJ 202, 788. */
 double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda);
 
-/* The same for gas that plunges from the ISCO with the energy and angular momentum of the orbit there (Cunningham
- * 1975), r+ < r <= ISCO. outwards: the photon leaves the gas with p^r > 0, that is, the ray traced back from the eye
- * has not yet passed its turning point. eta = Q/E^2; E > 0. Zero at the horizon for photons emitted outwards. */
+/* The redshift factor of gas that plunges from the ISCO with the energy and angular momentum of the orbit there
+ * (Cunningham 1975), r+ < r <= ISCO. outwards: the photon leaves the gas with p^r > 0, that is, the ray traced back
+ * from the eye has not yet passed its turning point. eta = Q/E^2; E > 0. Zero at the horizon for photons emitted
+ * outwards. */
 double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double lambda, double eta, bool outwards);
 
 /* These are in SI units, for a mass in solar masses and an accretion rate in units of L_Edd / (efficiency(a) c^2), with

@@ -76,8 +76,8 @@ bool kd_transfer_ring_of(const struct kd_disk_image *image, double r, struct kd_
     return ring.g_max > ring.g_min;
 }
 
-/* |dr/d beta| at one alpha next to edge-on, where the near side of a ring is a strip of width r cos i: from the places
- * of two rings beside this one. */
+/* |dr/d beta| at one alpha next to edge-on, from the places of two neighbouring rings. There the near side of a ring is
+ * a strip of width r cos i. */
 static double steepness(const struct line *s, double lowest, int k)
 {
     const double depth = fmin(1, -off(s, lowest) / s->r), apart = APART * depth, end = k ? reach(s) : -reach(s);

@@ -109,7 +109,7 @@ double kd_carlson_rj_arg(struct kd_carlson_arg s, double p)
         if (converged(x, yz) && y_z * y_z < spread2)
             break;
         double rp = sqrt(p), d = (rp + s.first) * (p + rp * s.sum + s.root);
-        /* a product of positive terms, which rounding must not make negative */
+        /* fmax, because rounding must not make this product of positive terms negative */
         sum += scale / d * rc_unit(fmax(delta / (d * d), -1 + 1e-16));
         p = 0.25 * (p + s.first * s.sum + s.root);
         duplicate(&s);
@@ -176,7 +176,7 @@ static double series_slope(double x, double y_z, double yz, double p, double q)
  * difference of this term, by those of d, delta = (p - x)(p - y)(p - z) and e = delta/d^2. */
 double kd_carlson_rj_slope(struct kd_carlson_arg s, double p, double q)
 {
-    if (p < q) /* e would be a difference of large numbers for a far smaller p */
+    if (p < q) /* otherwise e would be a difference of large numbers if p is far smaller */
         return kd_carlson_rj_slope(s, q, p);
     if (!(s.first >= 0 && s.sum > 0 && s.root >= 0 && p > 0 && q > 0) || (s.first == 0 && s.root == 0))
         return NAN;

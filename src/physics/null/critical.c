@@ -11,7 +11,7 @@ enum { POINTS_MIN = 32, POINTS_MAX = 8192 };
 struct place {
     struct kd_shell_orbit orbit;
     double alpha, beta2;
-    double right, up2, inwards, energy; /* energy: at infinity, over the measured energy */
+    double right, up2, inwards, energy; /* energy: energy at infinity over the measured energy */
     double x, y2;                       /* relative to the centre; at a finite radius, components of the direction */
 };
 
@@ -205,8 +205,7 @@ struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double a
     return upper(c, c->low + (c->high - c->low) * half * half);
 }
 
-/* The coordinate (ln y - ln y_P)/(a sin i) of a place, and its inverse (below). Where it is small it is w/(y_P sin
- * i). */
+/* The coordinate (ln y - ln y_P)/(a sin i) of a place; its inverse is below. If it is small, it is w/(y_P sin i). */
 static double evenly(const struct kd_critical *c, double at)
 {
     const struct kd_shell *s = &c->shell;
@@ -231,8 +230,8 @@ struct kd_critical_point kd_critical_round(const struct kd_critical *c, double a
     return upper(c, along <= 0 ? c->low : along >= 1 ? c->high : place_evenly(c, low + (high - low) * half * half));
 }
 
-/* Sums over the upper half of the curve, with half the weight at the ends. Half the width is subtracted from rho, so
- * that squares keep their digits. */
+/* Sums over the upper half of the curve, with half the weight at the ends. Half the curve's width is subtracted from
+ * rho, so that squares keep their digits. */
 struct sums { double off, off2, area; };
 
 static void add(const struct kd_critical *c, double angle, double weight, struct sums *s)
@@ -243,7 +242,7 @@ static void add(const struct kd_critical *c, double angle, double weight, struct
     s->area += weight * (isinf(c->observer.radius) ? 0.5 * rho * rho : 2 * half * half);
 }
 
-/* Largest height, which is where d(rho sin(angle)) = 0: golden section between the neighbours of the highest sample. */
+/* Largest height, where d(rho sin(angle)) = 0, by golden section between the neighbours of the highest sample. */
 static double height(const struct kd_critical *c, double step)
 {
     const double golden = 0.5 * (sqrt(5) - 1);

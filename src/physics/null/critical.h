@@ -58,10 +58,11 @@ struct kd_critical {
     enum kd_critical_status status;
     struct kd_critical_observer observer;
     struct kd_shell shell;
-    struct kd_tetrad tetrad; /* at a finite radius; if the observer moves along theta, that of zero angular momentum */
+    struct kd_tetrad tetrad; /* at a finite radius: the observer's tetrad or, if the observer moves along theta, that of
+                                zero angular momentum */
     struct kd_tetrad skew;   /* the own tetrad of an observer that moves along theta; otherwise not set */
     bool is_skew;
-    double sine;        /* of the inclination                          */
+    double sine;        /* sine of the inclination                   */
     double low, high;   /* places of the orbits at the left and right end, divided by `sine` unless that is 0 */
     double left, right; /* positions of the ends: alpha, or the angle to the right of -e_r */
     double centre;
@@ -77,7 +78,7 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *observer);
 struct kd_critical_point {
     struct kd_shell_orbit orbit;
     double alpha, beta;
-    double angle, rho;         /* about the centre                                   */
+    double angle, rho;         /* polar coordinates about the centre                 */
     double right, up, inwards; /* direction, at a finite radius; at infinity 0, 0, 1 */
 };
 

@@ -35,7 +35,7 @@ static double quartic(const struct light *o) { return kd_hole_quartic(o->hole, 0
 
 struct far {
     struct light light;
-    double w0; /* at the closest approach */
+    double w0; /* w at the closest approach */
 };
 
 /* With w = w0 sin(psi) the first root cancels in w'^2 = w0^2 cos^2(psi) D(psi), and

@@ -12,8 +12,7 @@
  * then accurate to some 1e-14. */
 #define NEAR 0.03
 
-/* At this distance a ray cannot be distinguished from the critical one: the two crossings differ by less than
- * rounding. */
+/* At this distance the crossings of a ray differ from those of the critical ray by less than rounding. */
 #define ON_CURVE 1e-40
 
 /* The largest |d| inside the curve, almost at its centre. Exactly at the centre beta = 0, and a start in the plane
@@ -100,7 +99,7 @@ static double solve(kd_root_fn f, const struct search *q, double expected, doubl
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);
     for (int i = 0; !(f(q, low) < 0); i++, low -= 4)
-        if (i > 150) /* e^-600 is reached without a sign change */
+        if (i > 150) /* gives up, because e^-600 is reached without a sign change */
             return NAN;
     while (high < end && !(f(q, high) > 0))
         high = fmin(high + 2, end);
@@ -126,7 +125,7 @@ double kd_lensing_edge(const struct kd_critical *c, const struct kd_critical_poi
         far = solve(beyond, &q, 0, far);
         struct ray turn = ray_of(&q, far);
         q.out = !(turn.crossing < turn.radial.turn.tau);
-        far -= 1e-13 * (1 + fabs(far)); /* slightly nearer, so that the ray still reaches the source */
+        far -= 1e-13 * (1 + fabs(far)); /* moved slightly inwards, so that the ray still reaches the source */
     } else {
         q.out = true;
     }

@@ -65,8 +65,8 @@ static double drag_rate(const struct swing *w, double s2)
     return 1 / (speed * (w->full + speed));
 }
 
-/* sin^2 of pi/16, 3 pi/16, 5 pi/16, 7 pi/16: over a whole period the midpoint rule converges as fast as Gauss's;
- * kappa^8 is below 1e-8 outside the shadow. */
+/* sin^2 of pi/16, 3 pi/16, 5 pi/16, 7 pi/16: nodes of the midpoint rule, which converges over a whole period as fast as
+ * Gauss's. kappa^8 is below 1e-8 outside the shadow. */
 static const double squares[] = { 0.03806023374435662, 0.30865828381745514, 0.69134171618254486, 0.96193976625564338 };
 
 static double dragged(const struct swing *w, double from, double to)

@@ -1,6 +1,6 @@
-/* Deflection of an escaping ray as two angles that are smooth functions of the ray, however often it goes round,
- * across the axis or along the equator. They can therefore be interpolated from a few rays, whereas the direction of
- * escape cannot. Double precision; pure; any thread.
+/* Deflection of an escaping ray, given as two angles. They are smooth functions of the ray, however often it goes
+ * round, across the axis or along the equator. They can therefore be interpolated from a few rays, while the direction
+ * of escape cannot. Double precision; pure; any thread.
  *
  * The ray turns by `turn` in a plane through the hole, initially spanned by the observer's place o and the tangent
  * t, and this plane is dragged about the axis by `drag`. Traced back the ray ends at Rz(drag) (cos(turn) o +
@@ -22,7 +22,7 @@
 #include "physics/null/null_geodesic.h"
 
 struct kd_null_bend {
-    double turn, drag;     /* for the ray traced back; not reduced to a turn */
+    double turn, drag;     /* angles of the ray traced back; not reduced to a turn */
     double t_theta, t_phi; /* a unit vector */
 };
 

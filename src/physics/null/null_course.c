@@ -114,8 +114,8 @@ static double drift(const struct course *c, const struct state *s)
     return worst;
 }
 
-/* Advances the azimuth to a state. A ray through the axis turns by pi there. With alpha = 0 it turns towards -phi. A
- * ray from an observer on the axis turns like its neighbours, whose lambda has the sign of -alpha (null_polar.h). */
+/* Advances the azimuth to a state. A ray through the axis turns by pi there, towards -phi if alpha = 0. A ray from an
+ * observer on the axis turns like its neighbours, whose lambda has the sign of -alpha (null_polar.h). */
 static void turn(struct course *c, const struct state *s)
 {
     const double x = s->y[NX], y = s->y[NY], dot = c->last_x * x + c->last_y * y, cross = c->last_x * y - c->last_y * x;
@@ -222,7 +222,7 @@ static bool has_pole(const struct course *c)
     return c->ingoing == 0 || c->now.y[DW] > 0 || (c->now.y[W] > c->horizon && is_dark(c));
 }
 
-/* Takes a step of at most h, or up to a crossing, which becomes a place. False: no room is left. */
+/* Takes a step of at most h, or up to a crossing, which becomes a place. Returns false if no room is left. */
 static bool go(struct course *c, double h)
 {
     const double *y = c->now.y, left = fabs(c->horizon - y[W]), speed = fabs(y[DW]);
@@ -240,7 +240,7 @@ static bool go(struct course *c, double h)
     turn(c, &next);
     if (!crosses)
         return true;
-    /* from here on the side of the plane counts, regardless of rounding in u */
+    /* from here on the ray counts as on this side of the plane, regardless of rounding in u */
     const double side = next.y[VZ];
     c->now.y[NZ] = copysign(1e-300, side);
     const bool room = next.y[W] < c->first || put(c, &next, c->order);
@@ -268,11 +268,11 @@ static void run(struct course *c, double near)
         room = go(c, h);
         to->steps = i;
         const double w = c->now.y[W], dw = c->now.y[DW];
-        if (!isfinite(w)) { /* diverged: the loop would not end */
+        if (!isfinite(w)) { /* w has diverged, and the loop would not end */
             to->end = KD_COURSE_NONE;
             return;
         }
-        if (w < c->first && dw < 0) { /* far enough: record the place where r = far was passed */
+        if (w < c->first && dw < 0) { /* the ray is far enough out: records the place at which it passed r = far */
             to->end = KD_COURSE_ESCAPED;
             if (before.y[W] > c->first && room) {
                 c->way = way;

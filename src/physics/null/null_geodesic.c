@@ -41,7 +41,7 @@ static struct kd_null_radial_sum add(struct kd_null_radial_sum x, struct kd_null
 static struct kd_null_radial_sum travelled(const struct motion *m, struct kd_null_radial_sum from, double tau)
 {
     double at = m->begin + m->forward * tau;
-    if (m->radial.inner) /* counted from r3, which is passed at 0 */
+    if (m->radial.inner) /* INNER: time is counted from r3, which the ray passes at 0 */
         return at < 0         ? sub((struct kd_null_radial_sum) { -m->begin, m->start.phi, m->start.t }, from)
                : m->begin < 0 ? add(m->start, from)
                               : sub(from, m->start);
@@ -82,10 +82,10 @@ static void disturb(const struct motion *m, double tau, struct kd_null_crossing 
     x->error_delay = passed * rate.t;
 }
 
-/* The place at Mino time `tau` from the observer, without the polar parts of azimuth and time. r is rounded. That
- * affects phi and t where dr/dtau is small (long stays near the photon sphere), or phi' and t' are large (the horizon).
- * Their integrals belong to the Mino time of the rounded r. This time is known, so the integrals are corrected by the
- * difference. */
+/* The place at Mino time `tau` from the observer, without the polar parts of azimuth and time. r is rounded. This
+ * rounding affects phi and t if dr/dtau is small, near the photon sphere, or if phi' and t' are large, at the horizon.
+ * The integrals of phi and t belong to the Mino time of the rounded r. This time is known, so the integrals are
+ * corrected by the difference. */
 static bool reach(const struct motion *m, double tau, struct kd_null_crossing *x)
 {
     const struct kd_null_radial *q = &m->radial;

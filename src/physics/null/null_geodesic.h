@@ -37,13 +37,14 @@ struct kd_null_ray {
 
 enum kd_null_status {
     KD_NULL_OK,
-    KD_NULL_IN_PLANE,  /* the ray lies in the equatorial plane: only fate and direction are given */
-    KD_NULL_CRITICAL,  /* on the critical curve to within rounding: fate, direction and late crossings are uncertain */
+    KD_NULL_IN_PLANE,  /* the ray lies in the equatorial plane, and only fate and direction are given */
+    KD_NULL_CRITICAL,  /* the ray is on the critical curve within rounding, so that fate, direction and late crossings
+                          are uncertain */
     KD_NULL_NO_RAY,    /* no photon with these constants reaches the observer's radius */
     KD_NULL_BAD_INPUT, /* NaN, or outside the ranges above                                                         */
 };
 
-/* end of the traced ray: in the (past) horizon, or at infinity */
+/* the traced ray ends in the past horizon, or at infinity */
 enum kd_null_fate { KD_NULL_CAPTURED, KD_NULL_ESCAPED };
 
 /* Crossing n = 0, 1, ... counts back from the observer; a start in the plane does not count.
@@ -62,8 +63,8 @@ struct kd_null_crossing {
 };
 
 /* sky_u, sky_phi: cos(theta) and azimuth, as phi above, of the direction of escape; NaN if captured. sky_error:
- * absolute, of either. turned: the traced ray meets a radial turning point, as does one that starts outwards and is
- * captured. doubtful: the number of crossings changes when the labels move by 1e-13 to 1e-11, at the horizon or far
+ * absolute, of either. turned: the traced ray meets a radial turning point, which includes rays that start outwards and
+ * are captured. doubtful: the number of crossings changes when the labels move by 1e-13 to 1e-11, at the horizon or far
  * out; kd_null_trace_fast does not set it. */
 struct kd_null_path {
     enum kd_null_status status;

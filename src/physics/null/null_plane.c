@@ -13,7 +13,7 @@ struct series { double w[ORDER + 1], u[ORDER + 1]; };
 struct ray {
     double a2, k3, c2, e2; /* A, 3K, -2D, 2 a^2 E^2 */
     double horizon;        /* 1/r+ */
-    bool ours;             /* the ray does not leave the horizon into another exterior region */
+    bool ours;             /* true: the ray does not come from another exterior region through the horizon */
     double w, dw, u, du;
 };
 

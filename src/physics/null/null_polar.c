@@ -53,7 +53,7 @@ static void set_start(struct kd_null_polar *p, const struct kd_null_motion *m, d
     double angle = weight > 0 ? atan2(flat, down) : 0.5 * M_PI;
     p->start.phi += angle;
     bool toward = m->beta * p->side < 0 || (m->beta == 0 && weight > 0); /* du/dtau = s beta */
-    if (p->u == 0) /* the start was the ray's last crossing, if it is in the plane */
+    if (p->u == 0) /* a start in the plane counts as the ray's previous crossing */
         toward = false;
     if (!toward) {
         p->start.tau = -p->start.tau, p->start.phi = -p->start.phi, p->start.u2 = -p->start.u2;

@@ -45,9 +45,9 @@ static double newton(const double *k, int degree, double x)
     return x;
 }
 
-/* The real root r2 of (r - r2)(r - r3)(r - r4) = r^3 + k0 r^2 + k1 r + k2 with k0 < 0 < k1 and k2 <= 0: the least of
- * three, or the only one. A cubic that rises from a negative value is concave below its inflection point and convex
- * above. */
+/* The real root r2 of (r - r2)(r - r3)(r - r4) = r^3 + k0 r^2 + k1 r + k2 with k0 < 0 < k1 and k2 <= 0: it is the least
+ * of three roots, or the only one. A cubic that rises from a negative value is concave below its inflection point and
+ * convex above. */
 static double least_root(const double *k)
 {
     double inflection = -k[0] / 3, bend = inflection * inflection - k[1] / 3;
@@ -60,7 +60,8 @@ static double least_root(const double *k)
 
 static void finish(struct kd_null_roots *r, double product)
 {
-    if (r->pair == 0) /* a ray with pair 0 winds for ever; it is replaced by one that winds for some 25 radians */
+    /* a ray with pair 0 would wind for ever; it is replaced by a ray that winds for some 25 radians */
+    if (r->pair == 0)
         r->pair = -1e-22 * r->mean * r->mean;
     r->kind = r->pair >= 0 ? KD_NULL_FOUR_REAL : KD_NULL_TWO_REAL;
     if (r->pair >= 0) { /* mean >= 0 since K >= 0: r4 has no cancellation, and r3 follows from the product */

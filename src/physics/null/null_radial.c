@@ -11,8 +11,8 @@
  * DLMF 19.29.8. */
 struct pole { double u2, s, q2; };
 
-/* Whether the horizons are close. By the difference of the integrals at both, the azimuth is off by 1e-16/(r+ - r-),
- * hence by less than 2e-15 elsewhere. */
+/* True if the horizons are close to each other. The difference of the integrals at both gives the azimuth with an error
+ * of 1e-16/(r+ - r-), which is below 2e-15 if they are not close. */
 static bool is_close(const struct kd_hole *hole) { return hole->root < 0.03; }
 
 /* r - r5 for a horizon r5; next to close horizons r - 1 is exact. */
@@ -26,7 +26,7 @@ static double past(const struct kd_hole *hole, double r, double r5)
 /* The arguments of DLMF 19.29 for the path from r to the reference. */
 struct span {
     struct kd_carlson_arg arg; /* U12; U13 + U14; U13 U14                                                */
-    struct pole plus, minus;   /* at the horizons                                                        */
+    struct pole plus, minus;   /* poles at the horizons                                                  */
     struct pole slope;         /* divided differences of their numbers over r+ - r-, if that is close    */
     double far;                /* U25^2 with the pole at infinity                                        */
     double log;                /* elementary part of Int (r - r2) dr/sqrt(R) */
@@ -246,7 +246,7 @@ static void jacobi_two(struct kd_null_radial *q)
     q->d0 = sqrt(q->k1 + q->k * q->c0 * q->c0);
 }
 
-/* Jacobi's functions, and whether the ray turns. */
+/* Computes Jacobi's functions, and finds whether the ray turns. */
 static struct kd_null_radial without_times(const struct kd_null_motion *m, const struct kd_null_roots *roots,
                                            bool inner)
 {

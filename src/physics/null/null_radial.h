@@ -53,19 +53,19 @@ struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r
  * it is the mirror image. INNER: tau of any sign, up to the horizon. */
 struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double tau);
 
-/* Only the radius, at Mino time tau from infinity: 0 if the ray reaches the horizon before, INFINITY if it has
- * escaped. For OUTER; not for roots of kind KD_NULL_NO_REAL. Takes a fifth of the time of kd_null_radial_of and
- * kd_null_radius_at, since azimuths and times are left out. */
+/* Computes only the radius, at Mino time tau from infinity. Returns 0 if the ray reaches the horizon before, and
+ * INFINITY if it has escaped. For OUTER motion; not for roots of kind KD_NULL_NO_REAL. Takes a fifth of the time of
+ * kd_null_radial_of and kd_null_radius_at, since azimuths and times are left out. */
 double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null_roots *roots, double tau);
 
 /* Rates of the integrals in Mino time at r: tau has 1, phi' and t' as above. */
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r);
 
-/* Integrals from `at` to the reference. t is computed only if `time`, and is 0 otherwise. */
+/* Integrals from `at` to the reference. t is computed only if `time` is true, and is 0 otherwise. */
 struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at,
                                                    bool time);
 
-/* From r to infinity for four complex roots (vortical rays): Mino time and azimuth. */
+/* Mino time and azimuth from r to infinity for four complex roots (vortical rays). */
 struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m, const struct kd_null_roots *roots,
                                                  double r);
 

@@ -29,7 +29,7 @@
 #include <stdbool.h>
 
 struct kd_shell {
-    double a;                    /* as given                                                */
+    double a;                    /* the spin as given                                       */
     double spin, n;              /* |a|, 1 - a^2 - q^2                                      */
     double y_polar, x_polar;     /* y_P, x_P                                                */
     double prograde, retrograde; /* places of the equatorial orbits: see kd_shell_orbit_at */
@@ -59,13 +59,13 @@ double kd_shell_inside(const struct kd_hole *hole, const struct kd_shell_orbit *
 
 /* From one crossing of the equatorial plane to the next:
  *   mino   Mino time;
- *   gamma  how far a ray at a small distance d from the orbit departs: to d e^gamma. Pi at a = 0. Each order of
- *          images lies closer to the critical curve than the last by e^-gamma in the limit;
+ *   gamma  how far a ray at a small distance d from the orbit departs: to d e^gamma. Pi at a = 0. In the limit each
+ *          order of images is closer to the critical curve than the order before, by the factor e^-gamma;
  *   delta  azimuth. At a = 0: pi, with the sign of lambda. It jumps by 2 pi where the orbit passes over the axis:
  *          at lambda = 0 it is that of lambda -> 0+ (a >= 0; mirrored for a < 0);
  *   tau    time t.
- * Complete elliptic integrals in Carlson's form; relative error below 1e-14 but within 1e-6 of |a| = 1, where y = r
- * - 1 is known to 1e-16 / (1 - |a|)^(1/2) at least. */
+ * Complete elliptic integrals in Carlson's form. The relative error is below 1e-14, except within 1e-6 of |a| = 1,
+ * where y = r - 1 is known to 1e-16 / (1 - |a|)^(1/2) at least. */
 struct kd_shell_exponents { double mino, gamma, delta, tau; };
 struct kd_shell_exponents kd_shell_exponents(const struct kd_shell_orbit *orbit);
 

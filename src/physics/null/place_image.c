@@ -9,8 +9,8 @@
 enum { PLACES = 1500, GUESSES = 96, TRIES = 5, ITERATIONS = 14 };
 #define FOUND 1e-9 /* relative change of the radius at which the search stops */
 #define WRONG 1e-5
-/* Distances from the hole on the sky at which the search starts, in M: from LEAST on in all, and NEAR to FAR close to
- * the critical curve. */
+/* Distances from the hole on the sky at which the search starts, in M: all of them beyond LEAST, and those from NEAR to
+ * FAR close to the critical curve. */
 #define LEAST 0.01
 #define NEAR 1.5
 #define FAR 9
@@ -139,7 +139,7 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
                         here = between(four, middle, &best.delay);
     best.off = less(&here, &s->place);
     best.way = less(&to, &from);
-    /* At the closest point the offset along the ray vanishes, except at the ray's ends. */
+    /* The offset along the ray vanishes at the closest point, unless this is an end of the ray. */
     const double along = dot(&best.off, &best.way) / dot(&best.way, &best.way);
     for (int k = 0; k < 3 && fabs(along) < 10; k++)
         best.off.x[k] -= along * best.way.x[k];
@@ -205,7 +205,7 @@ static void across(const struct miss *m, struct vector axes[2])
     }
 }
 
-/* Newton step in the chart; false where images of the place merge. */
+/* Takes a Newton step in the chart. Returns false where images of the place merge. */
 static bool step_from(const struct search *s, const double at[2], const struct miss *m, double step[2])
 {
     const double h = 1e-6 * (isinf(s->view->frame.at.r) ? fmax(1, hypot(at[0], at[1]))

@@ -11,7 +11,7 @@
 
 #include "physics/spacetime/observer.h"
 
-/* The observer, outside the horizon, at a finite radius or at INFINITY. */
+/* The observer, who is outside the horizon at a finite radius or at INFINITY. */
 struct kd_place_view { struct kd_tetrad frame; /* at infinity only the vantage is set */ };
 struct kd_place_view kd_place_view_of(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
@@ -28,7 +28,7 @@ struct kd_place_image {
 /* Arguments: radius and cos(theta) of the place, its azimuth less the observer's; near: the image of a neighbouring
  * place, or NULL; searches: whether to search anew if the continuation from `near` fails. Returns false, with all
  * members NAN, if the image is not found to 1e-5 of the radius. Within KD_PLACE_LEAST times the horizon's radius, where
- * rays linger, no search is made. Some 20 ms, 2 ms from a neighbour, up to 0.3 s if nothing is found. */
+ * rays linger, no search is made. Takes some 20 ms, or 2 ms from a neighbour, and up to 0.3 s if no image is found. */
 #define KD_PLACE_LEAST 1.2
 bool kd_place_image_seen(const struct kd_place_view *view, double r, double u, double phi,
                          const struct kd_place_image *near, bool searches, struct kd_place_image *out);

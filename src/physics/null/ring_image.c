@@ -66,7 +66,7 @@ static bool approach(const struct kd_ring_image *ring, double chi, double bound,
             side = 2;
         }
     }
-    return fabs(h) < TABLE; /* the rest is rounding */
+    return fabs(h) < TABLE; /* the remaining error is rounding */
 }
 
 /* x minus whole turns, between -pi and pi. */
@@ -124,7 +124,7 @@ bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, 
     while (ring->chi[ring->nodes - 1] < 2 * M_PI)
         if (!add_node(ring, &step))
             return false;
-    /* The image goes round exactly once. */
+    /* True if the image goes round exactly once. */
     return fabs(ring->phi[ring->nodes - 1] - ring->phi[0] - 2 * M_PI) < 1e-3;
 }
 

@@ -2,9 +2,9 @@
  * equatorial plane is seen. From a finite radius: ring_view.h. Double precision; pure functions, any thread. G = c =
  * M = 1; conventions of physics/null/null_geodesic.h.
  *
- * The closed form gives (r, phi) of a ray's n-th crossing. This inverts it by Newton's method, starting from a table
- * of the ring's whole image: along each direction of the image plane r_n grows with the distance from the centre,
- * from the horizon (closer rays are captured first) to infinity (farther ones escape first). */
+ * The closed form gives (r, phi) of a ray's n-th crossing. This file inverts it by Newton's method, starting from a
+ * table of the ring's whole image. Along each direction of the image plane r_n grows with the distance from the centre,
+ * from the horizon to infinity. Rays closer to the centre are captured first, and rays farther out escape first. */
 #ifndef KD_PHYSICS_NULL_RING_IMAGE_H
 #define KD_PHYSICS_NULL_RING_IMAGE_H
 
@@ -21,8 +21,8 @@ struct kd_ring_image {
     double chi[KD_RING_NODES], log_rho[KD_RING_NODES], phi[KD_RING_NODES]; /* phi is continuous, one turn in all */
 };
 
-/* r outside the horizon; inclination in radians, up to 89.9 degrees; order 0 or 1, up to r = 1e4. False where the
- * image turns too quickly for the table, which has not been observed for r >= 1.02 r+. Some 500 rays. */
+/* r outside the horizon; inclination in radians, up to 89.9 degrees; order 0 or 1, up to r = 1e4. Returns false if the
+ * image turns too quickly for the table, which has not been observed for r >= 1.02 r+. Takes some 500 rays. */
 bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, double inclination, double r,
                         int order);
 

@@ -37,7 +37,7 @@ static double polygon(const double c[3], double points[EDGE_POINTS][3], int stri
 
 /* Solid angle enclosed by the edge. It is extrapolated (Romberg) from the areas of three polygons, whose errors are
  * powers of the squared step. The triangles of a polygon meet in a direction inside it. If most of the edge is closer
- * to the opposite direction, they meet there, and the sum differs only by 4 pi. */
+ * to the opposite direction, the triangles meet there, and their sum differs only by 4 pi. */
 static double enclosed(const struct kd_critical *edge, double points[EDGE_POINTS][3])
 {
     struct kd_critical_point middle = { .right = sin(edge->centre), .inwards = cos(edge->centre) };

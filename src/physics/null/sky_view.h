@@ -25,7 +25,7 @@ struct kd_sky_view {
  * spins up to 0.99; 1e-12 of `least` and `greatest` where they lie on the edge, from its rounding. */
 struct kd_sky_view kd_sky_view_of(const struct kd_critical_observer *observer);
 
-/* g of the sky in a direction, a unit vector; NaN in the dark disk. Some 2 microseconds. */
+/* g of the sky in a direction, a unit vector; NaN in the dark disk. Takes some 2 microseconds. */
 double kd_sky_view_shift(const struct kd_sky_view *view, const double direction[3]);
 
 #endif

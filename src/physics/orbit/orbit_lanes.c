@@ -50,7 +50,7 @@ INLINE void keep_greater(lane *greatest, const lane *x, const mask *where)
     *greatest = (lane)((size & greater) | ((mask)*greatest & ~greater));
 }
 
-/* Has the same sums as orbit_path.c, in the same order. */
+/* Computes the same sums as orbit_path.c, in the same order. */
 INLINE void radial_force(const struct state *s, const lane *w, const lane *rest, lane *force)
 {
     lane left = (*w - s->w_low) + *rest, right = (s->w_high - *w) - *rest;
@@ -150,7 +150,7 @@ static struct kd_exact get_exact(const struct exact *from, int i)
     return (struct kd_exact) { from->value[i], from->rest[i] };
 }
 
-/* Loads a lane; one with h = 0 does not move. */
+/* Loads a lane. A lane with h = 0 does not move. */
 static void load(struct state *s, int i, const struct kd_orbit_path *p, double h)
 {
     const struct kd_orbit *o = &p->orbit;

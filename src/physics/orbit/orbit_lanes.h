@@ -10,10 +10,10 @@
 struct kd_orbit_lanes {
     struct kd_orbit_path *path[KD_ORBIT_LANES]; /* all different */
     double h[KD_ORBIT_LANES];
-    uint64_t steps[KD_ORBIT_LANES]; /* for each path; a path with 0 steps is not moved, but must be set */
+    uint64_t steps[KD_ORBIT_LANES]; /* steps for each path; a path with 0 steps is not moved, but must be set */
     /* Receives the largest absolute drifts after any of the steps; all NULL: not computed. */
     struct kd_orbit_drift *worst[KD_ORBIT_LANES];
-    /* Called after a step in which w has stopped growing, when the path is up to date; may be NULL. */
+    /* Called after a step in which w has stopped growing, with the path up to date; may be NULL. */
     void (*periastron)(void *user, int lane);
     void *user;
 };

@@ -30,8 +30,8 @@ static double pull_of_spring(const struct kd_spring *s, double q, double rest)
     return s->strength * ((q - s->centre) + rest);
 }
 
-/* The derivatives of the rates at a place: the forces without those of the springs, then the rates of proper time, t
- * and chi. rest: the rounding error of w. */
+/* The derivatives of the rates at a place. They are the forces without those of the springs, and then the rates of
+ * proper time, t and chi. rest: the rounding error of w. */
 static void pull(const struct kd_orbit_path *p, const double *q, double rest, double *f)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -60,7 +60,7 @@ const double kd_orbit_kicks[4] = { 0.7845136104775572638194976, 0.23557321335935
 
 static int kick_of(int stage) { return stage < 4 ? stage : 6 - stage; }
 
-/* Half a leapfrog plus half of the next. */
+/* Duration of a drift: half of a leapfrog plus half of the next one. */
 static double drift_of(int stage)
 {
     if (stage == 0 || stage == 7)
@@ -80,7 +80,7 @@ void kd_orbit_set_turns(struct kd_spring *s, double h)
     }
 }
 
-/* Motion under the springs alone, exactly. */
+/* Moves the path exactly, under the springs alone. */
 static void drift(struct kd_orbit_path *p, int stage)
 {
     for (int i = 0; i < KD_PATH_PLACES; i++) {
@@ -110,8 +110,8 @@ static void yoshida(struct kd_orbit_path *p, double h)
     drift(p, 7);
 }
 
-/* The total force after a time of `at` * h. The place is where the present rates lead in this time, displaced further
- * by h^2 `sum`. */
+/* The total force after a time of `at` * h. The force is taken at the place to which the present rates lead in this
+ * time, displaced further by h^2 `sum`. */
 static void stage_of(const struct kd_orbit_path *p, double at, double h, const double *sum, double *f)
 {
     double q[KD_PATH_PLACES], rest = 0;
@@ -211,9 +211,9 @@ void kd_orbit_path_init(struct kd_orbit_path *p, const struct kd_orbit *o, const
     enter(p);
 }
 
-/* Counts the half turns that atan2 does not include. Q >= 0: the azimuth grows steadily, and atan2 jumps at pi,
- * where y changes sign on its way down. Q < 0: a turning point next to the equator is a jump back by pi. L = 0: the
- * axis is passed where y turns. */
+/* Counts the half turns that atan2 does not include. If Q >= 0, the azimuth grows steadily, and atan2 jumps at pi,
+ * where y changes sign on its way down. If Q < 0, atan2 jumps back by pi at a turning point next to the equator. If L =
+ * 0, the body passes the axis where y turns. */
 static void count(struct kd_orbit_path *p, double y, double rate, int way)
 {
     double y_now = p->place[KD_PATH_Y].value, rate_now = p->rate[KD_PATH_Y].value;
@@ -285,7 +285,7 @@ static struct kd_orbit_path moved(const struct kd_orbit_path *path, double h)
     return to;
 }
 
-/* The function whose zero is an event. */
+/* The kind of event, which is a zero of a function. */
 enum event { APSIS, RADIUS, TIME };
 
 static double height(const struct kd_orbit_path *p, enum event event, double aim)

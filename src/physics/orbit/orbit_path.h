@@ -77,9 +77,9 @@ struct kd_orbit_place kd_orbit_path_place(const struct kd_orbit_path *path);
 struct kd_orbit_drift { double energy, carter, mass, binet; };
 struct kd_orbit_drift kd_orbit_path_drift(const struct kd_orbit_path *path);
 
-/* Moves `path` to where its radial velocity vanishes; this must happen within a step of h. */
+/* Moves `path` to the place where its radial velocity vanishes, which must be within a step of h. */
 struct kd_orbit_path kd_orbit_path_to_apsis(const struct kd_orbit_path *path, double h);
-/* Moves `path` to the radius 1/w: at the first passage or, after a turning point, at the second. The other function
+/* Moves `path` to the radius 1/w: at the first passage or, after a turning point, at the second. kd_orbit_path_to_time
  * moves it to the time t. The radius or time must be reached within the step. */
 struct kd_orbit_path kd_orbit_path_to_radius(const struct kd_orbit_path *path, double h, double w);
 struct kd_orbit_path kd_orbit_path_to_time(const struct kd_orbit_path *path, double h, double t);

@@ -49,7 +49,7 @@ static double binding_at(const struct kd_orbit *o, double x, double l, double w)
     return fixed / (1 + a2 * w * w * (1 + z * kd_hole_delta_sum_w(&o->hole, w)));
 }
 
-/* His formula for E loses the digits of b in wide orbits, and the formula for l loses them as well. With E^2 = 1 - b,
+/* In wide orbits Schmidt's formula for E loses the digits of b, and so does the formula for l. With E^2 = 1 - b,
  * eliminating l^2 from the two equations gives rho b = chi - 2 a x sigma E l with chi from f - d instead of d, where E
  * and l enter a small term only. Next to a parabola this loses digits too; there the outer turning point gives b, since
  * W = 0 is almost b = 2w. */
@@ -60,8 +60,8 @@ static void energy_and_momentum(struct kd_orbit *o, double x, double r1, double 
     struct column v = values(&o->hole, mass, z, r2), s = differences(&o->hole, mass, z, r1, r2);
     double kappa = v.d * s.h - v.h * s.d, epsilon = v.d * s.g - v.g * s.d, rho = v.f * s.h - v.h * s.f;
     double eta = v.f * s.g - v.g * s.f, sigma = v.g * s.h - v.h * s.g;
-    /* Next to a parabola the last two terms are equal within rounding; below E l is not needed more accurately than
-     * that. */
+    /* Next to a parabola the last two terms are equal within rounding. The accuracy of E l that remains is sufficient
+     * below. */
     double inner = ax * ax * sigma * epsilon * epsilon + rho * epsilon * kappa - eta * kappa * kappa;
     double root = sqrt(fmax(sigma * inner, 0));
     double e2 = (kappa * rho + 2 * ax * ax * epsilon * sigma - 2 * ax * root) / (rho * rho + 4 * ax * ax * eta * sigma);

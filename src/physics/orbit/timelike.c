@@ -7,7 +7,7 @@
 #include <float.h>
 #include <math.h>
 
-#define NEAR_CIRCLE 1e-3 /* of w; the ends of wider motions are roots of W to 1e-12 */
+#define NEAR_CIRCLE 1e-3 /* relative range of w; the ends of wider motions are roots of W to 1e-12 */
 
 const char *kd_orbit_fate_name(enum kd_orbit_fate fate)
 {
@@ -74,7 +74,7 @@ static bool find_range(struct kd_orbit *o, double w)
         if (allowed && here) {
             high = next;
             o->w_low = low, o->w_high = high;
-            o->turns_out = low > 0; /* excludes infinity, which is a root for E = 1 */
+            o->turns_out = low > 0; /* w = 0 is excluded, because infinity is a root for E = 1 */
             o->turns_in = i < n;
             o->circular = touches;
             return true;
@@ -86,7 +86,7 @@ static bool find_range(struct kd_orbit *o, double w)
 
 static void set_fate(struct kd_orbit *o)
 {
-    if (o->circular) { /* unstable where W has a minimum */
+    if (o->circular) { /* a circular orbit is unstable if W has a minimum there */
         double w = o->w_low, bend = o->w[2] + w * (3 * o->w[3] + w * 6 * o->w[4]);
         double size = fabs(o->w[2]) + w * (3 * fabs(o->w[3]) + w * 6 * fabs(o->w[4]));
         o->fate = bend > 1e-7 * size ? KD_ORBIT_PLUNGE : KD_ORBIT_BOUND; /* tolerance: at a triple root `bend`
@@ -151,7 +151,7 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
         s.w = o->w_high;
     else
         s.w_rate = copysign(sqrt(fmax(kd_orbit_radial(o, s.w), 0)), outward ? -1 : 1);
-    if (o->circular && o->fate == KD_ORBIT_PLUNGE) { /* unstable: start one ulp of w inside */
+    if (o->circular && o->fate == KD_ORBIT_PLUNGE) { /* an unstable orbit starts one ulp of w inside */
         double g[3];
         kd_orbit_factor(o, g);
         s.w = nextafter(o->w_high, 1);
@@ -275,7 +275,7 @@ enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double 
     };
     if (!find_range_of_circle(o, start) && !find_range(o, start->w) && !find_range_at_turn(o, start))
         return kd_error_field(error, "/position/r", "double precision cannot follow the motion from r = %.16g", r);
-    if (start->w_rate == 0) { /* exactly at the nearer turning point */
+    if (start->w_rate == 0) { /* the start is exactly at the nearer turning point */
         bool outer = fabs(o->w_low - start->w) < fabs(o->w_high - start->w);
         *(outer ? &o->w_low : &o->w_high) = start->w;
         if (o->circular)

@@ -37,7 +37,7 @@ struct kd_orbit {
     /* The range of 1/r that the motion is confined to: between turning points, or up to 0 (infinity) and 1/r+ where
      * there is none. */
     double w_low, w_high;
-    bool turns_out, turns_in; /* turning points exist at w_low, at w_high */
+    bool turns_out, turns_in; /* true if there is a turning point at w_low, and at w_high */
     bool circular;            /* r is constant: both ends coincide; fate is PLUNGE if the orbit is unstable */
 };
 

@@ -36,7 +36,7 @@ struct kd_hole kd_hole_charged(double a, double q);
 /* q^2, on which all effects of the charge depend; for functions that need it alone. */
 static inline double kd_hole_charge2(const struct kd_hole *hole) { return hole->q * hole->q; }
 
-/* Whether the charge has any effect: its square does not underflow. */
+/* True if the charge has any effect: its square does not underflow. */
 static inline bool kd_hole_is_charged(const struct kd_hole *hole) { return hole->q * hole->q > 0; }
 
 /* False for a struct of zeros and outside the domain. */
@@ -105,8 +105,8 @@ static inline double kd_hole_mass_w(const struct kd_hole *hole, double w) { retu
 /* The numbers c[0] r + c[1] of kd_hole_mass, and c[0] + c[1] w of kd_hole_mass_w. */
 static inline void kd_hole_mass_line(const struct kd_hole *hole, double c[2]) { c[0] = 2, c[1] = -hole->q * hole->q; }
 
-/* How fast the mass term falls: -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u; and in the plane, where Sigma =
- * r^2, over r: 1 - q^2/r. */
+/* The rate at which the mass term falls: -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u. In the plane, where Sigma
+ * = r^2, it is given over r: 1 - q^2/r. */
 static inline double kd_hole_pull(const struct kd_hole *hole, double r, double u)
 {
     return (r - hole->a * u) * (r + hole->a * u) / r - hole->q * hole->q;

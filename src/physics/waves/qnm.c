@@ -69,7 +69,7 @@ static double complex radial_fraction(const struct problem *problem, const struc
     double a = problem->a, b = sqrt((1 - a) * (1 + a));
     double complex p = -csqrt(-4 * I * b * omega);
     double complex c0 = r->alpha[0], c2 = r->gamma[1] + 3, q = 0.5 * (p * p + c2 - c0 - 3.5);
-    /* fewer terms than tolerance alone would need, thanks to p and q; at most 1e5 */
+    /* p and q reduce the number of terms below that for the tolerance alone; at most 1e5 */
     double root = fmin(-0.75 * log(fmin(problem->tolerance, 1e-9)) / (-4 * creal(p)), 316);
     int terms = 50 + (int)(root * root);
     double k = problem->n + terms;
@@ -80,7 +80,7 @@ static double complex angular_at(struct problem *p, double complex separation)
 {
     struct recurrence r = angular(p->m, p->c, separation);
     int first = abs(p->m) > -S ? abs(p->m) : -S;
-    /* The truncated part is of the order of (4c)^k/k!, below 1e-16 at this k. */
+    /* The truncated part is of the order of (4c)^k/k!, which is below 1e-16 at this k. */
     return fraction(&r, p->l - first, 24 + (int)(14 * cabs(p->c)), 0);
 }
 
@@ -144,7 +144,7 @@ static double complex schwarzschild(int l, int n)
 /* Variable of the spin in which the curves of all modes are smooth: y = -ln(1 - a). */
 static double stretched(double a) { return -log1p(-a); }
 
-/* Stores a point for extrapolation, unless it is too close to a stored one: their difference would be noise. */
+/* Stores a point for extrapolation, unless it is so close to a stored point that their difference would be noise. */
 static void remember(struct kd_qnm_branch *b)
 {
     double y = stretched(b->a);

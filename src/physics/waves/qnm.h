@@ -39,7 +39,7 @@ struct kd_qnm_branch {
     double a; /* >= 0; a negative spin is expressed by the sign of m */
     struct kd_qnm at;
     double step; /* next step in -ln(1 - a) */
-    int points;  /* number of past points, for extrapolation */
+    int points;  /* number of stored points for extrapolation */
     double y[3];
     struct kd_qnm past[3];
 };

@@ -34,7 +34,7 @@ struct kd_renderer {
         char *device, *cache_dir;
         bool validate, compiles_only;
         uint32_t deadline_ms;
-    } opening;                /* how the device was opened */
+    } opening;                /* the parameters with which the device was opened */
     struct kd_vk_info opened; /* description of the opened device */
     char *files;              /* kd_vk_cache_file without a suffix; NULL: there is no folder */
     struct kd_kernels kernels;

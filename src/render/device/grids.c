@@ -13,8 +13,8 @@ struct own {
     struct kd_grids *all; /* grids of the renderer; set by the first `prepare` */
     struct kd_vk_buffer *nodes;
     char of[KD_ASSET_NAME]; /* hash of the asset whose grid is uploaded */
-    bool there;             /* whether a grid is uploaded */
-    bool texels;            /* whether kernels read it as texels */
+    bool there;             /* true if a grid is uploaded */
+    bool texels;            /* true if kernels read it as texels */
 };
 
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }

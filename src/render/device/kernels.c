@@ -77,7 +77,7 @@ enum { MAKERS = 4 }; /* largest number of threads that make kernels concurrently
 #define KD_STORED_quad_texels 0
 #define KD_B(number, type, member) +KD_STORED_##type
 _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + (0 KD_EMIT_BUFFERS) <= KD_VK_MAX_STORAGE,
-               "the kernels of light bind all buffers of the emitters, the lens map and what they write");
+               "the kernels of light bind all buffers of the emitters, the lens map and the kernels' output");
 
 #undef KD_B
 

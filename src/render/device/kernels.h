@@ -117,7 +117,7 @@ void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
 void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);
-/* Whether a device reads the radiance of this many pixels as texels of four floats. Software devices read texels in
+/* True if a device reads the radiance of this many pixels as texels of four floats. Software devices read texels in
  * a third of the time, but differ in how many they can bind. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
 /* like kd_kernels_texels, for this number of bytes of any data */

@@ -82,7 +82,7 @@ static enum kd_status make(void *owner, const struct kd_asset_request *request, 
                          : make_new(all->assets, request, out, invalid, error);
 }
 
-/* Whether `a` is evicted before `b`. Panoramas that were not delivered yet are evicted last, because a client waits
+/* True if `a` is evicted before `b`. Panoramas that were not delivered yet are evicted last, because a client waits
  * for them. */
 static bool goes_before(const struct kd_panorama *a, const struct kd_panorama *b)
 {

@@ -47,7 +47,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer);
  * hangs and so cannot be closed (kd_renderer_hangs), if it is unavailable now, or if another device has taken its
  * place. The call may be repeated. */
 enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error);
-/* Whether the device has missed a deadline. It can then be neither closed nor reopened, and the process should soon
+/* True if the device has missed a deadline. It can then be neither closed nor reopened, and the process should soon
  * end by _exit. */
 bool kd_renderer_hangs(const struct kd_renderer *renderer);
 

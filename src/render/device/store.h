@@ -42,7 +42,7 @@ struct kd_lens_map {
     struct kd_rim rim; /* the rim of the map's camera, for images of stars of high orders, if there is a rim and it was
                           requested */
     struct kd_rim_grids rim_grids;
-    bool rim_known; /* whether rim and rim_grids are set */
+    bool rim_known; /* true if rim and rim_grids are set */
     bool rim_traced;
     struct kd_vk_buffer *rim_lens; /* directions and tables of the rim (frame/rim.c); NULL: never made */
     struct kd_star_key star_key;   /* key of the star light; lens "": it is missing or incomplete */
@@ -61,12 +61,12 @@ struct kd_store {
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
     /* parameters and tables that are read at each crossing: in device memory, uploaded through `staging` */
     struct kd_vk_buffer *transfer, *staging;
-    struct kd_emit_data *sent;                   /* what was uploaded; NULL: nothing yet */
-    bool sent_whole;                             /* false: what was uploaded is unknown, because a frame was given up */
+    struct kd_emit_data *sent; /* the uploaded data; NULL: none yet */
+    bool sent_whole;           /* false: the uploaded data are unknown, because a frame was given up */
     struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES for each camera; cameras_host is the staging
                                                   * buffer; NULL: none yet */
     struct kd_camera_block sent_cameras[KD_CAMERAS];
-    bool cameras_sent; /* whether the buffer holds sent_cameras */
+    bool cameras_sent; /* true if the buffer holds sent_cameras */
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* sums of photometry; NULL: not measured yet */
     struct kd_vk_buffer *bloom;              /* grids of bloom; NULL: not made yet */
@@ -112,7 +112,7 @@ uint64_t kd_store_bytes(const struct kd_store *store);
 uint64_t kd_store_map_bytes(const struct kd_store *store);
 /* Keeps only the latest lens maps, up to `bytes`. */
 void kd_store_rest(struct kd_store *store, uint64_t bytes);
-/* Whether kd_store_lens_map would find the plan's lens map. */
+/* True if kd_store_lens_map would find the plan's lens map. */
 bool kd_store_has(const struct kd_store *store, const struct kd_plan *plan);
 /* Moves the plan's lens map from `from` to `to`, if `from` has it. */
 void kd_store_hand_over(struct kd_store *from, struct kd_store *to, const struct kd_plan *plan);

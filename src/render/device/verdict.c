@@ -98,7 +98,7 @@ void kd_verdict_recall(struct kd_renderer *r)
     r->stored = r->capacity;
 }
 
-/* Whether a figure has changed so much that the file must be written again. */
+/* True if a figure has changed so much that the file must be written again. */
 static bool differs(double a, double b) { return !(a < 1.25 * b && b < 1.25 * a); }
 
 void kd_verdict_keep(struct kd_renderer *r)

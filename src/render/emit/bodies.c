@@ -118,7 +118,7 @@ static struct kd_seen_body *listed(const struct kd_scene *scene, size_t *n)
     return bodies;
 }
 
-/* Whether some bodies reflect light of the disk, and the scene has a disk. */
+/* True if some bodies reflect light of the disk, and the scene has a disk. */
 static bool is_lit(const struct kd_scene *scene)
 {
     for (size_t i = 0; scene->dynamic.at && i < scene->dynamic.at->n; i++)
@@ -222,7 +222,7 @@ const struct kd_emitter_buffers kd_emitter_buffers_bodies = {
     .bytes = sizeof(struct own), .prepare = prepare, .buffers = buffers, .forget = forget, .finish = finish
 };
 
-/* Whether a body has a velocity although its position does not depend on the time. */
+/* True if a body has a velocity although its position does not depend on the time. */
 static bool stands(const struct kd_scene *scene, const struct kd_setting *rays)
 {
     const struct kd_body *on[KD_SCENE_BODIES];

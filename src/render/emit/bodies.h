@@ -13,8 +13,8 @@
 
 #define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* the most bodies that are seen */
 
-/* What the appearance of bodies depends on: the hole, the observer's azimuth, and the temperature that corresponds
- * to the disk's brightness 1. */
+/* The appearance of bodies depends on these: the hole, the observer's azimuth, and the temperature that corresponds to
+ * the disk's brightness 1. */
 struct kd_illumination;
 struct kd_bodies_view {
     struct kd_hole hole;
@@ -41,7 +41,7 @@ size_t kd_bodies_words(size_t n);
  * KD_BODIES_CLEAR of its radius. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                               float *words, struct kd_error *error);
-/* Whether a body is packed. A body of temperature 0 is packed, because it is dark but hides what is behind it. */
+/* True if a body is packed. A body of temperature 0 is packed, because it is dark but hides what is behind it. */
 bool kd_bodies_seen(const struct kd_seen_body *body, const struct kd_hole *hole);
 /* Computes the block of numbers that goes with the packed bodies. */
 void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,

@@ -88,21 +88,21 @@ enum {
 };
 extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 
-/* Whether a scene has an emitter: the emitter is present, and no emitter that replaces it is present. */
+/* True if a scene has an emitter: the emitter is present, and no emitter that replaces it is present. */
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
 /* Computes the words of the specialisation constants. The words of emitters that the scene does not have are 0. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
 /* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads. For a device that reads this buffer as
  * texels. */
 void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT]);
-/* What the scene's emitters need. kd_emit_needs: quantities of the lens map. The other functions: whether there is
- * light at crossings of the plane, at the ends of rays, with separate luminance, or from points. */
+/* The needs of the scene's emitters. kd_emit_needs: quantities of the lens map. The other functions are true if there
+ * is light at crossings of the plane, at the ends of rays, with separate luminance, or from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
-bool kd_emit_along(const struct kd_scene *scene); /* whether there are volumes */
-/* whether a volume is shown as it was when its light left the volume (slow light) */
+bool kd_emit_along(const struct kd_scene *scene); /* true if there are volumes */
+/* true if a volume is shown as it was when its light left the volume (slow light) */
 bool kd_emit_slow_along(const struct kd_scene *scene);
-bool kd_emit_met(const struct kd_scene *scene); /* whether there are surfaces off the plane */
+bool kd_emit_met(const struct kd_scene *scene); /* true if there are surfaces off the plane */
 bool kd_emit_at_ends(const struct kd_scene *scene);
 bool kd_emit_separate_photometry(const struct kd_scene *scene);
 bool kd_emit_points(const struct kd_scene *scene);
@@ -112,15 +112,15 @@ uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
 uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass; 0 if it has none or the scene does not have the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
-/* What the scene's emitters cost. kind: hash of the set of emitters, of their traits, and of the quantities of the
- * lens map that they need. log2_of: for each emitter, the logarithms of two numbers: the bytes of its own buffers,
- * and the invocations of its own pass. 0: the emitter has none. */
+/* Costs of the scene's emitters. kind: hash of the set of emitters, of their traits, and of the quantities of the lens
+ * map that they need. log2_of: for each emitter, the logarithms of two numbers: the bytes of its own buffers, and the
+ * invocations of its own pass. 0: the emitter has none. */
 struct kd_work {
     uint64_t kind;
     float log2_of[KD_EMITTER_COUNT][2];
 };
 struct kd_work kd_emit_work(const struct kd_scene *scene);
-/* Whether the emitters take about the same time in a picture of the same size. They do if the kinds are equal and no
+/* True if the emitters take about the same time in a picture of the same size. They do if the kinds are equal and no
  * number differs by more than a factor of two. */
 bool kd_work_alike(const struct kd_work *a, const struct kd_work *b);
 /* Calls take(user, approximation) for each approximation that is in force. */
@@ -133,8 +133,8 @@ size_t kd_emit_sentence_count(void); /* number of all approximations, in force o
 struct kd_emit_state {
     struct kd_emit_data data;
     struct kd_scene of[KD_EMITTER_COUNT]; /* scene for which each emitter was last filled */
-    bool filled[KD_EMITTER_COUNT];        /* whether each emitter was filled */
-    bool colours, luminous;               /* whether the tables that depend on no scene are filled */
+    bool filled[KD_EMITTER_COUNT];        /* true if each emitter was filled */
+    bool colours, luminous;               /* true if the tables that depend on no scene are filled */
 };
 /* Brings the data up to date. band_pixels: pixels of the picture's bands (emit/frame.glsl). The first call takes 15
  * ms, and the first scene of a visible band 15 ms more. Later calls compute only data whose part of the scene has

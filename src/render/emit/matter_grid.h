@@ -63,7 +63,7 @@ struct kd_matter_grid {
 /* half that stands for the largest component of the field, so that smaller components also keep their 11 bits */
 #define KD_MATTER_FIELD 16384.0
 
-/* Whether bytes begin as an NPZ file does. */
+/* True if bytes begin as an NPZ file does. */
 bool kd_matter_grid_is(const void *data, size_t size);
 /* Reads and checks a whole file. KD_EINVAL: the message says what is wrong and what is valid. KD_ENOMEM. */
 enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error);

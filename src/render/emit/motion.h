@@ -1,4 +1,4 @@
-/* Which parts of a scene move by themselves in a live session, by emitter (emitter.h). Pure; any thread. */
+/* The parts of a scene that move by themselves in a live session, by emitter (emitter.h). Pure; any thread. */
 #ifndef KD_RENDER_EMIT_MOTION_H
 #define KD_RENDER_EMIT_MOTION_H
 
@@ -15,9 +15,9 @@ enum kd_varies {
 
 /* enum kd_varies: what would change in the picture at another time or azimuth, even if all rates of the scene are 0. */
 unsigned kd_emit_varies(const struct kd_scene *scene);
-/* Whether anything visible changes with time at the scene's rates. */
+/* True if anything visible changes with time at the scene's rates. */
 bool kd_emit_moves(const struct kd_scene *scene);
-/* Whether only brightness changes and nothing moves. */
+/* True if only brightness changes and nothing moves. */
 bool kd_emit_only_dims(const struct kd_scene *scene);
 
 #endif

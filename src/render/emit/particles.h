@@ -68,7 +68,7 @@ struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_
  * same inside and outside. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
-/* How long before scene->top.time the grid is computed: about the light delay of a near camera, so that the
+/* The time before scene->top.time for which the grid is computed: about the light delay of a near camera, so that the
  * remaining delay is short. */
 double kd_particle_delay(const struct kd_scene *scene);
 
@@ -91,8 +91,7 @@ uint64_t kd_particle_plunge_words(const struct kd_particle_grid *grid);
 struct kd_particles_push kd_particle_push(const struct kd_scene *scene, const struct kd_particle_grid *grid,
                                           double time);
 
-/* What the device returns for a listed particle: a row, or the phase of a plunge in turns of 2^32; azimuth;
- * latitude. */
+/* The device's result for a listed particle: a row, or the phase of a plunge in turns of 2^32; azimuth; latitude. */
 struct kd_particle_listed {
     union {
         float row;

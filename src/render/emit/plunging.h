@@ -18,7 +18,7 @@
 
 #include <stdbool.h>
 
-/* Whether some particles fall: the disk is made of particles and reaches the ISCO, and a fraction of its particles
+/* True if some particles fall: the disk is made of particles and reaches the ISCO, and a fraction of its particles
  * fall. */
 bool kd_plunging_is_on(const struct kd_scene *scene);
 

@@ -15,8 +15,8 @@ static bool present(const struct kd_scene *scene)
     return scene->style.ringdown > 0 && (kd_emit_at_crossings(scene) || kd_emit_along(scene));
 }
 
-/* Whether the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too fast, so a change of a
- * third of a step may remain when this returns that they do not. */
+/* True if the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too fast. So a change of a
+ * third of a step may remain when the result becomes false. */
 static unsigned varies(const struct kd_scene *scene)
 {
     double since = scene->top.time - scene->style.ringdown_time;

@@ -47,7 +47,7 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
     const char *spread = !is_spread(scene) ? "" : is_picture(scene) ? "a picture of the sky" : "a Milky Way";
     const char *before = stars[scene->sky.model],
                *and = *before && *spread ? is_picture(scene) ? " over " : " and " : "";
-    const bool begins = !*before; /* whether the sentence begins with the diffuse light */
+    const bool begins = !*before; /* true if the sentence begins with the diffuse light */
     snprintf(out, KD_EMIT_TOLD, "%s%s%s%s behind.", before, and, begins ? "A" : "", begins ? spread + 1 : spread);
 }
 

@@ -56,7 +56,7 @@ void kd_explained_finish(struct kd_explained *explained);
 
 /* The reported place at the crossing of that order. NULL if its light is blocked, or if nothing emits light there. */
 const struct kd_probed_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
-/* Whether there is gas with a known temperature and angle; place may be NULL. */
+/* True if there is gas with a known temperature and angle; place may be NULL. */
 bool kd_explained_has_gas(const struct kd_probed_place *place);
 /* Velocity of the disk's gas at a crossing outside the horizon, in units of c, as a local observer of zero angular
  * momentum measures it. speed: its size; approach: its component along the light towards the camera. Within the last

@@ -35,7 +35,7 @@ enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_f
 
 void kd_compilation_drop(struct kd_compilation *compilation); /* frees a compilation that was not run; any thread */
 
-/* Whether compiling in advance helps with this device. If it does not help but the user can change that, the log
+/* True if compiling in advance helps with this device. If it does not help but the user can change that, the log
  * says how. */
 bool kd_compilation_helps(const struct kd_renderer *renderer);
 

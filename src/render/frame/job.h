@@ -24,7 +24,7 @@ struct kd_frame_job {
     struct kd_vk_buffer *marched;
     struct kd_lens_map *lens;
     struct kd_star_key star_key;   /* key of the light of stars in this frame */
-    bool stars_kept;               /* whether the cached light of stars is valid */
+    bool stars_kept;               /* true if the cached light of stars is valid */
     uint64_t undecided;            /* number of rays of the lens map whose tracing was given up */
     uint64_t traced, interpolated; /* as in kd_accuracy_report */
     double listed_ms, audit_ms; /* time on the host in ms: listed_ms for tracing listed rays, audit_ms for the audit */
@@ -39,7 +39,7 @@ struct kd_frame_job {
     uint32_t lit;                   /* number of rows of pixels, from the top, whose light is complete */
     bool looking;                   /* a preview is being made */
     uint8_t *kinds;                 /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
-    bool teaches;                   /* whether the job's times count as measurements of the passes' costs */
+    bool teaches;                   /* true if the job's times count as measurements of the passes' costs */
     struct kd_cpu_pressure waiting; /* time that the job's threads waited for a core; it is subtracted */
     struct kd_frame *frame;
     struct kd_error *error;

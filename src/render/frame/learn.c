@@ -29,7 +29,7 @@ static double timing(const struct kd_frame *frame, const char *pass)
     return 0;
 }
 
-/* Whether the device is the host's processor, which other programs slow down. Costs are stored between starts and
+/* True if the device is the host's processor, which other programs slow down. Costs are stored between starts and
  * used for planning. After an hour of load, pictures must not look too expensive on a machine that is idle again, so
  * the time that threads waited for a core is subtracted. It takes 0.1 to 0.3 ms to examine all threads; therefore
  * only one short frame in eight is measured. */

@@ -75,7 +75,7 @@ static bool is_layer_of(const struct kd_plan_picture *picture, int makes, enum k
     return makes >= 0 && kd_layer_kinds[picture->layers[makes].kind].of == of;
 }
 
-/* Whether the march makes this light or layer. Layers of a crossing need the march as well, because a body may hide
+/* True if the march makes this light or layer. Layers of a crossing need the march as well, because a body may hide
  * the crossing. */
 static bool marches(const struct kd_plan *p, int makes)
 {
@@ -128,7 +128,7 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
 /* Rows of pixels of a band whose rays are traced, and whose light is computed, in one step. */
 struct slice { uint32_t band, first, count; };
 
-/* Whether the transfer kernel processes columns of pixels, and leaves pixels without light as they are. */
+/* True if the transfer kernel processes columns of pixels, and leaves pixels without light as they are. */
 static bool in_columns(const struct kd_plan *p)
 {
     return p->lens.side == 1 && !(p->lens.ends && kd_plan_is_spread(&p->light)) && !p->light.march.steps;

@@ -80,7 +80,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Whether light is finite and the ray was not given up. A ray that was given up has the mark -1. */
+/* True if light is finite and the ray was not given up. A ray that was given up has the mark -1. */
 static bool right(const float c[3]) { return isfinite(c[0] + c[1] + c[2]) && c[0] >= 0 && c[1] >= 0 && c[2] >= 0; }
 
 /* Relative differences of the light of n rays, sorted. Returns their number. Rays that meet no volume have no

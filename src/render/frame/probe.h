@@ -78,7 +78,7 @@ struct kd_probed_ray {
     bool transfers; /* whether volumes transfer polarised light; if so, `stokes` is Stokes Q, U and V as they arrive */
     float stokes[3];
     bool given_up; /* the engine gave the ray up, and the picture shows magenta */
-    bool ended;    /* whether an emitter may shine at the ray's end, which the next three members describe */
+    bool ended;    /* true if an emitter may shine at the ray's end, which the next three members describe */
     float end_u, end_phi, end_footprint;
     struct kd_probed_glow ends[2 * KD_PLAN_EMITTERS]; /* light of each emitter at the end, with opacity 0; through:
                                                        * transmission of all matter before the end */

@@ -24,10 +24,11 @@ struct part {
     struct kd_vk_buffer *light;
 };
 
-/* What a kernel processes: rays of a picture without a rim, rays of a picture with a rim, or rays of the rim. */
+/* The rays that a kernel processes: rays of a picture without a rim, rays of a picture with a rim, or rays of the
+ * rim. */
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
-/* Whether the rim is searched. A search for bright images leaves it out. */
+/* True if the rim is searched. A search for bright images leaves it out. */
 static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->light.bright; }
 
 static enum rays rays_of(const struct kd_frame_job *j, const struct part *part)
@@ -52,7 +53,7 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* Whether texels are read. In software that takes a third of the time. */
+/* True if texels are read. In software that takes a third of the time. */
 static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
 {
     return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);

@@ -147,7 +147,7 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pac
 static void hold(struct kd_pace *pace, bool narrower)
 {
     if (!narrower && pace->rung <= pace->held) {
-        pace->held_target = 0; /* the rung is no longer in time */
+        pace->held_target = 0; /* frames of the rung are no longer in time */
     } else if (narrower && (pace->widest > pace->held_target || pace->rung < pace->held)) {
         pace->held = pace->rung;
         pace->held_target = pace->widest;
@@ -187,7 +187,7 @@ static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
     return pace->count > 1;
 }
 
-/* Whether frames that reuse a lens map may take this rung: the rung's map must first be traced within the limit. */
+/* True if frames that reuse a lens map may take this rung: the rung's map must first be traced within the limit. */
 static bool traceable(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_rung *rung, double limit)
 {
     return pace != &g->paces[0] || g->traced_on.rays == 0 || predict(&g->traced, &g->traced_on, rung, true) <= limit;
@@ -233,7 +233,7 @@ static void learn(const struct kd_governor *g, struct kd_pace *pace, const struc
     pace->other.rays = 0;
 }
 
-/* Whether one rung up is in time if a given fraction of the rays' time does not depend on size. */
+/* True if one rung up is in time if a given fraction of the rays' time does not depend on size. */
 static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
                          double part)
 {
@@ -336,7 +336,7 @@ static double predict_wide(const struct kd_governor *g, const struct kd_frame_co
                                       : predict(cost, here, wide, false);
 }
 
-/* Whether frames of the requested least width would now take well less than the patience; estimated from a narrower
+/* True if frames of the requested least width would now take well less than the patience; estimated from a narrower
  * frame. */
 static bool is_quick_as_asked(const struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
 {
@@ -415,7 +415,7 @@ void kd_governor_least(struct kd_governor *g, double scale, double patience_ms)
     give_way(g, &g->paces[1], false);
 }
 
-/* Whether the scenes differ only in their motion, which does not affect a single picture. */
+/* True if the scenes differ only in their motion, which does not affect a single picture. */
 static bool motion_alone(const struct kd_scene *a, const struct kd_scene *b)
 {
     struct kd_scene still = *b;

@@ -21,7 +21,7 @@ void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *a
     out->accuracy.steps = 0;
 }
 
-/* Whether the profile alone determines how rays are traced. */
+/* True if the profile alone determines how rays are traced. */
 static bool by_profile(const struct kd_accuracy *a)
 {
     return !isfinite(a->tolerance) && !a->steps && a->precision == KD_PRECISION_WORD_AUTO;

@@ -38,7 +38,7 @@ struct kd_cube {
     unsigned seen;     /* scenes scanned so far */
     uint64_t *places;  /* offsets of the layers' numbers in the scenes' files: n_layers for each scene */
     struct kd_wcs wcs; /* world coordinates of the first scene */
-    bool wcs_differ;   /* whether any scene has other world coordinates */
+    bool wcs_differ;   /* true if any scene has other world coordinates */
     struct kd_cube_texts {
         char *at[KD_CUBE_TEXTS];
         size_t n;

@@ -22,7 +22,7 @@ enum kd_status kd_cube_put_axis(struct kd_buffer *cards, const struct kd_sweep_a
                                 const struct kd_wcs *wcs);
 /* Appends a complete HDU: the axis' values, one row each. */
 enum kd_status kd_cube_put_values(const struct kd_sweep_axis *axis, struct kd_buffer *out);
-/* Whether the axis needs a second table, FREQ, of one row with all frequencies; appends that table. */
+/* True if the axis needs a second table, FREQ, of one row with all frequencies; appends that table. */
 bool kd_cube_has_frequencies(const struct kd_sweep_axis *axis);
 enum kd_status kd_cube_put_frequencies(const struct kd_sweep_axis *axis, struct kd_buffer *out);
 

@@ -192,7 +192,7 @@ done:
     return status;
 }
 
-/* Whether the film's file has grown since the last check. */
+/* True if the film's file has grown since the last check. */
 static bool has_written(struct film *f)
 {
     struct stat about;

@@ -80,7 +80,7 @@ const struct kd_format *kd_format_named(const char *name); /* returns NULL if th
 const struct kd_format *kd_format_of_bytes(const void *data, size_t size);
 const struct kd_format *kd_format_live(void); /* the format of live views */
 
-/* Whether the format can hold the scene's picture; errors of the format as kd_format_plan. */
+/* True if the format can hold the scene's picture; errors of the format as kd_format_plan. */
 enum kd_status kd_format_holds(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error);
 
 /* Plans a frame that carries what the format needs. Settings that neither affect the file nor are recorded in it

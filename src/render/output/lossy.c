@@ -3,7 +3,7 @@
 #include "image/webp.h"
 #include "render/output/xmp.h"
 
-/* What the library of a format does. */
+/* Functions of a format's library. */
 struct codec {
     enum kd_status (*encode)(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
                              struct kd_buffer *out, struct kd_error *error);

@@ -1,4 +1,4 @@
-/* What a device allows, and its measured speed. A plan is made for a capacity. Plain data; any thread. */
+/* The limits of a device, and its measured speed. A plan is made for a capacity. Plain data; any thread. */
 #ifndef KD_RENDER_PLAN_CAPACITY_H
 #define KD_RENDER_PLAN_CAPACITY_H
 
@@ -28,7 +28,7 @@ struct kd_capacity {
     } classes[KD_COST_CLASSES];               /* cost of an item in pictures of a class */
     uint64_t learned;                         /* number of measurements of classes so far */
     bool measured;                            /* false: the figures are defaults for this type of device */
-    bool float64;                             /* whether the device has double precision */
+    bool float64;                             /* true if the device has double precision */
     unsigned cores;                           /* cores of the host, on which the closed form in double runs */
     const struct kd_accuracy_table *accuracy; /* the device's or a built-in one; valid as long as the renderer */
     bool accuracy_measured;                   /* false: built in */

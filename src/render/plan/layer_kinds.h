@@ -31,7 +31,7 @@ struct kd_layer_kind {
     uint32_t n_classes;         /* 0: given by the largest value */
 };
 extern const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT];
-/* Whether the layer is a quantity of polarised light. */
+/* True if the layer is a quantity of polarised light. */
 static inline bool kd_layer_is_polarized(int kind)
 {
     return kind == KD_LAYER_stokes_q || kind == KD_LAYER_stokes_u || kind == KD_LAYER_evpa ||
@@ -45,7 +45,7 @@ struct kd_plan_layer { int16_t kind, order; };
 size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WORDS_MOST], bool *rgb);
 /* KD_LENS_... quantities that all layers of image.layers need together. */
 uint32_t kd_layers_needs(const struct kd_scene *scene);
-/* Whether jy_per_pixel is defined: all light is of one frequency, and all pixels cover the same part of the sky. */
+/* True if jy_per_pixel is defined: all light is of one frequency, and all pixels cover the same part of the sky. */
 bool kd_layers_have_flux(const struct kd_scene *scene);
 /* Returns KD_EINVAL at a field for an impossible request: a layer of the disk in a scene without a disk, a layer of
  * coordinates that the projection does not have, a layer of an order that is not traced, or invalid ends of a

@@ -17,7 +17,7 @@ struct kd_plan_lens {
     uint32_t critical;
     uint32_t critical_dense;  /* rays of each such pixel after refinement (frame/refine.c); 0: no refinement there */
     uint64_t critical_pixels; /* number of pixels at the critical curve */
-    uint64_t critical_part;   /* how many of these pixels fit one buffer of their lens map */
+    uint64_t critical_part;   /* number of these pixels that fit one buffer of their lens map */
     uint32_t adaptive;        /* rays of a pixel after refinement (frame/refine.c); 0: no refinement */
     uint64_t listed_bytes;    /* size of the buffer for the lens map of refined pixels, filled part by part */
     enum kd_lens_path {
@@ -77,7 +77,7 @@ static inline bool kd_plan_has_footprints(const struct kd_plan_lens *lens)
     return lens->quantities & (KD_LENS_FOOTPRINT | KD_LENS_SKY_FOOTPRINT);
 }
 
-/* Whether the lens map is the cheapest kind: crossing radii only, by the closed form. */
+/* True if the lens map is the cheapest kind: crossing radii only, by the closed form. */
 static inline bool kd_plan_is_radii(const struct kd_plan_lens *lens)
 {
     return lens->path == KD_LENS_CLOSED && !(lens->quantities & ~(uint32_t)KD_LENS_W);

@@ -34,7 +34,7 @@ struct kd_plan_light {
                 rounded to whole pixels */
 };
 
-/* Whether every ray that escapes meets light, such as that of a grid or of the Milky Way (KD_TRAIT_SPREAD), and not
+/* True if every ray that escapes meets light, such as that of a grid or of the Milky Way (KD_TRAIT_SPREAD), and not
  * only points of light such as stars. */
 bool kd_plan_is_spread(const struct kd_plan_light *light);
 
@@ -60,13 +60,13 @@ static inline uint64_t kd_plan_pixel_bytes(const struct kd_plan_light *light)
     return 4ull * ((light->apart ? 4 : 3) + light->stokes_words);
 }
 
-/* Whether Q and U of the separate luminance are kept. */
+/* True if Q and U of the separate luminance are kept. */
 static inline bool kd_plan_stokes_apart(const struct kd_plan_light *light)
 {
     return light->stokes_words > KD_PLAN_STOKES;
 }
 
-/* Whether a layer is computed from the numbers that the march stores while it makes the picture. If not, rays are
+/* True if a layer is computed from the numbers that the march stores while it makes the picture. If not, rays are
  * traced for the layer. */
 static inline bool kd_plan_gathers(const struct kd_plan_light *light, int kind)
 {

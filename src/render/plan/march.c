@@ -31,7 +31,8 @@ static double error_of(const struct kd_scene *scene)
 #define CLOSER 0.08 /* change of the exponent in fine_of each time the distance halves */
 #define CLOSEST 3   /* number of halvings after which all octaves are resolved */
 
-/* How many times the distance of rays must be halved, starting from a picture 320 wide of the preset thick-disk. */
+/* The number of times that the distance of rays must be halved, starting from a picture 320 wide of the preset
+ * thick-disk. */
 static double closeness(const struct kd_scene *scene)
 {
     const double distance = isfinite(scene->camera.r) ? scene->camera.r : 1, side = fmax(scene->image.samples, 1);

@@ -151,7 +151,7 @@ static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_
     return KD_ETOOBIG;
 }
 
-/* Whether some number of strips may fit. The check leaves out the list of pixels at the critical curve. It uses the
+/* True if some number of strips may fit. The check leaves out the list of pixels at the critical curve. It uses the
  * first strip, because no strip has more rows. */
 static enum kd_status check_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                    const struct kd_capacity *capacity, struct kd_error *error)

@@ -129,7 +129,7 @@ INVOCATIONS(marched, plan->light.march.steps ? kd_plan_rays(&plan->lens) : 0)
 INVOCATIONS(sampled, plan->light.march.steps ? plan->light.march.sample.columns * plan->light.march.sample.rows : 0)
 INVOCATIONS(starred, plan->light.points ? plan->lens.rays / (plan->light.bright ? KD_PLAN_BRIGHT : 1) : 0)
 
-/* Whether the disk is streaked: turbulent gas or particles. */
+/* True if the disk is streaked: turbulent gas or particles. */
 static bool is_streaked(const struct kd_scene *scene)
 {
     return scene->disk.model == KD_DISK_PARTICLES || (scene->disk.model != KD_DISK_NONE && scene->gas.amplitude > 0);

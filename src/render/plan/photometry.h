@@ -30,7 +30,7 @@ struct kd_light {
 };
 
 struct kd_light_report {
-    bool measured;              /* whether the plan requested it (kd_plan_light.photometry) */
+    bool measured;              /* true if the plan requested it (kd_plan_light.photometry) */
     bool polarized, circular;   /* polarized: whether there are Q and U; circular: whether there is V */
     struct kd_light all, spots; /* all: for the whole picture; spots: for the contribution of its hot spots */
 };

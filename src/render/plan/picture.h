@@ -69,7 +69,7 @@ static inline uint64_t kd_plan_readback_bytes(const struct kd_plan_picture *pict
     return (picture->radiance ? 12ull : picture->n_layers ? 4ull : 0) * picture->width * picture->band_rows;
 }
 
-/* Whether the only requested layer is a map: the picture then shows it in false colour. */
+/* True if the only requested layer is a map: the picture then shows it in false colour. */
 static inline bool kd_plan_is_map(const struct kd_plan_picture *picture)
 {
     return picture->n_layers == 1 && !picture->rgb;

@@ -221,7 +221,7 @@ static double ergosphere(const struct kd_scene *scene)
     return kd_kerr_ergosphere(kd_scene_hole(scene), kd_cos_deg(scene->camera.inclination_deg));
 }
 
-/* Whether E is positive for each ray of the camera, as the device's engines assume for listed rays. The closed form
+/* True if E is positive for each ray of the camera, as the device's engines assume for listed rays. The closed form
  * needs only L/E and Q/E^2. */
 static bool outside(const struct kd_scene *scene) { return scene->camera.r > ergosphere(scene); }
 
@@ -290,7 +290,7 @@ static enum kd_status choose(struct kd_plan *plan, const struct kd_scene *scene,
 {
     struct kd_accuracy_request asked_accuracy = kd_accuracy_request_of(scene);
     struct kd_setting *by = &plan->lens.setting;
-    /* whether lens_closed.comp can trace the picture */
+    /* true if lens_closed.comp can trace the picture */
     bool closed_form = scene->camera.r > beyond_orbits(scene) && !kd_plan_holds(&plan->lens, KD_LENS_DELAY);
     bool closed32 = asked_accuracy.engine == KD_ENGINE_CLOSED && asked_accuracy.precision == KD_PRECISION_F32;
     if (asked_accuracy.tolerance < KEPT)

@@ -1,4 +1,4 @@
-/* What a plan reports with its picture: approximations, the sources of its estimates, and a description of one pixel.
+/* The report of a plan with its picture: approximations, the sources of its estimates, and a description of one pixel.
  * Plain data; any thread. */
 #ifndef KD_RENDER_PLAN_REPORT_H
 #define KD_RENDER_PLAN_REPORT_H

@@ -78,7 +78,7 @@ static struct range widen(uint32_t from, uint32_t to, int32_t all, uint32_t marg
     return (struct range) { from > margin ? (from - margin) / by * by : 0, end < (uint32_t)all ? end : (uint32_t)all };
 }
 
-/* Whether the tile needs rows or columns from the other side: a picture of all directions continues beyond each edge at
+/* True if the tile needs rows or columns from the other side: a picture of all directions continues beyond each edge at
  * the opposite edge (shaders/ray/around.glsl), and so does the light of points. */
 static bool needs_all_round(const struct kd_scene *scene, const struct range *x, const struct range *y)
 {

@@ -31,7 +31,7 @@ struct work {
     uint32_t per_ray;
     /* least radius: the float next above the horizon's */
     double least;
-    struct set { struct kd_vk_buffer *rays, *ends, *host; } sets[2]; /* used alternately by the parts */
+    struct set { struct kd_vk_buffer *rays, *ends, *host; } sets[2]; /* buffers that successive parts use alternately */
     struct kd_vk_buffer *told;                                       /* buffer for the records of trace.glsl, or NULL */
     uint32_t steps;                                                  /* per half period */
     const struct kd_vk_pipeline *pipeline;

@@ -44,7 +44,7 @@ static size_t skip_string(const char *text, size_t at, size_t length)
 bool kd_rays_list_find(const char *text, size_t length, size_t *start)
 {
     int depth = 0;
-    bool key = false; /* whether a string at this place is the name of a member */
+    bool key = false; /* true if a string at this place is the name of a member */
     for (size_t at = 0; at < length;) {
         char c = text[at];
         if (c == '"') {

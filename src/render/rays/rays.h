@@ -76,7 +76,7 @@ struct kd_ray_end {
     bool again; /* the ray was traced again by a finer setting, to meet the tolerance */
 };
 
-/* Whether two ends are equal bit for bit, ignoring padding. */
+/* True if two ends are equal bit for bit, ignoring padding. */
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
 
 /* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set.

@@ -40,7 +40,7 @@ struct kd_rays_steps {
     struct kd_rays_step *steps; /* malloc'd */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
-    bool same; /* whether the kernel without recording gives the same end, bit for bit */
+    bool same; /* true if the kernel without recording gives the same end, bit for bit */
 };
 
 /* Records the steps of one ray; params as for kd_rays_trace, with an engine that takes steps. Call

@@ -307,7 +307,7 @@ enum kd_status kd_accuracy_measure(struct kd_renderer *renderer, const struct kd
     enum kd_status status;
     KD_TRY(prepare(&b));
     for (uint32_t i = 0; i < out->n; i++) {
-        double s; /* not timed, because this run compiles the kernel */
+        double s; /* the time of this run is not used, because the run compiles the kernel */
         const struct truth *first = &b.truths[KD_ACCURACY_BULK][0];
         KD_TRY(trace(&b, &out->rows[i], &first->view, first->rays, WARM_UP, &s));
         for (int set = 0; set < KD_ACCURACY_SETS; set++) {

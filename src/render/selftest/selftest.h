@@ -16,7 +16,7 @@ struct kd_selftest_row {
     const char *source;    /* the reference in a few words */
     unsigned compared;
     double error, bound; /* error is INFINITY if a number was missing or NaN */
-    bool ok;             /* whether there were comparisons, and all are within their bounds */
+    bool ok;             /* true if there were comparisons, and all are within their bounds */
 };
 void kd_selftest_begin(struct kd_selftest_row *row, const char *source, const char *by, const char *what, ...)
     __attribute__((format(printf, 4, 5)));

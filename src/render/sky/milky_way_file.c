@@ -43,7 +43,7 @@ static struct head head_of(int32_t seed, const uint32_t *words)
     return head;
 }
 
-/* Whether this program would compute the same picture. Another version of it or of its mathematics library may compute
+/* True if this program would compute the same picture. Another version of it or of its mathematics library may compute
  * another. */
 static bool is_ours(int32_t seed, const uint32_t *words)
 {

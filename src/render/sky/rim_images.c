@@ -140,11 +140,11 @@ static bool between(const void *of, double column, double row, struct kd_sky_tan
     return true;
 }
 
-/* Whether a place is at a border or beyond it. The tolerance exceeds the difference between the two places that
+/* True if a place is at a border or beyond it. The tolerance exceeds the difference between the two places that
  * Newton's method finds when it starts on either side of the border. */
 static bool is_from(double place, double border) { return place > border - 1e-8; }
 
-/* Whether a place is in the grid's own part, and in the picture or close to it. */
+/* True if a place is in the grid's own part, and in the picture or close to it. */
 static bool wanted(const void *of, double column, double row)
 {
     const struct rim_map *m = of;

@@ -110,7 +110,7 @@ struct cell {
     double area, beside[2][2]; /* if the cell folds: its largest area, and one place on each side of the fold */
 };
 
-/* Whether a star may be bright enough where the map takes a cell to a solid angle `area`. */
+/* True if a star may be bright enough where the map takes a cell to a solid angle `area`. */
 static bool is_seen(const struct search *s, const struct cell *cell, const struct listed *star, double area)
 {
     return !s->map->most || fabs(area) < MARGIN * cell->pixels * s->map->most[star->star];

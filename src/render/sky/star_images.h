@@ -41,7 +41,7 @@ struct kd_sky_map {
      * need not be traced where there is no image. False: unknown. NULL: unknown everywhere. */
     bool (*between)(const void *of, double x, double y, struct kd_sky_tangent *out);
     bool (*wanted)(const void *of, double x,
-                   double y); /* whether an image near this place must be reported, to 0.01 rays; NULL: always */
+                   double y); /* true if an image near this place must be reported, to 0.01 rays; NULL: always */
 };
 
 /* A place, and steps from that place. A solid angle is measured over these steps. Steps of 0: the derivative at the
@@ -55,7 +55,7 @@ struct kd_star_image {
                                 * about the place */
     struct kd_star_stencil by; /* how solid_angle was measured */
     double x_by_azimuth, y_by_azimuth; /* change of the place per radian of the observer's azimuth */
-    bool mirrored;                     /* whether left and right are exchanged in the image */
+    bool mirrored;                     /* true if left and right are exchanged in the image */
 };
 
 /* Reports each image of n stars (unit vectors in the frame of the map) once, row by row. KD_ENOMEM; another status

@@ -107,7 +107,7 @@ static void mark(struct work *w, struct spot a, struct spot b)
         }
 }
 
-/* Whether the curve between two spots may enter the picture, given that this piece is not much longer than the
+/* True if the curve between two spots may enter the picture, given that this piece is not much longer than the
  * distance between the spots. */
 static bool meets(const struct work *w, struct spot a, struct spot b)
 {

@@ -174,7 +174,7 @@ void kd_rim_look(const struct kd_rim *rim, const double place[2], double look[3]
         look[i] = rim->ahead[i] + place[0] * rim->right[i] + place[1] * rim->up[i];
 }
 
-/* Whether the outermost and innermost rays escape, all round the curve. */
+/* True if the outermost and innermost rays escape, all round the curve. */
 static bool escapes(const struct kd_scene *scene, const struct kd_rim *o)
 {
     const struct kd_sky_rays rays = kd_sky_rays_of(scene);

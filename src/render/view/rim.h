@@ -49,7 +49,7 @@ struct kd_rim {
     struct kd_critical curve;
 };
 
-/* Whether the scene may have a rim; a cheap test. */
+/* True if the scene may have a rim; a cheap test. */
 bool kd_rim_may_be(const struct kd_scene *scene);
 /* Makes the rim; false if there is none. There is one if the observer is outside the photon orbits and sees all of
  * the curve within 80 degrees of its middle. About 0.3 ms. */

@@ -100,7 +100,7 @@ static void see_corners(const struct layout *o, struct corner corners[ROUND + 1]
 /* A rectangle of the picture, in rays. */
 struct rectangle { double left, top, right, bottom; };
 
-/* Whether images in the cell with these corners may light some of the rectangle. spread: see SPREAD, in rays. */
+/* True if images in the cell with these corners may light some of the rectangle. spread: see SPREAD, in rays. */
 static bool may_light(const struct corner *c[4], const struct rectangle *r, double spread)
 {
     double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
@@ -128,7 +128,7 @@ static void set_most(struct layout *o, int i, int j)
     }
 }
 
-/* Whether any of these cells, or a neighbour of one, is in the picture. Neighbours count because they enter the means
+/* True if any of these cells, or a neighbour of one, is in the picture. Neighbours count because they enter the means
  * of choose_cells. */
 static bool is_near_picture(const struct layout *o, int i, int j, int apart)
 {
@@ -444,7 +444,7 @@ static bool set_spans(const struct kd_rim *rim, const struct kd_camera_exact *ca
     return true;
 }
 
-/* Whether light from beyond an edge of the picture may reach a tile: the map of an equirectangular picture continues
+/* True if light from beyond an edge of the picture may reach a tile: the map of an equirectangular picture continues
  * from the right edge to the left one, and over the poles (shaders/ray/around.glsl). */
 static bool comes_around(const struct kd_camera_exact *c, const struct rectangle *tile, const struct rectangle *picture,
                          double spread)

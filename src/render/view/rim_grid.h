@@ -53,7 +53,7 @@ void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, str
  * the columns and rows are searched whose images may light the tile. Its light stays the same to the bit. */
 void kd_rim_grids_keep(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *grids);
 
-/* Whether even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a fast
+/* True if even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a fast
  * hole, and no time for others. */
 bool kd_rim_is_thinned(const struct kd_scene *scene, const struct kd_rim *rim);
 

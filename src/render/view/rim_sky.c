@@ -129,7 +129,7 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
     return 1;
 }
 
-/* Tests one number of intervals on lines across a side. */
+/* A test of one number of intervals, on lines across a side. */
 struct trial {
     const struct follower *f;
     const struct side *side, *other;
@@ -167,7 +167,7 @@ struct sheet {
     struct angles at[MOST + 1][MOST + 1]; /* rows of l */
     double *columns;                      /* values by row and angle, for all columns */
     float *out;
-    _Atomic bool escapes; /* whether every ray of the sheet escapes */
+    _Atomic bool escapes; /* true if every ray of the sheet escapes */
 };
 
 static void follow_line(void *user, size_t j)

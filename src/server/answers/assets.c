@@ -142,7 +142,7 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 static const struct kd_task_kind KIND = { "assets", sizeof(struct putting), work, finish };
 
-/* Whether Content-Type contradicts the first bytes. If so, `text` holds the message. Bytes of an unknown kind are
+/* True if Content-Type contradicts the first bytes. If so, `text` holds the message. Bytes of an unknown kind are
  * refused later, when they are parsed. */
 static bool wrong_type(const struct kd_request *request, char text[200])
 {

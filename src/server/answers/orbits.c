@@ -122,7 +122,7 @@ static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *erro
     return status;
 }
 
-/* Whether `out` has room for the output of another slice; frees the part that was sent. Called with the lock. */
+/* True if `out` has room for the output of another slice; frees the part that was sent. Called with the lock. */
 static bool has_room(struct kd_orbits_job *job)
 {
     if (job->format != KD_ORBIT_NDJSON)

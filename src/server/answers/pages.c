@@ -14,7 +14,7 @@ static const struct kd_served *find(const char *name)
     return NULL;
 }
 
-/* Whether a file needs a Content-Security-Policy. The policy has an effect on documents only (HTML, SVG). With
+/* True if a file needs a Content-Security-Policy. The policy has an effect on documents only (HTML, SVG). With
  * scripts and styles it would have none, and all these headers together would be as large as the largest file. */
 static bool document(const struct kd_served *file)
 {

@@ -134,7 +134,7 @@ static const char *read_bytes(int folder, struct kd_asset_about *about, struct k
     return NULL;
 }
 
-/* Whether an asset has a record, whatever the record contains. */
+/* True if an asset has a record, whatever the record contains. */
 static bool has_record(int folder, const char *hash)
 {
     char name[FILE_NAME];
@@ -143,7 +143,7 @@ static bool has_record(int folder, const char *hash)
     return !fstatat(folder, name, &about, AT_SYMLINK_NOFOLLOW);
 }
 
-/* Whether the file was left by a killed server: bytes without a record, or an unfinished file. */
+/* True if the file was left by a killed server: bytes without a record, or an unfinished file. */
 static bool is_left_over(int folder, const char *name)
 {
     static const char *const kinds[] = { "png", "npz", "uvfits", "csv", "json" };

@@ -66,7 +66,7 @@ static enum room find_room(struct kd_asset_store *store, uint64_t bytes, bool an
     return *leaves || is_anyone_leaving(store) ? ROOM_LATER : ROOM_NONE;
 }
 
-/* Whether these bytes would exceed the client's share. Called with the lock. */
+/* True if these bytes would exceed the client's share. Called with the lock. */
 static bool has_share(const struct kd_asset_store *store, size_t size, const char *client)
 {
     unsigned assets = 0;
@@ -100,7 +100,7 @@ static enum kd_status after_room(struct kd_asset_put *put, enum room room, struc
     return KD_OK;
 }
 
-/* Whether the same bytes are stored, being stored or being removed. Called with the lock. */
+/* True if the same bytes are stored, being stored or being removed. Called with the lock. */
 static bool is_here(struct kd_asset_put *put, enum kd_asset_progress *how)
 {
     struct kd_asset *there = kd_asset_find(put->own->store, put->own->about.hash);

@@ -244,7 +244,7 @@ static const struct kd_visitor *visitor_of(struct kd_request *request, const str
     return visitor;
 }
 
-/* Whether a bearer token may be a session's token, which has 32 hexadecimal digits. An access token of that form
+/* True if a bearer token may be a session's token, which has 32 hexadecimal digits. An access token of that form
  * cannot be found by guessing. */
 static bool may_be_sessions(const char *bearer)
 {
@@ -292,7 +292,7 @@ bool kd_role_may(enum kd_role role, const struct kd_route *route, unsigned metho
     return role == KD_ROLE_RENDER || method == KD_GET || (method == KD_POST && route->question);
 }
 
-/* Whether the request comes by a signed link. If so, only the link's signature authorises it. */
+/* True if the request comes by a signed link. If so, only the link's signature authorises it. */
 static bool has_link(const struct kd_request *request)
 {
     return request->route && kd_role_may(KD_ROLE_LINK, request->route, kd_route_method(request->method)) &&

@@ -31,7 +31,7 @@ enum kd_role {
 #undef KD_ROLE_ENUM
 };
 
-/* Whether the role may send this method to the route. */
+/* True if the role may send this method to the route. */
 bool kd_role_may(enum kd_role role, const struct kd_route *route, unsigned method);
 
 struct kd_visitor {

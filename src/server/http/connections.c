@@ -307,7 +307,7 @@ static void empty_lingering(struct kd_connections *all, double now)
     }
 }
 
-/* Whether a request has arrived that its daemon has not read yet. Such a request is not late. */
+/* True if a request has arrived that its daemon has not read yet. Such a request is not late. */
 static bool waits_for_us(const struct kd_connection *one)
 {
     int unread = 0;

@@ -58,10 +58,10 @@ void kd_connections_stage(struct kd_connections *all, struct kd_connection *one,
  * request is still arriving. Only the thread that works on the connection. */
 void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_problem_type type, const char *detail);
 
-/* Whether a new request of this connection must be refused because more connections are open than the limit. A
+/* True if a new request of this connection must be refused because more connections are open than the limit. A
  * client with few connections (at most limit - share) is not refused. */
 bool kd_connections_crowded(struct kd_connections *all, const struct kd_connection *one);
-/* Whether connections that have not sent anything yet must be closed to make room. */
+/* True if connections that have not sent anything yet must be closed to make room. */
 bool kd_connections_full(struct kd_connections *all);
 /* Capacity of the main daemon for a limit. It is larger than the limit, so that an excess connection gets an answer
  * with the reason. */
@@ -75,7 +75,7 @@ void kd_connections_sweep(struct kd_connections *all);
  * thread. */
 void kd_connections_cut_stalled(struct kd_connections *all);
 
-/* Whether the peer has closed or half-closed its end. The caller guarantees that the socket is open. */
+/* True if the peer has closed or half-closed its end. The caller guarantees that the socket is open. */
 bool kd_socket_abandoned(int socket);
 
 #endif

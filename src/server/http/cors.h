@@ -22,7 +22,7 @@ void kd_cors_destroy(struct kd_cors *cors); /* accepts NULL */
 /* Returns the listed origin that sent the request, or NULL if it is not listed or the request has no Origin. This and
  * all functions below: HTTP threads. */
 const char *kd_cors_origin(const struct kd_request *request);
-/* Whether the request comes from a listed origin other than the server's own. Its cookies are then ignored. */
+/* True if the request comes from a listed origin other than the server's own. Its cookies are then ignored. */
 bool kd_cors_foreign(const struct kd_request *request);
 /* Adds the CORS headers to an answer if the request's origin is listed. No effect on a server without a list. */
 void kd_cors_add(const struct kd_request *request, struct MHD_Response *response);
@@ -31,7 +31,7 @@ void kd_cors_add(const struct kd_request *request, struct MHD_Response *response
  * none or cors is NULL. */
 const char *kd_cors_embedders(const struct kd_cors *cors);
 
-/* Whether the request is a preflight. False on a server without a list. */
+/* True if the request is a preflight. False on a server without a list. */
 bool kd_cors_is_preflight(const struct kd_request *request);
 /* Answers a preflight with the methods and request headers of the route. */
 enum MHD_Result kd_cors_preflight(struct kd_request *request);

@@ -18,7 +18,7 @@
 #define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
 #define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
 
-/* What a link permits, and until when. */
+/* The end of a link, and its limit. */
 struct kd_link_terms {
     uint64_t expires_s; /* Unix time */
     uint64_t budget_ms; /* limit of the device time of all the link's pictures together; 0: no limit */
@@ -39,7 +39,7 @@ enum kd_status kd_link_sign(const struct kd_access *access, const char *name, co
                             const struct kd_target *target, const struct kd_link_terms *terms, struct kd_buffer *out,
                             struct kd_error *error);
 
-/* Whether the query has a signature. */
+/* True if the query has a signature. */
 bool kd_link_is(const struct kd_target *target);
 /* Checks the request's link: path and parameters as for kd_link_sign. Returns the key's owner, and removes the link's
  * parameters from the target; or returns NULL with *error. Any thread. */

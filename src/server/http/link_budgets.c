@@ -130,7 +130,7 @@ enum kd_link_left kd_link_budget(struct kd_link_budgets *all, const struct kd_li
     return !place ? KD_LINK_CROWDED : spent ? KD_LINK_SPENT : KD_LINK_LEFT;
 }
 
-/* Writes a place as it is now. */
+/* Writes the current content of a place to the file. */
 static void keep(struct kd_link_budgets *all, size_t i)
 {
     if (all->fd < 0)

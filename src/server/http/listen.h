@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Whether a socket that listens on the address can be reached from other machines. False if the text is not a
+/* True if a socket that listens on the address can be reached from other machines. False if the text is not a
  * numeric address. */
 bool kd_listen_reaches_out(const char *address);
 /* Opens the socket. address: "127.0.0.1", "::1" or "[::1]". *port 0 is replaced by the port that the system chose. The

@@ -53,7 +53,7 @@ static bool add(char **names, size_t *n, const char *name)
     return names[(*n)++];
 }
 
-/* Whether the address is this machine's. Loopback counts, because Debian resolves the host name to 127.0.1.1. */
+/* True if the address is this machine's. Loopback counts, because Debian resolves the host name to 127.0.1.1. */
 static bool is_own(const char *text, char **names, size_t n)
 {
     for (size_t i = 0; i < n; i++)

@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* Whether listen is a wildcard address: 0.0.0.0, :: or [::]. */
+/* True if listen is a wildcard address: 0.0.0.0, :: or [::]. */
 bool kd_names_any(const char *listen);
 
 /* Returns the machine's own addresses of that family as they are written in URLs ("192.168.1.7", "[2001:db8::7]"), and

@@ -12,23 +12,23 @@
 size_t kd_accept_best(const char *accept, size_t n, const char *(*type)(size_t i, const void *list), const void *list);
 const char *kd_accept_string(size_t i, const void *list); /* `type` for a list that is an array of const char * */
 
-/* Whether an Accept-Encoding value (RFC 9110 12.5.3) has the coding, or "*", with a weight above zero. False for
+/* True if an Accept-Encoding value (RFC 9110 12.5.3) has the coding, or "*", with a weight above zero. False for
  * NULL. */
 bool kd_accepts_coding(const char *accept_encoding, const char *coding);
 
-/* Whether an If-None-Match value is "*" or contains the entity tag (with its quotes), by weak comparison. */
+/* True if an If-None-Match value is "*" or contains the entity tag (with its quotes), by weak comparison. */
 bool kd_etag_listed(const char *if_none_match, const char *etag);
 
-/* Whether an If-Match value is "*" or contains the entity tag, by strong comparison. etag NULL: the resource has
+/* True if an If-Match value is "*" or contains the entity tag, by strong comparison. etag NULL: the resource has
  * none. */
 bool kd_etag_matches(const char *if_match, const char *etag);
 
-/* Whether a Content-Type value is this media type; parameters are ignored. */
+/* True if a Content-Type value is this media type; parameters are ignored. */
 bool kd_media_type_is(const char *content_type, const char *type);
 
-/* Whether a Host value is well formed: a non-empty host, optionally followed by a port (RFC 3986 3.2.2). */
+/* True if a Host value is well formed: a non-empty host, optionally followed by a port (RFC 3986 3.2.2). */
 bool kd_host_is_sound(const char *host);
-/* Whether the host of a Host value is one of the NULL-terminated names. The port and a final dot are ignored. IPv6
+/* True if the host of a Host value is one of the NULL-terminated names. The port and a final dot are ignored. IPv6
  * literals have brackets. */
 bool kd_host_listed(const char *host, const char *const *names);
 

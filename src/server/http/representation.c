@@ -84,7 +84,7 @@ static bool names(struct kd_request *request, const char *header, const char *et
     return yes;
 }
 
-/* Whether If-Range holds for the ETag, by strong comparison. A date never holds, because the server sends no
+/* True if If-Range holds for the ETag, by strong comparison. A date never holds, because the server sends no
  * Last-Modified (RFC 9110 13.1.5). */
 static bool is_of(struct kd_request *request, const char *etag)
 {

@@ -47,7 +47,7 @@ struct kd_request {
                                                     * the first that can hold the scene, or accepts[0] */
     struct kd_render_job *job;                     /* the render under way for this request; owned */
     struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */
-    bool waited;                                   /* it has waited for a thumbnail */
+    bool waited;                                   /* the request has waited for a thumbnail */
     struct kd_orbits_job *orbits;                  /* orbits being computed for the request; a counted reference */
     struct kd_particles_job *particles;            /* list of particles being made; owned */
     struct kd_task *task;                          /* work of the task scheduler; owned */

@@ -7,7 +7,7 @@
 #define KD_REQUEST_ID_HEADER "X-Request-Id"
 #define KD_REQUEST_ID_MAX 64 /* characters */
 
-/* Whether a client's ID is accepted: 1 to KD_REQUEST_ID_MAX letters, digits and -._+/=. False for NULL. */
+/* True if a client's ID is accepted: 1 to KD_REQUEST_ID_MAX letters, digits and -._+/=. False for NULL. */
 bool kd_request_id_is_sane(const char *given);
 /* Copies the client's ID if it is accepted; else makes one of 32 hexadecimal digits, or "" if there are no random
  * numbers. */

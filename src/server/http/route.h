@@ -62,7 +62,7 @@ struct kd_taken {
 enum { KD_TAKES = KD_TAKES_QUANTITY + 1 };
 extern const struct kd_taken kd_taken[KD_TAKES];
 
-/* Where an answer's media types are listed. */
+/* The place where an answer's media types are listed. */
 enum kd_gives {
     KD_GIVES_ITS_ANSWER, /* in the members `answer` and `also` */
     KD_GIVES_PICTURE,    /* every format of a picture: render/output/format.h */
@@ -114,9 +114,9 @@ struct kd_route {
 extern const struct kd_route kd_routes[];
 extern const size_t kd_n_routes;
 
-/* Whether an entry with these methods applies to this method. */
+/* True if an entry with these methods applies to this method. */
 static inline bool kd_route_for(unsigned methods, unsigned method) { return !methods || methods & method; }
-/* Whether the route has a query parameter of this name or former name; route may be NULL. */
+/* True if the route has a query parameter of this name or former name; route may be NULL. */
 bool kd_route_has_query(const struct kd_route *route, const char *name);
 
 /* Value of the route's own query parameter. NULL if the query does not have it, or if the route has no such
@@ -129,10 +129,10 @@ enum kd_status kd_route_query(const struct kd_request *request, const char *name
  * the handler), and queries of pages. */
 enum kd_status kd_route_only(const struct kd_request *request, struct kd_error *error);
 bool kd_route_checks_query(const struct kd_route *route);
-/* Whether the query has a former name of a parameter. */
+/* True if the query has a former name of a parameter. */
 bool kd_route_is_dated(const struct kd_request *request);
 
-/* Appends the path that led to the route with this rest, below the base path. */
+/* Appends the path of the route with this rest, below the base path. */
 enum kd_status kd_route_path(const struct kd_route *route, const char *rest, struct kd_buffer *out);
 /* Returns the route that a decoded path leads to, or NULL. *rest is cut out of the path, which is modified. Ignores the
  * base path. */
@@ -149,7 +149,7 @@ const char *kd_route_allow(const struct kd_route *route);
 const char *kd_route_methods(const struct kd_route *route);
 /* Bit of a method's name, such as KD_GET; 0: unknown. */
 unsigned kd_route_method(const char *method);
-/* Whether a raw target is /healthz, /readyz or /metrics, with or without the base path. These are always answered. */
+/* True if a raw target is /healthz, /readyz or /metrics, with or without the base path. These are always answered. */
 bool kd_route_is_health(const struct kd_base_path *base, const char *raw);
 /* Like kd_route_is_health, decided by the first n bytes of a connection. KD_BEGINS_UNCLEAR: more bytes are needed.
  * KD_BEGINS_BYTES bytes always suffice. */
@@ -157,7 +157,7 @@ enum kd_begins { KD_BEGINS_UNCLEAR, KD_BEGINS_HEALTH, KD_BEGINS_OTHER };
 #define KD_BEGINS_BYTES (KD_BASE_PATH_MOST + 32)
 enum kd_begins kd_route_begins(const struct kd_base_path *base, const char *bytes, size_t n);
 
-/* Whether a refused browser gets a page that asks for the access token; kd_sign_in_page sends it
+/* True if a refused browser gets a page that asks for the access token; kd_sign_in_page sends it
  * (answers/sign_in.c). */
 struct kd_problem;
 bool kd_sign_in_wanted(struct kd_request *request, const struct kd_problem *problem);

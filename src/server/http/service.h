@@ -102,7 +102,7 @@ struct kd_server {
     const char *share_key;                  /* name of the key that signs shared scenes, in access; NULL: none */
     struct kd_auth_throttle *auth_throttle; /* throttle of wrong tokens, used with access */
     struct kd_cors *cors;                   /* origins permitted besides our own; NULL: none */
-    /* whether pages of other sites may send requests, although they cannot read the answers */
+    /* true if pages of other sites may send requests, although they cannot read the answers */
     bool cross_site;
     struct kd_measures *measures; /* durations of requests */
     /* Numbers of answers by the first digit of the status; 0: the connection was cut before a status. */

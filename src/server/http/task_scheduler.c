@@ -38,7 +38,7 @@ struct kd_scheduler {
 /* the calling thread's scheduler and job, if it is a worker */
 static _Thread_local struct kd_scheduler *mine;
 static _Thread_local struct kd_scheduler_job *under_way;
-static _Thread_local double piece_ms; /* when the current slice began or was last resumed */
+static _Thread_local double piece_ms; /* time at which the current slice began or was last resumed */
 static _Thread_local bool stops;      /* nobody wants the result of the current slice's job */
 
 static void append(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)

@@ -22,7 +22,7 @@ struct kd_scheduler_job {
     enum kd_slice_result (*turn)(struct kd_scheduler_job *job); /* runs one slice; on a worker */
     void (*done)(
         struct kd_scheduler_job *job); /* called once on a worker when every slice has returned; may free the job */
-    /* whether nobody waits for the job's result any more; kd_pause is then true until the slice ends. Called by the
+    /* true if nobody waits for the job's result any more; kd_pause is then true until the slice ends. Called by the
      * slice's thread without a lock; NULL: never */
     bool (*unwanted)(struct kd_scheduler_job *job);
     /* time on kd_clock_ms at which a parked job is resumed; 0: none */

@@ -6,7 +6,7 @@
 #define HEX "0123456789abcdef" /* the standard permits lower case only */
 enum { VERSION = 2, TRACE = 32, PARENT = 16, FLAGS = 2, ALL = VERSION + 1 + TRACE + 1 + PARENT + 1 + FLAGS };
 
-/* Whether n hexadecimal digits and then a hyphen follow. After the last field anything may follow. */
+/* True if n hexadecimal digits and then a hyphen follow. After the last field anything may follow. */
 static bool is_field(const char *at, size_t n, bool last) { return strspn(at, HEX) == n && (last || at[n] == '-'); }
 
 static bool is_zero(const char *at, size_t n) { return strspn(at, "0") >= n; }

@@ -54,7 +54,7 @@ static void leave(const struct kd_job_whole *w)
     kd_bytes_give(w->server->replies, w->client, w->held);
 }
 
-/* Whether the client may start another cube. If so, its bytes are reserved. */
+/* True if the client may start another cube. If so, its bytes are reserved. */
 static bool admit(struct kd_request *request, size_t held, enum MHD_Result *refused)
 {
     unsigned all = 0, own = 0;

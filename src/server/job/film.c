@@ -71,7 +71,7 @@ static bool go_on(struct stride *s, double until_ms)
     return film->at == s->to;
 }
 
-/* Whether this server still has to finish the job. Called with the lock. */
+/* True if this server still has to finish the job. Called with the lock. */
 static bool wanted(const struct kd_job *job) { return kd_job_is_active(job) && !job->all->closed; }
 
 static enum kd_slice_result turn(struct kd_scheduler_job *scheduled)

@@ -23,7 +23,7 @@ static bool of_series(const struct kd_series *series, size_t i, struct kd_job_fo
     return true;
 }
 
-/* Whether the name has occurred before entry i of series k. */
+/* True if the name has occurred before entry i of series k. */
 static bool again(size_t k, size_t i, const char *name)
 {
     struct kd_job_format other;

@@ -63,10 +63,10 @@ struct kd_job {
     double began_ms;     /* time at which this server began the job; 0: not yet */
     double due_ms;       /* no frame begins before this time on kd_clock_ms */
     double delay_ms;     /* length of the next delay after a shortage; 0: no shortage */
-    double counted_ms;   /* when the number of lens maps was last written to the record */
+    double counted_ms;   /* time at which the number of lens maps was last written to the record */
     /* time at which the job ended, on kd_clock_ms because that ignores changes of the system clock */
     double ended_ms;
-    char delayed[160]; /* why the job waits until due_ms */
+    char delayed[160]; /* the reason why the job waits until due_ms */
     bool begun_here;   /* this server has begun a frame of the job, or moved its bodies */
     bool struck;       /* this server has counted an attempt in the job's record */
     unsigned finished_here;
@@ -112,7 +112,7 @@ struct kd_jobs {
 
 double kd_job_now_s(void); /* system time in s since 1970 */
 
-/* Whether a job is being rendered or waits to be. */
+/* True if a job is being rendered or waits to be. */
 static inline bool kd_job_is_active(const struct kd_job *job)
 {
     return job->listed && job->record.state == KD_JOB_ACTIVE;

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#define COUNTS_MS 20. /* how long a reader of counts waits for the lock */
+#define COUNTS_MS 20. /* time for which a reader of counts waits for the lock */
 
 double kd_job_now_s(void)
 {
@@ -195,7 +195,7 @@ void kd_jobs_destroy(struct kd_jobs *all)
     free(all);
 }
 
-/* Whether another job is accepted. A finished job may be deleted to make room. Called with the lock. */
+/* True if another job is accepted. A finished job may be deleted to make room. Called with the lock. */
 static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned unfinished = 0, stored = 0, own = 0;

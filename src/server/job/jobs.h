@@ -82,7 +82,7 @@ struct kd_job_status {
     const struct kd_sweep *sweep;     /* valid as long as the job; NULL: the job is not a sweep */
     uint64_t bytes;
     char error[480];
-    char delayed[160]; /* why the job waits before a retry; "": it does not wait */
+    char delayed[160]; /* the reason why the job waits before a retry; "": it does not wait */
 };
 void kd_job_status(struct kd_job *job, struct kd_job_status *out);
 
@@ -114,15 +114,15 @@ struct kd_job_watcher {
     bool by_frame; /* true: the watcher waits for the frame `next`; false: it waits for any change */
     unsigned next, revision;
     double deadline_ms; /* end of waiting on kd_clock_ms; INFINITY: no end */
-    bool waiting;       /* its connection is suspended */
+    bool waiting;       /* the watcher's connection is suspended */
     struct kd_job_watcher *previous, *next_watcher;
 };
 void kd_job_watch(struct kd_job_watcher *watcher); /* takes over the reference */
 void kd_job_unwatch(struct kd_job_watcher *watcher);
 enum kd_job_news {
-    KD_JOB_NEWS,  /* what the watcher waited for has happened */
+    KD_JOB_NEWS,  /* the event that the watcher waited for has happened */
     KD_JOB_LATE,  /* the watcher's deadline has passed */
-    KD_JOB_OVER,  /* what the watcher waits for will not happen any more */
+    KD_JOB_OVER,  /* the event that the watcher waits for cannot happen any more */
     KD_JOB_LATER, /* the connection is suspended, and will be resumed for one of the other results */
 };
 enum kd_job_news kd_job_await(struct kd_job_watcher *watcher);

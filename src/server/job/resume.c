@@ -16,7 +16,7 @@ static bool stands_at(int fd, uint64_t at, const char *text)
     return n <= sizeof found && pread(fd, found, n, (off_t)at) == (ssize_t)n && !memcmp(found, text, n);
 }
 
-/* Whether a frame's file has the size, beginning and end that its format requires. The file was written completely, but
+/* True if a frame's file has the size, beginning and end that its format requires. The file was written completely, but
  * a file system that was not unmounted may have truncated it. */
 static bool is_whole(int fd, uint64_t size, const struct kd_series *series)
 {

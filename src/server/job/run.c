@@ -35,7 +35,7 @@ void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
         kd_job_end(job, KD_JOB_FAILED, error->message);
 }
 
-/* Whether the common exposure is still being measured. Called with the lock. */
+/* True if the common exposure is still being measured. Called with the lock. */
 static bool still_measures(const struct kd_job *job) { return job->exposure.done < job->exposure.n; }
 
 static unsigned at_place(const struct kd_job *job, unsigned place)

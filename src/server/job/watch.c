@@ -32,7 +32,7 @@ void kd_job_unwatch(struct kd_job_watcher *watcher)
     kd_job_release(job);
 }
 
-/* Whether what a watcher waits for has happened. Called with the lock. */
+/* True if what a watcher waits for has happened. Called with the lock. */
 static enum kd_job_news news(const struct kd_job_watcher *w, double now)
 {
     const struct kd_job *job = w->job;

@@ -45,7 +45,7 @@ struct kd_lesson {
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN], client[KD_CLIENT];
     double used_ms; /* time of the teacher's last request */
     char session[KD_SECRET_ID];
-    char link[KD_LESSON_SIZE(KD_LESSON_LINK)];   /* what follows # in the teacher's address */
+    char link[KD_LESSON_SIZE(KD_LESSON_LINK)];   /* the part after # in the teacher's address */
     char about[KD_LESSON_SIZE(KD_LESSON_ABOUT)]; /* description of the picture */
     char lang[KD_LESSON_LANG + 1];               /* language of description and question, a tag of BCP 47 */
     struct kd_question question;

@@ -11,7 +11,7 @@ void kd_openapi_access_schemes(struct kd_json *json);
 void kd_openapi_access_default(struct kd_json *json, bool closed);
 /* Writes the member "security" of an operation, if it differs from the default. closed: the server has a token file. */
 void kd_openapi_access_operation(struct kd_json *json, const struct kd_route *route, unsigned method, bool closed);
-/* Whether an operation requires the token of its session, playground, job or asset. */
+/* True if an operation requires the token of its session, playground, job or asset. */
 bool kd_openapi_is_owners(const struct kd_route *route, unsigned method);
 
 #endif

@@ -19,7 +19,7 @@ static bool has_body(const struct kd_route *route, unsigned method)
     return (void)route, method == KD_POST || method == KD_PATCH || method == KD_PUT;
 }
 
-/* Whether the operation may answer 403: for a wrong role, a signed link that is not valid, a page of another site, or a
+/* True if the operation may answer 403: for a wrong role, a signed link that is not valid, a page of another site, or a
  * wrong token of the object. */
 static bool forbids(const struct kd_route *route, unsigned method)
 {
@@ -32,7 +32,7 @@ static bool is_found_by_name(const struct kd_route *route, unsigned method)
     return (void)method, strchr(route->path, '{') && route->takes != KD_TAKES_QUANTITY;
 }
 
-/* Whether the client chooses the format of an answer by Accept. */
+/* True if the client chooses the format of an answer by Accept. */
 static bool negotiates(const struct kd_route *route, unsigned method)
 {
     return (void)method, route->gives != KD_GIVES_ITS_ANSWER;

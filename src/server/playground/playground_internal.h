@@ -21,10 +21,10 @@ struct kd_playground_session {
     size_t bytes, dynamic_bytes;
     struct kd_once once; /* hashes of the request that created it */
     bool listed, stepping;
-    const char *why; /* why the session has ended; NULL: it has not */
+    const char *why; /* the reason why the session has ended; NULL: it has not ended */
     struct kd_playground_session_pace pace;
     bool anew;                 /* the clock of the session's slices must be restarted */
-    double used_ms;            /* when the session last received a request or was watched */
+    double used_ms;            /* time at which the session last received a request or was watched */
     double reached, slowed_ms; /* reached: achieved rate; slowed_ms: when simulated time was last skipped */
     uint64_t generation;
     struct kd_playground_session_tick *tick; /* the newest tick; NULL: none yet */
@@ -66,16 +66,16 @@ struct kd_playground_session *kd_playground_session_unref(
     struct kd_playground_session *play); /* drops a reference; returns the session if that reference was the last,
                                           * else NULL */
 void kd_playground_session_unlist(struct kd_playground_session *play, const char *why);
-/* whether there is a watcher or a viewer, or the last request came less than KD_PLAY_REST_MS ago */
+/* true if there is a watcher or a viewer, or the last request came less than KD_PLAY_REST_MS ago */
 bool kd_playground_session_awake(const struct kd_playground_session *play, double now);
 void kd_playground_session_call(struct kd_playground_session *play); /* wakes the session's job */
 void kd_playground_session_wake(struct kd_playground_session *play,
                                 double now); /* resumes watchers that have news; in watch.c */
-/* whether a watcher waits for a tick; in watch.c */
+/* true if a watcher waits for a tick; in watch.c */
 bool kd_playground_session_awaited(const struct kd_playground_session *play);
 
 bool kd_playground_session_looked_at(
-    const struct kd_playground_session *play); /* whether a viewer waits for frames; in picture.c */
+    const struct kd_playground_session *play); /* true if a viewer waits for frames; in picture.c */
 /* Returns the picture as a counted reference if it has viewers, else NULL. In picture.c. */
 struct kd_session *kd_playground_session_shown(const struct kd_playground_session *play, double now);
 void kd_playground_session_hide(struct kd_playground_session *play); /* ends the picture; in picture.c */

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNTS_MS 20.   /* how long a reader of counts waits for the lock */
+#define COUNTS_MS 20.   /* time for which a reader of counts waits for the lock */
 #define SLOWED_MS 1000. /* for how long the state reports skipped time */
 /* Memory of a session with a given debris capacity. Changes work on a copy, so debris and all other state count
  * twice. */
@@ -126,7 +126,7 @@ static struct kd_playground_session *make(struct kd_playground_sessions *all,
     return play;
 }
 
-/* Whether the limits of sessions and memory admit another session. Called with the lock. */
+/* True if the limits of sessions and memory admit another session. Called with the lock. */
 static enum kd_status admit(struct kd_playground_sessions *all, const char *client, size_t bytes, bool *quota,
                             struct kd_error *error)
 {

@@ -150,7 +150,7 @@ struct kd_playground_session_watcher {
     uint32_t debris;    /* number of pieces of debris that the tick must have room for; 0: none */
     uint64_t event;     /* number of the last event sent */
     double deadline_ms; /* time on kd_clock_ms at which waiting ends */
-    bool waiting;       /* its connection is suspended */
+    bool waiting;       /* the watcher's connection is suspended */
     struct kd_playground_session_watcher *previous, *next;
 };
 /* Takes over the reference in watcher->play. after: generation of the client's newest tick; NULL: it has none. */

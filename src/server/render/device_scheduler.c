@@ -20,7 +20,7 @@ static bool is_large(const struct kd_render_queue *queue, const struct kd_render
     return job->plan.cost.device_bytes > c.memory_bytes / LARGE;
 }
 
-/* Whether the picture fits in memory beside the large pictures in lanes. A picture that needs nearly all memory starts
+/* True if the picture fits in memory beside the large pictures in lanes. A picture that needs nearly all memory starts
  * only when no other large one runs. */
 static bool fits(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
@@ -59,7 +59,7 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
     return !bytes || queue->frame_bytes <= FRAME_BYTES + (bytes > KD_LONG_FRAME ? 0 : SHORT_BYTES);
 }
 
-/* Whether the client has enough device time left for the work. Work that a client waits for was checked when it
+/* True if the client has enough device time left for the work. Work that a client waits for was checked when it
  * arrived, and frames of jobs when they were pushed (kd_render_queue_may_push). Other work begins as soon as its
  * client has enough; kd_render_queue_sweep checks that ten times a second. Work that has begun always continues,
  * because others wait for its lane and memory. */
@@ -256,7 +256,7 @@ static void leave_lane(struct kd_render_queue *queue, struct kd_render_job *job)
     }
 }
 
-/* Whether kernels of a view's pixels may be looked for now. */
+/* True if kernels of a view's pixels may be looked for now. */
 static bool looks_ahead(struct kd_render_queue *queue)
 {
     const double now = kd_clock_ms();

@@ -2,7 +2,7 @@
 #include "base/clock.h"
 #include "server/render/render_internal.h"
 
-/* Whether a frame takes long to encode. Only one encoder at a time takes such frames, so that others do not wait. */
+/* True if a frame takes long to encode. Only one encoder at a time takes such frames, so that others do not wait. */
 static bool is_long(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_JOB || kd_render_frame_bytes(job) > KD_LONG_FRAME;

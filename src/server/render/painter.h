@@ -41,7 +41,7 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
                                  struct kd_painter **out, struct kd_error *error);
 /* Requests that a picture is rendered; done() is called at the end. Any thread. */
 void kd_painter_paint(struct kd_painter *painter, struct kd_painting *painting);
-/* Whether the painter's device hangs. If it does, the painter renders nothing more, and the process should end. Any
+/* True if the painter's device hangs. If it does, the painter renders nothing more, and the process should end. Any
  * thread. */
 bool kd_painter_hangs(struct kd_painter *painter);
 /* Stops rendering. Waiting and future pictures end with KD_ECANCELLED, and the present one as soon as it can be

@@ -47,7 +47,7 @@ struct kd_render_queue;
 
 /* Stage of a job. A job in one of the last two stages has begun. */
 enum kd_render_stage {
-    KD_RENDER_WAITS,          /* it waits for its first turn */
+    KD_RENDER_WAITS,          /* the job waits for its first turn */
     KD_RENDER_WAITS_FOR_LANE, /* a long picture that waits for its first turn */
     KD_RENDER_WORKS,
     KD_RENDER_WORKS_IN_LANE,
@@ -103,7 +103,7 @@ struct kd_render_job {
     /* Kernels that were found missing after the job had begun. The job starts again when they are compiled. */
     struct kd_compilation *lacked;
     struct kd_compilation *ahead; /* kernels that explain the pixels of `settled` */
-    unsigned lacks;               /* how often the job has found kernels missing */
+    unsigned lacks;               /* number of times that the job has found kernels missing */
     struct kd_claim missing;      /* the job's claim in the fair queueing of compilations, while it lacks kernels */
     /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
     double kernels_ms, missing_ms;
@@ -143,7 +143,7 @@ void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, 
 /* Writes the metrics of the queue and of the device in Prometheus's format. */
 enum kd_status kd_render_queue_metrics(struct kd_render_queue *queue, struct kd_buffer *out);
 bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error);
-/* Whether a job of this client may submit its next frame. Jobs leave half of the client's device time to interactive
+/* True if a job of this client may submit its next frame. Jobs leave half of the client's device time to interactive
  * requests. */
 bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client);
 /* Declares the device lost if its owner has not made progress for too long (pulse.h), for example in a driver call
@@ -159,7 +159,7 @@ double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd
 /* Estimated time of all work that clients wait for, excluding frames of sessions and jobs. */
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 
-/* Whether this client may begin new work. Returns KD_EBUSY if its work has used, or is estimated to use, all its device
+/* True if this client may begin new work. Returns KD_EBUSY if its work has used, or is estimated to use, all its device
  * time (http/allowance.h). The error then has the time to wait. Any thread. */
 enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char *client, struct kd_error *error);
 /* The client's quota, if there is a limit. Any thread. */

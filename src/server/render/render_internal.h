@@ -48,7 +48,7 @@ struct kd_render_queue {
     bool hangs; /* a call into the driver hangs, so its thread cannot be joined */
     /* failed: the device has failed, and is reopened once `inside` is 0; reopening: it is being reopened */
     bool failed, reopening;
-    struct kd_error failure;       /* why the device failed */
+    struct kd_error failure;       /* the reason why the device failed */
     unsigned inside;               /* number of jobs that are using the renderer */
     unsigned reopenings, reopened; /* reopenings: limit within KD_REOPENINGS_S; reopened: number since the start */
     unsigned spent;                /* number of reopenings in the period that began at spent_from_ms */
@@ -61,7 +61,7 @@ struct kd_render_queue {
      * being compiled. */
     struct kd_compilation *ahead;
     bool compiling_ahead;
-    double ahead_ms;                       /* when such kernels were last looked for */
+    double ahead_ms;                       /* time of the latest search for such kernels */
     _Atomic bool uncompiled;               /* the kernels being compiled are not needed any more */
     double compile_ms;                     /* running mean of the time of a compilation; 0: none yet */
     struct kd_pulse pulse, compiler_pulse; /* watchdogs of the device's owner and of the compiler */
@@ -87,7 +87,7 @@ static inline size_t kd_render_frame_bytes(const struct kd_render_job *job)
 
 static inline bool kd_render_has_begun(const struct kd_render_job *job) { return job->stage >= KD_RENDER_WORKS; }
 
-/* Whether a client waits for the job, so that the job may be refused. */
+/* True if a client waits for the job, so that the job may be refused. */
 static inline bool kd_render_is_awaited(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_PICTURE || job->claim.class == KD_CLASS_PIXEL ||

@@ -86,7 +86,7 @@ bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *jo
     return true;
 }
 
-/* Whether the limit of reopenings permits one more. Called with the lock. */
+/* True if the limit of reopenings permits one more. Called with the lock. */
 static bool may_reopen(struct kd_render_queue *queue)
 {
     const double now = kd_clock_ms();

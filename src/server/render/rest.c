@@ -20,7 +20,7 @@ void kd_render_queue_rest_after(struct kd_render_queue *queue, unsigned ms)
     pthread_mutex_unlock(&queue->lock);
 }
 
-/* Whether the pause was long enough to free memory. If much memory is cached, a sixtieth of rest_ms is enough. */
+/* True if the pause was long enough to free memory. If much memory is cached, a sixtieth of rest_ms is enough. */
 static bool is_long_enough(const struct kd_render_queue *queue, double pause_ms)
 {
     const double soon_ms = queue->rest_ms / 60.;

@@ -28,7 +28,7 @@ void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_e
     task->error.status = status;
 }
 
-/* Whether the task has failed or must end. The reason is recorded in the task. */
+/* True if the task has failed or must end. The reason is recorded in the task. */
 static bool unwanted(struct kd_scheduler_job *scheduled)
 {
     struct kd_task *task = (struct kd_task *)scheduled;

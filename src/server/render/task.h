@@ -49,7 +49,7 @@ void kd_task_destroy(struct kd_task *task); /* accepts NULL */
 /* Records an error of the task. Only the first error counts; KD_OK is ignored. Any thread. */
 void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_error *error);
 
-/* Whether the queue admits another task. If not, *refused is the answer. what: see kd_task_kind. HTTP thread. */
+/* True if the queue admits another task. If not, *refused is the answer. what: see kd_task_kind. HTTP thread. */
 bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const char *what, enum MHD_Result *refused);
 /* Starts an admitted task. HTTP thread. */
 enum MHD_Result kd_task_submit(struct kd_task *task);

@@ -251,7 +251,7 @@ static enum kd_status read_order(const struct kd_request *request, uint64_t *ord
     return KD_OK;
 }
 
-/* Whether the request has "Prefer: return=minimal" (RFC 7240), which asks for an answer without the scene. */
+/* True if the request has "Prefer: return=minimal" (RFC 7240), which asks for an answer without the scene. */
 static bool prefers_little(struct kd_request *request)
 {
     struct kd_buffer prefer = kd_reply_header_list(request, "Prefer");

@@ -68,7 +68,7 @@ void kd_session_unlist(struct kd_session *session);
 /* Computes the scene at a time, with its own motion or on its path. Fails if the scene there is not valid. */
 enum kd_status kd_session_scene(const struct kd_session *session, double now, struct kd_scene *out,
                                 struct kd_error *error);
-/* whether the session follows a path that has not ended */
+/* true if the session follows a path that has not ended */
 bool kd_session_on_its_way(const struct kd_session *session, double now);
 
 /* Begins a frame if a viewer waits, the picture would differ, and the queue has room. In run.c. */
@@ -82,7 +82,7 @@ void kd_session_govern(struct kd_session *session, double now, const struct kd_s
 void kd_session_drop_refinement(struct kd_session *session);
 void kd_session_drop(struct kd_session *session); /* cancels the frame that is being rendered, if any */
 
-/* Whether a viewer waits. Also true before the first frame, which is made before anybody requests it. In watch.c. */
+/* True if a viewer waits. Also true before the first frame, which is made before anybody requests it. In watch.c. */
 bool kd_session_awaited(const struct kd_session *session);
 void kd_session_wake(struct kd_session *session); /* resumes viewers that have news */
 

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNTS_MS 20. /* how long a reader of counts waits for the lock */
+#define COUNTS_MS 20. /* time for which a reader of counts waits for the lock */
 
 #define TARGET_MS 33.0 /* intended time of a frame while the scene changes */
 

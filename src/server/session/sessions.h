@@ -53,11 +53,11 @@ void kd_session_show(struct kd_session *session, struct kd_dynamic_bodies *dynam
 void kd_session_keep(struct kd_session *session, const struct kd_session_pace *pace);
 /* Replaces the scene. kd_sessions_takes must have accepted the plan. */
 void kd_session_put(struct kd_session *session, const struct kd_scene *scene, const struct kd_plan *plan);
-bool kd_session_watched(struct kd_session *session);     /* whether a viewer waits or reads a stream */
+bool kd_session_watched(struct kd_session *session);     /* true if a viewer waits or reads a stream */
 unsigned kd_session_viewers(struct kd_session *session); /* number of viewers that wait or read a stream */
 /* whether a frame has shown the latest bodies; if so, kd_session_show accepts new ones */
 bool kd_session_hungry(struct kd_session *session);
-bool kd_session_over(struct kd_session *session); /* whether the session has ended or failed, and so publishes no
+bool kd_session_over(struct kd_session *session); /* true if the session has ended or failed, and so publishes no
                                                    * more frames */
 /* Continues the frame numbers of another session. Call it before the session has published a frame. */
 void kd_session_go_on_from(struct kd_session *session, struct kd_session *other);
@@ -86,7 +86,7 @@ struct kd_session_state {
     uint64_t order;           /* order of the latest patch that had one; 0: no patch had an order */
     double path_at, path_end; /* seconds since the path began, and the path's length; both 0: no path */
     struct kd_session_progress {
-        /* whether the frame being made refines a scene at rest; if not, it is the first frame of the present scene */
+        /* true if the frame being made refines a scene at rest; if not, it is the first frame of the present scene */
         bool refines;
         /* fraction that is done, and estimated time left in s; NAN: no frame is being made, or the value is not
          * known */
@@ -115,7 +115,7 @@ struct kd_viewer {
     struct MHD_Connection *mhd;
     int socket;
     uint64_t seen; /* number of the newest frame that it has taken */
-    bool any;      /* it reads only the descriptions of frames, so any encoding will do */
+    bool any;      /* the viewer reads only the descriptions of frames, so it accepts any encoding */
     /* qualities of lossy frames that the viewer accepts, 1 to 100; 0: lossless only. `lossy` is for all frames but
      * the last, last_lossy for the last frame */
     unsigned lossy, last_lossy;
@@ -128,7 +128,7 @@ struct kd_viewer {
     uint64_t sentences;
     double begun_ms, deadline_ms; /* begun_ms: start of waiting; deadline_ms: end of waiting; both on kd_clock_ms.
                                    * INFINITY: no end */
-    bool waiting;                 /* its connection is suspended */
+    bool waiting;                 /* the request's connection is suspended */
     /* why the connection was resumed. late: the deadline has passed; gone: the client has disconnected */
     bool late, gone;
     struct kd_viewer *previous, *next;

@@ -47,7 +47,7 @@ __all__ += scene.__all__
 
 def sweep(scenes: Any, client: Any = None, **more: Any) -> Any:
     """Renders scenes on a Dask cluster: kerrd.dask.sweep(scenes, client, ...). Needs the package distributed."""
-    from .dask import sweep as on_cluster  # it explains what to install if the package is missing
+    from .dask import sweep as on_cluster  # without the package distributed, this import's error names what to install
 
     return on_cluster(scenes, client, **more)
 

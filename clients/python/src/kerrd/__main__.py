@@ -78,8 +78,8 @@ def main(arguments: list[str] | None = None) -> int:
         help="a scene from an input file of GYOTO, ipole or Blacklight, or matter from a dump of iharm3d, KHARMA, "
         "KORAL or Athena++",
         description="Print the scene of an input file of GYOTO (XML), ipole (.par) or Blacklight (.input) as JSON, and on "
-        "standard error what it does not say. Of a simulation's dump (iharm3d, KHARMA, KORAL, Athena++), write the "
-        "grid that the scene's volume.grid names.",
+        "standard error the notes on keys that the scene cannot express. Of a simulation's dump (iharm3d, KHARMA, "
+        "KORAL, Athena++), write the grid that the scene's volume.grid names.",
     )
     one.add_argument("file", metavar="FILE")
     one.add_argument(
@@ -89,7 +89,7 @@ def main(arguments: list[str] | None = None) -> int:
     one.add_argument(
         "-o", "--output", metavar="OUT", help="write the scene there (default: standard output), or the grid"
     )
-    one.add_argument("-a", "--all", action="store_true", help="tell what became of every key")
+    one.add_argument("-a", "--all", action="store_true", help="print the use of every key")
     one.add_argument("--strict", action="store_true", help="write no scene if something is not said, with exit code 1")
     dumps = one.add_argument_group("dumps of simulations")
     for name, kind, text in DUMP_OPTIONS:

@@ -314,7 +314,7 @@ def is_hash(text: str) -> bool:
 
 
 def is_observation_name(observation: object) -> bool:
-    """Whether a server knows the observation by this text: it is the hash of an asset, or a name as "m87-2017-04-05-lo"
+    """True if a server knows the observation by this text: it is the hash of an asset, or a name as "m87-2017-04-05-lo"
     of an observation that the server has. A file has an extension."""
     return isinstance(observation, str) and not pathlib.Path(observation).suffix and "/" not in observation
 
@@ -428,7 +428,7 @@ def read_cube(body: bytes) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
 
 
 def finished(status: Mapping[str, Any]) -> bool:
-    """Whether a job is done. JobFailed if it has failed."""
+    """True if a job is done. JobFailed if it has failed."""
     if status["state"] == "failed":
         raise JobFailed(dict(status))
     return bool(status["state"] == "done")

@@ -350,7 +350,7 @@ class Client:
     def observe(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
     ) -> answers.Simulation:
-        """What the array of an observation would have measured of a scene, with its noise: `columns` as arrays. The
+        """Simulates a measurement of a scene by the array of an observation, with its noise: `columns` as arrays. The
         observation is given as for compare(): observe("m87.uvfits", preset="riaf", seed=1)."""
         document = self._observed(observation, scene, settings)
         told: answers.Simulation = self._run(calls.observe(document))
@@ -525,7 +525,7 @@ def _close(client: Client, kind: str, name: str, token: str) -> None:
     try:
         client._run(calls.close(kind, name, token))
     except Problem as problem:
-        if problem.status != 404:  # it has ended already
+        if problem.status != 404:  # the server has already ended the session or playground
             raise
 
 
@@ -613,7 +613,7 @@ class Session:
 
     @property
     def moves(self) -> bool:
-        """Whether the scene moves by itself, so that none of its frames is final."""
+        """True if the scene moves by itself, so that none of its frames is final."""
         return any(self.scene.get("motion", {}).values())
 
 

@@ -94,7 +94,7 @@ class Posterior:
         return float(low), float(middle), float(high)
 
     def holds(self, log_probability: float, share: float = 0.95, burn: float = 0.5) -> bool:
-        """Whether the region of highest density with this share of the samples contains a point of this log
+        """True if the region of highest density with this share of the samples contains a point of this log
         probability."""
         seen = self.log_probability[round(burn * len(self.chain)) :]
         return bool(log_probability >= np.quantile(seen, 1 - share))
@@ -278,7 +278,7 @@ class Fit:
         return Maximum(values, float(best.fun), self.data, bool(fine.success), seen[0], at_bounds)
 
     def _described(self, walkers: int, seed: int | None) -> str:
-        """What a chain depends on, so that a file is not resumed by another fit."""
+        """All that a chain depends on. A file is resumed only by a fit with the same text."""
         parts = [
             self.observation,
             self.parameters,

@@ -139,7 +139,7 @@ class Frame:
 
     @property
     def approximations(self) -> list[str]:
-        """What the picture leaves out or approximates, in sentences."""
+        """Omissions and approximations of the picture, in sentences."""
         return [self.sentences[name] for name in items(self.headers.get("kerrd-approximations"))]
 
     @property
@@ -169,7 +169,7 @@ class Frame:
 
     @property
     def final(self) -> bool:
-        """Whether no finer frame of this scene will follow."""
+        """True if no finer frame of this scene will follow."""
         return not self.quality or self.quality.get("final") == 1
 
     def save(self, path: str | os.PathLike[str]) -> None:

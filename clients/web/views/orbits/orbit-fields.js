@@ -169,7 +169,7 @@ const shapes = {
   }),
 };
 
-// Whether the orbit has no periods.
+// True if the orbit has no periods.
 export const ends = v => v.orbit === 'plunge';
 
 // The document of the request, from the values of the fields.

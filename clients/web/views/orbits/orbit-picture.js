@@ -148,7 +148,7 @@ export function buildPicture(root, hand) {
     speed = svg('text', { class: 'axis' });
   let held = null; // place of a body that is dragged, in the plane
   let aimed = null; // velocity with which it will be thrown
-  let put = false; // whether the body was placed: then the next drag throws it
+  let put = false; // true if the body was placed: then the next drag throws it
 
   function drag(event) {
     const at = pointer(event),

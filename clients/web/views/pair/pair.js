@@ -158,7 +158,7 @@ function build(stage, scene) {
     source = null;
   }
 
-  let measured = Boolean(link.get(data)), // whether the other side has the data
+  let measured = Boolean(link.get(data)), // true if the other side has the data
     compare = null, // shows them
     timer = 0;
   async function measure() {

@@ -93,7 +93,7 @@ export async function openPlayground() {
     foretell();
   }
 
-  // Whether two aims are the same. Aiming makes new arrays; if an existing body is thrown, its place changes by itself.
+  // True if two aims are the same. Aiming makes new arrays; if an existing body is thrown, its place changes by itself.
   const same = (a, b) => a?.velocity === b.velocity && a.body === b.body && (b.body != null || a.from === b.from);
 
   async function release() {

@@ -93,7 +93,7 @@ async function curves(document, formed, flux) {
   );
 }
 
-// What was measured, and the model. rows: index and length of each, by length.
+// The measurements and the model. rows: index and length of each, by length.
 function dots(columns, rows) {
   const x = rows.map(({ length }) => length),
     of = name => rows.map(({ i }) => columns[name][i]);

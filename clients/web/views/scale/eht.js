@@ -16,8 +16,8 @@ const key = 'scale.beside';
 
 const names = { m87: 'M87*', sgra: 'Sgr A*', none: '' };
 
-// How each is seen, from the server's preset of the same name: inclination, orientation on the sky, and the beam (full
-// width at half maximum). Without a measured ring it is a thin disk.
+// The view of each hole, from the server's preset of the same name: inclination, orientation on the sky, and the beam
+// (full width at half maximum). Without a measured ring it is a thin disk.
 export async function seen(hole) {
   if (hole === 'none') return { inclination: 60, roll: 0 };
   const { camera, style } = await keptJson('v1/presets/' + hole);

@@ -175,7 +175,7 @@ export function buildTour(stage, scene) {
       before = null;
       throw error;
     }
-    scene.hold(true); // pictures at rest are the finest
+    scene.hold(true); // the finest pictures are those at rest, so time is stopped
     usual = new Map([...scene.fields.keys()].map(path => [path, scene.get(path)]));
     scene.change(from);
     box.hidden = false;

@@ -59,7 +59,7 @@ def check_count(file: DumpFile, name: str, shape: tuple[int, int, int]) -> None:
 
 
 def rows_within(file: DumpFile, r: NDArray[np.float64], outer: float | None) -> int:
-    """How many rows are within r = outer; at least two."""
+    """Number of rows within r = outer; at least two."""
     if outer is None:
         return len(r)
     rows = int(np.count_nonzero(r <= outer))

@@ -37,7 +37,7 @@ class DumpProblem(KerrdError, ValueError):
 
 
 def is_hdf5(path: str | os.PathLike[str]) -> bool:
-    """Whether a file begins as HDF5 does."""
+    """True if a file begins as HDF5 does."""
     try:
         with open(path, "rb") as file:
             return file.read(len(MAGIC)) == MAGIC
@@ -93,7 +93,7 @@ class DumpFile:
         return (self.root[group] if group else self.root).attrs, last
 
     def has_attribute(self, name: str) -> bool:
-        """Whether there is an attribute: of the file, or of a group as in "Info/Time"."""
+        """True if there is an attribute: of the file, or of a group as in "Info/Time"."""
         if "/" in name and name.rpartition("/")[0] not in self:
             return False
         try:

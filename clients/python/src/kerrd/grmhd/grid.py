@@ -134,7 +134,7 @@ def _check_size(dump: Dump) -> None:
 
 
 def _nothing(dump: Dump, plasma: Plasma, by_cuts: bool) -> Exception:
-    """What is wrong where no zone has a density."""
+    """The error if no zone has a density."""
     if not by_cuts:
         return DumpProblem(
             dump.file, "rho", "is 0 in single precision wherever no cut applies; it must be above 1.4e-45"

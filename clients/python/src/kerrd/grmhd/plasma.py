@@ -81,7 +81,7 @@ class Plasma:
         return np.maximum(PROTON / ELECTRON * theta, THETA_LEAST) * (ELECTRON * C**2 / K)
 
     def cut(self, rho: Numbers, b2: Numbers) -> NDArray[np.bool_]:
-        """Whether each node is without matter because of a cut."""
+        """True if each node is without matter because of a cut."""
         none = np.zeros(rho.shape, bool) if self.rho_floor is None else rho <= self.rho_floor
         return none if self.sigma_cut is None else none | (b2 > self.sigma_cut * rho)
 

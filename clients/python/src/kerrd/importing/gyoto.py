@@ -75,5 +75,5 @@ def _scenery(scenery: Section) -> tuple[str, ...]:
     for word in asked:
         if word not in QUANTITIES:
             raise scenery.wrong("Quantities", f"some of {', '.join(QUANTITIES)}, not {shown(word)}")
-    scenery.ignore("Quantities", "what GYOTO writes; kerrd's maps are asked for by image.layers")
+    scenery.ignore("Quantities", "a setting of GYOTO's output; image.layers requests kerrd's maps")
     return asked

@@ -13,7 +13,7 @@ from .kerr import eddington_kg_s, efficiency, isco, kepler
 from .sheet import Draft, ImportProblem, shown
 from .units import Units
 
-OUTER_M = 1e6  # where GYOTO's disk has no outer edge
+OUTER_M = 1e6  # M; outer edge for a disk of GYOTO that has none
 # Kinds of matter that kerrd does not have.
 OTHERS = (
     *"Blob DeformedTorus DirectionalDisk Disk3D Disk3D_BB DynamicalDisk DynamicalDisk3D DynamicalDiskBolometric".split(),
@@ -242,7 +242,7 @@ class Matter:
         return Path(r, round(math.degrees(theta), 9), turn(math.degrees(phi - omega * t)), motion)
 
     def _place_problem(self, sheet: Section, path: Path) -> str:
-        """Why the scene cannot have an object there, or ""."""
+        """The reason why the scene cannot have an object there, or ""."""
         if self.coordinates == "KerrKS" and self.spin != 0:
             return "in Kerr-Schild coordinates about a spinning hole its azimuth is another than kerrd's"
         if path.r < 1.05 * (1 + math.sqrt(1 - self.spin**2)):

@@ -60,7 +60,7 @@ class Section(Sheet):
         return [part.number(key) for part in parts]
 
     def switch(self, on: str, off: str, default: bool) -> bool:
-        """Whether the empty element <on/> is present rather than <off/>; the default if neither is."""
+        """True if the empty element <on/> is present rather than <off/>; the default if neither is."""
         for key in (on, off):
             if self.entries.get(key, Entry("", 0)).value:
                 raise self.wrong(key, f"empty, as in <{key}/>")

@@ -46,9 +46,9 @@ def field_m(angle_rad: float, mass_msun: float, distance_pc: float) -> float:
 
 @dataclass(frozen=True)
 class Received:
-    """What an observer receives. infinity: frequency at infinity over that at the observer, for the given photon.
-    still: whether it is at rest with respect to infinity. velocity: r, theta and phi components relative to the local
-    observer of zero angular momentum, c."""
+    """Frequency and motion of an observer. infinity: frequency at infinity over that at the observer, for the given
+    photon. still: whether it is at rest with respect to infinity. velocity: r, theta and phi components relative to the
+    local observer of zero angular momentum, c."""
 
     infinity: float
     still: bool

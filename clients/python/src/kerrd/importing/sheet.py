@@ -19,7 +19,7 @@ LONGEST_SHOWN = 60
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,4})?")
 WHOLE = re.compile(r"[+-]?[0-9]{1,9}")
 
-# What the fields of the scene that are set here accept, as in src/scene/fields.h; a test compares it with the schema.
+# Ranges and words of the fields that are set here, as in src/scene/fields.h. A test compares them with the schema.
 LIMITS: Mapping[str, tuple[float, float]] = {
     "spacetime.spin": (-0.999999999999, 0.999999999999),
     "spacetime.mass_msun": (1e-3, 1e12),
@@ -78,7 +78,7 @@ class ImportProblem(KerrdError, ValueError):
 
 @dataclass(frozen=True)
 class Note:
-    """What became of a key.
+    """The use that was made of a key.
 
     key: its name, with its sections as in Screen/Distance; "" for something that the file does not have. line: its
     line, from 1, or None. fate: "said" by fields of the scene; "ignored", because it is about the other code's method
@@ -110,7 +110,7 @@ class Imported:
 
     @property
     def not_said(self) -> tuple[Note, ...]:
-        """What the scene does not say."""
+        """The notes on keys that the scene cannot express."""
         return tuple(note for note in self.notes if note.fate == "not said")
 
     @property
@@ -249,7 +249,7 @@ class Sheet:
             return default
         return self.word(key, ("true", "false")) == "true"
 
-    # What becomes of a key.
+    # Methods that record the use of a key.
 
     def say(self, key: str, path: str, value: Any) -> None:
         """Sets a field of the scene from a key. Refuses a number that the field does not accept."""
