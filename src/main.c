@@ -1,6 +1,7 @@
 /* main finds the subcommand and runs it. */
 #include "base/spelling.h"
 #include "cli/cli.h"
+#include "vk/own_enter.h"
 
 #include <fcntl.h>
 #include <signal.h>
@@ -96,6 +97,8 @@ int main(int argc, char **argv)
     char name[32];
 
     hold_standard_streams();
+    if (argc > 0)
+        kd_vk_own_enter(argc, argv);
     argp_err_exit_status = KD_EXIT_USAGE;
     /* A client that disconnects must not end the server. Other commands notice a closed pipe by
      * kd_cli_stdout_failed. */

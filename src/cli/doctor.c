@@ -61,7 +61,7 @@ static void print_device(const struct kd_vk_info *info)
     printf("  %s, Vulkan %u.%u.%u, driver %s%s%s\n", kd_vk_type_name(info->type), v >> 22 & 0x7f, v >> 12 & 0x3ff,
            v & 0xfff, info->driver, *info->driver_info ? " " : "", info->driver_info);
     if (info->own_driver)
-        printf("  the driver is installed with kerrd; the system has none\n");
+        printf("  the driver is installed with kerrd; the system has none of Vulkan 1.2\n");
     printf("  memory %.0f MiB, one binding %.0f MiB, one allocation %.0f MiB\n", mib(info->heap_bytes),
            mib(info->max_binding_bytes), mib(info->max_allocation_bytes));
     printf("  subgroup %u, workgroup %u, push constants %u bytes, f64 %s, timestamps %s\n", info->subgroup_size,

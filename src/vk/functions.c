@@ -6,9 +6,7 @@
 #include <pthread.h>
 #include <stddef.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static pthread_mutex_t loader = PTHREAD_MUTEX_INITIALIZER;
 
@@ -71,35 +69,12 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
     return load(fn, library, "vkGetInstanceProcAddr", error);
 }
 
-static bool is_set(const char *variable)
-{
-    const char *value = getenv(variable);
-    return value && *value;
-}
-
-bool kd_vk_own_driver(char path[KD_VK_PATH])
-{
-    static const char *const places[] = { "../lib/kerrd-driver", "kerrd-driver" };
-    char program[KD_VK_PATH - 64];
-    const ssize_t n = readlink("/proc/self/exe", program, sizeof program);
-    if (is_set("VK_DRIVER_FILES") || is_set("VK_ICD_FILENAMES") || n <= 0 || n == sizeof program)
-        return false;
-    program[n] = 0;
-    *strrchr(program, '/') = 0; /* the directory of the program, whose path is absolute */
-    for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
-        snprintf(path, KD_VK_PATH, "%s/%s/libvulkan_lvp.so", program, places[i]);
-        if (!access(path, R_OK))
-            return true;
-    }
-    return false;
-}
-
 enum kd_status kd_vk_functions_load_own(struct kd_vk_functions *fn, const char *path, struct kd_error *error)
 {
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!library)
-        return kd_error_set(error, KD_EDEVICE, "no Vulkan driver is installed, and kerrd's own cannot be used: %s",
-                            dlerror());
+        return kd_error_set(error, KD_EDEVICE,
+                            "the system has no device of Vulkan 1.2, and kerrd's own cannot be used: %s", dlerror());
     return load(fn, library, "vk_icdGetInstanceProcAddr", error);
 }
 

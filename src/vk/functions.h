@@ -113,12 +113,7 @@ enum kd_status kd_vk_functions_load(struct kd_vk_functions *fn, struct kd_error 
 enum kd_status kd_vk_functions_instance(struct kd_vk_functions *fn, VkInstance instance, struct kd_error *error);
 enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice device, struct kd_error *error);
 
-/* The software driver that may be installed with the program (scripts/driver): ../lib/kerrd-driver or kerrd-driver, as
- * seen from the program's folder. It is for systems without a driver. False if there is none, or if the environment
- * names the drivers to use. */
-#define KD_VK_PATH 4096
-bool kd_vk_own_driver(char path[KD_VK_PATH]);
-/* Like kd_vk_functions_load, but without a loader: all calls go to this driver. */
+/* Like kd_vk_functions_load, but without a loader: all calls go to this driver (own_driver.h). */
 enum kd_status kd_vk_functions_load_own(struct kd_vk_functions *fn, const char *path, struct kd_error *error);
 
 /* Every thread holds this lock while it creates or destroys an instance or a device, loads its functions, or names an

@@ -2,6 +2,7 @@
 
 #include "base/cores.h"
 #include "base/memory_limit.h"
+#include "vk/own_driver.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -157,10 +158,38 @@ done:
     return status;
 }
 
-static bool has_device(const struct kd_vk_instance *instance)
+bool kd_vk_instance_has_device(const struct kd_vk_instance *instance)
 {
-    uint32_t n = 0;
-    return instance->fn.EnumeratePhysicalDevices(instance->handle, &n, NULL) >= 0 && n;
+    VkPhysicalDevice handles[64];
+    uint32_t n = 64; /* if there are more devices the result is VK_INCOMPLETE, which is a success code */
+    if (instance->fn.EnumeratePhysicalDevices(instance->handle, &n, handles) < 0)
+        return false;
+    for (uint32_t i = 0; i < n; i++) {
+        VkPhysicalDeviceProperties properties;
+        instance->fn.GetPhysicalDeviceProperties(handles[i], &properties);
+        if (properties.apiVersion >= VK_API_VERSION_1_2)
+            return true;
+    }
+    return false;
+}
+
+static enum kd_status make_system(struct kd_vk_instance *instance, bool validate, struct kd_error *error)
+{
+    *instance = (struct kd_vk_instance) { 0 };
+    const enum kd_status status = kd_vk_functions_load(&instance->fn, error);
+    return status ? status : make(instance, validate, error);
+}
+
+enum kd_status kd_vk_instance_init_system(struct kd_vk_instance *instance, struct kd_error *error)
+{
+    return make_system(instance, false, error);
+}
+
+static enum kd_status make_own(struct kd_vk_instance *instance, const char *path, struct kd_error *error)
+{
+    *instance = (struct kd_vk_instance) { .own_driver = true };
+    const enum kd_status status = kd_vk_functions_load_own(&instance->fn, path, error);
+    return status ? status : make(instance, false, error);
 }
 
 enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validate, struct kd_error *error)
@@ -170,17 +199,14 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
     enum kd_status status = check_address_space(error);
     if (status)
         return status;
-    status = kd_vk_functions_load(&instance->fn, error);
-    if (!status)
-        status = make(instance, validate, error);
-    if (validate || (status && status != KD_EDEVICE) || !kd_vk_own_driver(path)) /* layers need a loader */
+    const bool own = !validate && kd_vk_own_driver(path); /* layers need a loader */
+    if (own && kd_vk_own_entered())                       /* where the system's drivers have been tried already */
+        return make_own(instance, path, error);
+    status = make_system(instance, validate, error);
+    if (!own || (status && status != KD_EDEVICE) || (!status && kd_vk_instance_has_device(instance)))
         return status;
-    if (!status && has_device(instance))
-        return KD_OK;
     kd_vk_instance_finish(instance);
-    *instance = (struct kd_vk_instance) { .own_driver = true };
-    status = kd_vk_functions_load_own(&instance->fn, path, error);
-    return status ? status : make(instance, false, error);
+    return make_own(instance, path, error);
 }
 
 void kd_vk_instance_finish(struct kd_vk_instance *instance)

@@ -9,12 +9,16 @@ struct kd_vk_instance {
     struct kd_vk_functions fn;
     VkInstance handle;
     struct kd_vk_debug debug;
-    bool own_driver; /* the system has no driver; this is the one that is installed with the program */
+    bool own_driver; /* the system has no device of Vulkan 1.2; this driver is installed with the program */
 };
 
 /* If validate is true and no layer is installed it returns KD_EDEVICE, because otherwise the absence of messages
  * would be taken for success. After the call the struct must not move, because the messenger refers to it. */
 enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validate, struct kd_error *error);
+/* Likewise, without validation and only with drivers of the system. */
+enum kd_status kd_vk_instance_init_system(struct kd_vk_instance *instance, struct kd_error *error);
+/* Whether it has a device of Vulkan 1.2. */
+bool kd_vk_instance_has_device(const struct kd_vk_instance *instance);
 void kd_vk_instance_finish(struct kd_vk_instance *instance);
 
 #endif

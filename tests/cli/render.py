@@ -567,8 +567,8 @@ class Devices(Case):
         self.assertEqual(doctor.returncode, 1)
         self.assertIn(b"apt install mesa-vulkan-drivers", doctor.stdout)
 
-    def test_own_driver(self):
-        """Where the system has no driver, the one beside the program is used, unless the environment names drivers."""
+    def own_driver(self):
+        """A copy of the program, the path of lavapipe, and an environment in which the system has no driver."""
         manifest = next(iter(glob.glob("/usr/share/vulkan/icd.d/lvp_icd*.json")), None)
         if not manifest:
             self.skipTest("lavapipe is not installed")
@@ -582,30 +582,38 @@ class Devices(Case):
         none = {**os.environ, "VK_LOADER_DRIVERS_DISABLE": "*"}
         for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES", "KERRD_VALIDATE"):
             none.pop(name, None)
+        without = subprocess.run(
+            [program, "render", *SMALL, "-o", self.path("none.png")], env=none, capture_output=True
+        )
+        if not without.returncode:
+            self.skipTest("this Vulkan loader is older than VK_LOADER_DRIVERS_DISABLE")
+        self.assertIn(b"install mesa-vulkan-drivers", without.stderr)
+        self.good("render", *SMALL, "-o", self.path("here.png"), env={**os.environ, "VK_DRIVER_FILES": manifest})
+        return program, lavapipe, manifest, none
+
+    def assert_drawn(self, done, name):
+        """The command has drawn the pixels of lavapipe in this file."""
+        self.assertEqual(done.returncode, 0, done.stderr)
+        pixels = [[body for kind, body in chunks(self.read(file)) if kind == b"IDAT"] for file in (name, "here.png")]
+        self.assertEqual(*pixels)
+
+    def test_own_driver(self):
+        """Where the system has no driver, the one beside the program is used, unless the environment names drivers."""
+        program, lavapipe, manifest, none = self.own_driver()
 
         def draw(**more):
             words = [program, "render", *SMALL, "-o", self.path("own.png")]
             return subprocess.run(words, env={**none, **more}, capture_output=True)
 
-        without = draw()
-        if not without.returncode:
-            self.skipTest("this Vulkan loader is older than VK_LOADER_DRIVERS_DISABLE")
-        self.assertIn(b"install mesa-vulkan-drivers", without.stderr)
         here = self.good("doctor", env={**os.environ, "VK_DRIVER_FILES": manifest})
         self.assertNotIn(b"installed with kerrd", here)
-        self.good("render", *SMALL, "-o", self.path("here.png"), env={**os.environ, "VK_DRIVER_FILES": manifest})
         for place in ("lib/kerrd-driver", "bin/kerrd-driver"):
             os.makedirs(self.path(place))
             link = self.path(f"{place}/libvulkan_lvp.so")
             os.symlink(lavapipe, link)
-            done = draw()
-            self.assertEqual(done.returncode, 0, done.stderr)
-            pixels = [
-                [body for kind, body in chunks(self.read(name)) if kind == b"IDAT"] for name in ("own.png", "here.png")
-            ]
-            self.assertEqual(*pixels)
+            self.assert_drawn(draw(), "own.png")
             doctor = subprocess.run([program, "doctor"], env=none, capture_output=True).stdout
-            self.assertIn(b"the driver is installed with kerrd; the system has none", doctor)
+            self.assertIn(b"the driver is installed with kerrd; the system has none of Vulkan 1.2", doctor)
             self.assertEqual(draw(VK_DRIVER_FILES="/nonexistent").returncode, 1)
             os.remove(link)
             with open(link, "w") as file:
@@ -614,6 +622,49 @@ class Devices(Case):
             self.assertEqual(done.returncode, 1)
             self.assertIn(b"kerrd's own cannot be used: ", done.stderr)
             os.remove(link)
+
+    def test_own_c_library(self):
+        """Where the system's C library is too old for this driver, the program starts anew within the driver's."""
+        if "OLD_LIBRARY" not in os.environ:
+            self.skipTest("a sanitizer must be the first library")
+        program, lavapipe, manifest, none = self.own_driver()
+        folder = self.path("lib/kerrd-driver")
+        linker = f"{folder}/glibc-2.36/ld.so"
+        os.makedirs(os.path.dirname(linker))
+        os.symlink(lavapipe, f"{folder}/libvulkan_lvp.so")
+        old = {"LD_PRELOAD": os.environ["OLD_LIBRARY"]}
+        with open(linker, "w") as file:
+            file.write(f"#!/bin/sh\nprintf '%s\\n' \"$@\" > {self.path('words')}\n")
+        os.chmod(linker, 0o755)
+        words = [program, "render", *SMALL, "-o", self.path("own.png")]
+
+        def entered(command, env):
+            done = subprocess.run(command, env=env, capture_output=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return os.path.exists(self.path("words"))
+
+        self.assertFalse(entered(words, none))
+        chosen = {"VK_LOADER_DRIVERS_DISABLE": "", "VK_DRIVER_FILES": manifest}
+        self.assertFalse(entered(words, {**none, **old, **chosen}))
+        self.assertFalse(entered(words, {**none, **old, "VK_LOADER_DRIVERS_DISABLE": ""}))
+        os.chmod(linker, 0o644)
+        self.assertFalse(entered(words, {**none, **old}))
+        os.chmod(linker, 0o755)
+        self.assertTrue(entered(words, {**none, **old}))
+        path = f"{self.path('bin')}/../lib/kerrd-driver"
+        ours = [f"{path}/glibc-2.36:{path}", "--argv0", program, os.path.realpath(program)]
+        self.assertEqual(self.read("words").decode().split("\n")[:-1], ["--library-path", *ours, *words[1:]])
+
+        shutil.copy(next(iter(glob.glob("/lib64/ld-linux*.so.*") + glob.glob("/lib/ld-linux*.so.*"))), linker)
+        self.assert_drawn(subprocess.run(words, env={**none, **old}, capture_output=True), "own.png")
+        server = subprocess.Popen([program, "serve", "--port", "0"], env={**none, **old}, stdout=subprocess.PIPE)
+        with server:
+            server.stdout.readline()
+            within = os.readlink(f"/proc/{server.pid}/exe")
+            with open(f"/proc/{server.pid}/comm") as file:
+                called = file.read()
+            server.terminate()
+        self.assertEqual((within, called), (linker, "kerrd\n"))
 
     def test_doctor(self):
         report = self.good("doctor").decode()

@@ -37,7 +37,7 @@ CONDA = {
     "nettle": "nettle",
     "libmicrohttpd": "libmicrohttpd",
     "OpenEXR": "openexr",
-    "libqrencode": "qrencode",
+    "libqrencode": "libqrencode",
     "libsixel": "libsixel",
 }
 

@@ -66,7 +66,7 @@ MODULES = {
         "job",
         "server",
     },
-    "main.c": {"base", "cli"},
+    "main.c": {"base", "cli", "vk"},  # vk may start the program anew
 }
 # Inside a large module, a folder may include those listed before it. Files of the module that are in no folder may
 # include all.
