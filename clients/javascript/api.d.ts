@@ -3238,6 +3238,7 @@ export interface Share {
   url: string;
   embed?: string;
   code: string;
+  other?: string;
   title: string;
   about: string;
   /** Unix time at which the url ends, if the server signed it. */
@@ -7859,6 +7860,11 @@ export interface Operations {
   'GET /v1/share': {
     takes: {
       query?: SceneQuery & {
+        /**
+         * for two pictures side by side: what differs on the right, as a query of fields, spacetime.spin=0.998; or
+         * data=1 for the measurements of M87*.
+         */
+        pair?: string;
         preset?: PresetName;
       };
     };
@@ -7870,6 +7876,11 @@ export interface Operations {
   'POST /v1/share': {
     takes: {
       query?: {
+        /**
+         * for two pictures side by side: what differs on the right, as a query of fields, spacetime.spin=0.998; or
+         * data=1 for the measurements of M87*.
+         */
+        pair?: string;
         preset?: PresetName;
       };
       body: Scene;

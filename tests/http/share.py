@@ -129,6 +129,99 @@ class Share(Case):
             self.page(other).links["canonical"], urllib.parse.urljoin(self.origin + "/v1/share", by_query["url"])
         )
 
+    def test_a_link_keeps_the_pair(self):
+        """Two pictures side by side: the link has what differs on the right, in one spelling, and both pictures."""
+        ready = (
+            ({"spacetime": {"spin": 0}}, {"spacetime.spin": "0.998"}),
+            ({"spacetime": {"spin": 0, "charge": 0}}, {"spacetime.spin": "0", "spacetime.charge": "0.950"}),
+            ({}, {"disk.gas.amplitude": "0", "disk.emission_opacity": "0", "style.bloom": "0"}),
+            ({"disk": {"doppler": True, "redshift": True}}, {"disk.doppler": "false", "disk.redshift": "false"}),
+            ({"camera": {"inclination_deg": 20}}, {"camera.inclination_deg": "86"}),
+        )
+        kept = 0
+        for preset in self.daemon.get(PRESETS).json()["presets"]:
+            for left, right in ready:
+                with self.subTest(preset["name"], right=right):
+                    query = f"?preset={preset['name']}"
+                    alone = self.daemon.post("/v1/share" + query, left)
+                    query += "&pair=" + urllib.parse.quote(urllib.parse.urlencode(right))
+                    made = self.daemon.post("/v1/share" + query, left)
+                    if made.status != 200:  # a disk within the ISCO of that spin, or a charge too large for it
+                        where = self.assertProblem(made, 422)["pointer"]
+                        self.assertEqual(where.startswith("/pair/"), alone.status == 200)
+                        continue
+                    alone, made, kept = alone.json(), made.json(), kept + 1
+                    path = urllib.parse.urljoin("/v1/share", made["url"])
+                    self.assertLessEqual(len(self.origin + path), 300)
+                    text = text_of(made["code"])
+                    parts = dict(urllib.parse.parse_qsl(text))
+                    own = {name: value for name, value in parts.items() if not name.startswith("pair.")}
+                    self.assertEqual(own, dict(urllib.parse.parse_qsl(text_of(alone["code"]))), "the left picture")
+                    if "other" not in made:  # both sides are the same
+                        self.assertEqual(made, alone)
+                        continue
+                    page = self.page(path)
+                    self.assertEqual(page.links["canonical"], self.origin + path)
+                    self.assertEqual(page.open.removeprefix("../#").removeprefix("preset=default&"), text)
+                    self.assertTrue(made["title"].endswith(", side by side"))
+                    # the right picture, from its own code, is the left scene with these values
+                    whole = self.daemon.get("/v1/share?" + text_of(made["other"])).json()
+                    fields = {**own, **{name[5:]: value for name, value in parts.items() if name not in own}}
+                    by_hand = self.daemon.get("/v1/share?" + urllib.parse.urlencode(fields)).json()
+                    self.assertEqual(whole, by_hand)
+        self.assertGreater(kept, 100)
+
+    def test_what_other_sites_read_of_a_pair(self):
+        made = self.share({"spacetime": {"spin": 0}}, "?preset=smooth&pair=spacetime.spin%3D0.9980")
+        self.assertEqual(text_of(made["code"]), "preset=smooth&spacetime.spin=0&pair.spacetime.spin=0.998")
+        self.assertTrue(
+            made["about"].endswith(" Here with spacetime spin 0 M. Beside it the same with spacetime spin 0.998 M.")
+        )
+        page = self.page("/s/" + made["code"])
+        at = f"{self.origin}/v1/share/{{}}/picture.png"
+        pictures = [a["content"] for tag, a in page.tags if tag == "meta" and a.get("property") == "og:image"]
+        self.assertEqual(pictures, [at.format(made["code"]), at.format(made["other"])], "the left one first")
+        seen = ["/" + a["src"].removeprefix("../") for tag, a in page.tags if tag == "img"]
+        self.assertEqual([self.origin + path for path in seen], pictures)
+        alone = self.share({"spacetime": {"spin": 0}}, "?preset=smooth")
+        left, right, first = (self.daemon.get(path).body for path in (*seen, f"/v1/share/{alone['code']}/picture.png"))
+        self.assertEqual((size_of(left), size_of(right)), (PICTURE, PICTURE))
+        self.assertEqual(left, first)
+        self.assertNotEqual(left, right)
+        told = self.get("/oembed?url=" + urllib.parse.quote(f"{self.origin}/s/{made['code']}", safe="")).json()
+        self.assertEqual((told["url"], told["title"]), (pictures[0], made["title"]))
+
+    def test_the_measurements_beside_a_scene(self):
+        made = self.share({}, "?preset=m87&pair=data%3D1")
+        self.assertEqual((text_of(made["code"]), "other" in made), ("preset=m87&pair.data=1", False))
+        page = self.page("/s/" + made["code"])
+        self.assertEqual(page.open, "../#preset=m87&pair.data=1")
+        self.assertEqual(len([tag for tag, a in page.tags if a.get("property") == "og:image"]), 1)
+        self.assertIn("Event Horizon Telescope measured", page.meta["og:description"])
+
+    def test_a_pair_is_refused_with_a_sentence(self):
+        for pair, pointer, says in (
+            ("spacetime.spin=3", "/pair/spacetime/spin", "spacetime.spin is 3; it must be"),
+            ("nothing=3", "/pair/nothing", "there is no field nothing"),
+            ("spacetime.spin=0.1&spacetime.spin=0.2", "/pair/spacetime/spin", "twice"),
+            ("time=3", "/pair", "both pictures have the same time"),
+            ("image.width=99", "/pair", "both pictures have the same image.width"),
+            ("data=2", "/pair", 'pair.data is "2"; it must be 1'),
+            ("data=1&spacetime.spin=0.1", "/pair", "beside other fields"),
+            ("sky.image=" + 64 * "a", "/pair/sky/image", "which a link cannot contain"),
+            ("spacetime.spin=<script>", "/pair/spacetime/spin", "spacetime.spin"),
+            ("a=%zz", "/pair", "hexadecimal digits"),
+        ):
+            with self.subTest(pair):
+                answer = self.daemon.post("/v1/share?pair=" + urllib.parse.quote(pair), {})
+                problem = self.assertProblem(answer, 422, "invalid-scene")
+                self.assertEqual(problem["pointer"], pointer)
+                self.assertIn(says, problem["detail"])
+                if "%" not in pair:
+                    code = code_of("&".join("pair." + one for one in pair.split("&")))
+                    for target in (f"/s/{code}", f"/v1/share/{code}/picture.png"):
+                        self.assertEqual(self.assertProblem(self.get(target), 422)["detail"], problem["detail"])
+
     def test_what_other_sites_read(self):
         path = self.path_of({"spacetime": {"spin": 0.5}}, "?preset=gargantua")
         page, address = self.page(path), self.origin + path
@@ -303,6 +396,8 @@ class Embedded(Case):
         self.assertTrue(policy.endswith("frame-ancestors https://blog.example http://localhost:99"), policy)
         self.assertNotIn("unsafe", policy)
         self.assertIn('<kerr-hole scene="preset=edge-on"', answer.body.decode())
+        pair = self.daemon.get("/embed/" + code_of("preset=edge-on&pair.spacetime.spin=0"))
+        self.assertIn('<kerr-hole scene="preset=edge-on"', pair.body.decode(), "a frame shows the left one")
         for other in ("/", path.replace("/embed/", "/s/")):
             self.assertIn("frame-ancestors 'none'", self.daemon.get(other).header("Content-Security-Policy"))
 

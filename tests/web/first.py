@@ -107,6 +107,27 @@ class First(Browser):
         usual = self.daemon.get("/v1/presets/gas-stars").json()["camera"]["field_m"]
         self.assertGreater(posts[0][1]["camera"]["field_m"], usual)
 
+    def test_the_still_of_a_wide_window(self):
+        """It has at least half the view's width in pixels, and fills the view."""
+        context, held = self.context(viewport={"width": 2560, "height": 1440}), []
+        page = self.page(context)
+        page.route("**/frame?*", lambda route: held.append(route) if held is not None else route.continue_())
+        page.goto(self.base + "#lang=en")
+        self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or held))
+        file, width, high, view, height = page.evaluate("""async () => {
+            const stage = document.getElementById('stage'), image = new Image();
+            image.src = getComputedStyle(stage).backgroundImage.slice(5, -2);
+            await image.decode();
+            return [image.src.split('/').at(-1), image.naturalWidth, image.naturalHeight, stage.clientWidth, stage.clientHeight];
+        }""")
+        self.assertEqual(file, "first-wide.jpg")
+        self.assertGreaterEqual(width, view / 2)
+        self.assertGreaterEqual(high * view / width, height)
+        self.shot(page, "first-still-wide")
+        waiting, held = held, None
+        for route in waiting:
+            route.continue_()
+
     def test_a_still_is_there_before_the_server_has_made_it(self):
         context, held = self.context(viewport={"width": 390, "height": 700}), []
         page = self.page(context)

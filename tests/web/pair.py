@@ -71,6 +71,25 @@ class Pair(Browser):
         self.assertEqual(other.inner_text("#link-fault"), "")
         self.assertTrue(daemon.eventually(lambda: self.right(other) == self.right(page)))
 
+    def test_a_short_address_keeps_the_pair(self):
+        page = self.begin()
+        page.select_option("#pair-what", label="Disk: turbulent gas | smooth")
+        self.linked(page, "pair.disk.gas.amplitude=0")
+        page.click("#send")
+        page.wait_for_selector("#sending-link")
+        url = page.input_value("#sending-link")
+        self.assertLessEqual(len(url), 300)
+        self.assertIn("Beside it the same with", page.inner_text("#sending figcaption"))
+        widths = "() => [...document.querySelectorAll('#sending img')].map(image => image.naturalWidth).join()"
+        self.assertTrue(daemon.eventually(lambda: page.evaluate(widths) == "600,600"), page.evaluate(widths))
+        self.shot(page, "share-pair")
+        other = self.page(self.context())
+        other.goto(url)
+        other.wait_for_url("**/#*")
+        self.both(other)
+        self.assertEqual(self.sides(other), ["turbulent gas", "smooth disk"])
+        self.shot(other, "share-pair-opened")
+
     def test_a_charged_hole_beside_an_uncharged_one(self):
         page = self.begin("lang=en&preset=smooth&pause=1")
         page.select_option("#pair-what", label="Charge: none | nearly the most, without spin")

@@ -54,9 +54,22 @@ export function fits(quality, { width }, { keeps, part }) {
   };
 }
 
+// Takes the state of a newer picture over into the scene and the session. Returns it, with get(header) and whether the
+// picture is of the current scene and the last one of it.
+export function head({ headers }, scene, from) {
+  const get = name => headers.get(name),
+    now = state(get, scene),
+    current = now.revision >= from.revision,
+    final = now.quality.final === 1 && current;
+  if (scene.streams()) scene.tick(Number(get('Kerrd-Time')), final, current ? now.moved : {});
+  from.frame = Number(get('Kerrd-Frame'));
+  for (const old of from.cameras.keys()) if (old < now.revision) from.cameras.delete(old);
+  return { ...now, get, current, final };
+}
+
 // The state of a picture, from its headers: quality, revision, an observer's clock, and the camera's place. falls: the
 // observer moves by proper time.
-export function state(get, scene) {
+function state(get, scene) {
   const clock = get('Kerrd-Clock') && figures(get('Kerrd-Clock')),
     falls = clock && scene.get('motion.proper_time_rate'),
     azimuth = Number(get('Kerrd-Azimuth')),

@@ -1,6 +1,9 @@
 // The page's state of a session, and the scene in the forms that a session needs.
 import { ask, Problem } from '../base/server.js';
-import { take } from './ahead.js';
+import { take as ahead } from './ahead.js';
+import { document as document_of } from './changes.js';
+
+const least_part = 1 / 8; // least size of a picture at rest, as a fraction of the window's width
 
 export const fresh = ({ id, token, flight = [] }) => ({
   url: 'v1/sessions/' + id,
@@ -19,9 +22,78 @@ export const fresh = ({ id, token, flight = [] }) => ({
 
 // The parts of a scene that decide its cost: the size of the picture, and everything on which the time of a pixel
 // depends.
-export const load = ({ camera, time, motion, ...rest }) => JSON.stringify(rest);
+const load = ({ camera, time, motion, ...rest }) => JSON.stringify(rest);
 
-export const asleep = document => ({ ...document, motion: { ...document.motion, azimuth_rate_deg: 0 } });
+// The scene's document in the size of the window, or in the share of it for which the server accepts a picture.
+export function buildFitting(scene, size) {
+  let part = 1,
+    laden = ''; // load() of the scene that this share was found for
+  const now = () => document_of(scene, size(), part);
+  return {
+    wanted() {
+      if (part < 1 && load(now()) !== laden) part = 1;
+      return { document: now(), part };
+    },
+    // To be called when the server has refused the size. Returns whether a smaller one is left.
+    halve() {
+      if (part <= least_part) return false;
+      part /= 2;
+      laden = load(now());
+      return true;
+    },
+  };
+}
+
+export const authority = session => ({
+  'Content-Type': 'application/json',
+  ...(session && { Authorization: `Bearer ${session.token}` }),
+});
+
+// Opens a session with a document, or sends a patch to one. little: the answer does not matter.
+export function tell(session, body, query, little) {
+  if (session) query.push('order=' + ++session.order);
+  return ask((session?.url ?? 'v1/sessions') + (query.length ? '?' + query.join('&') : ''), {
+    method: session ? 'PATCH' : 'POST',
+    headers: { ...authority(session), ...(little && { Prefer: 'return=minimal' }) },
+    body: JSON.stringify(body),
+  });
+}
+
+export const end = session => fetch(session.url, { method: 'DELETE', headers: authority(session), keepalive: true });
+
+// The server has this document of the session now. awake: the camera has not stopped since it was sent.
+export function take(session, document, awake, rest) {
+  session.cameras.set(rest.revision, document.camera ?? {});
+  Object.assign(session, rest, { document: awake ? document : asleep(document), plain: false });
+  session.touched.clear();
+}
+
+// Over a line of high latency, a change of the camera is sent with one of the requests for pictures, which saves a
+// round trip. Each request has all changes since the latest answered one, because the server ignores a request that
+// was overtaken.
+export function pend(session, jumps, pending) {
+  for (const name of Object.keys(pending.patch.camera)) session.touched.add(name);
+  Object.assign(session, { jumps, pending });
+}
+
+// The server has taken the change that a request for a picture carried.
+export function carried(session, { order, carries: { document } }, revision) {
+  Object.assign(session, { known: order, document, revision: Math.max(session.revision, revision) });
+  session.cameras.set(revision, document.camera ?? {});
+  if (!session.pending && !session.flight.some(({ carries }) => carries)) session.touched.clear();
+}
+
+const asleep = document => ({ ...document, motion: { ...document.motion, azimuth_rate_deg: 0 } });
+
+export const hidden = () => document.hidden || document.body.dataset.view !== 'lensing';
+
+// Stops a drifting camera where it was last shown.
+export function halt(session, scene) {
+  const patch = { motion: { azimuth_rate_deg: 0 }, camera: { azimuth_deg: scene.get('camera.azimuth_deg') } },
+    body = JSON.stringify(patch);
+  session.document = asleep(session.document);
+  fetch(session.url, { method: 'PATCH', headers: authority(session), body, keepalive: true }).catch(() => {});
+}
 
 // Takes over the session that was opened before everything else, for the current scene. Returns a function to be called
 // once; its promise is null if there is no session.
@@ -30,7 +102,7 @@ export function adopter(scene) {
     document = scene.document(fitted && fitted.value !== fitted.base ? { [fitted.path]: fitted.base } : {}, true),
     { jumps } = scene;
   return async () => {
-    const found = await take();
+    const found = await ahead();
     if (!found) return null;
     const { size, keeps, revision, varies, emitters } = found;
     document.image = { ...document.image, ...size, samples: 2 };
@@ -43,11 +115,12 @@ export function adopter(scene) {
 
 // Strikes the hole of a session. document: the one that was sent; it gets the strike too. wrong(sentence) is called on
 // a refusal.
-export async function strike(scene, session, document, headers, wrong) {
-  const answer = await ask(session.url + '/ringdown', { method: 'POST', headers, body: '{}' }).catch(error => {
-    if (!(error instanceof Problem) || error.status === 404) throw error;
-    wrong(error.message);
-  });
+export async function strike(scene, session, document, wrong) {
+  const headers = authority(session),
+    answer = await ask(session.url + '/ringdown', { method: 'POST', headers, body: '{}' }).catch(error => {
+      if (!(error instanceof Problem) || error.status === 404) throw error;
+      wrong(error.message);
+    });
   if (!answer) return;
   const { revision, scene: now, ...seen } = await answer.json();
   session.revision = revision;

@@ -2,6 +2,7 @@
 import { byId, el } from '../base/dom.js';
 import { describe } from '../words/describe.js';
 import { t, tell } from '../words/i18n.js';
+import * as link from '../base/link.js';
 import { linkedTime } from '../picture/scene.js';
 import { module, postJson } from '../base/server.js';
 
@@ -14,6 +15,12 @@ function documentOf(scene) {
   const fitted = scene.fitted(),
     time = linkedTime(scene.get('time'));
   return scene.document({ ...(time && { time }), ...(fitted && { [fitted.path]: fitted.base }) });
+}
+
+// The request for the address. If a second picture stands beside the first one, the query has what differs there.
+function addressed() {
+  const pair = new URLSearchParams(link.entries('pair.').map(([key, value]) => [key.slice(5), value]));
+  return asked + (pair.size ? '?' + new URLSearchParams({ pair }) : '');
 }
 
 // field: the input that shows the text, if there is one.
@@ -86,15 +93,23 @@ function codeOf(url) {
   return box;
 }
 
-// The preview that others see with the link.
-function previewOf({ code, title, about }) {
-  const picture = el('img', {
-    src: `v1/share/${code}/picture.png?width=${preview.width}`,
-    alt: '',
-    ...preview,
-    onerror: () => (picture.hidden = true), // hidden, because the server is busy; the link works nevertheless
-  });
-  return el('figure', {}, picture, el('figcaption', { lang: 'en' }, el('strong', {}, title), ' ', about));
+// The preview that others see with the link; of a pair, both pictures.
+function previewOf({ code, other, title, about }) {
+  const pictures = [code, other].filter(Boolean).map(of =>
+    el('img', {
+      src: `v1/share/${of}/picture.png?width=${preview.width}`,
+      alt: '',
+      ...preview,
+      // hidden, because the server is busy; the link works nevertheless
+      onerror: ({ target }) => (target.hidden = true),
+    }),
+  );
+  return el(
+    'figure',
+    {},
+    el('div', { class: 'seen' }, pictures),
+    el('figcaption', { lang: 'en' }, el('strong', {}, title), ' ', about),
+  );
 }
 
 function fill(card, shared, scene, openTake) {
@@ -160,7 +175,7 @@ export async function send(scene, openTake) {
   );
   card.showModal();
   try {
-    const shared = await postJson(asked, documentOf(scene));
+    const shared = await postJson(addressed(), documentOf(scene));
     told.remove();
     fill(card, shared, scene, openTake);
   } catch (error) {

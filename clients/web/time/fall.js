@@ -41,6 +41,128 @@ function faller(scene) {
   };
 }
 
+function phase({ proper_time_to_horizon }, way, ended) {
+  if (!ended)
+    return proper_time_to_horizon == null
+      ? t('fall.within-the-horizon', 'Within the horizon')
+      : t('fall.falling-freely', 'Falling freely');
+  return way.end
+    ? t('fall.the-inner-horizon-where', 'The inner horizon, where the model ends')
+    : t('fall.the-singularity-the-end', 'The singularity: the end');
+}
+
+// Shows the redshift of the sky at the observer and the size of the shadow, and returns them.
+async function showSky(scene, r) {
+  const { mass_msun, ...who } = faller(scene),
+    { values } = await physics('sky', {
+      ...who,
+      observer: 'infall',
+      observer_r: Number(r.toPrecision(3)),
+      yaw_deg: 180,
+    }),
+    wide = number(2 * values.dark_radius_deg, 3),
+    part = number(100 * values.dark_share, 2);
+  byId('fall-behind').textContent = `× ${number(values.g_behind, 3)}`;
+  byId('fall-sky').textContent = t('fall.to', '× {0} to {1}', number(values.g_least, 3), number(values.g_greatest, 3));
+  byId('fall-disk').textContent = t('fall.wide-of-sky', '{0}° wide, {1} % of sky', wide, part);
+  return values;
+}
+
+// The changes of the scene with which a fall begins at this radius.
+function entering(scene, from) {
+  const far = scene.get('camera.r') === 'infinity',
+    projection = scene.get('camera.projection');
+  return {
+    'camera.r': from,
+    ...Object.fromEntries(
+      (falls(scene) ? velocities : [...velocities, ...numbers]).map(name => ['camera.' + name, null]),
+    ),
+    'camera.observer': 'infall',
+    ...(['equirectangular', 'fulldome'].includes(projection) ? {} : { 'camera.projection': null }),
+    ...(far ? { 'camera.fov_deg': wide_deg, 'camera.yaw_deg': null, 'camera.pitch_deg': null } : {}),
+    ...(scene.get('sky.model') === 'none' ? { 'sky.model': 'catalogue' } : {}),
+    ...Object.fromEntries(rates.map(path => [path, 0])),
+  };
+}
+
+// The guide of a fall, and its film. fall: { way(), again() }: the answer for its start, and beginning it anew.
+function buildGuiding(scene, box, fault, fall) {
+  // Ends the guide; the fall continues. keep: saves the film recorded so far.
+  function unguide(keep) {
+    guide?.end(keep);
+    guide = null;
+    showGuide();
+  }
+
+  const guided = el('button', { type: 'button', id: 'fall-guide' }),
+    filmed = el('button', { type: 'button', id: 'fall-film' }),
+    got = el(
+      'a',
+      { class: 'button', id: 'fall-got', href: '', hidden: true },
+      t('fall.save-it-again', 'Save it again'),
+    ),
+    told = el('p', { class: 'help', id: 'fall-film-told', role: 'status' });
+  box.append(el('p', { class: 'row' }, guided, ' ', filmed, ' ', got), told);
+  let guide = null, // the captions and the sound of a guided fall (guide.js)
+    guided_s = 0, // as fold_s, in a guided fall
+    filming = null, // the guide whose film is being recorded
+    asked = 0; // number of times that a guide has been requested
+
+  function showGuide() {
+    guided.textContent = guide ? t('fall.end-the-guide', 'End the guide') : t('fall.guide-me-90-s', 'Guide me, 90 s');
+    filmed.textContent = filming
+      ? t('fall.save-the-film-now', 'Save the film now')
+      : t('fall.film-it-with-sound', 'Film it, with sound');
+    guided.hidden = Boolean(filming);
+    filmed.hidden = guide !== null && !filming;
+  }
+
+  // The film of a guide has been saved, or dropped.
+  function filmEnded(one) {
+    if (filming === one) (filming = null), (told.textContent = '');
+    guide === one ? unguide(false) : showGuide();
+  }
+
+  // Begins the fall anew, with captions and sound.
+  async function guideIt(records) {
+    tell(fault, '');
+    const one = ++asked,
+      mine = fall.way();
+    const [{ begin, films, seconds }, { values: hole }, { values: last }] = await Promise.all([
+      module(import('./guide.js')),
+      physics('kerr', (({ spin, charge }) => ({ spin, ...(charge && { charge }) }))(faller(scene))),
+      physics('infall', { ...faller(scene), r: mine.last }),
+    ]);
+    if (one !== asked || mine !== fall.way()) return;
+    if (records && !films) {
+      told.textContent = t('fall.this-browser-records-no', 'This browser records no films.');
+      return;
+    }
+    const own = begin({ hole, way: mine, records, got, ended: () => filmEnded(own) });
+    guide?.end(false);
+    guide = own;
+    guided_s = seconds / Math.log(mine.proper_time_to_end / last.proper_time_to_end);
+    if (records) filming = own;
+    got.hidden = got.hidden || records;
+    told.textContent = records
+      ? t('fall.the-browser-records-what', 'The browser records what you see. Keep this page in front until the end.')
+      : '';
+    fall.again();
+    showGuide();
+  }
+  const starts = records => guideIt(records).catch(error => tell(fault, error.message));
+  guided.addEventListener('click', () => (guide ? unguide(false) : starts(false)));
+  filmed.addEventListener('click', () => (filming ? unguide(true) : starts(true)));
+  showGuide();
+  return {
+    fold_s: () => (guide ? guided_s : fold_s),
+    heard: (values, r) => guide?.heard(values, r),
+    shown: (r, runs) => guide?.shown(r, runs),
+    over: () => guide?.over(),
+    end: unguide,
+  };
+}
+
 export function buildFall(scene) {
   const [start, box, where, at, play, back, fault] = [
     'fall-in',
@@ -60,44 +182,9 @@ export function buildFall(scene) {
     rate = 0, // the pace that was set in the scene
     waits = false, // true if the first picture of the fall has not come yet
     seen = 0, // time of the latest picture of the fall, by performance.now()
-    gap = 0, // seconds between its pictures: a maximum that decays
-    guide = null, // the captions and the sound of a guided fall (guide.js)
-    guided_s = 0; // as fold_s, in a guided fall
+    gap = 0; // seconds between its pictures: a maximum that decays
 
   const ended = () => r <= way.last;
-
-  function phase({ proper_time_to_horizon }) {
-    if (!ended())
-      return proper_time_to_horizon == null
-        ? t('fall.within-the-horizon', 'Within the horizon')
-        : t('fall.falling-freely', 'Falling freely');
-    return way.end
-      ? t('fall.the-inner-horizon-where', 'The inner horizon, where the model ends')
-      : t('fall.the-singularity-the-end', 'The singularity: the end');
-  }
-
-  // Redshift of the sky at the observer, and the size of the shadow.
-  const measure = latest(async () => {
-    const at_r = r,
-      { mass_msun, ...who } = faller(scene),
-      { values } = await physics('sky', {
-        ...who,
-        observer: 'infall',
-        observer_r: Number(at_r.toPrecision(3)),
-        yaw_deg: 180,
-      }),
-      wide = number(2 * values.dark_radius_deg, 3),
-      part = number(100 * values.dark_share, 2);
-    guide?.heard(values, at_r);
-    byId('fall-behind').textContent = `× ${number(values.g_behind, 3)}`;
-    byId('fall-sky').textContent = t(
-      'fall.to',
-      '× {0} to {1}',
-      number(values.g_least, 3),
-      number(values.g_greatest, 3),
-    );
-    byId('fall-disk').textContent = t('fall.wide-of-sky', '{0}° wide, {1} % of sky', wide, part);
-  });
 
   function showPlay() {
     play.textContent = !scene.held
@@ -107,13 +194,18 @@ export function buildFall(scene) {
         : t('fall.go-on', 'Go on');
   }
 
-  const showGuided = () => guide?.shown(r, !scene.held && !ended());
+  const showGuided = () => guiding.shown(r, !scene.held && !ended());
+  // Numbers of the sky depend on the radius alone; the others are shown before them.
+  const measure = latest(async () => {
+    const at_r = r;
+    guiding.heard(await showSky(scene, at_r), at_r);
+  });
 
   function show(clock) {
     const span = name => `${number(clock[name], 3)} M = ${duration(clock[name + '_s'])}`,
       now = waits
         ? t('fall.the-server-computes-the', 'The server computes the first picture of the fall …')
-        : phase(clock);
+        : phase(clock, way, ended());
     if (where.textContent !== now) where.textContent = now;
     byId('fall-r').textContent = `${number(r, 3)} M`;
     byId('fall-horizon').textContent =
@@ -124,17 +216,14 @@ export function buildFall(scene) {
     at.setAttribute('aria-valuetext', `${byId('fall-r').textContent}, ${now}`);
     showPlay();
     showGuided();
-    if (ended()) guide?.over();
+    if (ended()) guiding.over();
     // the other numbers do not depend on these
     measure().catch(() => ['behind', 'sky', 'disk'].forEach(name => (byId('fall-' + name).textContent = '–')));
   }
 
   // Sets the pace so that the time left shrinks by the same factor every second; small changes are not sent.
   function keepPace() {
-    const now = Math.min(
-      fastest,
-      Number((left / Math.max(guide ? guided_s : fold_s, fold_pictures * gap)).toPrecision(3)),
-    );
+    const now = Math.min(fastest, Number((left / Math.max(guiding.fold_s(), fold_pictures * gap)).toPrecision(3)));
     if (Math.abs(Math.log(now / rate)) < uneven) return;
     rate = now;
     scene.change({ [pace]: rate });
@@ -167,85 +256,24 @@ export function buildFall(scene) {
 
   function stop() {
     const focused = box.contains(document.activeElement);
-    unguide(true);
+    guiding.end(true);
     way = null;
     box.hidden = true;
     start.hidden = false;
     if (focused) start.focus();
   }
 
-  // Ends the guide; the fall continues. keep: saves the film recorded so far.
-  function unguide(keep) {
-    guide?.end(keep);
-    guide = null;
-    showGuide();
-  }
-
-  const guided = el('button', { type: 'button', id: 'fall-guide' }),
-    filmed = el('button', { type: 'button', id: 'fall-film' }),
-    got = el(
-      'a',
-      { class: 'button', id: 'fall-got', href: '', hidden: true },
-      t('fall.save-it-again', 'Save it again'),
-    ),
-    told = el('p', { class: 'help', id: 'fall-film-told', role: 'status' });
-  box.append(el('p', { class: 'row' }, guided, ' ', filmed, ' ', got), told);
-  let filming = null, // the guide whose film is being recorded
-    asked = 0; // number of times that a guide has been requested
-
-  function showGuide() {
-    guided.textContent = guide ? t('fall.end-the-guide', 'End the guide') : t('fall.guide-me-90-s', 'Guide me, 90 s');
-    filmed.textContent = filming
-      ? t('fall.save-the-film-now', 'Save the film now')
-      : t('fall.film-it-with-sound', 'Film it, with sound');
-    guided.hidden = Boolean(filming);
-    filmed.hidden = guide !== null && !filming;
-  }
-
-  // The film of a guide has been saved, or dropped.
-  function filmEnded(one) {
-    if (filming === one) (filming = null), (told.textContent = '');
-    guide === one ? unguide(false) : showGuide();
-  }
-
-  // Begins the fall anew, with captions and sound.
-  async function guideIt(records) {
-    tell(fault, '');
-    const one = ++asked,
-      mine = way;
-    const [{ begin, films, seconds }, { values: hole }, { values: last }] = await Promise.all([
-      module(import('./guide.js')),
-      physics('kerr', (({ spin, charge }) => ({ spin, ...(charge && { charge }) }))(faller(scene))),
-      physics('infall', { ...faller(scene), r: way.last }),
-    ]);
-    if (one !== asked || mine !== way) return;
-    if (records && !films) {
-      told.textContent = t('fall.this-browser-records-no', 'This browser records no films.');
-      return;
-    }
-    const own = begin({ hole, way, records, got, ended: () => filmEnded(own) });
-    guide?.end(false);
-    guide = own;
-    guided_s = seconds / Math.log(way.proper_time_to_end / last.proper_time_to_end);
-    if (records) filming = own;
-    got.hidden = got.hidden || records;
-    told.textContent = records
-      ? t('fall.the-browser-records-what', 'The browser records what you see. Keep this page in front until the end.')
-      : '';
-    put(way.r, way);
-    if (scene.held) run();
-    showGuide();
-  }
-  const starts = records => guideIt(records).catch(error => tell(fault, error.message));
-  guided.addEventListener('click', () => (guide ? unguide(false) : starts(false)));
-  filmed.addEventListener('click', () => (filming ? unguide(true) : starts(true)));
-  showGuide();
+  const guiding = buildGuiding(scene, box, fault, {
+    way: () => way,
+    again() {
+      put(way.r, way);
+      if (scene.held) run();
+    },
+  });
 
   const begin = latest(async () => {
     tell(fault, '');
-    const far = scene.get('camera.r') === 'infinity',
-      projection = scene.get('camera.projection'),
-      from = far ? begin_r : scene.get('camera.r');
+    const from = scene.get('camera.r') === 'infinity' ? begin_r : scene.get('camera.r');
     try {
       const { values } = await physics('infall', { ...faller(scene), r: from });
       way = {
@@ -262,17 +290,7 @@ export function buildFall(scene) {
     [rate, gap, seen] = [0, 0, performance.now()];
     r = given = from;
     left = way.proper_time_to_end;
-    scene.change({
-      'camera.r': from,
-      ...Object.fromEntries(
-        (falls(scene) ? velocities : [...velocities, ...numbers]).map(name => ['camera.' + name, null]),
-      ),
-      'camera.observer': 'infall',
-      ...(['equirectangular', 'fulldome'].includes(projection) ? {} : { 'camera.projection': null }),
-      ...(far ? { 'camera.fov_deg': wide_deg, 'camera.yaw_deg': null, 'camera.pitch_deg': null } : {}),
-      ...(scene.get('sky.model') === 'none' ? { 'sky.model': 'catalogue' } : {}),
-      ...Object.fromEntries(rates.map(path => [path, 0])),
-    });
+    scene.change(entering(scene, from));
     box.hidden = false;
     start.hidden = true;
     play.focus();
@@ -304,7 +322,7 @@ export function buildFall(scene) {
     shown({ clock, shows }) {
       if (!way || !clock || shows?.camera?.observer !== 'infall') return;
       const older = scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3; // than the pause
-      if (older && waits) where.textContent = phase(clock);
+      if (older && waits) where.textContent = phase(clock, way, ended());
       waits = false;
       if (older) return;
       ({ r, proper_time_to_end: left } = clock);

@@ -4,13 +4,12 @@
 
 #include "base/json.h"
 #include "image/text_code.h"
+#include "scene/difference.h"
 #include "scene/label.h"
 #include "scene/link.h"
 #include "server/http/cors.h"
 #include "server/http/public_url.h"
 #include "server/http/reply.h"
-#include "server/render/scene_source.h"
-#include "server/render/shared.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -29,8 +28,8 @@ static enum kd_status tell_preset(const char *name, struct kd_shared *out)
     return status ? status : kd_buffer_printf(&out->about, "%s.", known ? kd_scene_preset_title(i) : PLAIN_ABOUT);
 }
 
-/* Describes how the scene differs from its preset. target: the parsed link. */
-static enum kd_status tell_changes(const struct kd_target *target, struct kd_shared *out)
+/* Describes the fields of a query. Writes nothing if there are none. */
+static enum kd_status tell_changes(const struct kd_target *target, const char *before, struct kd_buffer *out)
 {
     struct kd_scene_changed *changed = calloc(target->n_pairs + 1, sizeof *changed);
     size_t n = 0;
@@ -41,29 +40,92 @@ static enum kd_status tell_changes(const struct kd_target *target, struct kd_sha
             changed[n++] = (struct kd_scene_changed) { target->pairs[i].name, target->pairs[i].value };
     if (!n)
         goto done;
-    KD_TRY(kd_buffer_printf(&out->about, " Here with "));
-    KD_TRY(kd_scene_link_tell(changed, n, &out->about));
-    KD_TRY(kd_buffer_printf(&out->about, "."));
+    KD_TRY(kd_buffer_printf(out, "%s", before));
+    KD_TRY(kd_scene_link_tell(changed, n, out));
+    KD_TRY(kd_buffer_printf(out, "."));
 done:
     free(changed);
     return status;
 }
 
-static enum kd_status tell_words(struct kd_shared *out, struct kd_error *error)
+/* Describes the scene of a query. preset: whether to name its preset. */
+static enum kd_status tell_query(const char *query, bool preset, const char *before, struct kd_shared *out,
+                                 struct kd_error *error)
 {
     struct kd_buffer raw = { 0 };
     struct kd_target *target = calloc(1, sizeof *target);
     enum kd_status status;
     KD_TRY(target ? KD_OK : KD_ENOMEM);
-    KD_TRY(kd_buffer_printf(&raw, "/?%s", (const char *)out->link.data));
+    KD_TRY(kd_buffer_printf(&raw, "/?%s", query));
     KD_TRY(kd_target_parse(target, (const char *)raw.data, error));
-    KD_TRY(tell_preset(kd_target_value(target, "preset"), out));
-    KD_TRY(tell_changes(target, out));
+    if (preset)
+        KD_TRY(tell_preset(kd_target_value(target, "preset"), out));
+    KD_TRY(tell_changes(target, before, &out->about));
 done:
     if (target)
         kd_target_finish(target);
     free(target);
     kd_buffer_finish(&raw);
+    return status;
+}
+
+/* Writes each field with the prefix of the right picture. fields: as of kd_scene_difference. */
+static enum kd_status add_prefix(const char *fields, struct kd_buffer *out)
+{
+    enum kd_status status = kd_buffer_printf(out, "%s", "");
+    for (const char *at = fields; *at && !status;) {
+        const size_t n = strcspn(at, "&");
+        status = kd_buffer_printf(out, "%s" KD_SHARED_PAIR ".%.*s", at == fields ? "" : "&", (int)n, at);
+        at += n + (at[n] == '&');
+    }
+    return status;
+}
+
+static enum kd_status tell_right(const struct kd_shared_scenes *scenes, const char *fields, struct kd_shared *out,
+                                 struct kd_error *error)
+{
+    struct kd_buffer link = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_scene_link(&scenes->right, &link, error));
+    KD_TRY(kd_text_code_write(link.data, link.size, &out->other, error));
+    KD_TRY(kd_buffer_printf(&out->title, ", side by side"));
+    KD_TRY(tell_query(fields, false, " Beside it the same with ", out, error));
+done:
+    kd_buffer_finish(&link);
+    return status;
+}
+
+/* Describes both sides, and writes what differs. */
+static enum kd_status tell_sides(const struct kd_shared_scenes *scenes, struct kd_shared *out, struct kd_error *error)
+{
+    struct kd_buffer fields = { 0 };
+    enum kd_status status;
+    KD_TRY(tell_query((const char *)out->link.data, true, " Here with ", out, error));
+    KD_TRY(kd_buffer_printf(&fields, "%s", ""));
+    if (scenes->measured) {
+        KD_TRY(kd_buffer_printf(&fields, KD_SHARED_DATA "=1"));
+        KD_TRY(kd_buffer_printf(&out->title, ", beside what was measured"));
+        KD_TRY(kd_buffer_printf(&out->about, " Beside it what the Event Horizon Telescope measured of M87*."));
+    } else {
+        KD_TRY(kd_scene_difference(&scenes->left, &scenes->right, '&', &fields));
+        if (fields.size)
+            KD_TRY(tell_right(scenes, (const char *)fields.data, out, error));
+    }
+    KD_TRY(add_prefix((const char *)fields.data, &out->pair));
+done:
+    kd_buffer_finish(&fields);
+    return status;
+}
+
+static enum kd_status make_code(struct kd_shared *out, struct kd_error *error)
+{
+    struct kd_buffer text = { 0 };
+    enum kd_status status;
+    KD_TRY(kd_buffer_printf(&text, "%s%s%s", (const char *)out->link.data, out->link.size && out->pair.size ? "&" : "",
+                            (const char *)out->pair.data));
+    KD_TRY(kd_text_code_write(text.data, text.size, &out->code, error));
+done:
+    kd_buffer_finish(&text);
     return status;
 }
 
@@ -89,45 +151,52 @@ static enum kd_status tell_address(const struct kd_request *request, const struc
 static enum kd_status tell_addresses(const struct kd_request *request, struct kd_shared *out)
 {
     const char *code = (const char *)out->code.data;
-    struct kd_buffer page = { 0 }, picture = { 0 };
+    struct kd_buffer page = { 0 }, picture = { 0 }, other = { 0 };
     enum kd_status status;
     KD_TRY(kd_public_url_write(request, &out->home));
     KD_TRY(kd_buffer_printf(&page, "/s/%s", code));
     KD_TRY(kd_buffer_printf(&picture, "/v1/share/%s/picture.png", code));
     KD_TRY(tell_address(request, out, (const char *)page.data, &out->address));
     KD_TRY(tell_address(request, out, (const char *)picture.data, &out->picture));
+    KD_TRY(kd_buffer_printf(&out->other_picture, "%s", ""));
+    if (out->other.size) {
+        KD_TRY(kd_buffer_printf(&other, "/v1/share/%s/picture.png", (const char *)out->other.data));
+        KD_TRY(tell_address(request, out, (const char *)other.data, &out->other_picture));
+    }
 done:
     kd_buffer_finish(&page);
     kd_buffer_finish(&picture);
+    kd_buffer_finish(&other);
     return status;
 }
 
-enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_scene *scene, struct kd_shared *out,
-                              struct kd_error *error)
+enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_shared_scenes *scenes,
+                              struct kd_shared *out, struct kd_error *error)
 {
     enum kd_status status;
     *out = (struct kd_shared) { 0 };
-    KD_TRY(kd_scene_link(scene, &out->link, error));
-    KD_TRY(kd_text_code_write(out->link.data, out->link.size, &out->code, error));
-    if (tell_words(out, error) || tell_addresses(request, out))
-        KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
+    KD_TRY(kd_scene_link(&scenes->left, &out->link, error));
+    KD_TRY(tell_sides(scenes, out, error));
+    KD_TRY(make_code(out, error));
+    KD_TRY(tell_addresses(request, out));
 done:
-    return status;
+    return status == KD_ENOMEM ? kd_error_set(error, KD_ENOMEM, "out of memory") : status;
 }
 
 void kd_shared_finish(struct kd_shared *shared)
 {
-    struct kd_buffer *all[] = { &shared->link,    &shared->code, &shared->title,  &shared->about,
-                                &shared->address, &shared->home, &shared->picture };
+    struct kd_buffer *all[] = { &shared->link,  &shared->code,         &shared->title, &shared->about,
+                                &shared->pair,  &shared->address,      &shared->home,  &shared->picture,
+                                &shared->other, &shared->other_picture };
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         kd_buffer_finish(all[i]);
 }
 
 enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out)
 {
-    const char *text = (const char *)shared->link.data;
+    const char *text = (const char *)shared->link.data, *pair = (const char *)shared->pair.data;
     const char *plain = strncmp(text, "preset=", strlen("preset=")) ? "preset=default" : "";
-    return kd_buffer_printf(out, "%s%s%s", plain, *plain && *text ? "&" : "", text);
+    return kd_buffer_printf(out, "%s%s%s%s%s", plain, *plain && *text ? "&" : "", text, *pair ? "&" : "", pair);
 }
 
 /* Adds an address of this server. It is absolute if the public address is known, else relative to the request's
@@ -190,6 +259,8 @@ static enum kd_status share_json(const struct kd_request *request, const struct 
     kd_json_object(&json, NULL);
     enum kd_status status = add_addresses(request, shared, &json);
     kd_json_string(&json, "code", (const char *)shared->code.data);
+    if (shared->other.size)
+        kd_json_string(&json, "other", (const char *)shared->other.data);
     kd_json_string(&json, "title", (const char *)shared->title.data);
     kd_json_string(&json, "about", (const char *)shared->about.data);
     kd_json_end(&json);
@@ -198,14 +269,14 @@ static enum kd_status share_json(const struct kd_request *request, const struct 
 
 enum MHD_Result kd_handle_share(struct kd_request *request)
 {
-    struct kd_scene scene;
+    struct kd_shared_scenes scenes;
     struct kd_problem problem;
     struct kd_error error = { 0 };
     struct kd_shared shared;
     struct kd_buffer body = { 0 };
-    if (!kd_scene_of_request(request, &scene, &problem, &error))
+    if (!kd_shared_of_request(request, &scenes, &problem, &error))
         return kd_reply_problem(request, &problem);
-    enum kd_status status = kd_shared_tell(request, &scene, &shared, &error);
+    enum kd_status status = kd_shared_tell(request, &scenes, &shared, &error);
     enum MHD_Result result = status ? kd_reply_error(request, &error)
                                     : kd_reply_json(request, share_json(request, &shared, &body), &body, KD_JSON_TYPE);
     kd_shared_finish(&shared);
@@ -277,14 +348,14 @@ static enum MHD_Result refuse(struct kd_request *request, enum kd_problem_type t
 
 static enum MHD_Result tell_oembed(struct kd_request *request, const char *code, int32_t width)
 {
-    struct kd_scene scene;
+    struct kd_shared_scenes scenes;
     struct kd_problem problem;
     struct kd_error error = { 0 };
     struct kd_shared shared;
     struct kd_buffer body = { 0 };
-    if (!kd_shared_read(code, &scene, &problem, &error))
+    if (!kd_shared_read(code, &scenes, &problem, &error))
         return refuse(request, KD_PROBLEM_NOT_FOUND, error.message, NULL);
-    enum kd_status status = kd_shared_tell(request, &scene, &shared, &error);
+    enum kd_status status = kd_shared_tell(request, &scenes, &shared, &error);
     enum MHD_Result result = status ? kd_reply_error(request, &error)
                                     : kd_reply_json(request, oembed_json(&shared, width, &body), &body, KD_JSON_TYPE);
     kd_shared_finish(&shared);

@@ -3,12 +3,15 @@
 #define KD_SERVER_ANSWERS_SHARE_H
 
 #include "base/buffer.h"
-#include "scene/scene.h"
 #include "server/http/request.h"
+#include "server/render/shared.h"
 
 /* Texts in UTF-8, each followed by NUL. They contain nothing but kerrd's own strings and numbers. */
 struct kd_shared {
-    struct kd_buffer link, code;   /* link: the link (scene/link.h); code: its code (image/text_code.h) */
+    struct kd_buffer link, code; /* link: of the left picture (scene/link.h); code: of both (image/text_code.h) */
+    /* for two pictures side by side, otherwise "": what differs on the right, "pair.spacetime.spin=0.998"; the code and
+     * the absolute address of the right picture alone, "" if it is not rendered */
+    struct kd_buffer pair, other, other_picture;
     struct kd_buffer title, about; /* title: such as "Gargantua"; about: one or two sentences */
     /* absolute addresses, signed if the request came by a signed link; home: of the page, without a slash at its end;
      * address: of /s/CODE */
@@ -18,8 +21,8 @@ struct kd_shared {
 
 /* Makes the texts. Fails with KD_EINVAL and a pointer, KD_ETOOBIG or KD_ENOMEM. Call kd_shared_finish whatever the
  * result. */
-enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_scene *scene, struct kd_shared *out,
-                              struct kd_error *error);
+enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_shared_scenes *scenes,
+                              struct kd_shared *out, struct kd_error *error);
 /* Appends the fragment of the page's address, the text behind #. The fragment names the preset, because otherwise the
  * page would start from its first view. */
 enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out);

@@ -7,13 +7,12 @@
 #include "base/percent.h"
 #include "server/http/cors.h"
 #include "server/http/reply.h"
-#include "server/render/shared.h"
 
 #include <string.h>
 
 /* Numbers of the page's placeholders. STYLE, ICON and SEEN (the picture): queries that sign these files. URL: the
- * address as the value of a parameter. */
-enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, STYLE, ICON, SEEN, TEXTS };
+ * address as the value of a parameter. OTHER: the path of the right picture of a pair, signed, or "". */
+enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, STYLE, ICON, SEEN, OTHER, OTHER_PICTURE, TEXTS };
 
 /* Writes the elements that are useful only to visitors with access, or on a server that requires none: the link to
  * oEmbed, which other sites read, and the script that opens the page with the live view. */
@@ -24,6 +23,18 @@ static enum kd_status write_live(const char *const t[TEXTS], struct kd_buffer *p
         "<link rel=\"alternate\" type=\"application/json+oembed\" href=\"%s/oembed?url=%s\" title=\"%s\">\n"
         "<script type=\"module\" src=\"../web/share/shared.js\"></script>\n",
         t[HOME], t[URL], t[TITLE]);
+}
+
+/* Writes the picture; of a pair, both pictures. */
+static enum kd_status write_pictures(const char *const t[TEXTS], struct kd_buffer *page)
+{
+    enum kd_status status =
+        kd_buffer_printf(page, "<img src=\"../v1/share/%s/picture.png%s\" width=\"%d\" height=\"%d\" alt=\"%s\">",
+                         t[CODE], t[SEEN], KD_SHARED_WIDTH, KD_SHARED_HEIGHT, t[ABOUT]);
+    if (!status && *t[OTHER])
+        status = kd_buffer_printf(page, "<img src=\"%s\" width=\"%d\" height=\"%d\" alt=\"\">", t[OTHER],
+                                  KD_SHARED_WIDTH, KD_SHARED_HEIGHT);
+    return status;
 }
 
 /* live: whether the visitor can use the page with the live view without a further step. */
@@ -48,15 +59,16 @@ static enum kd_status write_page(const char *const t[TEXTS], bool live, struct k
         "<link rel=\"stylesheet\" href=\"../web/share/shared.css%s\">\n",
         t[TITLE], t[ABOUT], t[ADDRESS], t[TITLE], t[ABOUT], t[ADDRESS], t[PICTURE], KD_SHARED_WIDTH, KD_SHARED_HEIGHT,
         t[ABOUT], t[ICON], t[STYLE]));
+    if (*t[OTHER_PICTURE]) /* an array of Open Graph: the first one is preferred */
+        KD_TRY(kd_buffer_printf(page, "<meta property=\"og:image\" content=\"%s\">\n", t[OTHER_PICTURE]));
     if (live)
         KD_TRY(write_live(t, page));
-    KD_TRY(kd_buffer_printf(
-        page,
-        "</head>\n<body>\n<main>\n<h1>%s</h1>\n"
-        "%s<img src=\"../v1/share/%s/picture.png%s\" width=\"%d\" height=\"%d\" alt=\"%s\">%s\n"
-        "<p>%s</p>\n<p><a id=\"open\" href=\"../#%s\">Open it live</a></p>\n</main>\n</body>\n</html>\n",
-        t[TITLE], live ? "<noscript>" : "", t[CODE], t[SEEN], KD_SHARED_WIDTH, KD_SHARED_HEIGHT, t[ABOUT],
-        live ? "</noscript>" : "", t[ABOUT], t[OPEN]));
+    KD_TRY(kd_buffer_printf(page, "</head>\n<body>\n<main>\n<h1>%s</h1>\n%s", t[TITLE], live ? "<noscript>" : ""));
+    KD_TRY(write_pictures(t, page));
+    KD_TRY(kd_buffer_printf(page,
+                            "%s\n<p>%s</p>\n<p><a id=\"open\" href=\"../#%s\">Open it live</a></p>\n"
+                            "</main>\n</body>\n</html>\n",
+                            live ? "</noscript>" : "", t[ABOUT], t[OPEN]));
 done:
     return status;
 }
@@ -64,14 +76,17 @@ done:
 static enum kd_status make_page(const struct kd_request *request, const struct kd_shared *shared,
                                 struct kd_buffer *page)
 {
-    struct kd_buffer url = { 0 }, open = { 0 }, style = { 0 }, icon = { 0 }, seen = { 0 }, escaped[TEXTS] = { 0 };
+    struct kd_buffer url = { 0 }, open = { 0 }, style = { 0 }, icon = { 0 }, seen = { 0 }, other = { 0 },
+                     escaped[TEXTS] = { 0 };
     const char *texts[TEXTS], *query = strchr((const char *)shared->picture.data, '?');
+    const char *right = (const char *)shared->other_picture.data;
     enum kd_status status;
     KD_TRY(kd_percent_append(shared->address.data, shared->address.size, "", &url));
     KD_TRY(kd_shared_sign(request, "/web/share/shared.css", &style));
     KD_TRY(kd_shared_sign(request, "/web/icon.svg", &icon));
     KD_TRY(kd_buffer_printf(&seen, "%s", query ? query : ""));
     KD_TRY(kd_shared_fragment(shared, &open));
+    KD_TRY(kd_buffer_printf(&other, "%s%s", *right ? ".." : "", *right ? right + shared->home.size : ""));
     const struct kd_buffer *const all[TEXTS] = {
         [TITLE] = &shared->title,
         [ABOUT] = &shared->about,
@@ -84,6 +99,8 @@ static enum kd_status make_page(const struct kd_request *request, const struct k
         [STYLE] = &style,
         [ICON] = &icon,
         [SEEN] = &seen,
+        [OTHER] = &other,
+        [OTHER_PICTURE] = &shared->other_picture,
     };
     for (int i = 0; i < TEXTS; i++) {
         KD_TRY(kd_markup_escape((const char *)all[i]->data, KD_MARKUP_ATTRIBUTE, &escaped[i]));
@@ -96,6 +113,7 @@ done:
     kd_buffer_finish(&style);
     kd_buffer_finish(&icon);
     kd_buffer_finish(&seen);
+    kd_buffer_finish(&other);
     for (int i = 0; i < TEXTS; i++)
         kd_buffer_finish(&escaped[i]);
     return status;
@@ -167,15 +185,15 @@ static enum MHD_Result reply_frame(struct kd_request *request, const struct kd_s
 static enum MHD_Result answer(struct kd_request *request,
                               enum MHD_Result (*reply_with)(struct kd_request *, const struct kd_shared *))
 {
-    struct kd_scene scene;
+    struct kd_shared_scenes scenes;
     struct kd_problem problem;
     struct kd_error error = { 0 };
     struct kd_shared shared;
     enum MHD_Result result;
-    if (!kd_shared_read(request->rest, &scene, &problem, &error))
+    if (!kd_shared_read(request->rest, &scenes, &problem, &error))
         return kd_reply_problem(request, &problem);
-    result = kd_shared_tell(request, &scene, &shared, &error) ? kd_reply_error(request, &error)
-                                                              : reply_with(request, &shared);
+    result = kd_shared_tell(request, &scenes, &shared, &error) ? kd_reply_error(request, &error)
+                                                               : reply_with(request, &shared);
     kd_shared_finish(&shared);
     return result;
 }

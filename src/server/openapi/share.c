@@ -11,6 +11,7 @@ void kd_openapi_share_schemas(struct kd_json *json)
         { "url", "{\"type\":\"string\",\"format\":\"uri-reference\"}", false },
         { "embed", "{\"type\":\"string\",\"format\":\"uri-reference\"}", true },
         { "code", KD_OPENAPI_CODE, false },
+        { "other", KD_OPENAPI_CODE, true },
         { "title", KD_SCHEMA_TEXT, false },
         { "about", KD_SCHEMA_TEXT, false },
         { "expires",

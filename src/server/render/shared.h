@@ -1,4 +1,5 @@
-/* Scenes of shared links: /s/CODE, where CODE decodes to the text of a link (scene/link.h). HTTP thread. */
+/* Scenes of shared links: /s/CODE, where CODE decodes to the text of a link (scene/link.h). A link of two pictures side
+ * by side also has what differs on the right, "pair.spacetime.spin=0.998", as in the page's address. HTTP thread. */
 #ifndef KD_SERVER_RENDER_SHARED_H
 #define KD_SERVER_RENDER_SHARED_H
 
@@ -14,11 +15,26 @@ static inline int32_t kd_shared_height(int32_t width)
     return (width * KD_SHARED_HEIGHT + KD_SHARED_WIDTH / 2) / KD_SHARED_WIDTH;
 }
 
-/* Decodes and validates a scene. Returns false with *problem filled; its texts are in *error. The status is 404 if
- * the code is malformed, and 422 if the scene is not valid or uses an asset. */
-bool kd_shared_read(const char *code, struct kd_scene *scene, struct kd_problem *problem, struct kd_error *error);
+#define KD_SHARED_PAIR "pair"
+#define KD_SHARED_DATA "data"
 
-/* Builds the scene of a preview picture from the request's path and the width in its query. */
+struct kd_shared_scenes {
+    struct kd_scene left, right; /* right: the same as left, unless they are a pair */
+    bool measured;               /* the right side has the measurements of M87* instead of a picture (pair.data=1) */
+};
+
+/* Decodes and validates scenes. Returns false with *problem filled; its texts are in *error. The status is 404 if the
+ * code is malformed, and 422 if a scene is not valid or uses an asset. */
+bool kd_shared_read(const char *code, struct kd_shared_scenes *scenes, struct kd_problem *problem,
+                    struct kd_error *error);
+
+/* Builds the scenes from the request's scene and its parameter "pair", a query of the fields that differ on the right.
+ * Otherwise as kd_shared_read. */
+bool kd_shared_of_request(const struct kd_request *request, struct kd_shared_scenes *scenes, struct kd_problem *problem,
+                          struct kd_error *error);
+
+/* Builds the scene of a preview picture from the request's path and the width in its query. Of a pair, it is the left
+ * one. */
 bool kd_shared_preview(const struct kd_request *request, struct kd_scene *scene, struct kd_problem *problem,
                        struct kd_error *error);
 

@@ -50,6 +50,70 @@ function clock(node) {
   };
 }
 
+// Places the elements in the view.
+function lay(root, part, told) {
+  const panel = el(
+    'div',
+    { id: 'play-panel' },
+    field('play-preset', t('common.preset', 'Preset'), part.preset, part.help),
+    el('p', { class: 'row' }, part.pause, part.step, part.again),
+    field(
+      'play-rate',
+      t('playground-parts.speed-m-a-second', 'Speed, M a second'),
+      el('div', { class: 'pair' }, part.pace, part.rate),
+    ),
+    el('p', { class: 'row' }, part.sound),
+    part.heard,
+    group(t('common.throw', 'Throw'), true, part.body, part.foretold),
+    group(t('playground-parts.what-acts', 'What acts'), true, part.rules, part.waves),
+    group(
+      t('playground-parts.view', 'View'),
+      false,
+      field('play-tilt', t('common.tilt', 'Tilt'), part.tilt),
+      field('play-middle', t('playground-parts.its-middle', 'Its middle'), part.middle),
+    ),
+    group(
+      t('playground-parts.take-and-bring', 'Take and bring'),
+      false,
+      el(
+        'p',
+        { class: 'row' },
+        part.takes.map(([node]) => node),
+      ),
+      field('play-load', t('playground-parts.load-a-snapshot', 'Load a snapshot'), part.load),
+      part.record,
+    ),
+    group(t('common.what-is-modelled-not', 'What is modelled, not computed'), false, part.approximations),
+  );
+  root.replaceChildren(
+    el(
+      'p',
+      { class: 'lead' },
+      t(
+        'playground-parts.throw-bodies-round-the',
+        'Throw bodies round the hole. The server moves them, tears stars apart and lets pairs spiral together.',
+      ),
+    ),
+    part.fault,
+    el(
+      'div',
+      { class: 'play' },
+      el(
+        'div',
+        { class: 'seen' },
+        el('div', { class: 'row views', role: 'group', 'aria-label': t('playground-parts.show', 'Show') }, part.views),
+        part.pictures,
+        told,
+        part.words,
+        part.said,
+        el('p', { class: 'help', id: 'play-how' }, keys()),
+      ),
+      panel,
+      el('div', { class: 'told' }, part.events, part.charts),
+    ),
+  );
+}
+
 export function parts(root, known) {
   const canvas = el('canvas', { id: 'play-plane', role: 'presentation' }),
     nearer = button('play-nearer', '+', { 'aria-label': t('common.nearer', 'Nearer') }),
@@ -131,67 +195,7 @@ export function parts(root, known) {
     record = el('div', { id: 'play-record' }),
     events = el('section', { class: 'card', id: 'play-events', 'aria-label': t('playground-parts.events', 'Events') }),
     charts = el('div', { class: 'grid', id: 'play-charts' });
-  const panel = el(
-    'div',
-    { id: 'play-panel' },
-    field('play-preset', t('common.preset', 'Preset'), preset, help),
-    el('p', { class: 'row' }, pause, step, again),
-    field(
-      'play-rate',
-      t('playground-parts.speed-m-a-second', 'Speed, M a second'),
-      el('div', { class: 'pair' }, pace, rate),
-    ),
-    el('p', { class: 'row' }, sound),
-    heard,
-    group(t('common.throw', 'Throw'), true, body, foretold),
-    group(t('playground-parts.what-acts', 'What acts'), true, rules, waves),
-    group(
-      t('playground-parts.view', 'View'),
-      false,
-      field('play-tilt', t('common.tilt', 'Tilt'), tilt),
-      field('play-middle', t('playground-parts.its-middle', 'Its middle'), middle),
-    ),
-    group(
-      t('playground-parts.take-and-bring', 'Take and bring'),
-      false,
-      el(
-        'p',
-        { class: 'row' },
-        takes.map(([node]) => node),
-      ),
-      field('play-load', t('playground-parts.load-a-snapshot', 'Load a snapshot'), load),
-      record,
-    ),
-    group(t('common.what-is-modelled-not', 'What is modelled, not computed'), false, approximations),
-  );
-  root.replaceChildren(
-    el(
-      'p',
-      { class: 'lead' },
-      t(
-        'playground-parts.throw-bodies-round-the',
-        'Throw bodies round the hole. The server moves them, tears stars apart and lets pairs spiral together.',
-      ),
-    ),
-    fault,
-    el(
-      'div',
-      { class: 'play' },
-      el(
-        'div',
-        { class: 'seen' },
-        el('div', { class: 'row views', role: 'group', 'aria-label': t('playground-parts.show', 'Show') }, views),
-        pictures,
-        told,
-        words,
-        said,
-        el('p', { class: 'help', id: 'play-how' }, keys()),
-      ),
-      panel,
-      el('div', { class: 'told' }, events, charts),
-    ),
-  );
-  return {
+  const part = {
     canvas,
     stage,
     lensed,
@@ -230,4 +234,6 @@ export function parts(root, known) {
       step.disabled = !yes;
     },
   };
+  lay(root, part, told);
+  return part;
 }

@@ -26,10 +26,8 @@ const torn = ['white-dwarf', 'disruption']; // the view follows the star and its
 const first = 'white-dwarf'; // something happens at once: it is torn apart within three seconds
 const roomy = matchMedia('(min-width: 75rem)'); // matches a window that is wide enough for both pictures
 
-export async function openPlayground() {
-  const known = await getJson('v1/playground');
-  // The stylesheet comes first: fitting the view needs the sizes of its elements.
-  await new Promise((done, fail) =>
+const styled = () =>
+  new Promise((done, fail) =>
     document.head.append(
       el('link', {
         rel: 'stylesheet',
@@ -39,6 +37,59 @@ export async function openPlayground() {
       }),
     ),
   );
+
+// What is shown: the plane, the picture, or both. Returns show(name), show.usual() and show.now().
+function buildViews(part, plane, picture) {
+  const views = { plan: [true, false], lensed: [false, true], both: [true, true] };
+  // By default the plan is shown and, for the planets in a wide window, the lensed view too.
+  const usual = () => (part.preset.value === 'system' && roomy.matches ? 'both' : 'plan');
+  function show(name) {
+    const [plan, light] = views[name] ?? views.plan;
+    for (const button of part.views) button.setAttribute('aria-pressed', button.value === name);
+    part.stage.hidden = !plan;
+    part.lensed.hidden = !light;
+    part.pictures.dataset.both = plan && light;
+    link.set('play.show', name === usual() ? null : name);
+    picture.show(light);
+    plane.redraw();
+  }
+  for (const button of part.views) button.addEventListener('click', () => show(button.value));
+  return Object.assign(show, {
+    usual,
+    now: () => [...part.views].find(button => button.getAttribute('aria-pressed') === 'true')?.value,
+  });
+}
+
+// The rate of time, as a slider and as a number. Returns the slider's scale.
+function buildPace(part, patch, now) {
+  const pace = scale(paces),
+    setRate = latest(async rate => {
+      link.set('play.rate', rate);
+      await patch({ rate });
+      if (now.hurries === rate) now.hurries = null;
+    }),
+    hurry = rate => setRate((now.hurries = rate));
+  part.pace.addEventListener('input', () => hurry((part.rate.value = pace.from(part.pace.valueAsNumber))));
+  part.rate.addEventListener('change', () =>
+    part.rate.validity.valid ? hurry(part.rate.valueAsNumber) : part.rate.reportValidity(),
+  );
+  return pace;
+}
+
+function wire(part, plane, clicks) {
+  for (const [name, act] of Object.entries(clicks)) part[name].addEventListener('click', () => act());
+  part.nearer.addEventListener('click', () => plane.zoom(1.25));
+  part.farther.addEventListener('click', () => plane.zoom(0.8));
+  part.tilt.addEventListener('input', () => ((plane.tilt = (part.tilt.valueAsNumber * Math.PI) / 180), plane.redraw()));
+  part.middle.addEventListener('change', () => (plane.follows = part.middle.value || null));
+}
+
+// Whether two aims are the same. Aiming makes new arrays; if an existing body is thrown, its place changes by itself.
+const same = (a, b) => a?.velocity === b.velocity && a.body === b.body && (b.body != null || a.from === b.from);
+
+export async function openPlayground() {
+  const known = await getJson('v1/playground');
+  await styled(); // first, because fitting the view needs the sizes of its elements
   const root = byId('playground'),
     part = parts(root, known),
     plane = (sheet(byId('play-panel')), new Plane(part.canvas)),
@@ -58,14 +109,13 @@ export async function openPlayground() {
     halts = null; // { paused } that the server has not answered yet
 
   const preset = () => known.presets.find(({ name }) => name === part.preset.value);
-  const wrong = error => tell(part.fault, error.message);
   const act = async task => {
     try {
       const answer = await task();
       part.fault.textContent = '';
       return answer;
     } catch (error) {
-      wrong(error);
+      tell(part.fault, error.message);
     }
   };
   const patch = change => act(() => running.change(change));
@@ -92,9 +142,6 @@ export async function openPlayground() {
     plane.redraw();
     foretell();
   }
-
-  // True if two aims are the same. Aiming makes new arrays; if an existing body is thrown, its place changes by itself.
-  const same = (a, b) => a?.velocity === b.velocity && a.body === b.body && (b.body != null || a.from === b.from);
 
   async function release() {
     const mine = { ...hand.aims },
@@ -184,50 +231,18 @@ export async function openPlayground() {
     },
   );
 
-  // By default the plan is shown and, for the planets in a wide window, the lensed view too.
-  const usual = () => (part.preset.value === 'system' && roomy.matches ? 'both' : 'plan');
-  const views = { plan: [true, false], lensed: [false, true], both: [true, true] };
-  function show(name) {
-    const [plan, light] = views[name] ?? views.plan;
-    for (const button of part.views) button.setAttribute('aria-pressed', button.value === name);
-    part.stage.hidden = !plan;
-    part.lensed.hidden = !light;
-    part.pictures.dataset.both = plan && light;
-    link.set('play.show', name === usual() ? null : name);
-    picture.show(light);
-    plane.redraw();
-  }
-  for (const button of part.views) button.addEventListener('click', () => show(button.value));
-
-  // The rate of time.
-  const pace = scale(paces),
-    setRate = latest(async rate => {
-      link.set('play.rate', rate);
-      await patch({ rate });
-      if (now.hurries === rate) now.hurries = null;
-    }),
-    hurry = rate => setRate((now.hurries = rate));
-  part.pace.addEventListener('input', () => hurry((part.rate.value = pace.from(part.pace.valueAsNumber))));
-  part.rate.addEventListener('change', () =>
-    part.rate.validity.valid ? hurry(part.rate.valueAsNumber) : part.rate.reportValidity(),
-  );
-  part.pause.addEventListener('click', pause);
-  part.step.addEventListener('click', step);
-  part.nearer.addEventListener('click', () => plane.zoom(1.25));
-  part.farther.addEventListener('click', () => plane.zoom(0.8));
-  part.fit.addEventListener('click', fit);
-  part.tilt.addEventListener('input', () => ((plane.tilt = (part.tilt.valueAsNumber * Math.PI) / 180), plane.redraw()));
-  part.middle.addEventListener('change', () => (plane.follows = part.middle.value || null));
+  const show = buildViews(part, plane, picture),
+    pace = buildPace(part, patch, now);
+  wire(part, plane, { pause, step, fit, again: begin });
   part.preset.addEventListener('change', () => {
     now.given = null;
     hole = {};
     link.set('play.rate', null);
     link.set('play.preset', part.preset.value === first ? null : part.preset.value);
     // the default view depends on the preset
-    show([...part.views].find(button => button.getAttribute('aria-pressed') === 'true')?.value ?? usual());
+    show(show.now() ?? show.usual());
     begin();
   });
-  part.again.addEventListener('click', () => begin());
   buildTakes(part, running, act, async whole => {
     const before = [now.given, part.preset.value];
     [now.given, part.preset.value] = [whole, ''];
@@ -255,6 +270,6 @@ export async function openPlayground() {
   });
 
   part.preset.value = known.presets.find(({ name }) => name === link.get('play.preset'))?.name ?? first;
-  show(link.get('play.show') ?? usual());
+  show(link.get('play.show') ?? show.usual());
   await begin();
 }
