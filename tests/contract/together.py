@@ -286,6 +286,7 @@ TOGETHER = [
             "%s is %.17g, so close to an extremal hole that the energy balance of returning light has an error of %.1g (limit %g); it must be further from extremal",
             'inner is %.9g; with returning "%s" it must be the ISCO, %.9g M, or "isco"',
             'returning is "scattered", which needs an atmosphere of electrons; limb must be "scattering"',
+            "inclination_deg is %.9g, next to edge on, where a thin disk shows its lower face too (3 %% of the light at 89 degrees, half at 90); %s it must be 0 to 87 or 93 to 180",
             'polarization is "yes", which needs an atmosphere of electrons; limb must be "scattering"',
             'the scene has no light of one frequency in physical units, as a spectrum needs; volume.model must be a model with volume.frequency_ghz, such as gold or riaf, or disk.band "frequency"; without scene and preset the spectrum is that of a thin disk',
             'a spectrum needs a scene where only a volume, or only a disk with disk.band "frequency", shines: sky.model must be "none", and there must be no jets, spots or bodies',
