@@ -983,7 +983,7 @@ class Integrals(daemon.Case):
             )
 
     def test_spectra_next_to_edge_on(self):
-        """Spectra go on from those of the table where the inner disk shines, of which nothing lies past the outer edge."""
+        """Spectra go on from those of the table at frequencies of the inner disk, all of which the table has."""
         spectra = [
             self.post(
                 "spectrum", {"spin": 0.9, "inclination_deg": i, "frequency_min_hz": 2.5e17, "frequencies": 20}
