@@ -14,7 +14,7 @@ export type Patch<T> = T extends readonly (infer E)[]
 /** The name of a preset. */
 export type PresetName =
   | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
-  | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
+  | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'echo' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
   | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
   | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
 
@@ -244,8 +244,8 @@ export interface Scene {
      */
     epicycles?: number;
     /**
-     * show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate
-     * time; default false.
+     * show particles, gas, spots and a flash at the time when the light of each ray left them, instead of at one
+     * coordinate time; default false.
      */
     slow_light?: boolean;
     /** turbulence in the gas of the smooth disk models. */
@@ -292,6 +292,46 @@ export interface Scene {
     /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
     temperature_k?: number;
   }[];
+  /** a flash of a lamp on the axis, which runs over the thin disk. */
+  flash?: {
+    /**
+     * surface brightness in the gas's frame where the flash lights the disk most, at its peak, in units of the
+     * disk's brightest; 0: no flash; 0 to 1000000; default 0.
+     */
+    brightness?: number;
+    /**
+     * Boyer-Lindquist radius of the lamp on the axis; at least 1.05 times that of the horizon; in M; 1 to 10000;
+     * default 10.
+     */
+    height?: number;
+    /** coordinate time at which the lamp is brightest; in M; -1e+12 to 1e+12; default 0. */
+    start?: number;
+    /**
+     * time before and after the peak at which the lamp's light is exp(-1/2) of the peak; in M; 0.001 to 1000000;
+     * default 1.
+     */
+    duration?: number;
+    /**
+     * time from one flash to the next, at least 12 times flash.duration; 0: one flash only; in M; 0 to 1000000000;
+     * default 0.
+     */
+    period?: number;
+    /**
+     * photon index Gamma of the lamp: it emits E^-Gamma photons per energy, which sets how its light on the disk
+     * depends on the shift from the lamp to the gas; 1 to 4; default 2.
+     */
+    photon_index?: number;
+    /**
+     * spectral index of the lit gas: I_nu falls as nu to this power, so that the observed brightness is multiplied
+     * by g^(3 + index); -4 to 6; default 0.
+     */
+    index?: number;
+    /**
+     * colour of the lit gas: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000;
+     * default 6500.
+     */
+    temperature_k?: number;
+  };
   /** bodies: luminous spheres round the hole; up to 8; default []. */
   bodies?: {
     /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
@@ -767,46 +807,47 @@ export type FieldPath =
   | 'spots.13.r' | 'spots.13.phase_deg' | 'spots.13.size' | 'spots.13.index' | 'spots.13.temperature_k'
   | 'spots.14.brightness' | 'spots.14.r' | 'spots.14.phase_deg' | 'spots.14.size' | 'spots.14.index'
   | 'spots.14.temperature_k' | 'spots.15.brightness' | 'spots.15.r' | 'spots.15.phase_deg' | 'spots.15.size'
-  | 'spots.15.index' | 'spots.15.temperature_k' | 'bodies.0.radius' | 'bodies.0.r' | 'bodies.0.inclination_deg'
-  | 'bodies.0.phase_deg' | 'bodies.0.motion' | 'bodies.0.velocity_r' | 'bodies.0.velocity_theta'
-  | 'bodies.0.velocity_phi' | 'bodies.0.temperature_k' | 'bodies.0.brightness' | 'bodies.0.limb_darkening'
-  | 'bodies.1.radius' | 'bodies.1.r' | 'bodies.1.inclination_deg' | 'bodies.1.phase_deg' | 'bodies.1.motion'
-  | 'bodies.1.velocity_r' | 'bodies.1.velocity_theta' | 'bodies.1.velocity_phi' | 'bodies.1.temperature_k'
-  | 'bodies.1.brightness' | 'bodies.1.limb_darkening' | 'bodies.2.radius' | 'bodies.2.r' | 'bodies.2.inclination_deg'
-  | 'bodies.2.phase_deg' | 'bodies.2.motion' | 'bodies.2.velocity_r' | 'bodies.2.velocity_theta'
-  | 'bodies.2.velocity_phi' | 'bodies.2.temperature_k' | 'bodies.2.brightness' | 'bodies.2.limb_darkening'
-  | 'bodies.3.radius' | 'bodies.3.r' | 'bodies.3.inclination_deg' | 'bodies.3.phase_deg' | 'bodies.3.motion'
-  | 'bodies.3.velocity_r' | 'bodies.3.velocity_theta' | 'bodies.3.velocity_phi' | 'bodies.3.temperature_k'
-  | 'bodies.3.brightness' | 'bodies.3.limb_darkening' | 'bodies.4.radius' | 'bodies.4.r' | 'bodies.4.inclination_deg'
-  | 'bodies.4.phase_deg' | 'bodies.4.motion' | 'bodies.4.velocity_r' | 'bodies.4.velocity_theta'
-  | 'bodies.4.velocity_phi' | 'bodies.4.temperature_k' | 'bodies.4.brightness' | 'bodies.4.limb_darkening'
-  | 'bodies.5.radius' | 'bodies.5.r' | 'bodies.5.inclination_deg' | 'bodies.5.phase_deg' | 'bodies.5.motion'
-  | 'bodies.5.velocity_r' | 'bodies.5.velocity_theta' | 'bodies.5.velocity_phi' | 'bodies.5.temperature_k'
-  | 'bodies.5.brightness' | 'bodies.5.limb_darkening' | 'bodies.6.radius' | 'bodies.6.r' | 'bodies.6.inclination_deg'
-  | 'bodies.6.phase_deg' | 'bodies.6.motion' | 'bodies.6.velocity_r' | 'bodies.6.velocity_theta'
-  | 'bodies.6.velocity_phi' | 'bodies.6.temperature_k' | 'bodies.6.brightness' | 'bodies.6.limb_darkening'
-  | 'bodies.7.radius' | 'bodies.7.r' | 'bodies.7.inclination_deg' | 'bodies.7.phase_deg' | 'bodies.7.motion'
-  | 'bodies.7.velocity_r' | 'bodies.7.velocity_theta' | 'bodies.7.velocity_phi' | 'bodies.7.temperature_k'
-  | 'bodies.7.brightness' | 'bodies.7.limb_darkening' | 'volume.model' | 'volume.inner' | 'volume.outer'
-  | 'volume.emissivity' | 'volume.opacity' | 'volume.temperature_k' | 'volume.redshift' | 'volume.frequency_ghz'
-  | 'volume.grid' | 'volume.grid_scale' | 'volume.gold_emission' | 'volume.gold_index' | 'volume.gold_flattening'
-  | 'volume.gold_momentum' | 'volume.gold_absorption' | 'volume.density_cm3' | 'volume.density_index'
-  | 'volume.electron_temperature_k' | 'volume.temperature_index' | 'volume.height' | 'volume.magnetisation'
-  | 'volume.magnetisation_index' | 'volume.field' | 'volume.flow' | 'volume.electrons' | 'volume.electrons_index'
-  | 'volume.kappa' | 'volume.torus_radius' | 'volume.adiabatic_index' | 'volume.temperature_ratio' | 'volume.beta'
-  | 'volume.gamma_min' | 'volume.gamma_max' | 'volume.normalise_to_jy' | 'volume.normalise_ghz' | 'jets.brightness'
-  | 'jets.opening_deg' | 'jets.lorentz' | 'jets.inner' | 'jets.outer' | 'jets.falloff' | 'jets.sheath'
-  | 'jets.spectral_index' | 'jets.temperature_k' | 'jets.counterjet' | 'polarization.model' | 'polarization.field'
-  | 'polarization.electron_index' | 'polarization.order' | 'polarization.faraday' | 'polarization.rotation'
-  | 'sky.model' | 'sky.brightness' | 'sky.grid_deg' | 'sky.milky_way' | 'sky.image' | 'sky.limit_mag' | 'sky.seed'
-  | 'sky.orientation' | 'sky.turn_deg' | 'sky.tilt_deg' | 'image.width' | 'image.height' | 'image.samples'
-  | 'image.pixel_error' | 'image.critical_factor' | 'image.bit_depth' | 'image.layers' | 'image.layer_min'
-  | 'image.layer_max' | 'image.legend' | 'image.tile.left' | 'image.tile.top' | 'image.tile.width' | 'image.tile.height'
-  | 'style.name' | 'style.exposure' | 'style.tone_map' | 'style.bloom' | 'style.beam_uas' | 'style.palette'
-  | 'style.colour_bar' | 'style.dither' | 'style.ringdown' | 'style.ringdown_time' | 'source.name' | 'source.ra_deg'
-  | 'source.dec_deg' | 'source.mjd' | 'motion.azimuth_rate_deg' | 'motion.time_rate' | 'motion.proper_time_rate'
-  | 'accuracy.profile' | 'accuracy.tolerance' | 'accuracy.engine' | 'accuracy.precision' | 'accuracy.steps'
-  | 'accuracy.orders' | 'time';
+  | 'spots.15.index' | 'spots.15.temperature_k' | 'flash.brightness' | 'flash.height' | 'flash.start' | 'flash.duration'
+  | 'flash.period' | 'flash.photon_index' | 'flash.index' | 'flash.temperature_k' | 'bodies.0.radius' | 'bodies.0.r'
+  | 'bodies.0.inclination_deg' | 'bodies.0.phase_deg' | 'bodies.0.motion' | 'bodies.0.velocity_r'
+  | 'bodies.0.velocity_theta' | 'bodies.0.velocity_phi' | 'bodies.0.temperature_k' | 'bodies.0.brightness'
+  | 'bodies.0.limb_darkening' | 'bodies.1.radius' | 'bodies.1.r' | 'bodies.1.inclination_deg' | 'bodies.1.phase_deg'
+  | 'bodies.1.motion' | 'bodies.1.velocity_r' | 'bodies.1.velocity_theta' | 'bodies.1.velocity_phi'
+  | 'bodies.1.temperature_k' | 'bodies.1.brightness' | 'bodies.1.limb_darkening' | 'bodies.2.radius' | 'bodies.2.r'
+  | 'bodies.2.inclination_deg' | 'bodies.2.phase_deg' | 'bodies.2.motion' | 'bodies.2.velocity_r'
+  | 'bodies.2.velocity_theta' | 'bodies.2.velocity_phi' | 'bodies.2.temperature_k' | 'bodies.2.brightness'
+  | 'bodies.2.limb_darkening' | 'bodies.3.radius' | 'bodies.3.r' | 'bodies.3.inclination_deg' | 'bodies.3.phase_deg'
+  | 'bodies.3.motion' | 'bodies.3.velocity_r' | 'bodies.3.velocity_theta' | 'bodies.3.velocity_phi'
+  | 'bodies.3.temperature_k' | 'bodies.3.brightness' | 'bodies.3.limb_darkening' | 'bodies.4.radius' | 'bodies.4.r'
+  | 'bodies.4.inclination_deg' | 'bodies.4.phase_deg' | 'bodies.4.motion' | 'bodies.4.velocity_r'
+  | 'bodies.4.velocity_theta' | 'bodies.4.velocity_phi' | 'bodies.4.temperature_k' | 'bodies.4.brightness'
+  | 'bodies.4.limb_darkening' | 'bodies.5.radius' | 'bodies.5.r' | 'bodies.5.inclination_deg' | 'bodies.5.phase_deg'
+  | 'bodies.5.motion' | 'bodies.5.velocity_r' | 'bodies.5.velocity_theta' | 'bodies.5.velocity_phi'
+  | 'bodies.5.temperature_k' | 'bodies.5.brightness' | 'bodies.5.limb_darkening' | 'bodies.6.radius' | 'bodies.6.r'
+  | 'bodies.6.inclination_deg' | 'bodies.6.phase_deg' | 'bodies.6.motion' | 'bodies.6.velocity_r'
+  | 'bodies.6.velocity_theta' | 'bodies.6.velocity_phi' | 'bodies.6.temperature_k' | 'bodies.6.brightness'
+  | 'bodies.6.limb_darkening' | 'bodies.7.radius' | 'bodies.7.r' | 'bodies.7.inclination_deg' | 'bodies.7.phase_deg'
+  | 'bodies.7.motion' | 'bodies.7.velocity_r' | 'bodies.7.velocity_theta' | 'bodies.7.velocity_phi'
+  | 'bodies.7.temperature_k' | 'bodies.7.brightness' | 'bodies.7.limb_darkening' | 'volume.model' | 'volume.inner'
+  | 'volume.outer' | 'volume.emissivity' | 'volume.opacity' | 'volume.temperature_k' | 'volume.redshift'
+  | 'volume.frequency_ghz' | 'volume.grid' | 'volume.grid_scale' | 'volume.gold_emission' | 'volume.gold_index'
+  | 'volume.gold_flattening' | 'volume.gold_momentum' | 'volume.gold_absorption' | 'volume.density_cm3'
+  | 'volume.density_index' | 'volume.electron_temperature_k' | 'volume.temperature_index' | 'volume.height'
+  | 'volume.magnetisation' | 'volume.magnetisation_index' | 'volume.field' | 'volume.flow' | 'volume.electrons'
+  | 'volume.electrons_index' | 'volume.kappa' | 'volume.torus_radius' | 'volume.adiabatic_index'
+  | 'volume.temperature_ratio' | 'volume.beta' | 'volume.gamma_min' | 'volume.gamma_max' | 'volume.normalise_to_jy'
+  | 'volume.normalise_ghz' | 'jets.brightness' | 'jets.opening_deg' | 'jets.lorentz' | 'jets.inner' | 'jets.outer'
+  | 'jets.falloff' | 'jets.sheath' | 'jets.spectral_index' | 'jets.temperature_k' | 'jets.counterjet'
+  | 'polarization.model' | 'polarization.field' | 'polarization.electron_index' | 'polarization.order'
+  | 'polarization.faraday' | 'polarization.rotation' | 'sky.model' | 'sky.brightness' | 'sky.grid_deg' | 'sky.milky_way'
+  | 'sky.image' | 'sky.limit_mag' | 'sky.seed' | 'sky.orientation' | 'sky.turn_deg' | 'sky.tilt_deg' | 'image.width'
+  | 'image.height' | 'image.samples' | 'image.pixel_error' | 'image.critical_factor' | 'image.bit_depth'
+  | 'image.layers' | 'image.layer_min' | 'image.layer_max' | 'image.legend' | 'image.tile.left' | 'image.tile.top'
+  | 'image.tile.width' | 'image.tile.height' | 'style.name' | 'style.exposure' | 'style.tone_map' | 'style.bloom'
+  | 'style.beam_uas' | 'style.palette' | 'style.colour_bar' | 'style.dither' | 'style.ringdown' | 'style.ringdown_time'
+  | 'source.name' | 'source.ra_deg' | 'source.dec_deg' | 'source.mjd' | 'motion.azimuth_rate_deg' | 'motion.time_rate'
+  | 'motion.proper_time_rate' | 'accuracy.profile' | 'accuracy.tolerance' | 'accuracy.engine' | 'accuracy.precision'
+  | 'accuracy.steps' | 'accuracy.orders' | 'time';
 
 export interface RaysRequest {
   /** spin of the hole, a/M; -1 to 1. */
@@ -1363,15 +1404,15 @@ export interface SpectrumRequest {
   /** preset to which the scene is merged. */
   preset?:
     | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
-    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
-    | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
-    | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
+    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'echo' | 'milky-way' | 'gas' | 'gas-stars'
+    | 'thick-disk' | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring'
+    | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
   /** spin of the hole; below 0 the disk rotates against the hole [M]; -1 to 1. */
   spin?: number;
   /** charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1 [M]; -1 to 1. */
   charge?: number;
-  /** angle between the axis and the observer, who is at infinity; not 87 to 93 [deg]; 0 to 87; 93 to 180. */
+  /** angle between the axis and the observer, who is at infinity [deg]; 0 to 180. */
   inclination_deg?: number;
   /** inner edge of the disk, the ISCO or beyond [M]; 1 to 1000000. */
   inner?: 'isco' | number;
@@ -1765,9 +1806,9 @@ export interface VisibilityRequest {
   /** preset to which the scene is merged. */
   preset?:
     | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
-    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
-    | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
-    | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
+    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'echo' | 'milky-way' | 'gas' | 'gas-stars'
+    | 'thick-disk' | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring'
+    | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
   /** eastward components of the baselines, in units of 1e9 wavelengths; as many as v [Gl]; up to 20001. */
   u?: number[];
@@ -1856,9 +1897,9 @@ export interface CompareRequest {
   /** preset to which the scene is merged. */
   preset?:
     | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
-    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
-    | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
-    | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
+    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'echo' | 'milky-way' | 'gas' | 'gas-stars'
+    | 'thick-disk' | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring'
+    | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
   /**
    * SHA-256 of an asset of the server: uvfits, or the EHT's CSV; or the name of an observation that the server
@@ -2156,9 +2197,9 @@ export interface ObserveRequest {
   /** preset to which the scene is merged. */
   preset?:
     | 'smooth' | 'schwarzschild' | 'reissner-nordstrom' | 'gargantua' | 'm87' | 'sgra' | 'luminet1979' | 'edge-on'
-    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'milky-way' | 'gas' | 'gas-stars' | 'thick-disk'
-    | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring' | 'gold-1'
-    | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
+    | 'face-on' | 'photon-rings' | 'living-disk' | 'hot-spot' | 'echo' | 'milky-way' | 'gas' | 'gas-stars'
+    | 'thick-disk' | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring'
+    | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
   /**
    * SHA-256 of an asset of the server: uvfits, or the EHT's CSV; or the name of an observation that the server
@@ -2982,7 +3023,7 @@ export interface RayPolar {
 export interface PixelGlow {
   name:
     | 'disk' | 'particles' | 'plunge' | 'spots' | 'ringdown' | 'sky' | 'gas' | 'volume' | 'jets' | 'thick' | 'bodies'
-    | 'debris' | 'polarization' | 'plasma' | 'stokes';
+    | 'debris' | 'polarization' | 'plasma' | 'stokes' | 'lamp' | 'flash';
   /** up to 3. */
   light: number[];
   /** up to 3. */
@@ -3025,7 +3066,7 @@ export interface PixelCrossing {
 export interface PixelVolume {
   name:
     | 'disk' | 'particles' | 'plunge' | 'spots' | 'ringdown' | 'sky' | 'gas' | 'volume' | 'jets' | 'thick' | 'bodies'
-    | 'debris' | 'polarization' | 'plasma' | 'stokes';
+    | 'debris' | 'polarization' | 'plasma' | 'stokes' | 'lamp' | 'flash';
   /** up to 3. */
   seen: number[];
   luminance_seen: number;
@@ -3068,7 +3109,7 @@ export interface PixelAlong {
 export interface PixelMet {
   name:
     | 'disk' | 'particles' | 'plunge' | 'spots' | 'ringdown' | 'sky' | 'gas' | 'volume' | 'jets' | 'thick' | 'bodies'
-    | 'debris' | 'polarization' | 'plasma' | 'stokes';
+    | 'debris' | 'polarization' | 'plasma' | 'stokes' | 'lamp' | 'flash';
   /** at least 0. */
   index: number;
   /** at least 0. */
@@ -3665,8 +3706,8 @@ export interface SceneQuery {
    */
   'disk.epicycles'?: number;
   /**
-   * show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate
-   * time; default false.
+   * show particles, gas, spots and a flash at the time when the light of each ray left them, instead of at one
+   * coordinate time; default false.
    */
   'disk.slow_light'?: boolean;
   /**
@@ -4021,6 +4062,43 @@ export interface SceneQuery {
   'spots.15.index'?: number;
   /** colour: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 9000. */
   'spots.15.temperature_k'?: number;
+  /**
+   * surface brightness in the gas's frame where the flash lights the disk most, at its peak, in units of the
+   * disk's brightest; 0: no flash; 0 to 1000000; default 0.
+   */
+  'flash.brightness'?: number;
+  /**
+   * Boyer-Lindquist radius of the lamp on the axis; at least 1.05 times that of the horizon; in M; 1 to 10000;
+   * default 10.
+   */
+  'flash.height'?: number;
+  /** coordinate time at which the lamp is brightest; in M; -1e+12 to 1e+12; default 0. */
+  'flash.start'?: number;
+  /**
+   * time before and after the peak at which the lamp's light is exp(-1/2) of the peak; in M; 0.001 to 1000000;
+   * default 1.
+   */
+  'flash.duration'?: number;
+  /**
+   * time from one flash to the next, at least 12 times flash.duration; 0: one flash only; in M; 0 to 1000000000;
+   * default 0.
+   */
+  'flash.period'?: number;
+  /**
+   * photon index Gamma of the lamp: it emits E^-Gamma photons per energy, which sets how its light on the disk
+   * depends on the shift from the lamp to the gas; 1 to 4; default 2.
+   */
+  'flash.photon_index'?: number;
+  /**
+   * spectral index of the lit gas: I_nu falls as nu to this power, so that the observed brightness is multiplied
+   * by g^(3 + index); -4 to 6; default 0.
+   */
+  'flash.index'?: number;
+  /**
+   * colour of the lit gas: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000;
+   * default 6500.
+   */
+  'flash.temperature_k'?: number;
   /** radius of the sphere in its own frame; 0: no body; in M; 0 to 1000000; default 0. */
   'bodies.0.radius'?: number;
   /**

@@ -3,7 +3,7 @@
  * limb darkening and light scattered by electrons depend on it. It is computed once for each crossing, if anything
  * needs it. */
 #ifdef KD_EMIT_CODE
-const bool KD_COSINE = (((TRAITS_disk | TRAITS_particles | TRAITS_gas) & KD_TRAIT_LIMB) |
+const bool KD_COSINE = (((TRAITS_disk | TRAITS_particles | TRAITS_gas | TRAITS_flash) & KD_TRAIT_LIMB) |
                         (TRAITS_gas & KD_TRAIT_GAS_DEEP) | (TRAITS_polarization & KD_TRAIT_SCATTERED)) != 0u;
 
 /* The sample with its cosine. Gas moves on circular orbits, or falls from the ISCO. */

@@ -84,19 +84,24 @@ vec3 kd_disk_reflected(kd_sample s, uint traits)
     return g > 0.0 ? light.y * kd_black_body(light.x * g, traits) : vec3(0.0); /* g may be NaN */
 }
 
+/* Emitted intensity over that of an isotropic surface of the same flux, by the angle of emission. */
+float kd_disk_limb(kd_sample s)
+{
+    float at = sqrt(clamp(s.cosine, 0.0, 1.0)) * float(KD_ATMOSPHERE_ROWS);
+    uint row = min(uint(at), KD_ATMOSPHERE_ROWS - 1u);
+    vec4 f = kd_table_row(atmosphere, row);
+    float x = at - float(row);
+    return f.x + x * (f.y + x * (f.z + x * f.w));
+}
+
 /* Light of the disk's surface of the temperature t, by its atmosphere. */
 vec3 kd_disk_surface(float t, kd_sample s, uint traits)
 {
     vec3 light = kd_black_body(t, traits);
     if ((traits & KD_TRAIT_REFLECTED) != 0u)
         light += kd_disk_reflected(s, traits);
-    if ((traits & KD_TRAIT_LIMB) != 0u) {
-        float at = sqrt(clamp(s.cosine, 0.0, 1.0)) * float(KD_ATMOSPHERE_ROWS);
-        uint row = min(uint(at), KD_ATMOSPHERE_ROWS - 1u);
-        vec4 f = kd_table_row(atmosphere, row);
-        float x = at - float(row);
-        light *= f.x + x * (f.y + x * (f.z + x * f.w));
-    }
+    if ((traits & KD_TRAIT_LIMB) != 0u)
+        light *= kd_disk_limb(s);
     return light;
 }
 
@@ -108,17 +113,22 @@ float kd_disk_heat(float w)
     return row.x + at.x * row.y;
 }
 
+/* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
+float kd_disk_fade(float r)
+{
+    float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);
+    return f * f * (3.0 - 2.0 * f);
+}
+
 kd_gas kd_disk_gas(kd_sample s, uint traits)
 {
     float r = 1.0 / s.w;
     float t = kd_disk_heat(s.w) * kd_orbit_cooled(s.w, s.energy, s.momentum, traits);
 
-    /* The outer fade: 1 inside, 0 at r_out, with vanishing slope at both ends. */
-    float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0);
     bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
     /* Elsewhere t may be NaN: inside the photon orbit u^t does not exist, and E (r^(3/2) + a) - L, the divisor of g,
      * may vanish. */
-    return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * (f * f * (3.0 - 2.0 * f)) : 0.0);
+    return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * kd_disk_fade(r) : 0.0);
 }
 
 kd_glow kd_disk_glow(kd_sample s)

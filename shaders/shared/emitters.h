@@ -49,7 +49,9 @@
     AT_CROSSING(11, debris) \
     HELPER(12, polarization) \
     ALONG(13, plasma) \
-    HELPER(14, stokes)
+    HELPER(14, stokes) \
+    HELPER(15, lamp) \
+    AT_CROSSING(16, flash)
 
 /* The blocks of numbers of all emitters and of the frame. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)

@@ -18,20 +18,32 @@ bool kd_integral_given(const struct kd_integral_request *request, const char *na
     return f && request->seen[at / 64] & UINT64_C(1) << at % 64;
 }
 
+/* Next to edge on the image has no table, which these integrals need (physics/disk/disk_columns.h has cells alone). */
+static enum kd_status check_edge_on(const struct kd_integral_request *r, struct kd_error *error)
+{
+    const bool echo = r->what == KD_INTEGRAL_IMPULSE || r->what == KD_INTEGRAL_LAGS,
+               stokes = r->what == KD_INTEGRAL_SPECTRUM && (r->polarized || r->returning == KD_INTEGRAL_SCATTERED);
+    if (!(echo || stokes) || fabs(r->inclination_deg - 90) >= KD_DISK_IMAGE_EDGE_ON)
+        return KD_OK;
+    return kd_error_field(
+        error, "/inclination_deg",
+        "inclination_deg is %.9g, next to edge on, where a thin disk shows its lower face too (3 %% of "
+        "the light at 89 degrees, half at 90); %s it must be 0 to 87 or 93 to 180",
+        r->inclination_deg,
+        echo           ? "for an echo"
+        : r->polarized ? "with polarization \"yes\""
+                       : "with returning \"scattered\"");
+}
+
 static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error *error)
 {
     const struct kd_hole *const hole = kd_integral_hole(r);
     const double isco = kd_kerr_isco(hole);
-    const enum kd_status status = kd_hole_check(hole, error);
+    enum kd_status status = kd_hole_check(hole, error);
+    if (!status)
+        status = check_edge_on(r, error);
     if (status)
         return status;
-    if (r->what != KD_INTEGRAL_LINE && r->what != KD_INTEGRAL_TRANSFER &&
-        fabs(r->inclination_deg - 90) < KD_DISK_IMAGE_EDGE_ON)
-        return kd_error_field(
-            error, "/inclination_deg",
-            "inclination_deg is %.9g, too close to edge on, where the lower face of a thin disk adds to its "
-            "light (3 %% at 89 degrees) and its image has no table; it must be 0 to 87 or 93 to 180",
-            r->inclination_deg);
     if (isnan(r->inner))
         r->inner = isco;
     if (r->inner < isco * (1 - 1e-9))

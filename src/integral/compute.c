@@ -570,6 +570,8 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     answer->told[answer->n_told++] = r->returning == KD_INTEGRAL_SCATTERED ? scattered_once
                                      : table                               ? with_returning
                                                                            : no_returning;
+    if (!image->angles)
+        answer->told[answer->n_told++] = lower_face;
     answer->values[2] = kd_kerr_efficiency(hole) * kd_disk_rate(hole, r->mass_msun, r->mdot_edd) * KD_C_M_S * KD_C_M_S;
 done:
     free(table);

@@ -69,10 +69,11 @@ static enum kd_status check_radio(const struct kd_scene *scene, struct kd_error 
                               "volume.model must be a model with volume.frequency_ghz, such as gold or riaf, or "
                               "disk.band \"frequency\"; without scene and preset the spectrum is that of a thin disk");
     if (!kd_scene_is_radio_alone(scene))
-        return kd_error_field(error, "/scene",
-                              "a spectrum needs a scene where only a volume, or only a disk with disk.band "
-                              "\"frequency\", shines: sky.model must be \"none\", and there must be no jets, spots or "
-                              "bodies");
+        return kd_error_field(
+            error, "/scene",
+            "a spectrum needs a scene where only a volume, or only a disk with disk.band "
+            "\"frequency\", shines: sky.model must be \"none\", and there must be no jets, spots, flash or "
+            "bodies");
     return KD_OK;
 }
 

@@ -11,7 +11,8 @@ static bool shines_before(const struct kd_scene *scene)
     const struct kd_spot *on[KD_SPOTS];
     const struct kd_body *bodies[KD_SCENE_BODIES];
     return scene->disk.model != KD_DISK_NONE || scene->volume.model != KD_VOLUME_NONE || scene->jets.brightness > 0 ||
-           kd_scene_spots(scene, on) || kd_scene_bodies(scene, bodies) || scene->dynamic.at;
+           scene->flash.brightness > 0 || kd_scene_spots(scene, on) || kd_scene_bodies(scene, bodies) ||
+           scene->dynamic.at;
 }
 
 double kd_scene_sky_brightness(const struct kd_scene *scene)

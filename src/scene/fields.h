@@ -168,7 +168,7 @@
          "largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes " \
          "at the ISCO, it is also the largest relative amplitude of oscillations in r (model: particles)") \
     BOOL(disk, slow_light, PHYSICS, REST, false, \
-         "show particles, gas and spots at the time when the light of each ray left them, instead of at one " \
+         "show particles, gas, spots and a flash at the time when the light of each ray left them, instead of at one " \
          "coordinate time")
 
 #define KD_GAS_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
@@ -198,6 +198,26 @@
     REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", \
          "colour: that of a black body of this temperature, shifted by g")
 #define KD_SPOTS 16 /* limit of the number of spots; the kernels have room for this many */
+
+#define KD_FLASH_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
+    REAL(flash, brightness, MODEL, FRONT, 0.0, 0.0, 1e6, "1", \
+         "surface brightness in the gas's frame where the flash lights the disk most, at its peak, in units of the " \
+         "disk's brightest; 0: no flash") \
+    REAL(flash, height, MODEL, FRONT, 10.0, 1.0, 1e4, "M", \
+         "Boyer-Lindquist radius of the lamp on the axis; at least 1.05 times that of the horizon") \
+    REAL(flash, start, MODEL, REST, 0.0, -1e12, 1e12, "M", "coordinate time at which the lamp is brightest") \
+    REAL(flash, duration, MODEL, FRONT, 1.0, 1e-3, 1e6, "M", \
+         "time before and after the peak at which the lamp's light is exp(-1/2) of the peak") \
+    REAL(flash, period, MODEL, REST, 0.0, 0.0, 1e9, "M", \
+         "time from one flash to the next, at least 12 times flash.duration; 0: one flash only") \
+    REAL(flash, photon_index, MODEL, REST, 2.0, 1.0, 4.0, "1", \
+         "photon index Gamma of the lamp: it emits E^-Gamma photons per energy, which sets how its light on the disk " \
+         "depends on the shift from the lamp to the gas") \
+    REAL(flash, index, MODEL, REST, 0.0, -4.0, 6.0, "1", \
+         "spectral index of the lit gas: I_nu falls as nu to this power, so that the observed brightness is " \
+         "multiplied by g^(3 + index)") \
+    REAL(flash, temperature_k, MODEL, REST, 6500.0, 300.0, 1e9, "K", \
+         "colour of the lit gas: that of a black body of this temperature, shifted by g")
 
 #define KD_BODIES_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(bodies, radius, MODEL, FRONT, 0.0, 0.0, 1e6, "M", "radius of the sphere in its own frame; 0: no body") \
@@ -501,6 +521,7 @@
     SECTION(gas, KD_GAS_FIELDS, GAS, "turbulence in the gas of the smooth disk models") \
     LIST(spots, spot, KD_SPOTS_FIELDS, GAS, KD_SPOTS, \
          "hot spots: Gaussians in the equatorial plane that go round with the gas") \
+    SECTION(flash, KD_FLASH_FIELDS, GAS, "a flash of a lamp on the axis, which runs over the thin disk") \
     LIST(bodies, body, KD_BODIES_FIELDS, GAS, KD_SCENE_BODIES, "bodies: luminous spheres round the hole") \
     SECTION(volume, KD_VOLUME_FIELDS, GAS, "matter along the rays") \
     SECTION(jets, KD_JETS_FIELDS, GAS, "stylised jets along the spin axis") \
@@ -585,6 +606,9 @@
     SWITCH("disk.gas.amplitude") \
     SPAN("disk.gas.seed", 0, 1000) \
     SWITCH("spots.brightness") BUTTON("spots.brightness", 4, "Hot spot") \
+    SWITCH("flash.brightness") BUTTON("flash.brightness", 1, "Flash") \
+    SPAN("flash.height", 2, 100) SPAN("flash.start", -100, 100) SPAN("flash.duration", 0.1, 20) \
+    SPAN("flash.period", 0, 500) \
     SWITCH("bodies.radius") SPAN("bodies.radius", 0.1, 20) BUTTON("bodies.radius", 2, "Body") \
     SPAN("bodies.r", 3, 200) SPAN("bodies.phase_deg", -180, 180) SPAN("bodies.temperature_k", 1000, 1e5) \
     WITH("bodies.velocity_r", "motion", KD_OBSERVER_VELOCITY) \

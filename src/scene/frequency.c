@@ -25,8 +25,8 @@ bool kd_scene_is_radio_alone(const struct kd_scene *scene)
     const struct kd_spot *on[KD_SPOTS];
     const struct kd_body *bodies[KD_SCENE_BODIES];
     return (has_only_radio(scene) || has_only_disk(scene)) && scene->jets.brightness == 0 &&
-           scene->sky.model == KD_SKY_NONE && !kd_scene_spots(scene, on) && !kd_scene_bodies(scene, bodies) &&
-           !scene->dynamic.at;
+           scene->flash.brightness == 0 && scene->sky.model == KD_SKY_NONE && !kd_scene_spots(scene, on) &&
+           !kd_scene_bodies(scene, bodies) && !scene->dynamic.at;
 }
 
 double kd_scene_frequency_ghz(const struct kd_scene *scene)

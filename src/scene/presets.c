@@ -127,6 +127,19 @@ const struct kd_preset kd_presets[] = {
       "\"spots\":[{\"brightness\":4,\"r\":9,\"size\":1.2}],"
       "\"style\":{\"exposure\":-0.5},"
       "\"motion\":{\"time_rate\":10}}" },
+    { "echo", "The echo of a flash",
+      "A lamp above the hole flashes, and its light runs over the disk as a ring: first over the near side, then, bent "
+      "by the hole, over the far side; each place is shown when its light left it. In a live session it flashes again "
+      "and again",
+      true,
+      "{\"spacetime\":{\"spin\":0.9},"
+      "\"camera\":{\"inclination_deg\":40,\"field_m\":84,\"centre_beta\":-6},"
+      "\"disk\":{\"outer\":46,\"taper\":0.4,\"peak_temperature_k\":4200,\"slow_light\":true},"
+      "\"flash\":{\"brightness\":14,\"height\":8,\"start\":-14,\"duration\":0.9,\"period\":60,"
+      "\"temperature_k\":9000},"
+      "\"style\":{\"exposure\":-0.6},"
+      "\"image\":{\"samples\":2},"
+      "\"motion\":{\"time_rate\":6}}" },
     { "milky-way", "Milky Way",
       "The stars of the Hipparcos catalogue and a Milky Way, lensed by a hole without a disk in front of the centre of "
       "the Galaxy; from 40 M",

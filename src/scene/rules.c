@@ -2,6 +2,7 @@
 #include "scene/rules.h"
 
 #include "physics/spacetime/kerr.h"
+#include "physics/disk/lamppost.h"
 #include "physics/disk/torus.h"
 #include "physics/waves/qnm.h"
 #include "physics/spacetime/worldline.h"
@@ -255,10 +256,16 @@ static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *erro
     return KD_OK;
 }
 
+/* Whether anything shines between the disk's edges. */
+static bool has_edges(const struct kd_scene *scene)
+{
+    return scene->disk.model != KD_DISK_NONE || scene->flash.brightness > 0;
+}
+
 static enum kd_status inner_edge(const struct kd_scene *scene, struct kd_error *error)
 {
     double least = kd_kerr_isco(kd_scene_hole(scene));
-    if (scene->disk.model == KD_DISK_NONE || scene->disk.inner >= least)
+    if (!has_edges(scene) || scene->disk.inner >= least)
         return KD_OK;
     return kd_error_field(error, "/disk/inner",
                           "disk.inner is %s M; it must be at least %s M, the ISCO of %s, or \"isco\"",
@@ -269,7 +276,7 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
 {
     bool isco = isinf(scene->disk.inner);
     double least = isco ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
-    if (scene->disk.model == KD_DISK_NONE || scene->disk.outer > least)
+    if (!has_edges(scene) || scene->disk.outer > least)
         return KD_OK;
     return kd_error_field(error, "/disk/outer", "disk.outer is %s M; it must be more than the inner edge, %s M%s",
                           show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
@@ -429,6 +436,7 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
     return KD_OK;
 }
 
+#define FLASH_APART 12    /* least time between flashes, in durations: at half of it exp(-18) of the peak is left */
 #define BODIES_CLEAR 1.05 /* a body's smallest radius as a multiple of the horizon's */
 
 /* Refuses a field of a body. */
@@ -484,6 +492,26 @@ static enum kd_status bodies(const struct kd_scene *scene, struct kd_error *erro
         if (scene->bodies.at[i].radius > 0)
             status = body(scene, i, error);
     return status;
+}
+
+static enum kd_status flash(const struct kd_scene *scene, struct kd_error *error)
+{
+    const struct kd_flash *f = &scene->flash;
+    const double least = KD_LAMPPOST_LEAST * kd_scene_hole(scene)->outer;
+    if (!(f->brightness > 0))
+        return KD_OK;
+    if (f->height < least)
+        return kd_error_field(error, "/flash/height", "flash.height is %s M; it must be at least %s M for %s",
+                              show(f->height).text, show_bound(least).text, show_hole(scene).text);
+    if (f->period > 0 && f->period < FLASH_APART * f->duration)
+        return kd_error_field(error, "/flash/period",
+                              "flash.period is %s M; it must be 0 or at least %s M, %d times flash.duration",
+                              show(f->period).text, show_bound(FLASH_APART * f->duration).text, FLASH_APART);
+    if (scene->disk.height == 0)
+        return KD_OK;
+    return kd_error_field(error, "/flash/brightness",
+                          "flash.brightness is %s; with disk.height %s it must be 0, because a flash needs a thin disk",
+                          show(f->brightness).text, show(scene->disk.height).text);
 }
 
 static enum kd_status ringdown(const struct kd_scene *scene, struct kd_error *error)
@@ -594,7 +622,7 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
     if (!kd_scene_is_radio_alone(scene))
         return kd_error_field(error, "/polarization/model",
                               "polarization.model is \"transfer\", which needs a scene where only the volume shines: "
-                              "disk.model and sky.model \"none\", no jets, spots or bodies");
+                              "disk.model and sky.model \"none\", no jets, spots, flash or bodies");
     if (scene->camera.projection == KD_PROJECTION_RING)
         return kd_error_field(error, "/polarization/model",
                               "polarization.model is \"transfer\"; with camera.projection \"ring\", whose picture has "
@@ -635,8 +663,8 @@ const struct kd_rule kd_rules[] = {
     { "`camera.stereo` \"pair\" needs a finite `camera.r` and the pinhole projection. `camera.eye_distance` is then "
       "less than `camera.r`, and `camera.observer` exists at both eyes.",
       stereo },
-    { "`disk.inner` is at least the ISCO of the spin, if there is a disk.", inner_edge },
-    { "`disk.outer` is larger than the inner edge, if there is a disk.", outer_edge },
+    { "`disk.inner` is at least the ISCO of the spin, if there is a disk or a flash.", inner_edge },
+    { "`disk.outer` is larger than the inner edge, if there is a disk or a flash.", outer_edge },
     { "`disk.height` is 0, or at least 1e-5; it is 0 for a disk of particles.", height, "disk", "height", 0,
       LEAST_HEIGHT },
     { "`disk.returning` is \"none\" unless the disk, if there is one, is thin and has the exact flux from the ISCO on: "
@@ -659,6 +687,9 @@ const struct kd_rule kd_rules[] = {
       "horizon. If `jets.falloff` is below 0, the light grows by at most 2^60 between the edges.",
       jets },
     { "`spots.N.r` is at least the ISCO of the spin, if the spot's brightness is not 0.", spots },
+    { "If `flash.brightness` is not 0: `flash.height` is at least 1.05 times the radius of the horizon, `flash.period` "
+      "is 0 or at least 12 times `flash.duration`, and `disk.height` is 0.",
+      flash },
     { "If the body's radius is not 0: `bodies.N.r` is at least 5 % outside the horizon, and `bodies.N.motion` exists "
       "there; " KD_OBSERVER_CIRCULAR " orbits have `bodies.N.inclination_deg` 90; `bodies.N.velocity_*` make a speed "
       "of at most 0.999, and are 0 unless the motion is \"velocity\".",

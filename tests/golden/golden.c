@@ -64,6 +64,7 @@ static const struct shot {
     { "star-behind", "star-behind", "{\"image\":{\"width\":160,\"height\":90}}" },
     { "companions", "companions", "{\"image\":{\"width\":160,\"height\":90}}" },
     { "hot-spot", "hot-spot", "{\"time\":130," SIZE "}" },
+    { "echo", "echo", "{" SIZE "}" },
     { "spots", NULL,
       "{\"spacetime\":{\"spin\":0.9},\"camera\":{\"r\":40,\"inclination_deg\":75},\"disk\":{\"model\":\"none\",\"slow_"
       "light\":true},"

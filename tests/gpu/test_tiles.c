@@ -12,6 +12,7 @@ static const struct {
     { "gas", "{}" },
     { "samples", "{\"image\":{\"samples\":2,\"bit_depth\":16}}" },
     { "spots", "{\"spots\":[{\"brightness\":4}]}" },
+    { "flash", "{\"flash\":{\"brightness\":4},\"time\":10,\"disk\":{\"slow_light\":true}}" },
     { "pinhole", "{\"camera\":{\"r\":20,\"fov_deg\":70},\"bodies\":[{\"radius\":2}]}" },
     { "sphere", "{\"camera\":{\"r\":20,\"projection\":\"equirectangular\"},\"sky\":{\"model\":\"grid\"}}" },
     { "stars all round",

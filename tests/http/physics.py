@@ -986,6 +986,25 @@ class Integrals(daemon.Case):
                 [False, True, True, True, False],
             )
 
+    def test_spectra_next_to_edge_on(self):
+        """Spectra go on from those of the table at frequencies of the inner disk, all of which the table has."""
+        spectra = [
+            self.post(
+                "spectrum", {"spin": 0.9, "inclination_deg": i, "frequency_min_hz": 2.5e17, "frequencies": 20}
+            ).json()
+            for i in (87, 87.001, 89.99, 90, 93)
+        ]
+        flux = [spectrum["columns"]["flux_jy"] for spectrum in spectra]
+        for before, after, near, at, beyond in zip(*flux):
+            self.assertLess(abs(after / before - 1), 3e-4)
+            self.assertLess(abs(at / near - 1), 0.05)
+            self.assertEqual(beyond, before)
+        self.assertTrue(all(spectrum["values"]["error"] < 0.02 for spectrum in spectra))
+        self.assertEqual(
+            [any("lower face" in text for text in spectrum["approximations"]) for spectrum in spectra],
+            [False, True, True, True, False],
+        )
+
     def test_refused(self):
         for document, pointer, words in (
             ({"spin": 1}, "/spin", "spin is 1; it must be a number above -1 and below 1"),
@@ -1014,8 +1033,19 @@ class Integrals(daemon.Case):
         for name, document, pointer, words in (
             ("transfer-function", {"inclination_deg": 0}, "/inclination_deg", "face on"),
             ("transfer-function", {"inclination_deg": 90}, "/inclination_deg", "near side of a ring has no width"),
-            ("spectrum", {"inclination_deg": 90}, "/inclination_deg", "the lower face of a thin disk adds"),
-            ("lags", {"inclination_deg": 88}, "/inclination_deg", "the lower face of a thin disk adds"),
+            ("lags", {"inclination_deg": 88}, "/inclination_deg", "for an echo it must be 0 to 87 or 93 to 180"),
+            (
+                "spectrum",
+                {"inclination_deg": 90, "limb": "scattering", "polarization": "yes"},
+                "/inclination_deg",
+                'with polarization "yes" it must be 0 to 87',
+            ),
+            (
+                "spectrum",
+                {"inclination_deg": 87.1, "limb": "scattering", "returning": "scattered"},
+                "/inclination_deg",
+                'with returning "scattered" it must be 0 to 87',
+            ),
             ("transfer-function", {"radii": [3]}, "/radii/0", "from inner to outer"),
             ("transfer-function", {"radii": [9], "rings": 3}, "/radii", "cannot be used with rings"),
             ("transfer-function", {"g_star": [1]}, "/g_star/0", "above 0 and below 1"),

@@ -150,6 +150,9 @@ static const char GAS[] =
     "{\"disk\": {\"slow_light\": true, \"emission_opacity\": 10, \"gas\": {\"amplitude\": 1}}, \"time\": 7, "
     "\"camera\": {\"r\": 40}}";
 
+static const char FLASH[] = "{\"flash\": {\"brightness\": 1, \"period\": 100}, \"disk\": {\"slow_light\": true, "
+                            "\"atmosphere\": \"laor\"}, \"time\": 7, \"camera\": {\"r\": 40}}";
+
 /* Numbers depend only on the present scene, whatever was filled before, in any order. */
 static void numbers_follow_the_scene(void **state)
 {
@@ -217,6 +220,8 @@ static int follow_each_field(const char *document)
                 assert_memory_equal(one->data.tables.disk, fresh->data.tables.disk, sizeof one->data.tables.disk);
             if (traits[KD_EMITTER_gas])
                 assert_memory_equal(one->data.tables.gas, fresh->data.tables.gas, sizeof one->data.tables.gas);
+            if (traits[KD_EMITTER_flash])
+                assert_memory_equal(one->data.tables.lamp, fresh->data.tables.lamp, sizeof one->data.tables.lamp);
             if (traits[KD_EMITTER_plunge])
                 assert_memory_equal(one->data.tables.plunge, fresh->data.tables.plunge, sizeof one->data.tables.plunge);
             tried++;
@@ -247,6 +252,7 @@ static void numbers_follow_each_field(void **state)
     assert_true(follow_each_field(BASE) > 40); /* the other fields are words, or are tied to a third field */
     assert_true(follow_each_field(GAS) > 40);
     assert_true(follow_each_field(STARS) > 40);
+    assert_true(follow_each_field(FLASH) > 40);
 }
 
 /* Gas replaces the smooth disk, and features that are off are not evaluated. */
@@ -315,6 +321,34 @@ static void atmospheres_are_a_variant(void **state)
         scene.camera.projection = KD_PROJECTION_RING;
         assert_int_equal(kd_emit_needs(&scene), before | KD_LENS_SLOPE);
     }
+}
+
+/* A flash needs a delay only with slow light, and its kernel has an atmosphere only if the disk has one. */
+static void a_flash_is_off_by_default(void **state)
+{
+    (void)state;
+    struct kd_scene scene;
+    uint32_t traits[KD_EMITTER_COUNT];
+    kd_scene_smooth(&scene);
+    scene.disk.model = KD_DISK_NONE;
+    scene.flash.brightness = 1;
+    kd_emit_traits(&scene, traits);
+    assert_true(traits[KD_EMITTER_flash] && traits[KD_EMITTER_lamp] && !(traits[KD_EMITTER_flash] & KD_TRAIT_LIMB));
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W);
+    assert_true(says(&scene, "flash: fast light") && says(&scene, "flash: the lit gas shines iso") &&
+                says(&scene, "lamp:"));
+    assert_int_equal(kd_emit_varies(&scene) & ~KD_MOVES_BY_FALL, KD_MOVES_WITH_TIME);
+    scene.disk.slow_light = true;
+    scene.disk.atmosphere = KD_ATMOSPHERE_LAOR;
+    kd_emit_traits(&scene, traits);
+    assert_true(traits[KD_EMITTER_flash] & KD_TRAIT_LIMB && traits[KD_EMITTER_flash] & KD_TRAIT_SLOW);
+    assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_DELAY);
+    assert_true(!says(&scene, "flash: fast light") && !says(&scene, "flash: the lit gas shines iso"));
+    scene.flash.brightness = 0;
+    kd_emit_traits(&scene, traits);
+    for (int i = 0; i < KD_EMITTER_COUNT; i++)
+        assert_int_equal(traits[i], 0);
+    assert_int_equal(kd_emit_needs(&scene), 0);
 }
 
 /* Light of one frequency is a variant, and the picture has a flux only if the disk alone shines. */
@@ -635,23 +669,15 @@ static void work_follows_emitters(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(work_follows_emitters),
-        cmocka_unit_test(all_are_there),
-        cmocka_unit_test(sentences_have_room),
-        cmocka_unit_test(names_are_short_and_differ),
-        cmocka_unit_test(what_a_report_counts_is_said),
-        cmocka_unit_test(what_is_off_says_and_needs_nothing),
-        cmocka_unit_test(numbers_follow_the_scene),
-        cmocka_unit_test(numbers_follow_each_field),
-        cmocka_unit_test(gas_replaces_the_disk),
-        cmocka_unit_test(skies),
-        cmocka_unit_test(pictures_of_the_sky),
-        cmocka_unit_test(brightness_of_skies),
-        cmocka_unit_test(none_of_a_thousand),
-        cmocka_unit_test(atmospheres_are_a_variant),
-        cmocka_unit_test(a_frequency_is_a_variant),
-        cmocka_unit_test(reflection_is_a_variant),
-        cmocka_unit_test(traits_are_listed),
+        cmocka_unit_test(work_follows_emitters),        cmocka_unit_test(all_are_there),
+        cmocka_unit_test(sentences_have_room),          cmocka_unit_test(names_are_short_and_differ),
+        cmocka_unit_test(what_a_report_counts_is_said), cmocka_unit_test(what_is_off_says_and_needs_nothing),
+        cmocka_unit_test(numbers_follow_the_scene),     cmocka_unit_test(numbers_follow_each_field),
+        cmocka_unit_test(gas_replaces_the_disk),        cmocka_unit_test(skies),
+        cmocka_unit_test(pictures_of_the_sky),          cmocka_unit_test(brightness_of_skies),
+        cmocka_unit_test(none_of_a_thousand),           cmocka_unit_test(atmospheres_are_a_variant),
+        cmocka_unit_test(a_frequency_is_a_variant),     cmocka_unit_test(a_flash_is_off_by_default),
+        cmocka_unit_test(reflection_is_a_variant),      cmocka_unit_test(traits_are_listed),
         cmocka_unit_test(what_shines_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

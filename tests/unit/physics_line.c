@@ -1,6 +1,7 @@
 /* Tests of line profiles and spectra of disks, compared with sums over rays of the image plane. Transfer functions and
  * the image of the disk are compared with rays integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h), and
  * lamps with rays in flat space and in Schwarzschild's metric. */
+#include "base/random.h"
 #include "physics/disk/disk_image.h"
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/lamppost.h"
@@ -410,6 +411,33 @@ static void test_lamp(void **state)
     }
 }
 
+/* Every lamp that a scene may have lights the disk, and its light arrives after the time that rays in flat space need
+ * and the delay of the hole. */
+static void test_any_lamp(void **state)
+{
+    (void)state;
+    struct kd_random random = { 7 };
+    for (int k = 0; k < 400; k++) {
+        const double extremal = kd_random(&random) < 0.3 ? pow(10, -12 * kd_random(&random)) : kd_random(&random),
+                     size = (1 - extremal) * (1 - 1e-12), turn = M_PI * kd_random(&random);
+        const struct kd_hole hole = kd_hole_charged(size * cos(turn), k % 2 ? size * sin(turn) : 0);
+        const double isco = kd_kerr_isco(&hole), least = fmax(1, KD_LAMPPOST_LEAST * hole.outer),
+                     h = least * pow(1e4 / least, k % 5 ? kd_random(&random) : 0),
+                     inner = isco * pow(1e3, k % 3 ? 0 : kd_random(&random)),
+                     outer = inner * (1 + 1e-3 + (1e6 / inner - 1) * pow(kd_random(&random), 4));
+        struct kd_lamppost lamp;
+        if (!kd_lamppost_init(&lamp, &hole, h, 1 + 3 * kd_random(&random), inner, outer))
+            fail_msg("a = %.15g, Q = %.15g: no light from %.9g M between %.9g and %.9g M", hole.a, hole.q, h, inner,
+                     outer);
+        for (double r = inner; r < outer; r *= pow(outer / inner, 0.07)) {
+            const double d = hypot(r, h), flat = d + 2 * log((r + h + d) / (r + h - d));
+            assert_true(isfinite(kd_lamppost_at(&lamp, r)) && kd_lamppost_at(&lamp, r) > 0);
+            if (fmin(r, h) > 100)
+                within("time", hole.a, r, kd_lamppost_time(&lamp, r), flat, 2 + 1e-6 * r);
+        }
+    }
+}
+
 /* start of a ray of the oracle in the plane, and its redshift */
 struct start { double r, g; };
 
@@ -562,6 +590,7 @@ int main(void)
         cmocka_unit_test(test_bins_add_up),
         cmocka_unit_test(test_face_on),
         cmocka_unit_test(test_lamp),
+        cmocka_unit_test(test_any_lamp),
         cmocka_unit_test(test_transfer_function),
         cmocka_unit_test(test_spectrum),
     };

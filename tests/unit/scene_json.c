@@ -370,14 +370,14 @@ static void canonical_form_is_stable(void **state)
         "\"camera\":{\"r\":\"infinity\",\"inclination_deg\":82,\"azimuth_deg\":-1e-7,";
     const char *middle =
         ",\"spots\":[{\"brightness\":0,\"r\":10,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000},"
-        "{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000}],\"bodies\":[],"
-        "\"volume\":{";
+        "{\"brightness\":0,\"r\":9,\"phase_deg\":0,\"size\":1,\"index\":1,\"temperature_k\":9000}],\"flash\":{";
     const char *end = "\"accuracy\":{\"profile\":\"balanced\",\"tolerance\":\"profile\",\"engine\":\"auto\","
                       "\"precision\":\"auto\",\"steps\":0,\"orders\":3},\"time\":0.30000000000000004}";
     assert_memory_equal(text, start, strlen(start));
     assert_true(strlen(text) > strlen(end));
     assert_string_equal(text + strlen(text) - strlen(end), end);
-    assert_non_null(strstr(text, ",\"spots\":[],\"bodies\":[],\"volume\":{"));
+    assert_non_null(strstr(text, ",\"spots\":[],\"flash\":{\"brightness\":0,"));
+    assert_non_null(strstr(text, "},\"bodies\":[],\"volume\":{"));
     free(text);
     scene.spots.count = 2;
     scene.spots.at[0].r = 10;

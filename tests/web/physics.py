@@ -116,6 +116,8 @@ class Physics(Browser):
         self.expected = "422"
         page.fill('[data-path="camera.inclination_deg"] input[type=number]', "90")
         page.keyboard.press("Tab")
+        self.there(page, "thin disk of black bodies", figure)
+        page.select_option("#integral", "impulse")
         page.wait_for_selector('#integral-plot .fault:has-text("edge on")')
         page.wait_for_selector(figure, state="hidden")
         page.select_option("#integral", "")

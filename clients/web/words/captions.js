@@ -15,6 +15,7 @@ const captions = {
   'photon-rings': t('captions.once-twice-six-times', 'Six photon rings, unrolled, one above the other'),
   'living-disk': t('captions.300-000-particles-each', '300 000 particles, each on an orbit of its own'),
   'hot-spot': t('captions.a-bright-spot-that', 'A bright spot that goes round Sgr A* in an hour'),
+  echo: t('captions.a-flash-over-the', 'A flash over the hole runs over the disk as a ring'),
   'milky-way': t('captions.the-stars-and-the', 'The stars and the Milky Way, bent by a bare hole'),
   gas: t('captions.a-disk-that-boils', 'A disk that boils, dense where it is bright'),
   'gas-stars': t('captions.a-boiling-disk-and', 'A boiling disk, and the real stars of the sky behind it'),

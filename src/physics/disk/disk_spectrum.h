@@ -6,7 +6,8 @@
  * of a disk with returning light (returning.h). The disk begins at the ISCO or beyond. f is the colour correction
  * (Shimura & Takahara 1995, ApJ 445, 780); it conserves the energy of the light. The integral over the disk's image
  * (disk_image.h) uses even steps in chi, which converge exponentially, and Gauss points in the square root of
- * ln(r/inner). */
+ * ln(r/inner). Next to edge-on, where the image has no table, it uses columns, and both faces of the disk count
+ * (disk_columns.h). */
 #ifndef KD_PHYSICS_DISK_DISK_SPECTRUM_H
 #define KD_PHYSICS_DISK_DISK_SPECTRUM_H
 

@@ -13,12 +13,17 @@ static double source_redshift2(const struct kd_hole *hole, double h)
     return kd_hole_delta(hole, h) / (h * h + hole->a * hole->a);
 }
 
-double kd_lamppost_reach(const struct kd_hole *hole, double h, double delta)
+static struct kd_null_path path_of(const struct kd_hole *hole, double h, double delta)
 {
     const double a = hole->a;
     struct kd_null_ray ray = { .hole = *hole, .radius = h, .cos_theta = 1, .orders = 1, .outward = delta > M_PI / 2 };
     ray.alpha = sin(delta) * sqrt((h * h + a * a) / source_redshift2(hole, h));
-    struct kd_null_path path = kd_null_trace_fast(&ray);
+    return kd_null_trace_fast(&ray);
+}
+
+double kd_lamppost_reach(const struct kd_hole *hole, double h, double delta)
+{
+    const struct kd_null_path path = path_of(hole, h, delta);
     return path.crossings ? path.crossing[0].r : path.fate == KD_NULL_ESCAPED ? INFINITY : 0;
 }
 
@@ -65,12 +70,14 @@ bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, doub
         slope = (mismatch(hole, h, delta + near, r) - mismatch(hole, h, delta - near, r)) / (2 * near);
         if (!(slope > 0) || !isfinite(slope))
             return false;
+        lamp->late[k] = path_of(hole, h, delta).crossing[0].delay - r;
         lamp->log_epsilon[k] = log(sin(delta) / (slope * r) / (4 * M_PI * r * ut)) + photon_index * log(ut * source);
     }
     return true;
 }
 
-double kd_lamppost_at(const struct kd_lamppost *lamp, double r)
+/* The cubic through four neighbouring nodes. */
+static double between(const struct kd_lamppost *lamp, const double *nodes, double r)
 {
     double at = (log(r) - lamp->first) / lamp->step, sum = 0;
     int first = (int)fmin(fmax(floor(at) - 1, 0), KD_LAMPPOST_RINGS - 4);
@@ -78,7 +85,11 @@ double kd_lamppost_at(const struct kd_lamppost *lamp, double r)
         double weight = 1;
         for (int j = 0; j < 4; j++)
             weight *= j == i ? 1 : (at - first - j) / (i - j);
-        sum += weight * lamp->log_epsilon[first + i];
+        sum += weight * nodes[first + i];
     }
-    return exp(sum);
+    return sum;
 }
+
+double kd_lamppost_at(const struct kd_lamppost *lamp, double r) { return exp(between(lamp, lamp->log_epsilon, r)); }
+
+double kd_lamppost_time(const struct kd_lamppost *lamp, double r) { return r + between(lamp, lamp->late, r); }

@@ -11,6 +11,7 @@ enum { KD_LAMPPOST_RINGS = 120 };
 struct kd_lamppost {
     double first, step; /* nodes in ln r */
     double log_epsilon[KD_LAMPPOST_RINGS];
+    double late[KD_LAMPPOST_RINGS]; /* coordinate time of the light from the source to the ring, less r */
 };
 
 /* height: beyond the horizon. The table covers the radii from inner, which is the ISCO or larger, to outer. Returns
@@ -18,7 +19,12 @@ struct kd_lamppost {
 bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, double height, double photon_index,
                       double inner, double outer);
 
+/* Smallest height of a source, in radii of the horizon. */
+#define KD_LAMPPOST_LEAST 1.05
+
 double kd_lamppost_at(const struct kd_lamppost *lamp, double r);
+/* Coordinate time that the light takes from the source to the ring at r. */
+double kd_lamppost_time(const struct kd_lamppost *lamp, double r);
 
 /* Radius at which light that leaves the source at delta meets the plane; 0: captured by the hole; INFINITY: it
  * escapes. */

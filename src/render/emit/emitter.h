@@ -29,7 +29,7 @@ struct kd_sentence {
 
 struct kd_scene_part { size_t at, size; };
 #define KD_SCENE_PART(section) { offsetof(struct kd_scene, section), sizeof(((struct kd_scene *)0)->section) }
-#define KD_EMITTER_PARTS 7
+#define KD_EMITTER_PARTS 8
 
 #define KD_EMIT_TOLD 256
 

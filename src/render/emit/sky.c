@@ -177,7 +177,7 @@ const struct kd_emitter kd_emit_sky = {
     .making_bytes = making_bytes,
     .fill = fill,
     .depends = { KD_SCENE_PART(sky), KD_SCENE_PART(camera), KD_SCENE_PART(disk), KD_SCENE_PART(spots),
-                 KD_SCENE_PART(volume), KD_SCENE_PART(jets), KD_SCENE_PART(bodies) },
+                 KD_SCENE_PART(flash), KD_SCENE_PART(volume), KD_SCENE_PART(jets), KD_SCENE_PART(bodies) },
     .sentences = sentences,
     .n_sentences = sizeof sentences / sizeof *sentences,
 };

@@ -114,8 +114,8 @@ static enum kd_status check_one(const struct kd_scene *scene, struct kd_plan_lay
         return kd_error_field(
             error, "/image/layers",
             "image.layers has %s, which needs light of one frequency alone: of a volume.model \"gold\", \"riaf\", "
-            "\"torus\" or \"grid\", or of a disk with disk.band \"frequency\"; sky.model \"none\", no jets, spots or "
-            "bodies",
+            "\"torus\" or \"grid\", or of a disk with disk.band \"frequency\"; sky.model \"none\", no jets, spots, "
+            "flash or bodies",
             name);
     if (layer.kind == KD_LAYER_jy_per_pixel && !kd_layers_have_flux(scene))
         return kd_error_field(

@@ -11,7 +11,7 @@
 #include <stdint.h>
 
 /* at least the number of emitters in shaders/shared/emitters.h, which this header does not include */
-#define KD_PLAN_EMITTERS 16
+#define KD_PLAN_EMITTERS 18
 
 struct kd_plan_light {
     uint32_t traits[KD_PLAN_EMITTERS]; /* traits of the emitters; 0 for those that the scene does not have */

@@ -99,7 +99,7 @@ class PixelPictured(TypedDict):
 
 
 class PixelGlow(TypedDict):
-    name: Literal['disk', 'particles', 'plunge', 'spots', 'ringdown', 'sky', 'gas', 'volume', 'jets', 'thick', 'bodies', 'debris', 'polarization', 'plasma', 'stokes']
+    name: Literal['disk', 'particles', 'plunge', 'spots', 'ringdown', 'sky', 'gas', 'volume', 'jets', 'thick', 'bodies', 'debris', 'polarization', 'plasma', 'stokes', 'lamp', 'flash']
     light: list[float]
     seen: list[float]
     luminance: float
@@ -129,7 +129,7 @@ class PixelCrossing(TypedDict):
 
 
 class PixelVolume(TypedDict):
-    name: Literal['disk', 'particles', 'plunge', 'spots', 'ringdown', 'sky', 'gas', 'volume', 'jets', 'thick', 'bodies', 'debris', 'polarization', 'plasma', 'stokes']
+    name: Literal['disk', 'particles', 'plunge', 'spots', 'ringdown', 'sky', 'gas', 'volume', 'jets', 'thick', 'bodies', 'debris', 'polarization', 'plasma', 'stokes', 'lamp', 'flash']
     seen: list[float]
     luminance_seen: float
     optical_depth: float | None
@@ -161,7 +161,7 @@ class PixelAlong(TypedDict):
 
 
 class PixelMet(TypedDict):
-    name: Literal['disk', 'particles', 'plunge', 'spots', 'ringdown', 'sky', 'gas', 'volume', 'jets', 'thick', 'bodies', 'debris', 'polarization', 'plasma', 'stokes']
+    name: Literal['disk', 'particles', 'plunge', 'spots', 'ringdown', 'sky', 'gas', 'volume', 'jets', 'thick', 'bodies', 'debris', 'polarization', 'plasma', 'stokes', 'lamp', 'flash']
     index: int
     order: int
     r: float

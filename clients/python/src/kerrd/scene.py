@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-__all__ = ["Accuracy", "Body", "Camera", "Disk", "Gas", "Image", "Jets", "Motion", "Polarization", "Scene", "Sky", "Source", "Spacetime", "Spot", "Style", "Tile", "Volume"]
+__all__ = ["Accuracy", "Body", "Camera", "Disk", "Flash", "Gas", "Image", "Jets", "Motion", "Polarization", "Scene", "Sky", "Source", "Spacetime", "Spot", "Style", "Tile", "Volume"]
 
 
 @dataclass
@@ -167,8 +167,8 @@ class Disk:
         to 1; default 0.7.
     epicycles: largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes at the ISCO, it
         is also the largest relative amplitude of oscillations in r (model: particles); 0 to 0.2; default 0.02.
-    slow_light: show particles, gas and spots at the time when the light of each ray left them, instead of at one coordinate time;
-        default false.
+    slow_light: show particles, gas, spots and a flash at the time when the light of each ray left them, instead of at one coordinate
+        time; default false.
     gas: turbulence in the gas of the smooth disk models.
     """
 
@@ -219,6 +219,33 @@ class Spot:
     r: float | None = None
     phase_deg: float | None = None
     size: float | None = None
+    index: float | None = None
+    temperature_k: float | None = None
+
+
+@dataclass
+class Flash:
+    """A flash of a lamp on the axis, which runs over the thin disk.
+
+    brightness: surface brightness in the gas's frame where the flash lights the disk most, at its peak, in units of the disk's
+        brightest; 0: no flash; 0 to 1000000; default 0.
+    height: Boyer-Lindquist radius of the lamp on the axis; at least 1.05 times that of the horizon; in M; 1 to 10000; default 10.
+    start: coordinate time at which the lamp is brightest; in M; -1e+12 to 1e+12; default 0.
+    duration: time before and after the peak at which the lamp's light is exp(-1/2) of the peak; in M; 0.001 to 1000000; default 1.
+    period: time from one flash to the next, at least 12 times flash.duration; 0: one flash only; in M; 0 to 1000000000; default 0.
+    photon_index: photon index Gamma of the lamp: it emits E^-Gamma photons per energy, which sets how its light on the disk depends on
+        the shift from the lamp to the gas; 1 to 4; default 2.
+    index: spectral index of the lit gas: I_nu falls as nu to this power, so that the observed brightness is multiplied by g^(3 +
+        index); -4 to 6; default 0.
+    temperature_k: colour of the lit gas: that of a black body of this temperature, shifted by g; in K; 300 to 1000000000; default 6500.
+    """
+
+    brightness: float | None = None
+    height: float | None = None
+    start: float | None = None
+    duration: float | None = None
+    period: float | None = None
+    photon_index: float | None = None
     index: float | None = None
     temperature_k: float | None = None
 
@@ -597,6 +624,7 @@ class Scene:
     camera: position, motion and view of the observer.
     disk: the accretion disk in the equatorial plane, turning towards +phi.
     spots: hot spots: Gaussians in the equatorial plane that go round with the gas; up to 16.
+    flash: a flash of a lamp on the axis, which runs over the thin disk.
     bodies: bodies: luminous spheres round the hole; up to 8.
     volume: matter along the rays.
     jets: stylised jets along the spin axis.
@@ -614,6 +642,7 @@ class Scene:
     camera: Camera | None = None
     disk: Disk | None = None
     spots: Sequence[Spot] | None = None
+    flash: Flash | None = None
     bodies: Sequence[Body] | None = None
     volume: Volume | None = None
     jets: Jets | None = None
