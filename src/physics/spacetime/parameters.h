@@ -27,7 +27,9 @@
 /* Uses of the list. KD_HOLE_MEMBERS declares all parameters, the spin first. */
 #define KD_HOLE_MEMBER_(x, name, ...) double name;
 #define KD_HOLE_MORE_MEMBERS KD_HOLE_MORE(KD_HOLE_MEMBER_, )
-#define KD_HOLE_MEMBERS double spin; KD_HOLE_MORE_MEMBERS
+#define KD_HOLE_MEMBERS \
+    double spin; \
+    KD_HOLE_MORE_MEMBERS
 #define KD_HOLE_ONE_(x, name, ...) +1
 enum { KD_HOLE_MORE_COUNT = 0 KD_HOLE_MORE(KD_HOLE_ONE_, ) };
 /* The names, for a sentence after "spin". */
