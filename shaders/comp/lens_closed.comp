@@ -150,7 +150,7 @@ void main()
     if (!kd_this_ray(step_, at))
         return;
     kd_ray ray = kd_camera_ray(step_.x, step_.y);
-    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.charge2, cam.u, cam.s);
+    kd_geodesic m = kd_geodesic_of(ray, KD_HOLE_OF(cam), cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_arcs a = kd_arcs_of(m, ray.e);
     kd_ray tilted = ray; /* a nearby ray is used, because in the plane the azimuth has no start */

@@ -74,7 +74,7 @@ void main()
     if (!kd_this_ray(step_, at))
         return;
     kd_ray ray = kd_camera_ray(step_.x, step_.y);
-    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.charge2, cam.u, cam.s);
+    kd_geodesic m = kd_geodesic_of(ray, KD_HOLE_OF(cam), cam.u, cam.s);
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
     kd_azimuth azimuth;
     float psi = 0.0, chi = 0.0;

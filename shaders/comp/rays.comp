@@ -44,7 +44,10 @@ layout(push_constant) uniform Push { uint first, count; }
 push;
 layout(set = 0, binding = 0) readonly buffer Rays
 {
-    float spin, u, s, horizon, root, w0, epsilon, charge2; /* the hole and the observer; unit roundoff; q^2 */
+    float spin, u, s, horizon, root, w0, epsilon; /* the hole and the observer; unit roundoff */
+#define F(name) float name;
+    KD_HOLE_MORE_FIELDS_(F)
+#undef F
     float list[]; /* three numbers for each ray: alpha, beta, and the direction (1:
                    * inwards, -1: outwards) */
 }
@@ -81,7 +84,7 @@ kd_rates rates(kd_geodesic m, kd_full p, float b, float way)
     if (way != 0.0)
         o.delay += (1.0 + a2w2) * m.k / kd_one_way(m, y, 1.0, a, way);
     else
-        o.delay += kd_time_over(w, a, cam.charge2, m.momentum) / kd_horizons(w, cam.root) +
+        o.delay += kd_time_over(KD_HOLE_OF(cam), w, m.momentum) / kd_horizons(w, cam.root) +
                    w * (m.k - m.d * w) * (1.0 + 2.0 * w / energy_and_fall(m, w, dw));
     return o;
 }
@@ -93,8 +96,8 @@ float delay_edge(kd_geodesic m, kd_state y, float way)
     if (!(y.w > 0.0))
         return 0.0;
     if (way != 0.0)
-        return way *
-               (kd_late_of(y.w, cam.root, cam.charge2) - 1.0 / y.w + kd_log(y.w * y.w / kd_horizons(y.w, cam.root)));
+        return way * (kd_late_of(KD_HOLE_OF(cam), y.w, cam.root) - 1.0 / y.w +
+                      kd_log(y.w * y.w / kd_horizons(y.w, cam.root)));
     return -y.dw / y.w - 2.0 * kd_log(0.5 * energy_and_fall(m, y.w, y.dw) / y.w);
 }
 
@@ -123,7 +126,7 @@ void main()
     ray.l = -cam.list[3 * i];
     ray.p = cam.list[3 * i + 1];
     ray.w = cam.w0;
-    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.charge2, cam.u, cam.s);
+    kd_geodesic m = kd_geodesic_of(ray, KD_HOLE_OF(cam), cam.u, cam.s);
     ray.dw = cam.list[3 * i + 2] * sqrt(max(kd_radial_potential(m, ray.w, 1.0, cam.spin, cam.root), 0.0));
     kd_polar polar = kd_polar_of(m, ray, cam.u, cam.s);
 

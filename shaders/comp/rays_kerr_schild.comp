@@ -26,7 +26,10 @@ layout(push_constant) uniform Push { uint first, count; }
 push;
 layout(set = 0, binding = 0) readonly buffer Rays
 {
-    float spin, horizon_r, far, charge2;
+    float spin, horizon_r, far;
+#define F(name) float name;
+    KD_HOLE_MORE_FIELDS_(F)
+#undef F
     float list[]; /* x, y, z, p_x, p_y, p_z; 1/r and azimuth of the crossing before the start, or 0 and 0 */
 }
 rays;

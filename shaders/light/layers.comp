@@ -50,8 +50,8 @@ kd_sample sample_at(uint n, float w, uint at, kd_ray ray)
     float momentum = (listed ? -quantity(KD_LENS_ALPHA, at) : ray.l) * cam.s;
     float ago = SLOW ? quantity(KD_LENS_DELAY, plane) - emission.frame.delay : 0.0,
           slope = quantity(KD_LENS_SLOPE, plane);
-    float q = listed ? kd_carter_of_slope(ray.e, momentum, w, slope)
-                     : kd_geodesic_of(ray, cam.spin, cam.charge2, cam.u, cam.s).q;
+    float q =
+        listed ? kd_carter_of_slope(ray.e, momentum, w, slope) : kd_geodesic_of(ray, KD_HOLE_OF(cam), cam.u, cam.s).q;
     return kd_with_cosine(kd_sample(w, quantity(KD_LENS_PHI, plane), ago, slope, ray.e, momentum, q,
                                     quantity(KD_LENS_FOOTPRINT, plane), quantity(KD_LENS_SHAPE, plane), n, 0.0));
 }

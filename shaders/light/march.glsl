@@ -543,7 +543,7 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
 kd_march_way kd_march_begin(kd_ray ray, float left)
 {
     kd_march_way y;
-    y.m = kd_geodesic_of(ray, cam.spin, cam.charge2, cam.u, cam.s);
+    y.m = kd_geodesic_of(ray, KD_HOLE_OF(cam), cam.u, cam.s);
     y.p = kd_path_start(ray, cam.u, cam.s);
     y.q = y.p;
     y.rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e);

@@ -118,7 +118,7 @@ bool kd_meet_lost = false;
 kd_met kd_meet(uvec2 place)
 {
     kd_ray ray = kd_camera_ray(place.x, place.y);
-    kd_geodesic m = kd_geodesic_of(ray, cam.spin, cam.charge2, cam.u, cam.s);
+    kd_geodesic m = kd_geodesic_of(ray, KD_HOLE_OF(cam), cam.u, cam.s);
     kd_path p = kd_path_start(ray, cam.u, cam.s), q = p;
     float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e), h = 0.0, begun = 0.0,
           near_horizon = 0.97 * cam.horizon;

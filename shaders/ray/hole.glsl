@@ -1,10 +1,14 @@
 /* The hole, as src/physics/spacetime/hole.h: Delta, the mass term, the numbers in the equations of light, and the terms
- * of azimuth and time that grow without bound at the horizon for a ray that falls in. q2: the square of the charge. For
- * kernels that have `cam` see ray/metric.glsl. */
+ * of azimuth and time that grow without bound at the horizon for a ray that falls in. For kernels that have `cam`
+ * see also ray/metric.glsl. */
 #ifndef KD_HOLE_GLSL
 #define KD_HOLE_GLSL
 
 #include "shared/math.glsl"
+
+/* The numbers of the hole on which the equations of light depend, from a block that has them. */
+struct kd_hole_numbers { float spin, charge2; };
+#define KD_HOLE_OF(block) kd_hole_numbers(block.spin, block.charge2)
 
 /* Delta/r^2 = 1 - 2w + (a^2 + q^2) w^2 from root = sqrt(1 - a^2 - q^2). 1 - w is exact near the horizon of a hole that
  * spins fast, and the two factors keep their precision where the horizons almost coincide. `precise` stops a driver
@@ -19,16 +23,22 @@ float kd_delta(float w, float root)
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
 /* The part of the rate of the time that is divided by D (rays.comp), for E = 1. */
-float kd_time_over(float w, float a, float q2, float momentum)
+float kd_time_over(kd_hole_numbers hole, float w, float momentum)
 {
-    float a2w2 = a * a * w * w;
-    return 4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * momentum * (1.0 + a2w2) - q2 * (1.0 + 2.0 * w);
+    float a = hole.spin, a2w2 = a * a * w * w;
+    return 4.0 + a * a * (1.0 - 2.0 * w + a2w2) - a * momentum * (1.0 + a2w2) - hole.charge2 * (1.0 + 2.0 * w);
 }
 
 /* kd_quartic_of: D = a^2 Q + q^2 K of the radial quartic. kd_drag_of: aL + q^2 E in the rate of azimuth
  * (kerr_ray.glsl). */
-float kd_quartic_of(float a, float q2, float carter, float k) { return a * a * carter + q2 * k; }
-float kd_drag_of(float a, float q2, float momentum, float energy) { return a * momentum + q2 * energy; }
+float kd_quartic_of(kd_hole_numbers hole, float carter, float k)
+{
+    return hole.spin * hole.spin * carter + hole.charge2 * k;
+}
+float kd_drag_of(kd_hole_numbers hole, float momentum, float energy)
+{
+    return hole.spin * momentum + hole.charge2 * energy;
+}
 
 /* Integral from 0 to w of dw / D = 1/(2 root) log(1 + x), x = 2 root w / (1 - r+ w). A series is used where x is small,
  * as for a nearly extremal hole. */
@@ -47,6 +57,6 @@ float kd_fall(float w, float root)
 }
 
 /* Integral from 0 to w of (2 - q^2) dw/D: the term of the time that grows without bound at the horizon. */
-float kd_late_of(float w, float root, float q2) { return (2.0 - q2) * kd_fall(w, root); }
+float kd_late_of(kd_hole_numbers hole, float w, float root) { return (2.0 - hole.charge2) * kd_fall(w, root); }
 
 #endif

@@ -43,19 +43,19 @@ struct kd_geodesic {
     float drag;                 /* aL + q^2 E    */
 };
 
-/* a: spin; q2: square of the charge; u, s: cosine and sine of the observer's polar angle. */
-kd_geodesic kd_geodesic_of(kd_ray ray, float a, float q2, float u, float s)
+/* u, s: cosine and sine of the observer's polar angle. */
+kd_geodesic kd_geodesic_of(kd_ray ray, kd_hole_numbers hole, float u, float s)
 {
     kd_geodesic m;
-    float ae = a * ray.e;
+    float ae = hole.spin * ray.e;
     m.energy2 = ae * ae;
     m.momentum = ray.l * s;
     m.q = ray.p * ray.p + u * u * (ray.l * ray.l - m.energy2);
     m.a2 = m.energy2 * (1.0 + u * u) - ray.l * ray.l - ray.p * ray.p;
     precise float j = m.momentum - ae, k = m.q + j * j; /* a product of small factors, which must not be expanded */
     m.k = k;
-    m.d = kd_quartic_of(a, q2, m.q, m.k);
-    m.drag = kd_drag_of(a, q2, m.momentum, ray.e);
+    m.d = kd_quartic_of(hole, m.q, m.k);
+    m.drag = kd_drag_of(hole, m.momentum, ray.e);
     return m;
 }
 

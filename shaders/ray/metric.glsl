@@ -12,7 +12,7 @@ kd_place kd_place_at(float w, float u, float s2)
 {
     float a = cam.spin, aw2 = a * a * w * w, b = 1.0 + aw2, delta = kd_horizons(w, cam.root);
     float area = b * b - aw2 * delta * s2, drag = 2.0 * a * w * w * w;
-    if (CHARGED)
+    if (BEYOND_KERR)
         drag -= a * cam.charge2 * w * w * w * w;
     return kd_place(aw2, delta, area, 1.0 + aw2 * u * u, drag / area);
 }
@@ -21,14 +21,14 @@ kd_place kd_place_at(float w, float u, float s2)
 float kd_mass(float r)
 {
     float mass = 2.0 * r;
-    if (CHARGED)
+    if (BEYOND_KERR)
         mass -= cam.charge2;
     return mass;
 }
 float kd_mass_term(float w)
 {
     float term = 2.0 * w;
-    if (CHARGED)
+    if (BEYOND_KERR)
         term -= cam.charge2 * w * w;
     return term;
 }
@@ -38,7 +38,7 @@ float kd_mass_term(float w)
 float kd_late(float w)
 {
     float part = 2.0;
-    if (CHARGED)
+    if (BEYOND_KERR)
         part -= cam.charge2;
     return part * kd_fall(w, cam.root);
 }
@@ -47,7 +47,7 @@ float kd_late(float w)
 float kd_body_quadratic(float moving)
 {
     float c2 = moving;
-    if (CHARGED)
+    if (BEYOND_KERR)
         c2 -= cam.charge2;
     return c2;
 }
@@ -62,7 +62,7 @@ kd_circle kd_circle_at(float w, float one_minus_a)
 {
     float r = 1.0 / w, x = sqrt(r), x3 = r * x, d = (1.0 - w) / (w * (x + 1.0)), all = x3 + cam.spin;
     precise float rest = d * d * (x + 2.0) - 2.0 * one_minus_a;
-    if (CHARGED) {
+    if (BEYOND_KERR) {
         float n = cam.root * cam.root, y = (1.0 - w) / w, s = sqrt(r - cam.charge2),
               sigma = cam.spin > 0.0 ? (y + n) / (s + cam.spin) : s - cam.spin, v = sigma * w;
         all = r * r / s + cam.spin;
@@ -72,13 +72,13 @@ kd_circle kd_circle_at(float w, float one_minus_a)
 }
 
 /* sqrt(r - q^2), on which the velocities of circular orbits depend (src/physics/spacetime/kerr.h). */
-float kd_circle_root(float w) { return CHARGED ? sqrt(1.0 / w - cam.charge2) : inversesqrt(w); }
+float kd_circle_root(float w) { return BEYOND_KERR ? sqrt(1.0 / w - cam.charge2) : inversesqrt(w); }
 
 /* 1/Omega of the circular orbit at r, which is beyond the ISCO (src/physics/spacetime/kerr.h). */
 float kd_circle_time(float r)
 {
     float time = r * sqrt(r) + cam.spin;
-    if (CHARGED)
+    if (BEYOND_KERR)
         time = r * r * inversesqrt(r - cam.charge2) + cam.spin;
     return time;
 }

@@ -17,13 +17,16 @@
 /* Unit roundoff of the kernels' floats. */
 #define KD_ROUNDOFF 6e-8
 
+/* The numbers of the hole that only holes beyond Kerr's have; the function kd_hole_NAME of hole.h makes each. */
+#define KD_HOLE_MORE_FIELDS_(F) F(charge2) /* q^2 */
+
 /* The hole, a part of the blocks of kernels that need it. */
 /* clang-format off */
 #define KD_HOLE_FIELDS_(F) \
     F(spin)                 /* a */ \
     F(horizon)              /* 1/r+ */ \
     F(root)                 /* sqrt(1 - a^2 - q^2): the horizons are at r = 1 +- root; not exact from a and q */ \
-    F(charge2)              /* q^2 */
+    KD_HOLE_MORE_FIELDS_(F)
 /* clang-format on */
 
 /* Camera and the hole: a uniform block of the tracing and transfer kernels. A ray at (x, y), in steps from the middle

@@ -35,13 +35,13 @@
 
 /* SIDE: rays along each side of a pixel. LAYER, ORDER: for layers.comp, the layer (layers.h) and its image order;
  * KD_NO_ORDER: of the first crossing on the disk. INGOING: as for the lens map, for the march (light/march.glsl).
- * STOKES: for transfer.comp, whether Stokes Q, U and V are stored after the radiance. CHARGED: the hole has a charge.
- * The word of each emitter (emitters.h) follows from KD_SPEC_TRAITS on. */
+ * STOKES: for transfer.comp, whether Stokes Q, U and V are stored after the radiance. BEYOND_KERR: the hole has
+ * parameters besides the spin. The word of each emitter (emitters.h) follows from KD_SPEC_TRAITS on. */
 /* clang-format off */
 #define KD_SPEC_TRANSFER(U, B) \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIDE, 1) U(3, SIGHT, 0) \
     U(4, CRITICAL, 0) U(5, GENERATOR, 1) U(6, SHIFT, 0) U(7, LAYER, 0) U(8, ORDER, KD_NO_ORDER) \
-    B(9, INGOING, false) B(10, STOKES, false) B(11, CHARGED, false)
+    B(9, INGOING, false) B(10, STOKES, false) B(11, BEYOND_KERR, false)
 /* clang-format on */
 #define KD_SPEC_TRAITS 12
 #define KD_NO_ORDER 0xffffffffu

@@ -43,7 +43,7 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
     return KD_OK;
 }
 
-/* Loads the scene. If no scene is given, it has the playground's spin and charge. */
+/* Loads the scene. If no scene is given, it has the playground's hole. */
 static enum kd_status load(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
                            struct kd_scene *out, struct kd_error *error)
 {
@@ -51,8 +51,7 @@ static enum kd_status load(struct kd_pictures_asked *asked, const char *view, co
     if (asked->scene.document || asked->scene.preset)
         return kd_scene_options_load(&asked->scene, out, error);
     kd_scene_defaults(out);
-    out->spacetime.spin = p->params.spin;
-    out->spacetime.charge = p->params.charge;
+    KD_HOLE_COPY(&out->spacetime, &p->params);
     status = view ? kd_scene_from_json(out, view, strlen(view), error) : kd_playground_widen(p, out, error);
     return status ? status : kd_scene_options_merge(&asked->scene, out, error);
 }

@@ -32,7 +32,8 @@ static const struct argp_option options[] = {
     { "axis", 'x', "FIELD=VALUES", 0,
       "makes FIELD a parameter of the table. VALUES are numbers and ranges START:STOP/COUNT, separated by commas. A "
       "reader interpolates linearly between them; if log: precedes VALUES, it interpolates in their logarithm. Fields "
-      "are spin, charge, inclination_deg, inner, inner_isco (over the ISCO), outer, index, outer_index, break_r, "
+      "are spin" KD_HOLE_MORE_NAMES
+      ", inclination_deg, inner, inner_isco (over the ISCO), outer, index, outer_index, break_r, "
       "height, "
       "photon_index. May be repeated",
       0 },

@@ -109,18 +109,28 @@ static enum kd_status put_points(const struct kd_ray_path *path, struct kd_buffe
     return status;
 }
 
+/* Writes a parameter of the hole, unless it is 0. */
+static enum kd_status put_parameter(struct kd_buffer *out, const char *name, double value)
+{
+    char text[KD_DECIMAL_SIZE];
+    kd_decimal_print(text, value);
+    return value != 0 ? kd_buffer_printf(out, ", %s %s", name, text) : KD_OK;
+}
+
 enum kd_status kd_trace_text(const struct kd_described_steps *trace, struct kd_buffer *out)
 {
     const struct kd_rays_steps *steps = trace->steps;
     const struct kd_rays_params *p = &steps->params;
-    const double numbers[] = { steps->alpha, steps->beta, p->spin, p->inclination_deg, p->r, p->charge };
+    const double numbers[] = { steps->alpha, steps->beta, p->spin, p->inclination_deg, p->r };
     char given[sizeof numbers / sizeof *numbers][KD_DECIMAL_SIZE];
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         kd_decimal_print(given[i], numbers[i]);
     enum kd_status status;
-    KD_TRY(kd_buffer_printf(out, "alpha %s, beta %s; spin %s%s%s, inclination %s, r %s; ", given[0], given[1], given[2],
-                            p->charge != 0 ? ", charge " : "", p->charge != 0 ? given[5] : "", given[3],
-                            isinf(p->r) ? "infinity" : given[4]));
+    KD_TRY(kd_buffer_printf(out, "alpha %s, beta %s; spin %s", given[0], given[1], given[2]));
+#define MORE(x, name, ...) KD_TRY(put_parameter(out, #name, p->name));
+    KD_HOLE_MORE(MORE, )
+#undef MORE
+    KD_TRY(kd_buffer_printf(out, ", inclination %s, r %s; ", given[3], isinf(p->r) ? "infinity" : given[4]));
     KD_TRY(kd_buffer_printf(out, "%s %s, %u steps a half period\n", kd_engine_name(p->engine),
                             kd_precision_name(p->precision), p->steps));
     KD_TRY(kd_ray_motion_text(&trace->motion, out));
@@ -163,8 +173,10 @@ enum kd_status kd_trace_json(const struct kd_described_steps *trace, struct kd_b
         { "steps_a_half_period", p->steps },
         { "orders", p->orders },
         { "spin", p->spin },
-        { "charge", p->charge },
-        { "inclination_deg", p->inclination_deg },
+#define MORE(x, of, ...) { #of, p->of },
+        KD_HOLE_MORE(MORE, )
+#undef MORE
+            { "inclination_deg", p->inclination_deg },
         { "r", p->r }, /* not finite if the ray comes from infinity */
         { "alpha", steps->alpha },
         { "beta", steps->beta },

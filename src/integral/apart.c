@@ -1,6 +1,7 @@
 #include "integral/apart.h"
 
 #include "base/schema.h"
+#include "physics/spacetime/parameters.h"
 
 #define HAS(name) "{\"required\":[\"" name "\"]}"
 #define BOTH(one, other) "{\"required\":[\"" one "\",\"" other "\"]}"
@@ -16,10 +17,12 @@
 /* Pictures need a scene, and a disk does not take one. */
 #define OF_A_SCENE "\"anyOf\":[" HAS("scene") "," HAS("preset") "]"
 #define OF_RETURNING HAS("returning") "," HAS("polarization")
+#define OF_A_HOLE_(x, name, ...) "," HAS(#name)
 #define OF_A_DISK \
     HAS("spin") \
-    "," HAS("charge") "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS( \
-        "mass_msun") "," HAS("distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction") "," OF_RETURNING
+    KD_HOLE_MORE(OF_A_HOLE_, ) \
+    "," HAS("inclination_deg") "," HAS("inner") "," HAS("outer") "," HAS("limb") "," HAS("mass_msun") "," HAS( \
+        "distance_pc") "," HAS("mdot_edd") "," HAS("colour_correction") "," OF_RETURNING
 #define OF_A_VOLUME \
     "{\"minimum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_LEAST_HZ) ",\"maximum\":" KD_SCHEMA_DIGITS(KD_INTEGRAL_MOST_HZ) "}"
 

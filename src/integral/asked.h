@@ -34,7 +34,8 @@ enum kd_integral_returning { KD_INTEGRAL_IGNORED, KD_INTEGRAL_ABSORBED, KD_INTEG
 
 struct kd_integral_request {
     enum kd_integral what;
-    double spin, charge, inclination_deg, inner, outer; /* inner NaN: the ISCO */
+    KD_HOLE_MEMBERS
+    double inclination_deg, inner, outer; /* inner NaN: the ISCO */
     enum kd_line_emissivity emissivity;
     double index, outer_index, break_r, height, photon_index, tolerance;
     enum kd_limb limb;
@@ -89,7 +90,7 @@ struct kd_integral_request {
 };
 
 /* The hole of a thin disk, for use as an argument. The value lives until the end of the enclosing block. */
-#define kd_integral_hole(r) ((const struct kd_hole[]) { kd_hole_charged((r)->spin, (r)->charge) })
+#define kd_integral_hole(r) ((const struct kd_hole[]) { kd_hole_in(r) })
 
 /* The first is true if the integral needs pictures, the second if these are maps of light to be Fourier-transformed. */
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }

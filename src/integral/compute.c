@@ -590,6 +590,9 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
     *answer = (struct kd_integral_answer) { .request = request };
     KD_TRY(kd_cached_disk_image(kd_integral_hole(request), request->inclination_deg, &image, error));
     KD_TRY(compute[request->what](request, image, answer, error));
+    const struct kd_hole_sentence *of_hole;
+    for (size_t i = 0; (of_hole = kd_hole_sentence(kd_hole_given(request), i)); i++)
+        answer->told[answer->n_told++] = of_hole->text;
 done:
     free(image);
     if (kd_pause()) /* fails, because a result after a pause that returned true is incomplete */

@@ -88,15 +88,18 @@ const struct kd_row kd_integral_fields[] = {
       .unit = "M",
       .of = ALL,
       .help = "spin of the hole; below 0 the disk rotates against the hole" },
-    { .name = "charge",
-      .kind = KD_KIND_REAL,
-      .offset = AT(charge),
-      .least = -1,
-      .most = 1,
-      .open = KD_OPEN,
-      .unit = "M",
-      .of = ALL,
-      .help = "charge Q of the hole; the gas is neutral; a^2 + Q^2 < 1" },
+#define MORE(x, name_, member, least_, most_, shown, unit_, card, what, bound, ...) \
+    { .name = #name_, \
+      .kind = KD_KIND_REAL, \
+      .offset = AT(name_), \
+      .least = -1, \
+      .most = 1, \
+      .open = KD_OPEN, \
+      .unit = unit_, \
+      .of = ALL, \
+      .help = what "; the gas is neutral; " bound },
+    KD_HOLE_MORE(MORE, )
+#undef MORE
     INCLINATION(LINE | SPECTRUM, .help = "angle between the axis and the observer, who is at infinity"),
     INCLINATION(ECHO, BESIDE("0", "87", "93", "180")),
     INCLINATION(TRANSFER, BESIDE("0.1", "89.99", "90.01", "179.9")),

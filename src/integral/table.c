@@ -18,13 +18,15 @@
 #define ISCO "inner_isco"
 
 /* Fields that may be axes, with the names that they have in the file, which has at most twelve letters. The image of
- * the disk depends on the first three. */
+ * the disk depends on the spin, the hole's other parameters and the inclination. */
 static const struct {
     const char *field, *name;
 } allowed[] = {
     { "spin", "spin" },
-    { "charge", "charge" },
-    { "inclination_deg", "inclination" },
+#define MORE(x, name, ...) { #name, #name },
+    KD_HOLE_MORE(MORE, )
+#undef MORE
+        { "inclination_deg", "inclination" },
     { "inner", "inner" },
     { "outer", "outer" },
     { "index", "index" },
@@ -36,7 +38,7 @@ static const struct {
     { "corona_inner", "corona_inner" },
     { "corona_top", "corona_top" },
 };
-enum { IMAGE_AXES = 3 };
+enum { IMAGE_AXES = 2 + KD_HOLE_MORE_COUNT };
 
 /* Default axes, chosen so that interpolated profiles of r^-3 are within 0.3 % of the line (docs/xspec.md). What else
  * the emissivity depends on has one value unless it is given an axis: a table in three dimensions with this accuracy
@@ -179,11 +181,11 @@ static enum kd_status read_axis(const struct kd_integral_request *request, const
     snprintf(pointer, sizeof pointer, "/%s", name);
     *axis = (struct kd_table_axis) { .field = field_named(request, name), .isco = !strcmp(name, ISCO) };
     if (!axis->field)
-        return kd_error_field(
-            error, pointer,
-            "%s is no axis; it must be spin, charge, inclination_deg, inner, inner_isco, outer, index, "
-            "outer_index, break_r, height or photon_index",
-            name);
+        return kd_error_field(error, pointer,
+                              "%s is no axis; it must be spin" KD_HOLE_MORE_NAMES
+                              ", inclination_deg, inner, inner_isco, outer, index, "
+                              "outer_index, break_r, height or photon_index",
+                              name);
     const char *at = text + length + (text[length] == '=');
     axis->log = !strncmp(at, "log:", 4);
     at += axis->log ? 4 : 0;

@@ -61,7 +61,7 @@ static void write_units(struct kd_json *json, const struct kd_integral_kind_of *
 }
 
 /* Lists the sources of what not every request of its kind asks for. Returns their number. */
-enum { MORE_SOURCES = 3 };
+enum { MORE_SOURCES = 2 + KD_HOLE_MORE_COUNT };
 static size_t more_sources(const struct kd_integral_request *r, const char *out[MORE_SOURCES])
 {
     size_t n = 0;
@@ -71,8 +71,11 @@ static size_t more_sources(const struct kd_integral_request *r, const char *out[
             "1175 (polarisation, scattered light)";
     if (r->what == KD_INTEGRAL_SPECTRUM && r->returning == KD_INTEGRAL_ABSORBED)
         out[n++] = "C. T. Cunningham 1976, ApJ 208, 534 (returning light)";
-    if (r->charge != 0 || (r->scene && r->scene->spacetime.charge != 0))
-        out[n++] = "E. T. Newman et al. 1965, J. Math. Phys. 6, 918 (the charged hole)";
+#define MORE(x, name, member, least, most, shown, unit, card, what, bound, help, source, ...) \
+    if (r->name != 0 || (r->scene && r->scene->spacetime.name != 0)) \
+        out[n++] = source;
+    KD_HOLE_MORE(MORE, )
+#undef MORE
     return n;
 }
 

@@ -107,7 +107,8 @@ const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++)
         if (all[i] && !index--)
             return all[i];
-    return NULL;
+    const struct kd_hole_sentence *of_hole = kd_hole_sentence(kd_hole_told(&run->orbit.hole), index);
+    return of_hole ? of_hole->text : NULL;
 }
 
 static void frequencies(struct text *t, const struct kd_orbit_run *run)
@@ -169,8 +170,11 @@ static void head(struct text *t, const struct kd_orbit_run *run)
     const struct kd_orbit *o = &run->orbit;
     double swing = asin(fmin(sqrt(o->z), 1)) * 180 / M_PI;
     member(t, "spin", o->hole.a);
-    if (o->hole.q != 0)
-        member(t, "charge", o->hole.q);
+#define MORE(x, name, of, ...) \
+    if (o->hole.of != 0) \
+        member(t, #name, o->hole.of);
+    KD_HOLE_MORE(MORE, )
+#undef MORE
     put(t, ",\"fate\":\"");
     put(t, kd_orbit_fate_name(o->fate));
     put(t, o->circular ? "\",\"circular\":true" : "\",\"circular\":false");

@@ -101,8 +101,10 @@ void kd_orbit_answer_schemas(struct kd_json *json)
 {
     static const struct kd_schema_member path[] = {
         { "spin", NUMBER },
-        { "charge", NUMBER, true },
-        { "fate", NULL, false, fate },
+#define MORE(x, name, ...) { #name, NUMBER, true },
+        KD_HOLE_MORE(MORE, )
+#undef MORE
+            { "fate", NULL, false, fate },
         { "circular", KD_SCHEMA_BOOL },
         { "constants", KD_SCHEMA_REF("OrbitConstants") },
         { "turning_points", KD_SCHEMA_REF("OrbitTurningPoints") },

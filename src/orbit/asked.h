@@ -3,6 +3,7 @@
 #define KD_ORBIT_ASKED_H
 
 #include "physics/spacetime/observer.h"
+#include "physics/spacetime/parameters.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -20,8 +21,8 @@ const char *kd_orbit_way_name(enum kd_orbit_way way); /* "yoshida6", "rkn6", "cl
 
 struct kd_orbit_spec {
     enum kd_orbit_form form;
-    double spin;   /* NAN: the spin of the request, or of the named case */
-    double charge; /* NAN: the charge of the request */
+    /* NAN: those of the request; the spin of a named case otherwise its own, and the rest 0 */
+    KD_HOLE_MEMBERS
     double p, e, inclination_deg;
     double energy, momentum, carter, r; /* r: NAN if not given */
     bool outward;
@@ -32,9 +33,8 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    double spin;   /* NAN if not given; the spin is then 0, or that of the named case */
-    double charge; /* NAN if not given; the charge is then 0 */
-    double periods,
+    KD_HOLE_MEMBERS /* NAN if not given, which is 0, or for the spin that of the named case */
+        double periods,
         /* Duration: radial periods (turns, if r is constant), or t in M. At most one is given, the other is NAN. */
         time;
     bool or_end;  /* follow a plunging or escaping orbit, which has no periods, to its end instead of refusing it */

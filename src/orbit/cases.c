@@ -8,25 +8,25 @@
 double kd_orbit_case_mass_msun(enum kd_orbit_case which) { return which == KD_CASE_MERCURY ? 1 : NAN; }
 
 /* Semi-major axis and eccentricity of Mercury from NASA's planetary fact sheet, GM of the Sun as IAU 2015 nominal. */
-static struct kd_orbit_spec mercury(double spin, double charge)
+static struct kd_orbit_spec mercury(struct kd_hole_given given)
 {
     const double axis_m = 57.909e9, e = 0.20563, gm_m = 1.3271244e20 / (299792458. * 299792458.);
     return (struct kd_orbit_spec) {
         .form = KD_ORBIT_SHAPE,
-        .spin = isnan(spin) ? 0 : spin,
-        .charge = charge,
+        KD_HOLE_FROM(&given),
         .e = e,
         .p = axis_m * (1 - e * e) / gm_m,
     };
 }
 
-struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin, double charge)
+struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, struct kd_hole_given given)
 {
-    const double q = isnan(charge) ? 0 : charge;
+    if (isnan(given.spin))
+        given.spin = which == KD_CASE_MERCURY ? 0 : 0.9;
     if (which == KD_CASE_MERCURY)
-        return mercury(spin, q);
-    struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, .spin = isnan(spin) ? 0.9 : spin, .charge = q };
-    const struct kd_hole hole = kd_hole_charged(spec.spin, q);
+        return mercury(given);
+    struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, KD_HOLE_FROM(&given) };
+    const struct kd_hole hole = kd_hole_from(given);
     if (!kd_hole_exists(&hole)) /* such a hole is refused later */
         return spec;
     switch (which) {

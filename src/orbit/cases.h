@@ -4,9 +4,8 @@
 
 #include "orbit/asked.h"
 
-/* The spec of a case in numbers, for a hole that exists. spin NAN: the case's own spin, which the result contains.
- * charge NAN: 0. */
-struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, double spin, double charge);
+/* The spec of a case in numbers, for a hole that exists. spin NAN: the case's own spin, which the result contains. */
+struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, struct kd_hole_given given);
 double kd_orbit_case_mass_msun(enum kd_orbit_case which); /* returns NAN if the case has none */
 
 #endif

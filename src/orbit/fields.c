@@ -19,15 +19,13 @@ _Static_assert(KD_ORBIT_SAMPLES_MAX == 200000, "the schema says so");
       .least = -1, \
       .most = 1, \
       .open = KD_OPEN, \
-      .help = "spin of the hole, a/M" }, \
-        { .name = "charge", \
-          .kind = KD_KIND_REAL, \
-          .offset = AT(charge), \
-          .least = -1, \
-          .most = 1, \
-          .open = KD_OPEN, \
-          .unit = "M", \
-          .help = "charge Q of the hole; the body is neutral; a^2 + Q^2 < 1" }
+      .help = "spin of the hole, a/M" } KD_HOLE_MORE(MORE, )
+#define MORE(x, name_, member, least_, most_, shown, unit_, card, what, bound, ...) \
+    , \
+    { \
+        .name = #name_, .kind = KD_KIND_REAL, .offset = AT(name_), .least = -1, .most = 1, .open = KD_OPEN, \
+        .unit = unit_, .help = what "; the body is neutral; " bound \
+    }
 
 static const struct kd_row settings[] = {
 #define AT(member) offsetof(struct kd_orbit_params, member)

@@ -25,16 +25,10 @@ static const char *const form_texts[KD_ORBIT_FORMS] = {
 
 void kd_orbit_request_init(struct kd_orbit_request *request)
 {
-    *request = (struct kd_orbit_request) { .params = { .spin = NAN,
-                                                       .charge = NAN,
-                                                       .periods = NAN,
-                                                       .time = NAN,
-                                                       .r_max = 100,
-                                                       .tolerance = 1e-12,
-                                                       .mass_msun = NAN,
-                                                       .samples = 1000,
-                                                       .digits = KD_DECIMAL_DIGITS,
-                                                       .seen = { INFINITY, NAN, 0, KD_OBSERVER_STATIC } } };
+    *request = (struct kd_orbit_request) {
+        .params = { KD_HOLE_ALL(NAN), .periods = NAN, .time = NAN, .r_max = 100, .tolerance = 1e-12, .mass_msun = NAN,
+                    .samples = 1000, .digits = KD_DECIMAL_DIGITS, .seen = { INFINITY, NAN, 0, KD_OBSERVER_STATIC } }
+    };
 }
 
 void kd_orbit_request_finish(struct kd_orbit_request *request)
@@ -46,7 +40,7 @@ void kd_orbit_request_finish(struct kd_orbit_request *request)
 static struct kd_orbit_spec empty_spec(void)
 {
     return (struct kd_orbit_spec) {
-        .form = KD_ORBIT_FORMS, .spin = NAN, .charge = NAN, .r = NAN, .theta_deg = 90, .frame = KD_OBSERVER_ZAMO
+        .form = KD_ORBIT_FORMS, KD_HOLE_ALL(NAN), .r = NAN, .theta_deg = 90, .frame = KD_OBSERVER_ZAMO
     };
 }
 
@@ -265,7 +259,7 @@ static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd
 static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit_params *params, struct kd_orbit *orbit,
                             struct kd_orbit_state *start, double *rounding, struct kd_error *error)
 {
-    const struct kd_hole hole = kd_hole_charged(s->spin, s->charge);
+    const struct kd_hole hole = kd_hole_in(s);
     double x = kd_cos_deg(s->inclination_deg), r = s->r;
     enum kd_status status;
     switch (s->form) {
@@ -284,29 +278,44 @@ static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit
     return status ? status : check_whirl(s, orbit, start, rounding, error);
 }
 
+/* Sets the parameters of the hole that the orbit does not have. The spin stays open where a named case may have its
+ * own. */
+static void inherit(struct kd_orbit_spec *spec, const struct kd_orbit_params *params)
+{
+    if (isnan(spec->spin))
+        spec->spin = params->spin;
+#define INHERIT(x, name, ...) \
+    if (isnan(spec->name)) \
+        spec->name = isnan(params->name) ? 0 : params->name;
+    KD_HOLE_MORE(INHERIT, )
+#undef INHERIT
+}
+
+/* Whether an error about the hole is about a parameter that is the request's and not the orbit's own. */
+static bool is_of_request(const char *pointer, const struct kd_orbit_spec *spec)
+{
+#define OR_MORE(x, name, ...) || (!strcmp(pointer, "/" #name) && isnan(spec->name))
+    return (!strcmp(pointer, "/spin") && isnan(spec->spin)) KD_HOLE_MORE(OR_MORE, );
+#undef OR_MORE
+}
+
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
                                       struct kd_orbit_state *start, double *rounding, struct kd_error *error)
 {
     struct kd_orbit_spec spec = request->specs[index];
     struct kd_error why = { 0 };
-    if (isnan(spec.spin))
-        spec.spin = request->params.spin;
-    if (isnan(spec.charge))
-        spec.charge = request->params.charge;
+    inherit(&spec, &request->params);
     if (spec.form == KD_ORBIT_CASE)
-        spec = kd_orbit_case_spec(spec.named, spec.spin, spec.charge);
+        spec = kd_orbit_case_spec(spec.named, kd_hole_given(&spec));
     if (isnan(spec.spin))
         spec.spin = 0;
-    if (isnan(spec.charge))
-        spec.charge = 0;
     enum kd_status status = solve(&spec, &request->params, orbit, start, rounding, &why);
     if (!status)
         return KD_OK;
     char pointer[sizeof why.pointer + 40];
     if (request->many)
         snprintf(pointer, sizeof pointer, "/orbits/%zu%s", index, why.pointer);
-    else if ((!strcmp(why.pointer, "/spin") && isnan(request->specs[0].spin)) ||
-             (!strcmp(why.pointer, "/charge") && isnan(request->specs[0].charge)))
+    else if (is_of_request(why.pointer, &request->specs[0]))
         snprintf(pointer, sizeof pointer, "%s", why.pointer);
     else
         snprintf(pointer, sizeof pointer, "/orbit%s", why.pointer);

@@ -15,15 +15,16 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
 #define KD_PLAYGROUND_BODIES_MAX 4096u
 #define KD_PLAYGROUND_DEBRIS_MAX 1000000u
 
-/* REAL and INT(NAME, default, least, most, help), BOOL(NAME, default, help), WORD(NAME, default, "a|b", help). gravity,
- * spin and charge cannot be changed once a playground is made. */
+/* REAL and INT(NAME, default, least, most, help), BOOL(NAME, default, help), WORD(NAME, default, "a|b", help). gravity
+ * and the hole cannot be changed once a playground is made. */
+#define KD_PLAYGROUND_HOLE_(REAL, name, member, least, most, shown, unit, card, what, bound, ...) \
+    REAL(name, 0, least, 0.999, what " in " unit " (gravity \"kerr\" only); the bodies are neutral; " bound)
 #define KD_PLAYGROUND_SETTINGS(REAL, INT, BOOL, WORD) \
     WORD(gravity, KD_GRAVITY_PACZYNSKI_WIITA, "paczynski-wiita|kerr", \
          "gravity of the hole: a potential, in which bodies also attract one another, or exact geodesics of test " \
          "bodies") \
     REAL(spin, 0, -0.999, 0.999, "spin of the hole (gravity \"kerr\" only)") \
-    REAL(charge, 0, 0, 0.999, \
-         "charge Q of the hole in M (gravity \"kerr\" only); the bodies are neutral; a^2 + Q^2 < 1") \
+    KD_HOLE_MORE(KD_PLAYGROUND_HOLE_, REAL) \
     REAL(softening, 0.05, 1e-4, 1e3, "softening length in M of the bodies' mutual attraction") \
     REAL(h_max, 1, 1e-6, 1e6, "longest sub-step in M, and the interval at which debris is advanced") \
     REAL(safety, 0.03, 1e-4, 0.2, \
@@ -61,7 +62,7 @@ extern const struct kd_document kd_playground_body_fields; /* numbers of struct 
 
 struct kd_playground_params kd_playground_defaults(void);
 /* The hole of gravity "kerr", for use as an argument. The value lives until the end of the enclosing block. */
-#define kd_playground_hole(params) ((const struct kd_hole[]) { kd_hole_charged((params)->spin, (params)->charge) })
+#define kd_playground_hole(params) ((const struct kd_hole[]) { kd_hole_in(params) })
 
 bool kd_playground_params_same(const struct kd_playground_params *a,
                                const struct kd_playground_params *b); /* compares all settings; in playground.c */

@@ -16,11 +16,14 @@ static enum kd_status check_hole(const struct kd_playground_params *params, stru
 {
     if (params->gravity == KD_GRAVITY_KERR)
         return kd_hole_check(kd_playground_hole(params), error);
-    if (params->charge != 0)
-        return kd_error_field(error, "/charge",
-                              "charge is %.9g; without gravity \"kerr\" it must be 0: the potential, in which stars "
-                              "are torn apart, is that of an uncharged hole",
-                              params->charge);
+#define MORE(x, name, ...) \
+    if (params->name != 0) \
+        return kd_error_field(error, "/" #name, \
+                              #name " is %.9g; without gravity \"kerr\" it must be 0: the potential, in which stars " \
+                                    "are torn apart, is that of an uncharged hole", \
+                              params->name);
+    KD_HOLE_MORE(MORE, )
+#undef MORE
     return KD_OK;
 }
 
@@ -209,8 +212,11 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
         return kd_error_field(error, "/gravity", "gravity cannot change after a playground is made");
     if (params->spin != p->params.spin)
         return kd_error_field(error, "/spin", "spin cannot change after a playground is made");
-    if (params->charge != p->params.charge)
-        return kd_error_field(error, "/charge", "charge cannot change after a playground is made");
+#define MORE(x, name, ...) \
+    if (params->name != p->params.name) \
+        return kd_error_field(error, "/" #name, #name " cannot change after a playground is made");
+    KD_HOLE_MORE(MORE, )
+#undef MORE
     struct kd_playground_params looks = *params; /* only appearance may differ */
     looks.debris_temperature_k = p->params.debris_temperature_k;
     looks.debris_depth = p->params.debris_depth;

@@ -96,7 +96,7 @@ enum kd_status kd_playground_remove(struct kd_playground *p, uint32_t id, struct
 /* Replaces the body with this id; the id stays. */
 enum kd_status kd_playground_change(struct kd_playground *p, uint32_t id, const struct kd_playground_body *body,
                                     struct kd_error *error);
-/* Changes the settings. KD_EINVAL if gravity, spin or charge would change. */
+/* Changes the settings. KD_EINVAL if gravity or the hole would change. */
 enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playground_params *params,
                                  struct kd_error *error);
 

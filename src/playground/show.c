@@ -239,17 +239,20 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
                                       struct kd_error *error)
 {
     const bool kerr = p->params.gravity == KD_GRAVITY_KERR;
-    const double charge = kerr ? p->params.charge : 0;
-    if (!kerr && scene->spacetime.charge != 0)
-        return kd_error_field(error, "/spacetime/charge",
-                              "spacetime.charge is %.9g; it must be 0: the playground's bodies and debris move in the "
-                              "potential of an uncharged hole",
-                              scene->spacetime.charge);
-    if (scene->spacetime.charge != charge)
-        return kd_error_field(
-            error, "/spacetime/charge",
-            "spacetime.charge is %.9g; it must be %.9g: the playground's bodies move round a hole of that charge",
-            scene->spacetime.charge, charge);
+#define MORE(x, name, ...) \
+    if (!kerr && scene->spacetime.name != 0) \
+        return kd_error_field(error, "/spacetime/" #name, \
+                              "spacetime." #name " is %.9g; it must be 0: the playground's bodies and debris move in " \
+                              "the potential of an uncharged hole", \
+                              scene->spacetime.name); \
+    if (kerr && scene->spacetime.name != p->params.name) \
+        return kd_error_field(error, "/spacetime/" #name, \
+                              "spacetime." #name \
+                              " is %.9g; it must be %.9g: the playground's bodies move round a hole " \
+                              "of that " #name, \
+                              scene->spacetime.name, p->params.name);
+    KD_HOLE_MORE(MORE, )
+#undef MORE
     if (kerr && p->params.spin != scene->spacetime.spin)
         return kd_error_field(
             error, "/spacetime/spin",
@@ -297,8 +300,7 @@ enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *pres
     KD_TRY(kd_scene_patch(out, size, sizeof size - 1, error));
     if (preset)
         KD_TRY(kd_scene_patch(out, preset->scene, strlen(preset->scene), error));
-    out->spacetime.spin = p->params.spin;
-    out->spacetime.charge = p->params.charge;
+    KD_HOLE_COPY(&out->spacetime, &p->params);
     if (!preset)
         KD_TRY(kd_playground_widen(p, out, error));
     KD_TRY(kd_scene_validate(out, error));

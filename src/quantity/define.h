@@ -48,11 +48,12 @@
 #define KD_PARAMETER_SPIN(P) \
     P(spin, .unit = "M", .typed = "0.9", .least = -1, .most = 1, .open = KD_OPEN, \
       .help = "spin parameter a; a < 0: the orbit or the disk turns against its hole")
-#define KD_PARAMETER_CHARGE(P) \
-    P(charge, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, \
-      .help = "charge Q of the hole; light and matter are neutral; a^2 + Q^2 < 1")
-/* The hole given by the parameters spin and charge, for use as an argument: kd_kerr_isco(KD_QUANTITY_HOLE(p)). */
-#define KD_QUANTITY_HOLE(p) ((const struct kd_hole[]) { kd_hole_charged((p)->spin, (p)->charge) })
+#define KD_DEFINE_MORE(P, name, member, least_, most_, shown, unit_, card, what, bound, ...) \
+    P(name, .unit = unit_, .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, \
+      .help = what "; light and matter are neutral; " bound)
+#define KD_PARAMETER_HOLE_MORE(P) KD_HOLE_MORE(KD_DEFINE_MORE, P)
+/* The hole given by these parameters, for use as an argument: kd_kerr_isco(KD_QUANTITY_HOLE(p)). */
+#define KD_QUANTITY_HOLE(p) ((const struct kd_hole[]) { kd_hole_in(p) })
 /* Results right, up and inwards: where an observer at a finite radius sees light. */
 #define KD_RESULTS_DIRECTION(O) \
     O(right, .unit = "1", \

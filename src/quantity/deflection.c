@@ -5,7 +5,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(b, .unit = "M", .typed = "10", .least = 1, .most = 1e12, \
       .help = "impact parameter of light in the equatorial plane, |L|/E")
 #define OUTPUTS(O) \

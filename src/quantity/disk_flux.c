@@ -6,7 +6,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     KD_PARAMETER_MASS(P) \
     P(mdot_edd, .unit = "Eddington rates", .typed = "0.1", .least = 1e-12, .most = 1e3, \
       .help = "accretion rate as luminosity over the Eddington luminosity, with the efficiency of this spin") \

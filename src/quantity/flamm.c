@@ -6,7 +6,7 @@
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(r, .unit = "M", .typed = "2:20:73", .least = 1, .most = 1e9, \
       .help = "Boyer-Lindquist radius, at or outside the horizon") \
     P(phi_deg, .unit = "degrees", .typed = "0", .least = -360, .most = 360, \

@@ -7,7 +7,7 @@
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "90", .least = 0, .most = 180, \
       .help = "polar angle of the falling observer") \
     P(infall_from, .unit = "M", .typed = "infinity", .least = 1, .most = 1e7, .words = "infinity", .stands = INFINITY, \
@@ -70,7 +70,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     (void)memory, (void)fresh;
     const struct parameters *p = KD_QUANTITY_IN(in);
     struct outputs *o = KD_QUANTITY_OUT(out);
-    const struct kd_vantage at = { kd_hole_charged(p->spin, p->charge), p->r, kd_cos_deg(p->inclination_deg),
+    const struct kd_vantage at = { kd_hole_in(p), p->r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_observer_motion motion = {
         .observer = KD_OBSERVER_INFALL,

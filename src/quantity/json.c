@@ -3,6 +3,9 @@
 
 #include "base/decimal.h"
 #include "base/pause.h"
+#include "physics/spacetime/hole.h"
+
+#include <string.h>
 
 static void write_axis(struct kd_writer *w, const struct kd_row *p, const struct kd_range *axis, int digits)
 {
@@ -77,6 +80,37 @@ static void write_units(struct kd_writer *w, const struct kd_quantity *quantity)
         kd_write(w, "%s\"%s\":\"%s\"", separator, quantity->outputs[i].name, quantity->outputs[i].unit);
 }
 
+/* The value of a parameter: of a range, one that is not 0. 0 if the quantity does not have the parameter. */
+static double value_of(const struct kd_quantity_request *request, const char *name)
+{
+    for (size_t i = 0; i < request->quantity->n_parameters; i++) {
+        const struct kd_range *axis = &request->axes[i];
+        if (!strcmp(request->quantity->parameters[i].name, name))
+            return axis->first != 0 ? axis->first : kd_range_at(axis, axis->count - 1);
+    }
+    return 0;
+}
+
+/* Writes the quantity's approximations, and those of the hole. */
+static void write_approximations(struct kd_writer *w, const struct kd_quantity_request *request)
+{
+    const char *const *own = request->quantity->approximations;
+    const struct kd_hole_sentence *of_hole;
+#define VALUE(x, of, ...) .of = value_of(request, #of),
+    const struct kd_hole_given hole = { KD_HOLE_MORE(VALUE, ) };
+#undef VALUE
+    const char *separator = "[";
+    for (size_t i = 0; own[i]; i++, separator = ",") {
+        kd_write(w, "%s", separator);
+        kd_write_string(w, own[i]);
+    }
+    for (size_t i = 0; (of_hole = kd_hole_sentence(hole, i)); i++, separator = ",") {
+        kd_write(w, "%s", separator);
+        kd_write_string(w, of_hole->text);
+    }
+    kd_write(w, *separator == '[' ? "[]" : "]");
+}
+
 enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct kd_buffer *out)
 {
     const struct kd_quantity *quantity = answer->request.quantity;
@@ -95,7 +129,7 @@ enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct 
     kd_write(w, "},\"sources\":");
     kd_quantity_write_sentences(w, quantity->sources);
     kd_write(w, ",\"approximations\":");
-    kd_quantity_write_sentences(w, quantity->approximations);
+    write_approximations(w, &answer->request);
     kd_write(w, "}\n");
     return writer.status;
 }

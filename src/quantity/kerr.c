@@ -6,7 +6,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(theta_deg, .unit = "degrees", .typed = "90", .least = 0, .most = 180, \
       .help = "polar angle at which the ergosphere is given") \
     P(r, .unit = "M", .typed = "10", .least = 1, .most = 1e9, .words = "isco", .stands = INFINITY, \

@@ -7,7 +7,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer, who is at infinity; at 90 the equatorial plane is seen edge-on") \
     P(angle_deg, .unit = "degrees", .typed = "0", .least = -360, .most = 720, \
@@ -65,7 +65,7 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
                                    horizon);
     if (!(p->outer > m->inner))
         return kd_quantity_outside(error, "outer", p->outer, "not above inner, %.9g M; it must be larger", m->inner);
-    m->curve = kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_charged(p->spin, p->charge),
+    m->curve = kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_in(p),
                                                                .radius = INFINITY,
                                                                .cos_theta = fabs(kd_cos_deg(p->inclination_deg)),
                                                                .sin_theta = kd_sin_deg(p->inclination_deg) });

@@ -5,7 +5,7 @@
 
 #define PARAMETERS(P) \
     P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(l, .unit = "M", .typed = "4", .least = -1e6, .most = 1e6, \
       .help = "angular momentum, positive towards +phi: per unit mass for matter, and of the photon for v_light") \
     P(r, .unit = "M", .typed = "2:30:281", .least = 1, .most = 1e9, .help = "radius")

@@ -7,7 +7,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer, at infinity; not within 0.1 of 90") \
     P(r, .unit = "M", .typed = "6", .least = 1, .most = 1e4, .words = "isco", .stands = INFINITY, \

@@ -6,7 +6,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(limb, .typed = "isotropic", .kind = KD_KIND_WORD, .words = "isotropic|laor|haardt|scattering", \
       .help = "light of the disk's surface by the angle to its normal: the laws of /v1/spectrum") \
     P(r, .unit = "M", .typed = "10", .least = 1, .most = 1e6, .words = "isco", .stands = INFINITY, \
@@ -61,7 +61,7 @@ struct memory { struct kd_returning table; };
 
 static enum kd_status begin(const struct parameters *p, struct memory *m, struct outputs *o, struct kd_error *error)
 {
-    const struct kd_hole hole = kd_hole_charged(p->spin, p->charge);
+    const struct kd_hole hole = kd_hole_in(p);
     const struct kd_hole_parameter largest = kd_hole_largest(&hole);
     if (kd_hole_check(&hole, error))
         return KD_EINVAL;

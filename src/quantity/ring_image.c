@@ -7,7 +7,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer; not within 0.1 of 90") \
     KD_PARAMETER_OBSERVER(P) \
@@ -50,7 +50,7 @@ struct memory {
 static enum kd_status make(const struct parameters *p, double r, struct memory *m, struct kd_error *error)
 {
     const double i = p->inclination_deg;
-    const struct kd_vantage at = { kd_hole_charged(p->spin, p->charge), p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
+    const struct kd_vantage at = { kd_hole_in(p), p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
     const struct kd_observer_motion motion = KD_QUANTITY_MOTION(p);
     if (isinf(at.r)) { /* from below the plane the ring looks the same except for beta */
         m->far = kd_ring_image_plain(KD_QUANTITY_HOLE(p), (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);

@@ -10,7 +10,7 @@
     P(hole, .typed = "m87", .kind = KD_KIND_WORD, .words = "m87|sgra|none", \
       .help = "a hole whose ring has been measured: M87*, Sgr A*") \
     P(spin, .unit = "M", .typed = "0", .least = -1, .most = 1, .open = KD_OPEN, .help = "spin parameter a") \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "0", .least = 0, .most = 180, \
       .help = "polar angle of the observer, for the shadow of a hole with spin") \
     P(mass_msun, .unit = "solar masses", .typed = "hole", .least = 1e-3, .most = 1e12, .words = "hole", \
@@ -35,8 +35,8 @@
     O(photon_period_s, .unit = "s", \
       .help = "period of the circular photon orbit towards +phi, for an observer far away") \
     O(fall_s, .unit = "s", \
-      .help = "proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M; null with " \
-              "charge") \
+      .help = "proper time from horizon to singularity of a fall from rest at infinity, a = Q = 0: 4/3 M; null " \
+              "with charge") \
     O(fall_longest_s, .unit = "s", \
       .help = "longest proper time from horizon to singularity, a = Q = 0: pi M; null with charge")
 KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
@@ -103,7 +103,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     o->light_crossing_s = 2 * horizon * o->m_s;
     o->isco_period_s = 2 * M_PI / kd_kerr_omega(black, kd_kerr_isco(black)) * o->m_s;
     o->photon_period_s = 2 * M_PI / kd_kerr_omega(black, kd_kerr_photon_orbit(black)) * o->m_s;
-    const double falls = kd_hole_is_charged(black) ? NAN : 1; /* neutral matter turns back within a charged hole */
+    const double falls = kd_hole_is_kerr(black) ? 1 : NAN; /* neutral matter turns back within a charged hole */
     o->fall_s = falls * KD_SCALE_FALL * o->m_s;
     o->fall_longest_s = falls * KD_SCALE_FALL_LONGEST * o->m_s;
     return KD_OK;

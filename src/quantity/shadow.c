@@ -5,7 +5,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer") \
     KD_PARAMETER_OBSERVER(P) \
@@ -50,7 +50,7 @@ struct memory { struct kd_critical curve; };
 static enum kd_status make_curve(const struct parameters *p, struct memory *m, struct outputs *o,
                                  struct kd_error *error)
 {
-    const struct kd_vantage at = { kd_hole_charged(p->spin, p->charge), p->observer_r, kd_cos_deg(p->inclination_deg),
+    const struct kd_vantage at = { kd_hole_in(p), p->observer_r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
         .hole = at.hole,

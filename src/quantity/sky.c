@@ -5,7 +5,7 @@
 
 #define PARAMETERS(P) \
     KD_PARAMETER_SPIN(P) \
-    KD_PARAMETER_CHARGE(P) \
+    KD_PARAMETER_HOLE_MORE(P) \
     P(inclination_deg, .unit = "degrees", .typed = "60", .least = 0, .most = 180, \
       .help = "polar angle of the observer") \
     KD_PARAMETER_OBSERVER(P) \
@@ -48,7 +48,7 @@ static void far_away(struct outputs *o) { *o = (struct outputs) { 1, 1, 1, 1, 1,
 static enum kd_status look_around(const struct parameters *p, struct kd_sky_view *view, struct outputs *o,
                                   struct kd_error *error)
 {
-    const struct kd_vantage at = { kd_hole_charged(p->spin, p->charge), p->observer_r, kd_cos_deg(p->inclination_deg),
+    const struct kd_vantage at = { kd_hole_in(p), p->observer_r, kd_cos_deg(p->inclination_deg),
                                    kd_sin_deg(p->inclination_deg) };
     const struct kd_critical_observer observer = {
         .hole = at.hole,

@@ -5,14 +5,15 @@
 #ifndef KD_SCENE_ASSET_H
 #define KD_SCENE_ASSET_H
 
+#include "physics/spacetime/parameters.h"
 #include "scene/scene.h"
 
 #include <stddef.h>
 
 /* Properties of a grid of matter (render/emit/matter_grid.h). */
 struct kd_asset_grid {
-    uint32_t nodes[3];   /* nodes in r, theta and phi; 0: the asset is not a grid */
-    double spin, charge; /* of the hole for which it was made */
+    uint32_t nodes[3]; /* nodes in r, theta and phi; 0: the asset is not a grid */
+    KD_HOLE_MEMBERS    /* of the hole for which it was made */
 };
 /* Properties of an asset, which is a picture or a grid of matter. */
 struct kd_asset_found {
@@ -41,7 +42,7 @@ struct kd_assets {
 /* kd_scene_resolve replaces each name by the hash, checks that each hash exists, and sets the scene's grid_nodes. If an
  * asset is missing or of the wrong kind it returns KD_EINVAL with the field's pointer, and *scene stays unchanged.
  * sky.image must be a picture that is twice as wide as high and has KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows.
- * volume.grid must be a grid of matter around a hole of the scene's spin and charge. */
+ * volume.grid must be a grid of matter around a hole of the scene's parameters. */
 enum { KD_PANORAMA_LEAST = 16, KD_PANORAMA_MOST = 4096 };
 static inline bool kd_asset_is_panorama(uint32_t width, uint32_t height)
 {

@@ -29,12 +29,14 @@
 #define KD_SCENE_FIELDS_H
 
 #include "physics/spacetime/observer.h"
+#include "physics/spacetime/parameters.h"
 
+#define KD_HOLE_FIELD_(REAL, name, member, least, most, shown, unit, card, what, bound, help, ...) \
+    REAL(spacetime, name, PHYSICS, REST, 0.0, least, most, unit, help)
 #define KD_SPACETIME_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(spacetime, spin, PHYSICS, FRONT, 0.7, -0.999999999999, 0.999999999999, "M", \
          "spin parameter a; a < 0: the disk is retrograde to its hole") \
-    REAL(spacetime, charge, PHYSICS, REST, 0.0, 0.0, 0.999999999999, "M", \
-         "electric charge Q of the hole (Kerr-Newman), which acts on space-time alone: light and matter are neutral") \
+    KD_HOLE_MORE(KD_HOLE_FIELD_, REAL) \
     REAL(spacetime, mass_msun, PHYSICS, REST, 1e8, 1e-3, 1e12, "solar masses", \
          "mass of the hole; sets the temperature when disk.colour is \"accretion\"") \
     REAL(spacetime, distance_pc, PHYSICS, REST, 260000.0, 1e-3, 1e11, "pc", \
@@ -569,12 +571,14 @@
     WITH(path, "model", KD_SKY_STARS) WITH(path, "model", KD_SKY_CATALOGUE) WITH(path, "model", KD_SKY_IMAGE)
 /* clang-format on */
 
+#define KD_HOLE_SPAN_(SPAN, name, member, least, most, shown, ...) SPAN("spacetime." #name, least, shown)
+
 /* Controls of the page (scene/control.h). Fields are named by their paths, without an index for lists. Rows of one
  * section are adjacent. */
 /* clang-format off */
 #define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON) \
     SPAN("spacetime.spin", -0.998, 0.998) \
-    SPAN("spacetime.charge", 0, 0.99) \
+    KD_HOLE_MORE(KD_HOLE_SPAN_, SPAN) \
     SPAN("spacetime.mass_msun", 1, 1e10) \
     SPAN("spacetime.distance_pc", 1e3, 1e9) \
     SPAN("camera.r", 2.1, 1000) FIRST("camera.r", 60) \

@@ -6,7 +6,6 @@
 #include "scene/scene.h"
 
 /* For use as an argument. The value lives until the end of the enclosing block. */
-#define kd_scene_hole(scene) \
-    ((const struct kd_hole[]) { kd_hole_charged((scene)->spacetime.spin, (scene)->spacetime.charge) })
+#define kd_scene_hole(scene) ((const struct kd_hole[]) { kd_hole_in(&(scene)->spacetime) })
 
 #endif

@@ -24,14 +24,18 @@ static struct shown show(double value)
 }
 
 /* The hole's fields and their values, for messages. */
-struct hole_shown { char text[2 * KD_NUMBER_SIZE + 40]; };
+struct hole_shown { char text[(1 + KD_HOLE_MORE_COUNT) * (KD_NUMBER_SIZE + 40)]; };
 
 static struct hole_shown show_hole(const struct kd_scene *scene)
 {
     struct hole_shown s;
     int n = snprintf(s.text, sizeof s.text, "spacetime.spin %s", show(scene->spacetime.spin).text);
-    if (scene->spacetime.charge != 0)
-        snprintf(s.text + n, sizeof s.text - (size_t)n, " and spacetime.charge %s", show(scene->spacetime.charge).text);
+#define SHOW(x, name, ...) \
+    if (scene->spacetime.name != 0) \
+        n += snprintf(s.text + n, sizeof s.text - (size_t)n, " and spacetime." #name " %s", \
+                      show(scene->spacetime.name).text);
+    KD_HOLE_MORE(SHOW, )
+#undef SHOW
     return s;
 }
 
@@ -327,8 +331,7 @@ static enum kd_status returning(const struct kd_scene *scene, struct kd_error *e
 {
     const bool reflects = scene->disk.returning == KD_RETURNS_REFLECTED;
     const char *word = reflects ? "reflected" : "thermalised";
-    const double a = scene->spacetime.spin, q = scene->spacetime.charge,
-                 fastest = reflects ? FASTEST_REFLECTS : FASTEST_RETURNS;
+    const double fastest = reflects ? FASTEST_REFLECTS : FASTEST_RETURNS;
     if (!scene->disk.returning || scene->disk.model == KD_DISK_NONE)
         return KD_OK;
     if (scene->disk.model == KD_DISK_SHAKURA_SUNYAEV)
@@ -346,7 +349,7 @@ static enum kd_status returning(const struct kd_scene *scene, struct kd_error *e
                               "disk.returning is \"%s\", which needs a thin disk; with disk.height %s it must be "
                               "\"none\"",
                               word, show(scene->disk.height).text);
-    if (a * a + q * q > fastest * fastest)
+    if (kd_hole_horizons(kd_scene_hole(scene)) > fastest * fastest)
         return kd_error_field(error, "/disk/returning",
                               "disk.returning is \"%s\", which needs a^2 + Q^2 of at most %s^2; with %s it must be "
                               "\"none\"",

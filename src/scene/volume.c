@@ -47,6 +47,11 @@ enum kd_status kd_asset_check_grid(const struct kd_asset_grid *grid, const struc
 {
     if (scene->volume.model != KD_VOLUME_GRID)
         return KD_OK;
-    const enum kd_status status = check_same("spin", grid->spin, scene->spacetime.spin, error);
-    return status ? status : check_same("charge", grid->charge, scene->spacetime.charge, error);
+    enum kd_status status;
+    KD_TRY(check_same("spin", grid->spin, scene->spacetime.spin, error));
+#define SAME(x, name, ...) KD_TRY(check_same(#name, grid->name, scene->spacetime.name, error));
+    KD_HOLE_MORE(SAME, )
+#undef SAME
+done:
+    return status;
 }

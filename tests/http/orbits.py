@@ -187,7 +187,11 @@ class Orbits(daemon.Case):
         self.assertAlmostEqual(answer["advance"]["weak_field"], (6 - q * q) * math.pi / p, delta=1e-14)
         measured = answer["result"]["periastron_advance_measured"]
         self.assertAlmostEqual(measured, answer["advance"]["periastron"], delta=1e-10)
-        self.assertNotIn("charge", strict(self.good({"orbit": {"p": p, "e": e}, "samples": 0}).body))
+        told = {one["name"]: one["sentence"] for one in self.daemon.get("/v1/approximations").json()["approximations"]}
+        self.assertIn(told["hole.charged"], answer["result"]["approximations"])
+        bare = strict(self.good({"orbit": {"p": p, "e": e}, "samples": 0}).body)
+        self.assertNotIn("charge", bare)
+        self.assertNotIn(told["hole.charged"], bare["result"]["approximations"])
         orbits = [{"p": 9, "e": 0.3}, {"p": 9, "e": 0.3, "charge": 0.2}, {"case": "isco", "spin": 0.5}]
         answers = strict(self.good({"charge": 0.6, "orbits": orbits}).body)["orbits"]
         self.assertEqual([a["charge"] for a in answers], [0.6, 0.2, 0.6])

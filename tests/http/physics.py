@@ -69,7 +69,9 @@ class Physics(daemon.Case):
             self.assertAlmostEqual(values[name], exact, delta=1e-14 * exact)
 
     def test_charge(self):
-        """Quantities of a charged hole have the charge as a parameter. Other quantities refuse it by name."""
+        """Quantities of a charged hole have the charge as a parameter, and tell that real holes have next to none. Other
+        quantities refuse it by name."""
+        told = {one["name"]: one["sentence"] for one in self.daemon.get("/v1/approximations").json()["approximations"]}
         charged = {
             "kerr",
             "shadow",
@@ -97,6 +99,9 @@ class Physics(daemon.Case):
                     problem = self.assertProblem(self.daemon.get(query + "charge=0.3"), 422, "invalid-parameters")
                     self.assertEqual(problem["pointer"], "/charge")
                     continue
+                for hole, wanted in {"charge=-0.5": True, "charge=0:0.5:2": True, "charge=0": False, "": False}.items():
+                    answer = self.daemon.get(query + "spin=0.2&" + hole).json()
+                    self.assertEqual(told["hole.charged"] in answer["approximations"], wanted, hole)
                 some, none = (self.daemon.get(query + f"spin=0.2&charge={q}").json()["values"] for q in (-0.5, 1e-300))
                 self.assertEqual(none, self.daemon.get(query + "spin=0.2").json()["values"])
                 self.assertNotEqual(some, none)
@@ -616,6 +621,7 @@ class Integrals(daemon.Case):
     def test_charge(self):
         """The disk is that of the charged hole. Face-on, without spin, each ring has one energy, 1/u^t = sqrt(1 - 3/r +
         2 Q^2/r^2), so that the line ends at that of the ISCO, which is the root of r^3 - 6 r^2 + 9 Q^2 r - 4 Q^4."""
+        told = {one["name"]: one["sentence"] for one in self.daemon.get("/v1/approximations").json()["approximations"]}
         q, isco = 0.9, 4.51374504671510329
         hole = {"spin": 0, "charge": q}
         red, blue = ((1 - 3 / r + 2 * q * q / r**2) ** 0.5 for r in (isco, 30))
@@ -633,10 +639,14 @@ class Integrals(daemon.Case):
         self.assertAlmostEqual(spectrum["t_max_k"] / peak["t_peak_k"], 1, delta=1e-12)
         for name, more in ("line", {"bins": 9}), ("transfer-function", {"rings": 2}), ("spectrum", {"frequencies": 4}):
             with self.subTest(name):
-                none, tiny, some, other = (
-                    self.post(name, {"spin": 0.3, "inclination_deg": 50, **more, **charge}).json()["columns"]
+                answers = [
+                    self.post(name, {"spin": 0.3, "inclination_deg": 50, **more, **charge}).json()
                     for charge in ({}, {"charge": 1e-300}, {"charge": 0.5}, {"charge": -0.5})
+                ]
+                self.assertEqual(
+                    [told["hole.charged"] in answer["approximations"] for answer in answers], [False, True, True, True]
                 )
+                none, tiny, some, other = (answer["columns"] for answer in answers)
                 self.assertEqual(none, tiny)
                 self.assertNotEqual(none, some)
                 self.assertEqual(some, other)

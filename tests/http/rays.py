@@ -522,6 +522,7 @@ class Closed(daemon.Case):
     def test_charge(self):
         """Critical impact parameters without spin: E. F. Eiroa, G. E. Romero & D. F. Torres 2002, Phys. Rev. D 66, 024010,
         with r = (3 + sqrt(9 - 8 Q^2))/2."""
+        told = {one["name"]: one["sentence"] for one in self.daemon.get("/v1/approximations").json()["approximations"]}
         for charge in 0.5, -0.6, 0.999999:
             r = (3 + math.sqrt(9 - 8 * charge**2)) / 2
             critical = r * r / math.sqrt(r * (r - 2) + charge**2)
@@ -533,7 +534,10 @@ class Closed(daemon.Case):
             )
             self.assertEqual([ray["fate"] for ray in answer["rays"]], ["captured", "escaped"])
             self.assertEqual(answer["charge"], charge)
-        self.assertNotIn("charge", self.ask(spin=0, rays=[[7, 1]]))
+            self.assertIn(told["hole.charged"], answer["approximations"])
+        bare = self.ask(spin=0, rays=[[7, 1]])
+        self.assertNotIn("charge", bare)
+        self.assertNotIn(told["hole.charged"], bare["approximations"])
 
     def test_gas_that_plunges(self):
         # The hole is seen from above, so that lambda = 0. Light that leaves inwards reaches its turning point first,

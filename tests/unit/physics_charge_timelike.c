@@ -284,9 +284,63 @@ static void too_much_charge(void **state)
     assert_non_null(strstr(error.message, "charge is 0.7 M; with spin 0.8 its magnitude must be below 0.6 M"));
 }
 
+/* Radial parts of the rates of phi and t in Mino time where the horizons are close, sqrt(1 - a^2 - q^2) from 5e-7 to
+ * 1.4e-3: quadrature of the metric's rates in 40 digits between the roots of the radial potential, for the constants of
+ * motion that the library has. */
+static void rates_about_close_horizons(void **state)
+{
+    static const struct {
+        double a, q, p, e, x, phi, t;
+    } known[] = {
+        { 0.9, 0.43588989435371955, 6, 0.3, 0.8, 0.32732540718754065, 53.684249561512082 },
+        { 0.9999999999995, 0, 8, 0.5, 0.5, 0.29129828210758094, 112.37339787345746 },
+        { 0, 0.9999999999995, 9, 0.2, 1, 0, 102.19272645849319 },
+        { 0.999999, 0, 4, 0.4, 0.9, 0.5894295094823465, 30.390445664737223 },
+    };
+    (void)state;
+    for (size_t i = 0; i < COUNT(known); i++) {
+        const struct kd_hole hole = kd_hole_charged(known[i].a, known[i].q);
+        struct kd_orbit o;
+        struct kd_error error;
+        assert_int_equal(kd_orbit_from_shape(&hole, known[i].p, known[i].e, known[i].x, &o, &error), KD_OK);
+        const struct kd_orbit_state start = kd_orbit_start(&o, NAN, false);
+        const struct kd_orbit_bound b = kd_orbit_bound_of(&o, &start);
+        const double half = b.quarter_r / b.unit_r;
+        assert_true(fabs(b.half_r.phi / half - known[i].phi) <= 2e-14 * known[i].phi);
+        assert_true(fabs(b.half_r.t / half - known[i].t) <= 2e-14 * known[i].t);
+    }
+}
+
+/* On the way, in the plane: phi is the integral of a (2E r - aL - q^2 E)/Delta + L over Mino time, by Simpson's rule.
+ */
+static void way_about_close_horizons(void **state)
+{
+    enum { STEPS = 400 };
+    const struct kd_hole hole = kd_hole_charged(0.9, 0.43588989435371955);
+    struct kd_orbit o;
+    struct kd_error error;
+    (void)state;
+    assert_int_equal(kd_orbit_from_shape(&hole, 5, 0.3, 1, &o, &error), KD_OK);
+    const struct kd_orbit_state start = kd_orbit_start(&o, NAN, false);
+    const struct kd_orbit_bound b = kd_orbit_bound_of(&o, &start);
+    for (int part = 1; part <= 5; part++) {
+        const double mino = 0.37 * part * b.quarter_r / b.unit_r, step = mino / STEPS;
+        double sum = 0;
+        for (int k = 0; k <= STEPS; k++) {
+            const double r = kd_orbit_bound_at(&b, k * step).r, delta = (r - 1 - hole.root) * (r - 1 + hole.root),
+                         rate = hole.a * (2 * o.energy * r - hole.a * o.momentum - hole.q * hole.q * o.energy) / delta;
+            sum += (k == 0 || k == STEPS ? 1 : k % 2 ? 4 : 2) * (rate + o.momentum);
+        }
+        const double phi = sum * step / 3;
+        assert_true(fabs(kd_orbit_bound_at(&b, mino).phi - phi) < 1e-11 * fabs(phi));
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rates_about_close_horizons),
+        cmocka_unit_test(way_about_close_horizons),
         cmocka_unit_test(norm_at_the_turning_points),
         cmocka_unit_test(radial_by_energy),
         cmocka_unit_test(bound_orbits),

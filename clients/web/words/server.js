@@ -35,6 +35,8 @@ const sentences = {
   'said.the-server-is-stopping-and': 'the server is stopping and accepts no new sessions',
   'said.each-point-has-one-image':
     'each point has one image, which is continuous with the image of the point before; it is the direct image, but close to a spinning hole seen nearly edge on it may become an image whose light has gone round the hole; points within 1.2 horizon radii have no image',
+  'hole.charged':
+    'hole: it has a charge, which matter around a real hole would soon neutralise; light and matter here are neutral, and the charge affects them only through space-time',
   'said.the-body-is-a-test': 'the body is a test particle: no gravity of its own, no radiation, no tidal disruption',
   'said.spin-parameter-a-a-0': 'spin parameter a; a < 0: the orbit or the disk turns against its hole',
   'said.spin-parameter-a-a-0-the': "spin parameter a; a < 0: the star's orbit is against the hole's spin",

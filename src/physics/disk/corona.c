@@ -529,7 +529,10 @@ static enum kd_status make_light(const struct kd_hole *hole, const struct kd_cor
 }
 
 enum { KEPT = 64 };
-struct key { double a, q, inner, outer, photon_index, from, to, height, top, motion; };
+struct key {
+    struct kd_hole_given hole;
+    double inner, outer, photon_index, from, to, height, top, motion;
+};
 static struct entry {
     struct key key;
     unsigned long used; /* time of last use; 0: empty */
@@ -565,8 +568,8 @@ static void keep(const struct key *key, const struct kd_corona_light *light)
 enum kd_status kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
                                   double inner, double outer, struct kd_corona_light *out)
 {
-    const struct key key = { hole->a,      hole->q,      inner,         outer,      photon_index,
-                             shape->inner, shape->outer, shape->height, shape->top, (double)shape->motion };
+    const struct key key = { kd_hole_told(hole), inner,         outer,      photon_index,         shape->inner,
+                             shape->outer,       shape->height, shape->top, (double)shape->motion };
     if (look_up(&key, out))
         return KD_OK;
     const enum kd_status status = make_light(hole, shape, photon_index, inner, outer, out);

@@ -20,6 +20,24 @@ static double integral_pole(struct phase at, double rest)
     return at.s == 0 ? 0 : at.s * at.s * at.s * kd_carlson_rj(at.c2, at.d2, 1, rest) / 3;
 }
 
+/* Whether the horizons are close. By the difference of the integrals at both, t and phi are off by some
+ * 1e-16/(r+ - r-). */
+static bool is_close(const struct kd_hole *hole) { return hole->root < 0.03; }
+
+/* Int du/Delta from that over r - r-: the divided difference of `j_plus` below over r+ - r-. A product f g has f(r+)
+ * that of g + g(r-) that of f. beyond: r2 - r+ and r2 - r-; s2: sn^2 at the end. */
+static double between_poles(const struct kd_orbit_bound *b, double u, struct phase at, const double beyond[2])
+{
+    const double s2 = at.s * at.s, fall = b->h * (b->r[1] - b->r[2]), both = beyond[0] * beyond[1],
+                 plus = 1 - b->h_plus * s2, minus = 1 - b->h_minus * s2, third = at.s * s2 / 3;
+    if (at.s == 0)
+        return u / both;
+    const struct kd_carlson_arg arg = { sqrt(at.c2), sqrt(at.d2) + 1, sqrt(at.d2) };
+    const double slope = third * kd_carlson_rj_slope(arg, plus, minus) * s2 * fall / both,
+                 pole = third * kd_carlson_rj(at.c2, at.d2, 1, minus);
+    return u / both - fall * (slope / (beyond[0] * beyond[0]) + pole * (beyond[0] + beyond[1]) / (both * both));
+}
+
 /* Radial part of the integrals from periastron to the phase u, whose functions are `at`. With s = sn^2,
  *
  *   r = r2 + (r2 - r3) h s/(1 - h s)      1/(r - r5) = (1 - h (r2 - r3)/(r2 - r5) s/(1 - h5 s))/(r2 - r5)
@@ -42,13 +60,19 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
     double bracket = at.s * sqrt(at.c2 * at.d2) / rest - u - (3 * b->h - 2 - 2 * b->k_r + q) * pole + q * sum_s;
     double i1 = r2 * u + (r2 - r3) * b->h * pole;
     double i2 = r2 * r2 * u + 2 * r2 * (r2 - r3) * b->h * pole - 0.5 * (r1 - r3) * (r2 - r4) * b->h * bracket;
-    double at_plus = b->h * (r2 - r3) / (r2 - plus) * integral_pole(at, 1 - b->h_plus * s2);
-    double at_minus = b->h * (r2 - r3) / (r2 - minus) * integral_pole(at, 1 - b->h_minus * s2);
-    double j_plus = (u - at_plus) / (r2 - plus), j_minus = (u - at_minus) / (r2 - minus);
+    const double *beyond = b->beyond;
+    double at_plus = b->h * (r2 - r3) / beyond[0] * integral_pole(at, 1 - b->h_plus * s2);
+    double at_minus = b->h * (r2 - r3) / beyond[1] * integral_pole(at, 1 - b->h_minus * s2);
+    double j_plus = (u - at_plus) / beyond[0], j_minus = (u - at_minus) / beyond[1];
     double flat = 4 * a * a * o->energy + o->nearer;
     double poles_t = ((o->near * plus - flat) * j_plus - (o->near * minus - flat) * j_minus) / gap;
     double twice = 2 * o->energy, back = o->drag;
     double poles_phi = ((twice * plus - back) * j_plus - (twice * minus - back) * j_minus) / gap;
+    if (is_close(&o->hole)) { /* the numerators are divided by r - 1: the mean of both poles, and a remainder */
+        double mean = 0.5 * (j_plus + j_minus), both = between_poles(b, u, at, beyond);
+        poles_t = o->near * mean + (o->near - flat) * both;
+        poles_phi = twice * mean + (twice - back) * both;
+    }
     return (struct kd_orbit_sums) {
         .proper = i2 / b->unit_r,
         .t = (o->energy * (i2 + 2 * i1 + o->four * u) + poles_t) / b->unit_r,
@@ -126,8 +150,12 @@ static void set_radial(struct kd_orbit_bound *b)
     b->k_r = b->h * (r[2] - r[3]) / deep;
     b->k1_r = o->circular ? 1 : (r[0] - r[3]) * (r[1] - r[2]) / (wide * deep);
     b->pace_r = 0.5 * sqrt(o->binding * wide * deep);
-    b->h_plus = b->h * (r[2] - o->hole.outer) / (r[1] - o->hole.outer);
-    b->h_minus = b->h * (r[2] - o->hole.inner) / (r[1] - o->hole.inner);
+    for (int i = 0; i < 2; i++) { /* next to close horizons r - 1 is exact */
+        double horizon = i ? o->hole.inner : o->hole.outer, root = i ? -o->hole.root : o->hole.root;
+        b->beyond[i] = is_close(&o->hole) ? r[1] - 1 - root : r[1] - horizon;
+    }
+    b->h_plus = b->h * (r[2] - o->hole.outer) / b->beyond[0];
+    b->h_minus = b->h * (r[2] - o->hole.inner) / b->beyond[1];
     b->unit_r = o->circular ? 1 : b->pace_r;
     b->quarter_r = o->circular ? 1 : kd_carlson_rf(0, b->k1_r, 1);
     b->half_r =

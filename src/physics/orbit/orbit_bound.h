@@ -18,6 +18,7 @@ struct kd_orbit_bound {
     double pace_r, k_r, k1_r, quarter_r; /* r is a function of sn^2(pace lambda | k), quarter = K(k); k1 = 1 - k */
     double unit_r;                       /* equal to the pace; 1 for a circle, where quarter_r is 1 and half_r holds
                                           * the rates */
+    double beyond[2];                    /* r[1] - r+ and r[1] - r- */
     double h, h_plus, h_minus;
     double pace_z, k_z, k1_z, quarter_z; /* u = sqrt(z) sn(pace lambda | k) */
     /* sums from periastron to apastron, and from the equator to a turning point of theta */

@@ -25,6 +25,17 @@ enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error)
     return KD_OK;
 }
 
+const struct kd_hole_sentence *kd_hole_sentence(struct kd_hole_given given, size_t index)
+{
+#define TELL(x, name_, member, least, most, shown, unit, card, what, bound, help, source, told, text_) \
+    static const struct kd_hole_sentence of_##name_ = { .name = told, .text = text_ }; \
+    if (given.name_ != 0 && !index--) \
+        return &of_##name_;
+    KD_HOLE_MORE(TELL, )
+#undef TELL
+    return NULL;
+}
+
 struct kd_hole_parameter kd_hole_largest(const struct kd_hole *hole)
 {
     if (fabs(hole->q) > fabs(hole->a))

@@ -8,9 +8,11 @@
 #define KD_PHYSICS_SPACETIME_HOLE_H
 
 #include "base/error.h"
+#include "physics/spacetime/parameters.h"
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 struct kd_hole {
     double a;     /* spin */
@@ -33,11 +35,27 @@ static inline struct kd_hole kd_hole_of(double a)
  * by bit. */
 struct kd_hole kd_hole_charged(double a, double q);
 
+/* The hole of given parameters; kd_hole_in: of a struct that has them as members. kd_hole_told is the inverse. */
+static inline struct kd_hole kd_hole_from(struct kd_hole_given given)
+{
+    return kd_hole_charged(given.spin, given.charge);
+}
+#define kd_hole_in(from) kd_hole_from(kd_hole_given(from))
+static inline struct kd_hole_given kd_hole_told(const struct kd_hole *hole)
+{
+#define KD_TOLD_(x, name, member, ...) , .name = hole->member
+    return (struct kd_hole_given) { .spin = hole->a KD_HOLE_MORE(KD_TOLD_, ) };
+#undef KD_TOLD_
+}
+
 /* q^2, on which all effects of the charge depend; for functions that need it alone. */
 static inline double kd_hole_charge2(const struct kd_hole *hole) { return hole->q * hole->q; }
 
 /* True if the charge has any effect: its square does not underflow. */
 static inline bool kd_hole_is_charged(const struct kd_hole *hole) { return hole->q * hole->q > 0; }
+
+/* Whether the metric is Kerr's: no parameter besides the spin has any effect. */
+static inline bool kd_hole_is_kerr(const struct kd_hole *hole) { return !kd_hole_is_charged(hole); }
 
 /* False for a struct of zeros and outside the domain. */
 static inline bool kd_hole_exists(const struct kd_hole *hole)
@@ -47,6 +65,10 @@ static inline bool kd_hole_exists(const struct kd_hole *hole)
 
 /* KD_EINVAL at "/spin" or "/charge", with the allowed range, if the hole does not exist. */
 enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error);
+
+/* The approximations that parameters of the hole stand for, by index; NULL after the last. */
+struct kd_hole_sentence { const char *name, *text; };
+const struct kd_hole_sentence *kd_hole_sentence(struct kd_hole_given given, size_t index);
 
 /* The larger of spin and charge, for errors about nearly extremal holes. */
 struct kd_hole_parameter {

@@ -78,20 +78,32 @@ static enum kd_status check_units(const cJSON *units, struct kd_error *error)
     return KD_OK;
 }
 
-/* Reads "charge", which may be missing: then it is 0. */
-static enum kd_status take_charge(struct kd_matter_grid *grid, const cJSON *charge, struct kd_error *error)
+/* Reads a parameter of the hole, which may be missing: then it is 0. */
+static enum kd_status take_parameter(struct kd_matter_grid *grid, const cJSON *given, double least, const char *field,
+                                     double *out, struct kd_error *error)
 {
     char what[120];
-    if (!charge)
+    if (!given)
         return KD_OK;
-    const struct kd_hole hole = kd_hole_charged(grid->spin, cJSON_GetNumberValue(charge));
-    if (hole.q >= 0 && (hole.q == 0 || kd_hole_exists(&hole))) {
-        grid->charge = hole.q;
+    *out = cJSON_GetNumberValue(given);
+    const struct kd_hole hole = kd_hole_in(grid);
+    if (*out >= least && (*out == 0 || kd_hole_exists(&hole)))
         return KD_OK;
-    }
-    snprintf(what, sizeof what, "is not a number from 0 to below %.9g, as spin %.9g requires",
+    snprintf(what, sizeof what, "is not a number from %.9g to below %.9g, as spin %.9g requires", least,
              sqrt((1 - grid->spin) * (1 + grid->spin)), grid->spin);
-    return kd_matter_refuse("header.charge", what, error);
+    return kd_matter_refuse(field, what, error);
+}
+
+static enum kd_status take_parameters(struct kd_matter_grid *grid, const cJSON *header, struct kd_error *error)
+{
+    enum kd_status status = KD_OK;
+#define TAKE(x, name, member, least, ...) \
+    KD_TRY(take_parameter(grid, cJSON_GetObjectItemCaseSensitive(header, #name), least, "header." #name, &grid->name, \
+                          error));
+    KD_HOLE_MORE(TAKE, )
+#undef TAKE
+done:
+    return status;
 }
 
 static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *header, struct kd_error *error)
@@ -104,7 +116,7 @@ static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *hea
     if (!cJSON_IsNumber(spin) || !(fabs(spin->valuedouble) <= 1))
         return kd_matter_refuse("header.spin", "is not a number from -1 to 1", error);
     grid->spin = spin->valuedouble;
-    const enum kd_status status = take_charge(grid, cJSON_GetObjectItemCaseSensitive(header, "charge"), error);
+    const enum kd_status status = take_parameters(grid, header, error);
     if (status)
         return status;
     grid->ingoing = !strcmp(azimuth, "kerr-schild");
@@ -393,7 +405,7 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
 static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struct kd_error *error)
 {
     const struct kd_matter_grid *g = &r->grid;
-    const struct kd_hole hole = kd_hole_charged(g->spin, g->charge);
+    const struct kd_hole hole = kd_hole_in(g);
     const double edge = 1.001 * hole.outer, t = kd_matter_array_at(&r->array, i);
     const size_t row = i / g->layers / g->columns;
     const double radius = r->r[row], theta = theta_at(r, row, i / g->layers % g->columns), s2 = sin(theta) * sin(theta);
@@ -676,16 +688,16 @@ size_t kd_matter_grid_places(const struct kd_matter_grid *grid) { return (size_t
 
 struct kd_asset_grid kd_matter_grid_told(const struct kd_matter_grid *grid)
 {
-    return (struct kd_asset_grid) { { grid->rows, grid->columns, grid->layers }, grid->spin, grid->charge };
+    return (struct kd_asset_grid) { .nodes = { grid->rows, grid->columns, grid->layers }, KD_HOLE_FROM(grid) };
 }
 
 enum kd_status kd_matter_grid_none(const struct kd_hole *hole, struct kd_matter_grid *out, struct kd_error *error)
 {
+    const struct kd_hole_given told = kd_hole_told(hole);
     *out = (struct kd_matter_grid) { .rows = 2,
                                      .columns = 2,
                                      .layers = 1,
-                                     .spin = hole->a,
-                                     .charge = hole->q,
+                                     KD_HOLE_FROM(&told),
                                      .r = { 0.1, 1e6 },
                                      .theta = { 0, M_PI },
                                      .turn = 2 * M_PI };

@@ -35,7 +35,7 @@ enum {
 
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
-    double spin, charge;
+    KD_HOLE_MEMBERS
     double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns
                               are evenly spaced */
     /* phi: azimuth of the first layer; turn: angle covered by all layers, in radians, which is a turn or 1/k of it

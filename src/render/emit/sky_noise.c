@@ -10,11 +10,11 @@
 
 enum { COLUMNS = 12, ROWS = 8 };
 
-static struct kd_null_path path_of(const struct kd_camera_exact *c, double r, const struct kd_camera_label *label,
-                                   double rounding)
+static struct kd_null_path path_of(const struct kd_camera_exact *c, const struct kd_scene *scene,
+                                   const struct kd_camera_label *label, double rounding)
 {
-    return kd_null_trace_fast(&(struct kd_null_ray) { .hole = kd_hole_charged(c->spin, sqrt(c->charge2)),
-                                                      .radius = r,
+    return kd_null_trace_fast(&(struct kd_null_ray) { .hole = *kd_scene_hole(scene),
+                                                      .radius = scene->camera.r,
                                                       .cos_theta = c->u,
                                                       .sin_theta = c->s,
                                                       .alpha = label->alpha * (1 + rounding),
@@ -50,11 +50,11 @@ bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision)
         struct kd_camera_label here, next;
         kd_camera_label(&camera, x, y, &here);
         kd_camera_label(&camera, x + 1 < width ? x + 1 : x, y, &next);
-        const struct kd_null_path path = path_of(&camera, r, &here, 0);
+        const struct kd_null_path path = path_of(&camera, scene, &here, 0);
         if (!sees_the_sky(&path))
             continue;
-        const struct kd_null_path beside = path_of(&camera, r, &next, 0),
-                                  rounded = path_of(&camera, r, &here, rounding);
+        const struct kd_null_path beside = path_of(&camera, scene, &next, 0),
+                                  rounded = path_of(&camera, scene, &here, rounding);
         seen++;
         lost += elsewhere(&path, &beside) || elsewhere(&path, &rounded);
     }

@@ -35,8 +35,7 @@ static struct kd_null_ray null_ray(const struct kd_explained *x)
 static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *error)
 {
     const struct kd_rays_params params = {
-        .spin = x->scene.spacetime.spin,
-        .charge = x->scene.spacetime.charge,
+        KD_HOLE_FROM(&x->scene.spacetime),
         .r = x->scene.camera.r,
         .inclination_deg = x->scene.camera.inclination_deg,
         .orders = (uint32_t)x->scene.accuracy.orders,

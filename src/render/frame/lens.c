@@ -109,7 +109,7 @@ enum kd_status kd_frame_light_kernel(struct kd_frame_job *j, const struct kd_cri
         .GENERATOR = l->generator,
         .SHIFT = l->shift,
         .ORDER = KD_NO_ORDER,
-        .CHARGED = kd_hole_is_charged(kd_scene_hole(j->scene)),
+        .BEYOND_KERR = !kd_hole_is_kerr(kd_scene_hole(j->scene)),
     };
     if (march)
         spec.INGOING = p->lens.ingoing;

@@ -291,8 +291,7 @@ static enum kd_status say_no_steps(struct kd_probed_pixel *told, const char *why
 static struct kd_rays_params params_of_steps(const struct kd_scene *scene, const struct kd_plan_lens *lens)
 {
     return (struct kd_rays_params) {
-        .spin = scene->spacetime.spin,
-        .charge = scene->spacetime.charge,
+        KD_HOLE_FROM(&scene->spacetime),
         .r = scene->camera.r,
         .inclination_deg = scene->camera.inclination_deg,
         .orders = (uint32_t)scene->accuracy.orders,

@@ -55,8 +55,7 @@ static struct kd_rays_params params_of(const struct kd_scene *scene, const struc
                                        const struct kd_setting *by)
 {
     return (struct kd_rays_params) {
-        .spin = scene->spacetime.spin,
-        .charge = scene->spacetime.charge,
+        KD_HOLE_FROM(&scene->spacetime),
         .r = scene->camera.r,
         .inclination_deg = scene->camera.inclination_deg,
         .orders = lens->orders ? lens->orders : 1,

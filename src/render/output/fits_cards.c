@@ -132,8 +132,11 @@ enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene 
         { "OBSRA", s->source.ra_deg, "deg; of the hole", { "source.ra_deg" } },
         { "OBSDEC", s->source.dec_deg, "deg", { "source.dec_deg" } },
         { "SPIN", s->spacetime.spin, "a/M", { "spacetime.spin" } },
-        { "CHARGE", s->spacetime.charge, "M; of the hole", { "spacetime.charge" } },
-        { "MASS", s->spacetime.mass_msun, "solar masses", { "spacetime.mass_msun" } },
+#define MORE(x, name, member, least, most, shown, unit, card, ...) \
+    { card, s->spacetime.name, unit "; of the hole", { "spacetime." #name } },
+        KD_HOLE_MORE(MORE, )
+#undef MORE
+            { "MASS", s->spacetime.mass_msun, "solar masses", { "spacetime.mass_msun" } },
         { "DISTANCE", s->spacetime.distance_pc, "pc", { "spacetime.distance_pc" } },
         { "M_UAS",
           microarcseconds(s),

@@ -14,8 +14,11 @@ static enum kd_status write_view(const struct kd_scene *scene, struct kd_buffer 
     const struct kd_section *camera = kd_section_find("camera");
     enum kd_status status;
     const struct kd_window window = kd_scene_window(scene);
-    KD_TRY(kd_buffer_printf(text, "%u x %u at %u %u, a %a, q %a", window.width, window.height, window.left, window.top,
-                            scene->spacetime.spin, scene->spacetime.charge));
+    KD_TRY(kd_buffer_printf(text, "%u x %u at %u %u, spin %a", window.width, window.height, window.left, window.top,
+                            scene->spacetime.spin));
+#define MORE(x, name, ...) KD_TRY(kd_buffer_printf(text, ", " #name " %a", scene->spacetime.name));
+    KD_HOLE_MORE(MORE, )
+#undef MORE
     for (size_t i = camera->first; i < camera->first + camera->count; i++)
         if (strcmp(kd_fields[i].name, "azimuth_deg"))
             KD_TRY(kd_buffer_printf(text, ", %s %a", kd_fields[i].name, kd_field_get(scene, &kd_fields[i], 0)));

@@ -48,7 +48,9 @@ WHEN(held, plan->light.reuse_normalisation)
 WHEN(maps, plan->picture.n_layers > 0)
 WHEN(cut, plan->light.points && plan->picture.bands > 1 && !plan->lens.cacheable)
 WHEN(coloured, kd_plan_is_map(&plan->picture) && !plan->picture.numbers)
-WHEN(charged, scene->spacetime.charge != 0)
+#define MORE(x, name, ...) WHEN(has_##name, scene->spacetime.name != 0)
+KD_HOLE_MORE(MORE, )
+#undef MORE
 WHEN(projected, plan->lens.ring)
 WHEN(rounded, !plan->lens.ring && !kd_scene_is_flat(scene))
 WHEN(interpolated, plan->lens.interpolates > 0)
@@ -62,11 +64,11 @@ static const struct sentence {
     const char *name, *text;
     bool (*in_force)(const struct kd_plan *plan, const struct kd_scene *scene);
 } sentences[] = {
-    { "hole.charged",
-      "hole: it has a charge, which matter around a real hole would soon neutralise; light and matter here are "
-      "neutral, and the charge affects them only through space-time",
-      charged },
-    { "disk.orders", "disk: image orders beyond accuracy.orders are left out", crossings },
+#define MORE(x, name, member, least, most, shown, unit, card, what, bound, help, source, told, text) \
+    { told, text, has_##name },
+    KD_HOLE_MORE(MORE, )
+#undef MORE
+        { "disk.orders", "disk: image orders beyond accuracy.orders are left out", crossings },
     { "volumes.march",
       "volumes: light is integrated in 32 bits with three points per step; the number of steps depends on the texture, "
       "the optical depth and the ray; the requested accuracy is a target, beside which an error of about 5e-5 remains; "

@@ -130,7 +130,11 @@ bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, st
     for (size_t i = 0; i < sizeof approximations / sizeof *approximations; i++)
         if ((!params || !approximations[i].in_force || approximations[i].in_force(params)) && !index--)
             return *out = approximations[i].is, true;
-    return false;
+    /* the page of all approximations has those of the hole with pictures */
+    const struct kd_hole_sentence *of_hole = params ? kd_hole_sentence(kd_hole_given(params), index) : NULL;
+    if (of_hole)
+        *out = (struct kd_approximation) { of_hole->name, of_hole->text };
+    return of_hole;
 }
 
 /* Writes the observer's motion and its parameters. Parameters whose value is the word for INFINITY are left out. */
@@ -159,8 +163,11 @@ static enum kd_status json_head(const struct kd_rays_answer *answer, struct kd_b
     struct kd_approximation one;
     enum kd_status status;
     KD_TRY(add_number(out, "{\"spin\":", p->spin));
-    if (p->charge != 0)
-        KD_TRY(add_number(out, ",\"charge\":", p->charge));
+#define MORE(x, name, ...) \
+    if (p->name != 0) \
+        KD_TRY(add_number(out, ",\"" #name "\":", p->name));
+    KD_HOLE_MORE(MORE, )
+#undef MORE
     KD_TRY(isinf(p->r) ? kd_buffer_printf(out, ",\"observer\":{\"r\":\"infinity\"")
                        : add_number(out, ",\"observer\":{\"r\":", p->r));
     KD_TRY(add_number(out, ",\"inclination_deg\":", p->inclination_deg));

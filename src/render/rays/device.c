@@ -21,7 +21,10 @@
 #define MOST (1u << 20)
 #define CHUNK 65536u
 #define TARGET_MS 40.0
-#define HEADER 8u /* numbers before the list in rays.comp; rays_kerr_schild.comp has four */
+/* Numbers before the list in rays.comp. rays_kerr_schild.comp has four less. */
+#define F(name) +1
+enum { HEADER = 7 KD_HOLE_MORE_FIELDS_(F) };
+#undef F
 
 struct work {
     struct kd_renderer *r;
@@ -92,13 +95,16 @@ static void upload_states(const struct work *w, const struct set *set, const str
     put(w, at, 0, p->spin);
     put(w, at, 1, hole.outer);
     put(w, at, 2, escape(w));
-    put(w, at, 3, kd_hole_charge2(&hole));
+    size_t n = 3;
+#define F(name) put(w, at, n++, kd_hole_##name(&hole));
+    KD_HOLE_MORE_FIELDS_(F)
+#undef F
     for (size_t i = 0; i < rays->n; i++) {
         double at_eye[2];
         label(w, rays->alpha_beta + 2 * i, at_eye);
         kd_rays_start(&hole, p->r, u, s, at_eye[0], at_eye[1], rays->outward && rays->outward[i], FAR, &start.origin);
         for (size_t k = 0; k < per_start; k++)
-            put(w, at, 4 + per_start * i + k, start.numbers[k]);
+            put(w, at, n + per_start * i + k, start.numbers[k]);
     }
 }
 
@@ -108,7 +114,7 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
     void *at = kd_vk_buffer_map(set->rays);
     const struct kd_hole hole = kd_rays_hole(p);
     double u = kd_cos_deg(p->inclination_deg), s = kd_sin_deg(p->inclination_deg);
-    const double header[HEADER] = {
+    double header[HEADER] = {
         p->spin,
         u,
         s,
@@ -116,9 +122,12 @@ static void upload(const struct work *w, const struct set *set, const struct kd_
         hole.root,
         isinf(p->r) ? 0 : 1 / p->r,
         w->wide ? DBL_EPSILON / 2 : FLT_EPSILON / 2,
-        kd_hole_charge2(&hole),
     };
-    for (size_t i = 0; i < HEADER; i++)
+    size_t n = 7;
+#define F(name) header[n++] = kd_hole_##name(&hole);
+    KD_HOLE_MORE_FIELDS_(F)
+#undef F
+    for (size_t i = 0; i < n; i++)
         put(w, at, i, w->wide ? header[i] : kd_lifted(header[i]));
     for (size_t i = 0; i < rays->n; i++) {
         double at_eye[2];

@@ -19,27 +19,31 @@ static const struct kd_row fields[] = {
       .most = 1,
       .open = KD_OPEN,
       .help = "spin of the hole, a/M" },
-    { .name = "charge",
-      .kind = KD_KIND_REAL,
-      .offset = AT(params.charge),
-      .least = -1,
-      .most = 1,
-      .open = KD_OPEN,
-      .unit = "M",
-      .help = "charge Q of the hole; a^2 + Q^2 < 1" },
-    { .object = "observer",
-      .name = "r",
-      .kind = KD_KIND_REAL,
-      .offset = AT(params.r),
-      .least = -INFINITY,
-      .most = INFINITY,
-      .open = KD_OPEN,
-      .words = "infinity",
-      .stands = INFINITY,
-      .allowed = "a number or \"infinity\"",
-      .schema = "\"anyOf\":[{\"type\":\"string\",\"enum\":[\"infinity\"]},{\"type\":\"number\",\"exclusiveMinimum\":1,"
-                "\"maximum\":10000000}]",
-      .help = "radius of the observer, M; outside the horizon" },
+#define MORE(x, name_, member, least_, most_, shown, unit_, card, what, bound, ...) \
+    { .name = #name_, \
+      .kind = KD_KIND_REAL, \
+      .offset = AT(params.name_), \
+      .least = -1, \
+      .most = 1, \
+      .open = KD_OPEN, \
+      .unit = unit_, \
+      .help = what "; " bound },
+    KD_HOLE_MORE(MORE, )
+#undef MORE
+        { .object = "observer",
+          .name = "r",
+          .kind = KD_KIND_REAL,
+          .offset = AT(params.r),
+          .least = -INFINITY,
+          .most = INFINITY,
+          .open = KD_OPEN,
+          .words = "infinity",
+          .stands = INFINITY,
+          .allowed = "a number or \"infinity\"",
+          .schema =
+              "\"anyOf\":[{\"type\":\"string\",\"enum\":[\"infinity\"]},{\"type\":\"number\",\"exclusiveMinimum\":1,"
+              "\"maximum\":10000000}]",
+          .help = "radius of the observer, M; outside the horizon" },
     { .object = "observer",
       .name = "inclination_deg",
       .kind = KD_KIND_REAL,

@@ -40,13 +40,10 @@ struct kd_rays_params {
      * this observer's frame, with the parameters of kd_observer_motion: */
     int observer;
     double velocity[3], fall_from, fall_energy, fall_momentum;
-    double charge; /* of the hole, in M: a^2 + q^2 < 1 */
+    KD_HOLE_MORE_MEMBERS
 };
 
-static inline struct kd_hole kd_rays_hole(const struct kd_rays_params *p)
-{
-    return kd_hole_charged(p->spin, p->charge);
-}
+static inline struct kd_hole kd_rays_hole(const struct kd_rays_params *p) { return kd_hole_in(p); }
 
 /* Rays by their labels. Rays of a request start inwards; those of a picture from a finite radius may start outwards. */
 struct kd_ray_labels {

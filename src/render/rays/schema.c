@@ -114,8 +114,10 @@ void kd_rays_answer_schemas(struct kd_json *json)
     };
     static const struct kd_schema_member answer[] = {
         { "spin", KD_SCHEMA_NUMBER },
-        { "charge", KD_SCHEMA_NUMBER, true },
-        { "observer", KD_SCHEMA_REF("RaysObserver") },
+#define MORE(x, name, ...) { #name, KD_SCHEMA_NUMBER, true },
+        KD_HOLE_MORE(MORE, )
+#undef MORE
+            { "observer", KD_SCHEMA_REF("RaysObserver") },
         { "orders", KD_SCHEMA_COUNT },
         { "accuracy", KD_SCHEMA_REF("RaysAccuracy") },
         { "approximations", KD_SCHEMA_LIST(KD_SCHEMA_TEXT) },

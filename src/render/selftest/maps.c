@@ -20,8 +20,7 @@ static struct kd_scene scene_of(const struct kd_selftest_ray *ray, const struct 
 {
     struct kd_scene scene;
     kd_scene_smooth(&scene);
-    scene.spacetime.spin = ray->spin;
-    scene.spacetime.charge = ray->charge;
+    KD_HOLE_COPY(&scene.spacetime, ray);
     scene.camera.inclination_deg = ray->inclination_deg;
     scene.camera.r = ray->radius;
     scene.image.width = scene.image.height = 1;
@@ -124,7 +123,7 @@ done:
 static struct kd_selftest_ray by_own_azimuth(const struct kd_selftest_camera *camera)
 {
     struct kd_selftest_ray ray = camera->ray;
-    double root = sqrt((1 - ray.spin) * (1 + ray.spin) - ray.charge * ray.charge), gap = ray.radius - 1 - root;
+    const double root = kd_hole_in(&ray).root, gap = ray.radius - 1 - root;
     double more = camera->observer == KD_OBSERVER_INFALL ? ray.spin / (2 * root) * log1p(2 * root / gap) : 0;
     for (int n = 0; n < ray.n_crossings; n++)
         ray.crossing[n].phi += more;

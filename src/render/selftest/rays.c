@@ -51,13 +51,8 @@ static enum kd_status trace(const struct kd_selftest *test, const struct engine 
                             const double *list, size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends)
 {
     const struct kd_rays_params params = {
-        .spin = ray->spin,
-        .charge = ray->charge,
-        .r = ray->radius,
-        .inclination_deg = ray->inclination_deg,
-        .orders = ORDERS,
-        .engine = e->engine,
-        .precision = e->precision,
+        KD_HOLE_FROM(ray), .r = ray->radius,    .inclination_deg = ray->inclination_deg,
+        .orders = ORDERS,  .engine = e->engine, .precision = e->precision,
         .steps = e->steps,
     };
     return kd_rays_trace(test->renderer, &params, list, n, crossings, ends, NULL, NULL, test->error);

@@ -19,7 +19,7 @@ struct kd_selftest_ray {
     double theta, phi, sky_gain; /* direction of escape, NAN if captured */
     int n_crossings;             /* number of crossings of orders 0 to 2 */
     struct kd_selftest_crossing crossing[3];
-    double charge;
+    KD_HOLE_MORE_MEMBERS
 };
 
 struct kd_selftest_orbit { double spin, horizon, photon, bound, isco, efficiency; };

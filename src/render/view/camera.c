@@ -162,7 +162,9 @@ struct kd_camera_exact kd_camera_exact(const struct kd_scene *scene)
     o.u = at.u;
     o.s = at.s;
     o.root = at.hole.root;
-    o.charge2 = kd_hole_charge2(&at.hole);
+#define F(name) o.name = kd_hole_##name(&at.hole);
+    KD_HOLE_MORE_FIELDS_(F)
+#undef F
     o.horizon = 1 / at.hole.outer;
     if (isinf(c->r)) {
         plane(&o, c, kd_camera_pixel(scene) / kd_scene_side(scene));

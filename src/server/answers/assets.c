@@ -42,7 +42,9 @@ static void write_grid(struct kd_json *json, const struct kd_asset_about *about)
         kd_json_number(json, NULL, about->grid.nodes[i]);
     kd_json_end(json);
     kd_json_number(json, "spin", about->grid.spin);
-    kd_json_number(json, "charge", about->grid.charge);
+#define MORE(x, name, ...) kd_json_number(json, #name, about->grid.name);
+    KD_HOLE_MORE(MORE, )
+#undef MORE
 }
 
 static void write_picture(struct kd_json *json, const struct kd_asset_about *about)
@@ -54,8 +56,8 @@ static void write_picture(struct kd_json *json, const struct kd_asset_about *abo
 }
 
 /* Writes {"sha256", "type", "bytes", "created"}. A picture also has "width", "height", "bit_depth" and "channels"; a
- * grid has "nodes", "spin" and "charge"; an observation has "visibilities" and "stations". The client that has uploaded
- * the asset also gets its token. */
+ * grid has "nodes" and the parameters of its hole; an observation has "visibilities" and "stations". The client that
+ * has uploaded the asset also gets its token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);

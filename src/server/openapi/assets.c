@@ -15,9 +15,9 @@ static const char *type(size_t i)
     return i < sizeof types / sizeof *types ? types[i] : NULL;
 }
 
-/* Writes the schema Asset. Pictures have members for size and depth, grids of matter for nodes, spin and charge,
- * observations for visibilities and stations. The token is sent only to the client that was the first to upload the
- * asset. */
+/* Writes the schema Asset. Pictures have members for size and depth, grids of matter for nodes and the parameters of
+ * the hole, observations for visibilities and stations. The token is sent only to the client that was the first to
+ * upload the asset. */
 void kd_openapi_asset_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member asset[] = {
@@ -35,8 +35,12 @@ void kd_openapi_asset_schema(struct kd_json *json)
           ",\"minItems\":3,\"maxItems\":3,\"description\":\"numbers of nodes in r, theta and phi\"}",
           true },
         { "spin", "{\"type\":\"number\",\"description\":\"spin of the hole that the grid is for\"}", true },
-        { "charge", "{\"type\":\"number\",\"description\":\"charge of the hole that the grid is for, in M\"}", true },
-        { "visibilities", KD_SCHEMA_COUNT, true },
+#define MORE(x, name, member, least, most, shown, unit, ...) \
+    { #name, "{\"type\":\"number\",\"description\":\"" #name " of the hole that the grid is for, in " unit "\"}", \
+      true },
+        KD_HOLE_MORE(MORE, )
+#undef MORE
+            { "visibilities", KD_SCHEMA_COUNT, true },
         { "stations", KD_SCHEMA_COUNT, true },
     };
     static const struct kd_openapi_member limits[] = {
