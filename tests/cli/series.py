@@ -105,8 +105,7 @@ class Series(Case):
         text = self.good("plan", *SCENE, *series, *slow, "--set", "time=40").decode()
         plan = json.loads(text)
         self.assertEqual(
-            plan["bytes"]["device"]
-            - json.loads(self.good("plan", *SCENE, *alone).decode())["bytes"]["device"],
+            plan["bytes"]["device"] - json.loads(self.good("plan", *SCENE, *alone).decode())["bytes"]["device"],
             2 * 32 * ROWS * COLUMNS * LAYERS,
         )
 
