@@ -140,6 +140,7 @@ class Files(support.Case):
         self.assertEqual((scene["disk"].pop("returning"), scene["disk"].pop("albedo")), ("none", 0.5))
         self.assertEqual(scene["spacetime"].pop("charge"), 0)
         self.assertEqual(scene["camera"].pop("field_uas"), "none")
+        self.assertIs(scene["volume"].pop("slow_light"), False)
         self.assertEqual(scene.pop("source"), {"name": "none", "ra_deg": 0, "dec_deg": 0, "mjd": "none"})
         self.assertEqual(scene, written)
 
