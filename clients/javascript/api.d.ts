@@ -432,6 +432,11 @@ export interface Scene {
      */
     grid_scale?: number;
     /**
+     * show each place of a grid with several frames at the time when its light left it, instead of the whole grid
+     * at `time` (model: grid); default false.
+     */
+    slow_light?: boolean;
+    /**
      * C n0: emissivity at 230 GHz at the largest density (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30; default
      * 3e-18.
      */
@@ -830,11 +835,11 @@ export type FieldPath =
   | 'bodies.7.motion' | 'bodies.7.velocity_r' | 'bodies.7.velocity_theta' | 'bodies.7.velocity_phi'
   | 'bodies.7.temperature_k' | 'bodies.7.brightness' | 'bodies.7.limb_darkening' | 'volume.model' | 'volume.inner'
   | 'volume.outer' | 'volume.emissivity' | 'volume.opacity' | 'volume.temperature_k' | 'volume.redshift'
-  | 'volume.frequency_ghz' | 'volume.grid' | 'volume.grid_scale' | 'volume.gold_emission' | 'volume.gold_index'
-  | 'volume.gold_flattening' | 'volume.gold_momentum' | 'volume.gold_absorption' | 'volume.density_cm3'
-  | 'volume.density_index' | 'volume.electron_temperature_k' | 'volume.temperature_index' | 'volume.height'
-  | 'volume.magnetisation' | 'volume.magnetisation_index' | 'volume.field' | 'volume.flow' | 'volume.electrons'
-  | 'volume.electrons_index' | 'volume.kappa' | 'volume.torus_radius' | 'volume.adiabatic_index'
+  | 'volume.frequency_ghz' | 'volume.grid' | 'volume.grid_scale' | 'volume.slow_light' | 'volume.gold_emission'
+  | 'volume.gold_index' | 'volume.gold_flattening' | 'volume.gold_momentum' | 'volume.gold_absorption'
+  | 'volume.density_cm3' | 'volume.density_index' | 'volume.electron_temperature_k' | 'volume.temperature_index'
+  | 'volume.height' | 'volume.magnetisation' | 'volume.magnetisation_index' | 'volume.field' | 'volume.flow'
+  | 'volume.electrons' | 'volume.electrons_index' | 'volume.kappa' | 'volume.torus_radius' | 'volume.adiabatic_index'
   | 'volume.temperature_ratio' | 'volume.beta' | 'volume.gamma_min' | 'volume.gamma_max' | 'volume.normalise_to_jy'
   | 'volume.normalise_ghz' | 'jets.brightness' | 'jets.opening_deg' | 'jets.lorentz' | 'jets.inner' | 'jets.outer'
   | 'jets.falloff' | 'jets.sheath' | 'jets.spectral_index' | 'jets.temperature_k' | 'jets.counterjet'
@@ -2712,6 +2717,10 @@ export interface Asset {
   created: number;
   /** numbers of nodes in r, theta and phi; up to 3. */
   nodes?: number[];
+  /** frames in time, of a series of grids; at least 2. */
+  frames?: number;
+  /** times of the first and the last frame, in M; up to 2. */
+  times?: number[];
   /** spin of the hole that the grid is for. */
   spin?: number;
   /** charge of the hole that the grid is for, in M. */
@@ -4578,6 +4587,11 @@ export interface SceneQuery {
    * 1e+30; default 1.
    */
   'volume.grid_scale'?: number;
+  /**
+   * show each place of a grid with several frames at the time when its light left it, instead of the whole grid
+   * at `time` (model: grid); default false.
+   */
+  'volume.slow_light'?: boolean;
   /**
    * C n0: emissivity at 230 GHz at the largest density (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30; default
    * 3e-18.

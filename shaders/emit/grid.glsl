@@ -1,11 +1,13 @@
-/* Matter on a grid of nodes. Values are interpolated linearly in log r, in columns of theta, and in phi. The buffer
- * plasma_grid has one or two quads a node, then the table of uneven columns (src/render/emit/matter_grid.h). Included
- * by emit/plasma.glsl. */
+/* Matter on a grid of nodes. Values are interpolated linearly in log r, in columns of theta, in phi and in time. The
+ * buffer plasma_grid has one or two quads a node, frame after frame, then the table of uneven columns
+ * (src/render/emit/matter_grid.h). Included by emit/plasma.glsl. */
 
 /* Interpolated values. matter: log2 of density and Theta, u^r, r u^theta; rest: u_phi/(r sin^2 theta), and b^r, r
  * b^theta and b_phi/(r sin^2 theta) in the grid's unit. */
 struct kd_grid_node { vec4 matter, rest; };
 
+const bool KD_GRID_SERIES = (TRAITS_plasma & KD_TRAIT_PLASMA_SERIES) != 0u,
+           KD_GRID_SLOW = (TRAITS_plasma & KD_TRAIT_SLOW) != 0u;
 const bool KD_GRID_TEXELS = (TRAITS_plasma & KD_TRAIT_TEXELS) != 0u;
 uvec4 kd_grid_quad(uint at) { return KD_GRID_TEXELS ? texelFetch(plasma_texels, int(at)) : plasma_grid[at]; }
 
@@ -41,6 +43,27 @@ float kd_grid_fallen(float r)
            (x2 < 0.01 ? 1.0 + x2 * (1.0 / 3.0 + 0.2 * x2) : atanh(x) / x);
 }
 
+/* Time of ingoing Kerr-Schild coordinates minus Boyer-Lindquist time. The advanced time has dv = dt + dr (r^2 +
+ * a^2)/Delta (B. Carter 1968, Phys. Rev. 174, 1559), and the time of Kerr-Schild coordinates is v - r. The difference
+ * is int (2r - q^2)/Delta dr = ln(Delta/4) + (2 - q^2) int dr/Delta, because Delta' = 2r - 2. Without spin and charge
+ * it is 2 ln(r/2 - 1). It falls without bound at the horizon, as does the time at which light left there: the two add
+ * up, and nothing cancels. */
+float kd_grid_later(float w) { return kd_log(0.25 * kd_horizons(w, cam.root) / (w * w)) - kd_late(w); }
+
+/* The frame at a place, as a number with a fraction. Before the first frame and after the last one, that frame. */
+float kd_grid_frame(kd_midst p)
+{
+    float at = emission.plasma.grid_now;
+    if (KD_GRID_SLOW) {
+        float ago = p.ago;
+        /* a loop as below */
+        for (uint n = 0u; n < (emission.plasma.grid_late > 0.0 ? 1u : 0u); n++)
+            ago -= kd_grid_later(p.w);
+        at -= emission.plasma.grid_per_time * ago;
+    }
+    return at > 0.0 ? min(at, float(emission.plasma.grid_frames - 1u)) : 0.0;
+}
+
 /* The row and the column at a place, with their fractions, and columns per radian of theta there. */
 struct kd_grid_place { float row, column, per_theta; };
 kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
@@ -57,7 +80,7 @@ kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
               x = clamp(theta * (steps / KD_PI), 0.0, steps), cell = min(floor(x), steps - 1.0);
         uint line = uint(min(row, float(emission.plasma.grid_place_rows - 1u))),
              quads = (2u - emission.plasma.grid_packed) * emission.plasma.grid_rows * emission.plasma.grid_columns *
-                     emission.plasma.grid_layers;
+                     emission.plasma.grid_layers * (KD_GRID_SERIES ? emission.plasma.grid_frames : 1u);
         vec4 corners = uintBitsToFloat(kd_grid_quad(quads + line * emission.plasma.grid_steps + uint(cell)));
         vec2 ends = mix(corners.xy, corners.zw, at.row - row);
         at.column = mix(ends.x, ends.y, x - cell);
@@ -66,11 +89,16 @@ kd_grid_place kd_grid_place_at(kd_midst p, float log2_r)
     return at;
 }
 
-/* Adds the nodes at the corners of a cell, in the two layers next to the place. node: reads a node. */
+/* Adds the nodes at the corners of a cell, in the two layers next to the place, and in the two frames about its time.
+ * node: reads a node. */
 #define KD_GRID_SUM(node, times) \
-    for (uint n = 0u; n < (times); n++) { \
-        uint k = first + n, from = at + (k < layers ? k : 0u); \
+    for (uint m = 0u; m < (times); m++) { \
+        uint n = KD_GRID_SERIES && m >= rounds ? m - rounds : m, k = first + n, from = at + (k < layers ? k : 0u); \
         vec4 w = weights * (layers == 1u ? 1.0 : n == 0u ? 1.0 - past : past); \
+        if (KD_GRID_SERIES) { \
+            w *= m < rounds ? 1.0 - later : later; \
+            from += m < rounds ? 0u : row * emission.plasma.grid_rows; \
+        } \
         kd_grid_add(sum, node(from), w.x); \
         kd_grid_add(sum, node(from + row), w.y); \
         kd_grid_add(sum, node(from + layers), w.z); \
@@ -88,22 +116,32 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
                    emission.plasma.grid_per_phi,
           layer = floor(turned), past = turned - layer;
     uint first = uint(clamp(layer - floor(layer / float(layers)) * float(layers), 0.0, float(layers - 1u)));
+    float later = 0.0;
+    uint times = rounds;
+    if (KD_GRID_SERIES) {
+        float moment = kd_grid_frame(p), frame = min(floor(moment), float(max(emission.plasma.grid_frames, 2u) - 2u));
+        later = moment - frame;
+        at += uint(frame) * row * emission.plasma.grid_rows;
+        times *= later > 0.0 ? 2u : 1u;
+    }
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
     /* loops as above; one of the two has no rounds */
-    KD_GRID_SUM(kd_grid_whole, emission.plasma.grid_packed == 0u ? rounds : 0u)
-    KD_GRID_SUM(kd_grid_packed, emission.plasma.grid_packed == 0u ? 0u : rounds)
+    KD_GRID_SUM(kd_grid_whole, emission.plasma.grid_packed == 0u ? times : 0u)
+    KD_GRID_SUM(kd_grid_packed, emission.plasma.grid_packed == 0u ? 0u : times)
     return sum;
 }
 
 /* The edges of cells are visible in the light, so a grain covers at most KD_GRID_CELLS. The grain is at least half of
  * one of the finest rows that a grid may have. Columns and layers next to the axis are finer, but the grain does not
- * follow them. */
+ * follow them. In slow light a frame is an edge, too; time passes about as fast as for light along the radius. */
 float kd_grid_grain(kd_midst p, float sharp)
 {
     float r = 1.0 / p.w, s2 = max(1.0 - p.u * p.u, 1e-4);
     float cells = KD_LOG2_E * abs(p.dw) * r * emission.plasma.grid_per_r +
                   abs(p.du) * inversesqrt(s2) * kd_grid_place_at(p, -log2(p.w)).per_theta +
                   abs(p.momentum) / s2 * emission.plasma.grid_per_phi;
+    if (KD_GRID_SLOW)
+        cells += p.speed * emission.plasma.grid_per_time / max(kd_horizons(p.w, cam.root), 0.05);
     return max(min(r / (4.0 + sharp), KD_GRID_CELLS * p.speed / max(cells, 1e-12)), r / 2048.0);
 }

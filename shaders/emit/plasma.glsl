@@ -25,6 +25,9 @@
     F(grid_r) F(grid_per_r) F(grid_theta) F(grid_per_theta) F(grid_phi) F(grid_per_phi) \
     F(grid_fall)           /* a if the grid's phi is an ingoing coordinate; else 0 */ \
     F(grid_field)          /* log2 of the unit of the grid's field, gauss */ \
+    U(grid_frames)         /* frames in time, each with all nodes, one after the other */ \
+    F(grid_now) F(grid_per_time) /* the frame at the scene's time, as a number with a fraction; frames per M */ \
+    F(grid_late)           /* 1 if the grid's time is that of ingoing coordinates; else 0 */ \
     U(grid_packed)         /* 1: a node is one quad, else two */ \
     /* a packed node: least values and ranges of log2 of density and Theta; units of velocity and field */ \
     F(grid_density) F(grid_densities) F(grid_heat) F(grid_heats) F(grid_speed) F(grid_scale) \
@@ -44,13 +47,14 @@
     512u /* the matter is at rest for observers of zero angular momentum; otherwise it orbits and falls in */
 #define KD_TRAIT_PLASMA_POWER 64u /* the electrons have a power law */
 #define KD_TRAIT_PLASMA_TORUS 128u
-#define KD_TRAIT_PLASMA_KAPPA 256u /* the electrons have a kappa distribution */
-#define KD_TRAIT_PLASMA_GRID 1024u /* matter and field are read from a buffer: src/render/emit/matter_grid.h */
+#define KD_TRAIT_PLASMA_KAPPA 256u   /* the electrons have a kappa distribution */
+#define KD_TRAIT_PLASMA_GRID 1024u   /* matter and field are read from a buffer: src/render/emit/matter_grid.h */
+#define KD_TRAIT_PLASMA_SERIES 2048u /* the grid may have several frames in time */
 /* clang-format off */
 #define KD_TRAITS_plasma(T) \
     T(PLASMA_GOLD) \
     T(PLASMA_VERTICAL) T(PLASMA_RADIAL) T(PLASMA_REST) T(PLASMA_POWER) T(PLASMA_TORUS) T(PLASMA_KAPPA) T(PLASMA_GRID) \
-        T(AZIMUTH)
+        T(PLASMA_SERIES) T(SLOW) T(AZIMUTH)
 /* clang-format on */
 #define KD_BUFFERS_plasma(B) B(5, quads, plasma_grid) B(6, quad_texels, plasma_texels)
 #define KD_GRID_CELLS 2.0 /* largest number of cells of the matter grid that a grain covers */

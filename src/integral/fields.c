@@ -100,7 +100,7 @@ const struct kd_row kd_integral_fields[] = {
       .help = what "; the gas is neutral; " bound },
     KD_HOLE_MORE(MORE, )
 #undef MORE
-    INCLINATION(LINE | SPECTRUM, .help = "angle between the axis and the observer, who is at infinity"),
+        INCLINATION(LINE | SPECTRUM, .help = "angle between the axis and the observer, who is at infinity"),
     INCLINATION(ECHO, BESIDE("0", "87", "93", "180")),
     INCLINATION(TRANSFER, BESIDE("0.1", "89.99", "90.01", "179.9")),
     OR_WORD(inner, "M", 1, 1e6, "isco", ALL, "inner edge of the disk, the ISCO or beyond"),

@@ -47,9 +47,16 @@ static enum kd_status resolve(struct kd_scene *scene, const struct kd_row *field
     const struct kd_value hash = { KD_VALUE_STRING, 0, found.hash };
     if (!status)
         status = kd_field_store(scene, field, index, &hash, error);
-    const uint32_t *nodes = found.grid.nodes;
-    if (!status && *nodes)
-        scene->grid_nodes = (uint64_t)nodes[0] * nodes[1] * nodes[2];
+    const struct kd_asset_grid *grid = &found.grid;
+    if (!status && *grid->nodes)
+        scene->matter = (struct kd_scene_matter) {
+            .nodes = (uint64_t)grid->frames * grid->nodes[0] * grid->nodes[1] * grid->nodes[2],
+            .frames = grid->frames,
+            .late = grid->late,
+            .first = grid->time[0],
+            .last = grid->time[1],
+            .outer = grid->outer,
+        };
     return status;
 }
 
@@ -57,7 +64,7 @@ enum kd_status kd_scene_resolve(struct kd_scene *scene, const struct kd_assets *
 {
     struct kd_scene resolved = *scene;
     enum kd_status status = KD_OK;
-    resolved.grid_nodes = 0;
+    resolved.matter = (struct kd_scene_matter) { 0 };
     for (size_t i = 0; i < KD_FIELD_COUNT; i++) {
         const struct kd_section *section = kd_section_find(kd_fields[i].object);
         for (size_t k = 0; kd_fields[i].kind == KD_KIND_ASSET && k < kd_section_size(scene, section); k++)

@@ -8,11 +8,16 @@
 #include "physics/spacetime/parameters.h"
 #include "scene/scene.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Properties of a grid of matter (render/emit/matter_grid.h). */
 struct kd_asset_grid {
     uint32_t nodes[3]; /* nodes in r, theta and phi; 0: the asset is not a grid */
+    uint32_t frames;   /* frames in time; 1: the grid shows one moment */
+    bool late;         /* these times are those of ingoing Kerr-Schild coordinates */
+    double time[2];    /* times of the first and the last frame, M */
+    double outer;      /* r of the last row, M */
     KD_HOLE_MEMBERS    /* of the hole for which it was made */
 };
 /* Properties of an asset, which is a picture or a grid of matter. */
@@ -39,7 +44,7 @@ struct kd_assets {
     void *user;
 };
 
-/* kd_scene_resolve replaces each name by the hash, checks that each hash exists, and sets the scene's grid_nodes. If an
+/* kd_scene_resolve replaces each name by the hash, checks that each hash exists, and sets the scene's `matter`. If an
  * asset is missing or of the wrong kind it returns KD_EINVAL with the field's pointer, and *scene stays unchanged.
  * sky.image must be a picture that is twice as wide as high and has KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows.
  * volume.grid must be a grid of matter around a hole of the scene's parameters. */

@@ -275,6 +275,9 @@
     REAL(volume, grid_scale, MODEL, FRONT, 1.0, 0.0, 1e30, "1", \
          "factor on the file's density; the magnetic field is multiplied by the square root of it (model: " \
          "grid)") \
+    BOOL(volume, slow_light, PHYSICS, REST, false, \
+         "show each place of a grid with several frames at the time when its light left it, instead of the whole " \
+         "grid at `time` (model: grid)") \
     REAL(volume, gold_emission, MODEL, REST, 3e-18, 0.0, 1e30, "erg/(s cm^3 Hz sr)", \
          "C n0: emissivity at 230 GHz at the largest density (model: gold)") \
     REAL(volume, gold_index, MODEL, REST, 0.0, -10.0, 10.0, "1", \
@@ -629,6 +632,7 @@
     SPAN("volume.frequency_ghz", 10, 1e4) \
     WITH("volume.grid", "model", KD_VOLUME_GRID) WITH("volume.grid_scale", "model", KD_VOLUME_GRID) \
     SPAN("volume.grid_scale", 1e-4, 1e4) \
+    WITH("volume.slow_light", "model", KD_VOLUME_GRID) \
     WITH("volume.gold_emission", "model", KD_VOLUME_GOLD) SPAN("volume.gold_emission", 1e-20, 1e-15) \
     WITH("volume.gold_index", "model", KD_VOLUME_GOLD) SPAN("volume.gold_index", -4, 4) \
     WITH("volume.gold_flattening", "model", KD_VOLUME_GOLD) SPAN("volume.gold_flattening", 0, 40) \

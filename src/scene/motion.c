@@ -28,7 +28,7 @@ void kd_scene_go_on(struct kd_scene *scene, double proper_time)
     const struct kd_worldline_place to = kd_worldline_after(&motion, &at, proper_time);
     scene->camera.r = to.r;
     turn(scene, to.azimuth * (180 / M_PI));
-    kd_scene_pass(scene, scene->disk.slow_light && isfinite(to.far_time) ? to.far_time : to.time);
+    kd_scene_pass(scene, kd_scene_is_slow(scene) && isfinite(to.far_time) ? to.far_time : to.time);
 }
 
 void kd_scene_advance(struct kd_scene *scene, double seconds)

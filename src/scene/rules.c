@@ -220,11 +220,13 @@ static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
                               "motion.proper_time_rate is %s; it must be 0 unless camera.observer stays, orbits in "
                               "the equatorial plane or falls without leaving its latitude, from a finite camera.r",
                               show(m->proper_time_rate).text);
-    if (scene->disk.slow_light && scene->camera.observer == KD_OBSERVER_INFALL)
-        return kd_error_field(error, "/disk/slow_light",
-                              "disk.slow_light is true; with motion.proper_time_rate %s of a falling observer it must "
+    if (kd_scene_is_slow(scene) && scene->camera.observer == KD_OBSERVER_INFALL) {
+        const char *of = scene->disk.slow_light ? "disk" : "volume";
+        return kd_error_field(error, scene->disk.slow_light ? "/disk/slow_light" : "/volume/slow_light",
+                              "%s.slow_light is true; with motion.proper_time_rate %s of a falling observer it must "
                               "be false, because the fall enters the ergosphere, where slow light is not computed",
-                              show(m->proper_time_rate).text);
+                              of, show(m->proper_time_rate).text);
+    }
     if (m->time_rate == 0 && m->azimuth_rate_deg == 0)
         return KD_OK;
     const bool time = m->time_rate != 0;
@@ -661,7 +663,8 @@ const struct kd_rule kd_rules[] = {
     { "`motion.proper_time_rate` needs an observer at a finite `camera.r` that stays there (static, zamo), orbits in "
       "the equatorial plane, or falls at constant latitude. A fall is at constant latitude if the hole has no spin, "
       "in the equatorial plane, on the axis, or from rest at infinity. `motion.time_rate` and "
-      "`motion.azimuth_rate_deg` are then 0, and `disk.slow_light` is false for a falling observer.",
+      "`motion.azimuth_rate_deg` are then 0, and `disk.slow_light`, and `volume.slow_light` of a grid, are false for a "
+      "falling observer.",
       path },
     { "`camera.stereo` \"pair\" needs a finite `camera.r` and the pinhole projection. `camera.eye_distance` is then "
       "less than `camera.r`, and `camera.observer` exists at both eyes.",

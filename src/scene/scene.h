@@ -36,13 +36,20 @@
  * is, for example, struct kd_spots { size_t count; struct kd_spot at[KD_SPOTS]; } spots. Its elements from count on
  * have their defaults, so that equal scenes have equal bytes. */
 struct kd_dynamic_bodies;
+/* A grid of matter. It has no padding, because scenes are compared by their bytes. */
+struct kd_scene_matter {
+    uint64_t nodes, frames; /* nodes of all frames; frames in time, 1 for a grid of one moment */
+    uint64_t late;          /* 1: its times are those of ingoing Kerr-Schild coordinates; 0: Boyer-Lindquist's */
+    double first, last;     /* times of the first and the last frame, M */
+    double outer;           /* r of its last row, M */
+};
 struct kd_scene {
     KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)
     struct kd_scene_dynamic {
         const struct kd_dynamic_bodies *at;
         uint64_t generation;
-    } dynamic;           /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
-    uint64_t grid_nodes; /* nodes of volume.grid, set by kd_scene_resolve; 0: unknown */
+    } dynamic; /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
+    struct kd_scene_matter matter; /* what is known about volume.grid, set by kd_scene_resolve; 0: nothing */
 };
 
 /* Sets every field to its default, which is the scene of an empty document. */
@@ -100,10 +107,17 @@ bool kd_scene_azimuth_goes_on(const struct kd_scene *scene);
 bool kd_scene_falls(const struct kd_scene *scene);
 
 /* Moves the observer along its own path by a proper time of 0 or more. That changes camera.r, camera.azimuth_deg and
- * time. The scene must be valid, and its observer must have such a path (physics/spacetime/worldline.h). With
- * disk.slow_light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing
+ * time. The scene must be valid, and its observer must have such a path (physics/spacetime/worldline.h). With slow
+ * light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing
  * Kerr-Schild coordinates. */
 void kd_scene_go_on(struct kd_scene *scene, double proper_time);
+
+/* Whether matter on a grid is shown at the time when its light left, and whether that or disk.slow_light holds. */
+bool kd_scene_is_slow_volume(const struct kd_scene *scene);
+bool kd_scene_is_slow(const struct kd_scene *scene);
+/* The r of the observer if the scene's time is its own, as in slow light; else 0. Light from the hole's vicinity then
+ * left about this long before the scene's time. */
+double kd_scene_lead(const struct kd_scene *scene);
 
 /* Clock of a falling observer. to_horizon, to_end: proper times, in M, until it reaches the outer horizon (NAN inside
  * it) and the end of the model. second: 1 M in seconds. kd_scene_clock returns false if the observer does not fall, or

@@ -60,8 +60,8 @@ enum kd_status kd_sweep_scene(const struct kd_sweep *sweep, unsigned scene, stru
     KD_TRY(set(sweep, scene, true, out, &inner));
     KD_TRY(set(sweep, scene, false, out, &inner));
     for (size_t i = 0; i < sweep->n_axes; i++)
-        if (kd_sweep_at(sweep, scene, i)->grid_nodes)
-            out->grid_nodes = kd_sweep_at(sweep, scene, i)->grid_nodes;
+        if (kd_sweep_at(sweep, scene, i)->matter.nodes)
+            out->matter = kd_sweep_at(sweep, scene, i)->matter;
     KD_TRY(kd_scene_validate(out, &inner));
 done:
     if (!status)

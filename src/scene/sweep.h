@@ -33,7 +33,7 @@ struct kd_sweep_axis {
     struct kd_sweep_value {
         char *text;    /* in the form that kd_scene_set accepts; for an asset its hash, once the name is resolved */
         double number; /* NAN if the value is not a number */
-        uint64_t grid_nodes; /* nodes of a volume.grid whose name is resolved; otherwise 0 */
+        struct kd_scene_matter matter; /* of a volume.grid whose name is resolved; otherwise 0 */
     } *values;
 };
 

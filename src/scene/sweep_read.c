@@ -94,7 +94,7 @@ static enum kd_status add(struct reader *r, const char *text, const char *at)
     axis->values[axis->n++] = (struct kd_sweep_value) {
         .text = copy,
         .number = numeric ? value.number : NAN,
-        .grid_nodes = kd_scene_same_path(axis->path, "volume.grid") ? scene.grid_nodes : 0,
+        .matter = kd_scene_same_path(axis->path, "volume.grid") ? scene.matter : (struct kd_scene_matter) { 0 },
     };
     return KD_OK;
 }

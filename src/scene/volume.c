@@ -17,6 +17,18 @@
 
 bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
 
+bool kd_scene_is_slow_volume(const struct kd_scene *scene)
+{
+    return scene->volume.slow_light && scene->volume.model == KD_VOLUME_GRID;
+}
+
+bool kd_scene_is_slow(const struct kd_scene *scene) { return scene->disk.slow_light || kd_scene_is_slow_volume(scene); }
+
+double kd_scene_lead(const struct kd_scene *scene)
+{
+    return kd_scene_is_slow(scene) && isfinite(scene->camera.r) ? scene->camera.r : 0;
+}
+
 bool kd_scene_is_magnetic(const struct kd_scene *scene) { return scene->volume.model >= KD_VOLUME_RIAF; }
 
 double kd_scene_volume_inner(const struct kd_scene *scene)

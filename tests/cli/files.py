@@ -141,6 +141,7 @@ class Files(support.Case):
         self.assertEqual(scene["spacetime"].pop("charge"), 0)
         self.assertEqual(scene["camera"].pop("field_uas"), "none")
         self.assertEqual(scene.pop("flash")["brightness"], 0)
+        self.assertIs(scene["volume"].pop("slow_light"), False)
         self.assertEqual(scene.pop("source"), {"name": "none", "ra_deg": 0, "dec_deg": 0, "mjd": "none"})
         self.assertEqual(scene, written)
 

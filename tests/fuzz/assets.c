@@ -19,7 +19,7 @@
 
 static const char *const names[] = { "header",      "r",           "theta",       "phi",       "density",
                                      "temperature", "u_con_r",     "u_con_theta", "u_cov_phi", "u_con_t",
-                                     "b_con_r",     "b_con_theta", "b_cov_phi" };
+                                     "b_con_r",     "b_con_theta", "b_cov_phi",   "time" };
 enum { NAMES = sizeof names / sizeof *names, MEMBERS = 64 };
 
 /* The form in which a member is stored in the file, or its error. */
@@ -93,13 +93,15 @@ static void check_grid(const void *data, size_t size, const struct kd_asset_abou
     }
     const struct kd_asset_grid told = kd_matter_grid_told(&grid);
     CHECK(!memcmp(told.nodes, about->grid.nodes, sizeof told.nodes) && told.spin == about->grid.spin &&
-              told.charge == about->grid.charge,
+              told.charge == about->grid.charge && told.frames == about->grid.frames && told.late == about->grid.late &&
+              !memcmp(told.time, about->grid.time, sizeof told.time),
           "a grid is another one than it was looked at");
     CHECK(fabs(told.spin) <= 1 && told.charge >= 0 && told.spin * told.spin + told.charge * told.charge <= 1,
           "a grid is for a hole of spin %g and charge %g", told.spin, told.charge);
     for (int k = 0; grid.packed && k < 2; k++)
         CHECK(isfinite(grid.least[k]) && grid.range[k] >= 0, "range %d is %g from %g", k, grid.range[k], grid.least[k]);
-    for (size_t i = 0; !grid.packed && i < (size_t)grid.rows * grid.columns * grid.layers * KD_MATTER_FLOATS; i++)
+    for (size_t i = 0;
+         !grid.packed && i < (size_t)grid.frames * grid.rows * grid.columns * grid.layers * KD_MATTER_FLOATS; i++)
         CHECK(isfinite(grid.nodes[i]), "number %zu of node %zu is %g", i % KD_MATTER_FLOATS, i / KD_MATTER_FLOATS,
               (double)grid.nodes[i]);
     kd_matter_grid_finish(&grid);

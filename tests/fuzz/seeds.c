@@ -287,18 +287,21 @@ static void add_array(struct kd_zip *zip, struct kd_buffer *records, unsigned nu
     kd_buffer_finish(&bytes);
 }
 
-/* The smallest grid of matter, as a file and as records of the target. */
-static void write_grid(void)
+/* The smallest grid of matter, or series of three, as a file and as records of the target. */
+static void write_grid(bool series)
 {
     static const char header[] =
         "{\"format\":\"kerrd-grid\",\"version\":1,\"spin\":0.5,\"charge\":0.25,\"azimuth\":\"kerr-schild\","
-        "\"units\":{\"r\":\"M\",\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\","
+        "\"time\":\"boyer-lindquist\",\"units\":{\"time\":\"M\",\"r\":\"M\",\"theta\":\"rad\",\"density\":\"cm^-3\","
+        "\"temperature\":\"K\","
         "\"u_con_r\":\"c\",\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c "
         "M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}";
     static const char *const kinds[] = { "density", "temperature", "u_con_r",     "u_con_theta", "u_cov_phi",
                                          "",        "b_con_r",     "b_con_theta", "b_cov_phi" };
-    const double r[2] = { 6, 20 }, theta[3] = { M_PI / 6, M_PI / 2, 5 * M_PI / 6 }, none[6] = { 0 },
-                 some[6] = { 1e6, 2e6, 1e6, 0, 2e6, 1e6 };
+    const double r[2] = { 6, 20 }, theta[3] = { M_PI / 6, M_PI / 2, 5 * M_PI / 6 }, none[18] = { 0 },
+                 some[18] = { 1e6, 2e6, 1e6, 0, 2e6, 1e6, 1e6, 1e6, 1e6, 0, 1e6, 1e6, 2e6, 2e6, 1e6, 0, 1e6, 2e6 },
+                 times[3] = { -5, 0, 5 };
+    const uint64_t shape[3] = { 3, 2, 3 };
     const struct kd_npy text = {
         .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { sizeof header - 1 }, .n_dimensions = 1
     };
@@ -315,20 +318,24 @@ static void write_grid(void)
     add_array(zip, &records, 2, "theta", (const uint64_t[]) { 3 }, 1, theta);
     for (unsigned i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (*kinds[i])
-            add_array(zip, &records, 4 + i, kinds[i], (const uint64_t[]) { 2, 3 }, 2, i < 2 ? some : none);
+            add_array(zip, &records, 4 + i, kinds[i], shape + !series, series ? 3 : 2, i < 2 ? some : none);
+    if (series)
+        add_array(zip, &records, 13, "time", shape, 1, times);
     CHECK(!kd_zip_close(zip), "out of memory");
     kd_zip_destroy(zip);
-    put("assets", "grid.npz", "", file.data, file.size);
-    put("assets", "grid", "grid", records.data, records.size);
-    for (uint8_t way = 1; way < 8; way++) { /* ways of assets.c: each for the array r */
+    put("assets", series ? "series.npz" : "grid.npz", "", file.data, file.size);
+    put("assets", series ? "series" : "grid", "grid", records.data, records.size);
+    for (uint8_t way = 1; way < 8 && !series; way++) { /* ways of assets.c: each for the array r */
         const size_t at = (size_t)(3 + sizeof header - 1);
         char name[16];
-        records.data[at] = (uint8_t)(1 + 13 * way);
+        records.data[at] = (uint8_t)(1 + 14 * way);
         snprintf(name, sizeof name, "grid-%d", way);
         put("assets", name, "grid", records.data, records.size);
     }
-    put("files", "members", "1", file.data, file.size);
-    put("pictures", "grid.npz", "", file.data, file.size);
+    if (!series) {
+        put("files", "members", "1", file.data, file.size);
+        put("pictures", "grid.npz", "", file.data, file.size);
+    }
     kd_buffer_finish(&file);
     kd_buffer_finish(&records);
     kd_buffer_finish(&bytes);
@@ -437,7 +444,8 @@ int main(int argc, char **argv)
     write_scenes();
     write_playgrounds();
     write_quantities();
-    write_grid();
+    write_grid(false);
+    write_grid(true);
     write_pictures();
     write_arrays();
     write_accuracy();

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <pthread.h>
 
-enum { SIDE = 4, PIXELS = SIDE * SIDE, MOST = 24 * 16 * 8 };
+enum { SIDE = 4, PIXELS = SIDE * SIDE, MOST_ANGLES = 64 * 48 };
 static const char *const names[] = { "density",   "temperature", "u_con_r",     "u_con_theta",
                                      "u_cov_phi", "b_con_r",     "b_con_theta", "b_cov_phi" };
 enum { ARRAYS = 8 };
@@ -28,7 +28,10 @@ struct numbers {
     /* bend[0] is for the first row of radii, bend[1] for the last: theta = y + bend sin 2y, with y evenly spaced from
      * pole to pole; 0: theta is evenly spaced */
     double bend[2];
-    double of[ARRAYS][MOST];
+    uint32_t frames; /* 0: the file has no times */
+    double time[2];
+    bool late;          /* the frames are slices of constant Kerr-Schild time */
+    double *of[ARRAYS]; /* allocated once, by make_room */
 };
 
 static struct keeper {
@@ -81,7 +84,7 @@ static double theta_of(const struct numbers *g, double row, double column)
 /* Writes theta: one line if all rows have the same angles, otherwise a line for each row. */
 static void add_angles(struct kd_zip *zip, const struct numbers *g)
 {
-    double theta[MOST];
+    double theta[MOST_ANGLES];
     const bool alone = g->bend[0] == g->bend[1];
     for (uint32_t i = 0; i < g->rows * g->columns; i++)
         theta[i] = theta_of(g, i / g->columns, i % g->columns);
@@ -112,12 +115,13 @@ static void keep(const struct numbers *g)
     OK(kd_zip_create(&keeper.file, true, &zip));
     snprintf(header, sizeof header,
              "{\"format\":\"kerrd-grid\",\"version\":1,\"packed\":%s,\"spin\":%.17g,\"charge\":%.17g,\"azimuth\":\"%"
-             "s\",\"units\":{"
+             "s\",\"time\":\"%s\",\"units\":{\"time\":\"M\","
              "\"r\":\"M\","
              "\"theta\":\"rad\",\"density\":\"cm^-3\",\"temperature\":\"K\",\"u_con_r\":\"c\","
              "\"u_con_theta\":\"c/M\",\"u_cov_phi\":\"c "
              "M\",\"b_con_r\":\"G\",\"b_con_theta\":\"G/M\",\"b_cov_phi\":\"G M\"}}",
-             g->packed ? "true" : "false", g->a, g->q, g->ingoing ? "kerr-schild" : "boyer-lindquist");
+             g->packed ? "true" : "false", g->a, g->q, g->ingoing ? "kerr-schild" : "boyer-lindquist",
+             g->late ? "kerr-schild" : "boyer-lindquist");
     add(zip, "header",
         &(struct kd_npy) {
             .fields = { { "", KD_NPY_U1, 0 } }, .n_fields = 1, .shape = { strlen(header) }, .n_dimensions = 1 },
@@ -130,13 +134,20 @@ static void keep(const struct numbers *g)
         line[i] = g->phi + i * 2 * M_PI / g->layers;
     if (g->layers > 1)
         add_line(zip, "phi", line, g->layers);
-    for (int i = 0; i < ARRAYS; i++)
-        add(zip, names[i],
-            &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } },
-                               .n_fields = 1,
-                               .shape = { g->rows, g->columns, g->layers },
-                               .n_dimensions = g->layers > 1 ? 3 : 2 },
-            g->of[i]);
+    for (uint32_t i = 0; i < g->frames; i++)
+        line[i] = g->time[0] + (g->time[1] - g->time[0]) * i / (g->frames - 1.0);
+    if (g->frames)
+        add_line(zip, "time", line, g->frames);
+    for (int i = 0; i < ARRAYS; i++) {
+        struct kd_npy shape = { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1 };
+        if (g->frames)
+            shape.shape[shape.n_dimensions++] = g->frames;
+        shape.shape[shape.n_dimensions++] = g->rows;
+        shape.shape[shape.n_dimensions++] = g->columns;
+        if (g->layers > 1)
+            shape.shape[shape.n_dimensions++] = g->layers;
+        add(zip, names[i], &shape, g->of[i]);
+    }
     OK(kd_zip_close(zip));
     kd_zip_destroy(zip);
 }
@@ -164,12 +175,25 @@ static const float *kelvin_of(const struct kd_frame *frame)
 
 static double random_of(uint32_t *seed) { return (double)((*seed = *seed * 1664525u + 1013904223u) >> 8) / 16777216; }
 
+static uint32_t numbers_of(const struct numbers *g)
+{
+    return (g->frames ? g->frames : 1) * g->rows * g->columns * g->layers;
+}
+
+static void make_room(struct numbers *g)
+{
+    for (int k = 0; k < ARRAYS && !g->of[k]; k++)
+        assert_non_null(g->of[k] = calloc(numbers_of(g), sizeof(double)));
+}
+
 /* Each node has different numbers, about a flow that falls in and rotates. */
 static void fill(struct numbers *g, uint32_t seed, double rough)
 {
-    for (uint32_t i = 0; i < g->rows * g->columns * g->layers; i++) {
-        const double r = g->r[0] * pow(g->r[1] / g->r[0], i / g->layers / g->columns / (g->rows - 1.0)),
-                     theta = theta_of(g, i / g->layers / g->columns, i / g->layers % g->columns), s = sin(theta);
+    make_room(g);
+    for (uint32_t i = 0; i < numbers_of(g); i++) {
+        const uint32_t row = i / g->layers / g->columns % g->rows;
+        const double r = g->r[0] * pow(g->r[1] / g->r[0], row / (g->rows - 1.0)),
+                     theta = theta_of(g, row, i / g->layers % g->columns), s = sin(theta);
         double x[ARRAYS];
         for (int k = 0; k < ARRAYS; k++)
             x[k] = rough * (2 * random_of(&seed) - 1);
@@ -194,9 +218,9 @@ static double column_of(const struct numbers *g, double row, double theta)
     return fmin(fmax(column + (theta - below) / (theta_of(g, row, column + 1) - below), 0), g->columns - 1.0);
 }
 
-/* Trilinear interpolation over the eight nodes about a place. Components are converted to those for a length of M:
+/* Interpolation over the eight nodes about a place, in a frame. Components are converted to those for a length of M:
  * theta's times r, phi's over r sin^2 theta. */
-static double between(const struct numbers *g, int which, double r, double theta, double phi)
+static double between(const struct numbers *g, uint32_t frame, int which, double r, double theta, double phi)
 {
     const double x = log(r / g->r[0]) / log(g->r[1] / g->r[0]) * (g->rows - 1), under = fmin(floor(x), g->rows - 2.0),
                  y = column_of(g, under, theta) * (under + 1 - x) + column_of(g, under + 1, theta) * (x - under),
@@ -209,7 +233,8 @@ static double between(const struct numbers *g, int which, double r, double theta
                      j = fmin(floor(y), g->columns - 2.0) + corner / 2 % 2, k = floor(z) + corner / 4;
         const double part = (1 - fabs(x - i)) * (1 - fabs(y - j)) * (g->layers > 1 ? 1 - fabs(z - k) : 0.5),
                      layer = k - floor(k / g->layers) * g->layers;
-        const double value = g->of[which][((uint32_t)i * g->columns + (uint32_t)j) * g->layers + (uint32_t)layer],
+        const double value = g->of[which][((frame * g->rows + (uint32_t)i) * g->columns + (uint32_t)j) * g->layers +
+                                          (uint32_t)layer],
                      here = g->r[0] * pow(g->r[1] / g->r[0], i / (g->rows - 1.0));
         sum +=
             part * (which < 2 ? log(value) : value * pow(here, power) / (turns ? pow(sin(theta_of(g, i, j)), 2) : 1));
@@ -217,10 +242,74 @@ static double between(const struct numbers *g, int which, double r, double theta
     return which < 2 ? exp(sum) : sum * pow(r, -power) * (turns ? pow(sin(theta), 2) : 1);
 }
 
+/* Kerr-Schild time minus Boyer-Lindquist time, by partial fractions of (2r - q^2)/Delta. */
+static double later(const struct numbers *g, double r)
+{
+    const double q2 = g->q * g->q, root = sqrt(1 - g->a * g->a - q2), out = 1 + root, in = 1 - root;
+    return ((2 * out - q2) * log((r - out) / 2) - (2 * in - q2) * log((r - in) / 2)) / (2 * root);
+}
+
+/* A ring whose density has one lump that goes round with the angular velocity of the orbit at 8 M. */
+static void ring(const struct numbers *g, double r, double theta, double phi, double time, double at[ARRAYS])
+{
+    const double turn = phi - time / (pow(8, 1.5) + g->a), x = log(r / 8) / 0.4, u = cos(theta) / 0.4, s = sin(theta);
+    at[0] = 3e6 * exp(-0.5 * (x * x + u * u)) * (1 + 0.7 * s * cos(turn));
+    at[1] = 3e11 / r * (1 + 0.3 * s * sin(turn));
+    at[2] = -0.1 / sqrt(r);
+    at[3] = 0.01 * u / r * s;
+    at[4] = 0.9 * sqrt(r) * s * s;
+    at[5] = 3 / r;
+    at[6] = -3 * s / (r * r);
+    at[7] = 30 * s * s;
+}
+
+static void fill_ring(struct numbers *g)
+{
+    double at[ARRAYS];
+    make_room(g);
+    for (uint32_t i = 0; i < numbers_of(g); i++) {
+        const uint32_t row = i / g->layers / g->columns % g->rows, layer = i % g->layers,
+                       frame = i / g->layers / g->columns / g->rows;
+        const double r = g->r[0] * pow(g->r[1] / g->r[0], row / (g->rows - 1.0));
+        double time = g->time[0] + (g->time[1] - g->time[0]) * frame / (g->frames - 1.0),
+               phi = g->phi + layer * 2 * M_PI / g->layers;
+        const double root = sqrt(1 - g->a * g->a - g->q * g->q);
+        time -= g->late ? later(g, fmax(r, 1.0001 * (1 + root))) : 0;
+        phi -= g->ingoing ? g->a / (2 * root) * log(fmax(r - 1 - root, 1e-4) / (r - 1 + root)) : 0;
+        ring(g, r, theta_of(g, row, i / g->layers % g->columns), phi, time, at);
+        for (int k = 0; k < ARRAYS; k++)
+            g->of[k][i] = at[k];
+    }
+}
+
 struct view {
     const struct kd_scene *scene;
     const struct numbers *g;
+    bool closed; /* the ring itself, not its nodes */
 };
+
+/* The time on the grid's clock, as a frame with a fraction: by definition at the scene's time, or when light left. */
+static double frame_of(const struct view *view, const struct ks_photon *p, double r)
+{
+    const struct numbers *g = view->g;
+    double time = view->scene->top.time;
+    if (!g->frames)
+        return 0;
+    if (view->scene->volume.slow_light)
+        time += (g->late ? later(g, r) : 0) - p->delay;
+    return fmin(fmax((time - g->time[0]) / (g->time[1] - g->time[0]), 0), 1) * (g->frames - 1);
+}
+
+static void numbers_at(const struct view *view, const struct ks_photon *p, double r, double theta, double phi,
+                       double at[ARRAYS])
+{
+    const double frame = frame_of(view, p, r), below = floor(frame), part = frame - below;
+    for (int i = 0; i < ARRAYS; i++) {
+        const double one = between(view->g, (uint32_t)below, i, r, theta, phi),
+                     two = part > 0 ? between(view->g, (uint32_t)below + 1, i, r, theta, phi) : one;
+        at[i] = i < 2 ? pow(one, 1 - part) * pow(two, part) : (1 - part) * one + part * two;
+    }
+}
 
 /* The product x.y in a metric whose only off-diagonal component is g_tphi. */
 static double product(const double g[5], const double x[4], const double y[4])
@@ -240,9 +329,11 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
     const double g[5] = { -(1 - mass / sigma), sigma / delta, sigma, (r * r + a * a + mass * a * a * s2 / sigma) * s2,
                           -mass * a * s2 / sigma };
     double theta = acos(u), phi = p->phi + view->scene->camera.azimuth_deg * M_PI / 180, at[ARRAYS];
-    phi += n->ingoing ? a / (2 * root) * log((r - 1 - root) / (r - 1 + root)) : 0;
-    for (int i = 0; i < ARRAYS; i++)
-        at[i] = between(n, i, r, theta, phi);
+    if (view->closed)
+        ring(n, r, theta, phi, view->scene->top.time - (view->scene->volume.slow_light ? p->delay : 0), at);
+    else
+        numbers_at(view, p, r, theta, phi + (n->ingoing ? a / (2 * root) * log((r - 1 - root) / (r - 1 + root)) : 0),
+                   at);
     /* With u^phi = (u_phi - g_tphi u^t)/g_phiphi the norm is a quadratic in u^t without a linear term. */
     const double rest = 1 + g[1] * at[2] * at[2] + g[2] * at[3] * at[3] + at[4] * at[4] / g[3],
                  lapse2 = g[4] * g[4] / g[3] - g[0], time = sqrt(rest / lapse2);
@@ -271,24 +362,33 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
     out[1] = cm * seen * j * expm1(H * nu / (heat * ME * C * C)) * C * C / (2 * H * nu * nu * nu);
 }
 
+/* The brightness temperature of pixel i of a square picture. */
+static double kelvin_by_oracle(struct view *view, int side, int i)
+{
+    const struct kd_scene *scene = view->scene;
+    const struct numbers *g = view->g;
+    const double nu = scene->volume.frequency_ghz * 1e9, step = scene->camera.field_m / side,
+                 inner = fmax(g->r[0], isinf(scene->volume.inner) ? 0 : scene->volume.inner);
+    const struct ks_photon photon =
+        ks_from_infinity_charged(g->a, g->q, cos(scene->camera.inclination_deg * M_PI / 180),
+                                 step * (i % side - 0.5 * (side - 1)), -step * (i / side - 0.5 * (side - 1)));
+    return ks_along(photon, inner, fmin(g->r[1], scene->volume.outer), false, medium, view).light * C * C /
+           (2 * K * nu * nu);
+}
+
 static void compare(const struct numbers *g, const char *json, double allowed)
 {
     keep(g);
     struct kd_scene scene = scene_of(g->a, json);
     scene.spacetime.charge = g->q;
     struct kd_frame frame = rendered(&scene);
-    struct view view = { &scene, g };
-    double worst = 0, most = 0, nu = scene.volume.frequency_ghz * 1e9, step = scene.camera.field_m / SIDE;
+    struct view view = { &scene, g, false };
+    double worst = 0, most = 0;
     for (int i = 0; i < PIXELS; i++)
         most = fmax(most, kelvin_of(&frame)[i]);
     assert_true(most > 1e8);
     for (int i = 0; i < PIXELS; i++) {
-        const struct ks_photon photon =
-            ks_from_infinity_charged(g->a, g->q, cos(scene.camera.inclination_deg * M_PI / 180),
-                                     step * (i % SIDE - 0.5 * (SIDE - 1)), -step * (i / SIDE - 0.5 * (SIDE - 1)));
-        const double inner = fmax(g->r[0], isinf(scene.volume.inner) ? 0 : scene.volume.inner),
-                     want = ks_along(photon, inner, fmin(g->r[1], scene.volume.outer), false, medium, &view).light * C *
-                            C / (2 * K * nu * nu);
+        const double want = kelvin_by_oracle(&view, SIDE, i);
         const double off = fabs(kelvin_of(&frame)[i] - want) / fmax(want, 1e-3 * most);
         worst = fmax(worst, off);
         if (!(off <= allowed))
@@ -340,6 +440,120 @@ static void test_rays(void **state)
             "{" HIGH ",\"camera\":{\"inclination_deg\":105,\"azimuth_deg\":40},\"volume\":{\"inner\":3,\"outer\":15}}",
             2e-3);
     compare(&ingoing, "{" HIGH ",\"camera\":{\"inclination_deg\":50,\"azimuth_deg\":-70}}", 2e-3);
+}
+
+/* Rays through series whose frames have nothing in common, in fast and in slow light, whole and packed, on slices of
+ * either time. Some light is older than the first frame, or younger than the last. */
+static void test_series(void **state)
+{
+    (void)state;
+    static struct numbers
+        flat = { .rows = 12, .columns = 8, .layers = 1, .a = 0.9, .r = { 2, 20 }, .frames = 4, .time = { -25, 20 } },
+        round = { .rows = 12,
+                  .columns = 8,
+                  .layers = 5,
+                  .a = 0.8,
+                  .r = { 2, 15 },
+                  .phi = 0.7,
+                  .ingoing = true,
+                  .late = true,
+                  .frames = 3,
+                  .time = { 90, 130 },
+                  .bend = { 0.3, 0.1 } },
+        charged = { .rows = 12,
+                    .columns = 8,
+                    .layers = 1,
+                    .a = 0.3,
+                    .q = 0.9,
+                    .r = { 1.8, 15 },
+                    .late = true,
+                    .frames = 2,
+                    .time = { -60, 30 } };
+    fill(&flat, 21, 0.5);
+    fill(&round, 22, 0.5);
+    fill(&charged, 23, 0.5);
+    compare(&flat, "{" HIGH ",\"time\":3}", 2e-3);
+    compare(&flat, "{" HIGH ",\"volume\":{\"slow_light\":true}}", 2e-3);
+    compare(&round, "{" HIGH ",\"time\":105}", 2e-3);
+    compare(&round, "{" HIGH ",\"time\":112,\"camera\":{\"azimuth_deg\":30},\"volume\":{\"slow_light\":true}}", 2e-3);
+    compare(&charged, "{" HIGH ",\"volume\":{\"slow_light\":true}}", 2e-3);
+    round.packed = true;
+    compare(&round, "{" HIGH ",\"time\":112,\"camera\":{\"azimuth_deg\":30},\"volume\":{\"slow_light\":true}}", 2e-3);
+}
+
+/* Before the first frame and after the last, a series is a grid of that frame alone, which ignores slow light. Slow
+ * light divides rays into other stretches. */
+static void test_ends(void **state)
+{
+    (void)state;
+    static struct numbers
+        series = { .rows = 12, .columns = 8, .layers = 4, .a = 0.9, .r = { 2, 20 }, .frames = 2, .time = { 0, 10 } },
+        one;
+    const uint32_t nodes = 12 * 8 * 4;
+    fill(&series, 31, 0.5);
+    for (int end = 0; end < 2; end++)
+        for (int slow = 0; slow < 2; slow++) {
+            keep(&series);
+            struct kd_scene scene = scene_of(0.9, "{}");
+            scene.top.time = end ? 1e9 : -1e9;
+            scene.volume.slow_light = slow;
+            struct kd_frame got = rendered(&scene);
+            one = series;
+            one.frames = 0;
+            for (int k = 0; k < ARRAYS; k++)
+                one.of[k] = series.of[k] + (end ? nodes : 0);
+            keep(&one);
+            scene = scene_of(0.9, "{}");
+            scene.matter.frames = 1;
+            scene.volume.slow_light = slow;
+            struct kd_frame want = rendered(&scene);
+            for (int i = 0; i < PIXELS; i++)
+                if (!(fabsf(kelvin_of(&got)[i] - kelvin_of(&want)[i]) <= (slow ? 1e-3f : 1e-5f) * kelvin_of(&want)[i]))
+                    fail_msg("end %d, slow %d, pixel %d: %.8g K, the frame alone has %.8g", end, slow, i,
+                             (double)kelvin_of(&got)[i], (double)kelvin_of(&want)[i]);
+            kd_frame_finish(&got);
+            kd_frame_finish(&want);
+        }
+}
+
+/* The ring with its lump in slow light, against the closed form at the time when light left each place. The fast
+ * picture is another one. */
+static void test_moving(void **state)
+{
+    enum { FINE = 10 };
+    (void)state;
+    static struct numbers g = {
+        .rows = 48, .columns = 32, .layers = 24, .a = 0.7, .r = { 2, 25 }, .frames = 13, .time = { 100, 220 }
+    };
+    static float pictures[2][FINE * FINE];
+    static double want[FINE * FINE];
+    for (int late = 0; late < 2; late++) {
+        g.late = g.ingoing = late;
+        fill_ring(&g);
+        keep(&g);
+        struct kd_scene scene = scene_of(0.7, "{" HIGH ",\"time\":165,\"volume\":{\"slow_light\":true,\"inner\":2.2}}");
+        scene.image.width = scene.image.height = FINE;
+        scene.camera.inclination_deg = 60;
+        struct view view = { &scene, &g, true };
+        struct kd_frame slow = rendered(&scene);
+        double off = 0, all = 0, apart = 0;
+        memcpy(pictures[late], kelvin_of(&slow), sizeof pictures[late]);
+        scene.volume.slow_light = false;
+        struct kd_frame fast = rendered(&scene);
+        scene.volume.slow_light = true;
+        for (int i = 0; i < FINE * FINE; i++) {
+            want[i] = late ? want[i] : kelvin_by_oracle(&view, FINE, i);
+            off += pow((double)pictures[late][i] - want[i], 2);
+            apart += pow((double)kelvin_of(&fast)[i] - want[i], 2);
+            all += want[i] * want[i];
+        }
+        printf("%s: NMSE %.2g in slow light, %.2g in fast light\n", late ? "Kerr-Schild" : "Boyer-Lindquist", off / all,
+               apart / all);
+        assert_true(off <= 1e-3 * all);
+        assert_true(apart >= 1e-2 * all);
+        kd_frame_finish(&slow);
+        kd_frame_finish(&fast);
+    }
 }
 
 /* For extreme numbers, light is a number and at least 0, polarised or not. */
@@ -467,8 +681,9 @@ static void test_reading(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(test_rays), cmocka_unit_test(test_adversarial),
-                                        cmocka_unit_test(test_reading) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test(test_rays),   cmocka_unit_test(test_adversarial),
+                                        cmocka_unit_test(test_series), cmocka_unit_test(test_ends),
+                                        cmocka_unit_test(test_moving), cmocka_unit_test(test_reading) };
     renderer_assets = &assets;
     int skip = open_renderer();
     if (skip)

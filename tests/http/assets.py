@@ -51,8 +51,8 @@ def npy(kind, shape, data):
     return b"\x93NUMPY\1\0" + struct.pack("<H", len(head)) + head + data
 
 
-def grid(spin, **header):
-    """A grid of matter of three rows and columns."""
+def grid(spin, times=(), **header):
+    """A grid of matter of three rows and columns; with times, a series."""
     units = dict(
         r="M",
         theta="rad",
@@ -65,15 +65,20 @@ def grid(spin, **header):
         b_con_theta="G/M",
         b_cov_phi="G M",
     )
+    if times:
+        header["units"] = {**units, "time": "M"}
     header = json.dumps(
-        dict(format="kerrd-grid", version=1, spin=spin, azimuth="boyer-lindquist", units=units, **header)
+        dict(format="kerrd-grid", version=1, spin=spin, azimuth="boyer-lindquist", **{"units": units, **header})
     )
     members = {
         "header": npy(f"<U{len(header)}", (), header.encode("utf-32-le")),
         "r": npy("<f8", (3,), struct.pack("<3d", 2, 4, 8)),
         "theta": npy("<f8", (3,), struct.pack("<3d", 0.5236, 1.5708, 2.618)),
     }
-    members |= {name: npy("<f4", (3, 3), struct.pack("<9f", *[1] * 9)) for name in units if name not in members}
+    shape, n = ((len(times), 3, 3), 9 * len(times)) if times else ((3, 3), 9)
+    members |= {name: npy("<f4", shape, struct.pack(f"<{n}f", *[1] * n)) for name in units if name not in members}
+    if times:
+        members["time"] = npy("<f8", (len(times),), struct.pack(f"<{len(times)}d", *times))
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w") as archive:
         for name, data in members.items():
@@ -250,6 +255,29 @@ class Assets(Case):
                 "image/png", self.assertProblem(self.put(good, kind), 415, "unsupported-media-type")["offered"]
             )
         self.assertEqual(self.daemon.get(ASSETS).json()["assets"], 0)
+
+    def test_a_series_of_grids(self):
+        """Time moves the picture of a series, and no picture of one grid."""
+        for times, more, moves in (
+            ((), {}, ["moves_with_azimuth"]),
+            ((-5, 0, 5), {"frames": 3, "times": [-5, 5]}, ["moves_with_time", "moves_with_azimuth"]),
+        ):
+            answer = self.put(grid(0.5, times), "application/x-npz")
+            self.assertEqual(answer.status, 201, answer.body)
+            asset = answer.json()
+            self.assertEqual({k: asset[k] for k in ("frames", "times") if k in asset}, more)
+            scene = {
+                "spacetime": {"spin": 0.5},
+                "disk": {"model": "none"},
+                "sky": {"model": "none"},
+                "volume": {"model": "grid", "grid": asset["sha256"], "slow_light": True},
+            }
+            session = self.daemon.post("/v1/sessions", scene).json()
+            at = "/v1/sessions/" + session["id"]
+            self.assertEqual(self.daemon.get(at).json()["varies"], moves)
+            owner = {"Authorization": "Bearer " + session["token"]}
+            self.assertEqual(self.daemon.request("DELETE", at, headers=owner).status, 204)
+            self.delete(asset)
 
     def test_a_grid_of_matter(self):
         data = grid(0.5)

@@ -139,6 +139,7 @@ static void medium_at(const struct along *w, const double *from, double t, doubl
     at.r = r;
     at.u = u;
     at.phi = -azimuth(a, w->system.q, y);
+    at.delay = y[6] - slow(a, w->system.q, r);
     at.p_r = (term * at.energy - a * at.momentum) / delta - p_r;
     at.p_theta = r * s * y[5] - u / s * (y[0] * y[3] + y[1] * y[4]);
     w->medium(w->user, &at, r, u, out);

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 import warnings
 
 KERRD, FOLDER = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2])
@@ -834,6 +835,118 @@ class Dumps(unittest.TestCase):
         with self.assertRaises(kerrd.DumpProblem) as caught:
             kerrd.matter(path)
         self.assertTrue(str(caught.exception).endswith("4096 a side and 33554432 in all"), str(caught.exception))
+
+    def series(self, times, kind="iharm"):
+        """Dumps of different flows, with these times."""
+        paths = []
+        for i, time in enumerate(times):
+            paths.append(self.path(f"{kind}{i}.h5"))
+            flow = any_flow(dumps.SPIN, seed=i)
+            if kind in ("iharm", "mks"):
+                dumps.write_iharm(paths[-1], "mks" if kind == "mks" else "fmks", SMALL, flow)
+            elif kind == "athena":
+                dumps.write_athdf(paths[-1], SMALL, flow)
+            elif kind == "kharma":
+                dumps.write_phdf(paths[-1], "fmks", SMALL, flow)
+            else:
+                dumps.write_koral(paths[-1], "KS", SMALL, flow)
+            with h5py.File(paths[-1], "r+") as file:
+                if kind == "athena":
+                    file.attrs["Time"] = np.float32(time)
+                elif kind == "kharma":
+                    file["Info"].attrs["Time"] = time
+                else:
+                    file["t"][()] = time
+        return paths
+
+    def test_series(self):
+        """Dumps of each code, in the order of their times, become frames with the numbers of each dump alone."""
+        units = {"mass_msun": 4e6, "m_unit": 1e19, "sigma_cut": None}
+        for kind, of in (("iharm", {}), ("athena", ATHENA), ("kharma", {}), ("koral", {})):
+            with self.subTest(kind):
+                paths = self.series((1000, 1005.03, 1010, 1015), kind)
+                found = kerrd.matter(paths, **units, **of)
+                self.assertLess(np.abs(found.time - (1000, 1005.03, 1010, 1015)).max(), 1e-4)
+                for i, path in enumerate(paths):
+                    one = kerrd.matter(path, **units, **of)
+                    self.assertIsNone(one.time)
+                    for name, values in one.arrays.items():
+                        np.testing.assert_array_equal(found.arrays[name][i], values)
+        found = kerrd.matter(self.series(range(0, 50, 10)), every=2, row_step=3, **units)
+        self.assertEqual(found.time.tolist(), [0, 20, 40])
+        one = kerrd.matter(self.path("iharm2.h5"), **units)
+        self.assertEqual(len(found.r), 8)
+        np.testing.assert_array_equal(found.arrays["density"][1], one.arrays["density"][::3])
+        np.testing.assert_array_equal(found.theta, one.theta[::3])
+        free = kerrd.matter(self.series((0, 1)), sigma_cut=None).arrays["density"]
+        self.assertAlmostEqual(free.max() / 1e6, 1, delta=1e-6)
+        self.assertNotEqual(free[0].max(), free[1].max(), "one unit holds for all frames")
+
+    def test_series_that_are_refused(self):
+        paths = self.series((1000, 1010, 1020))
+
+        def refused(words, *of, **options):
+            with self.assertRaises((kerrd.DumpProblem, ValueError)) as caught:
+                kerrd.matter(list(of), **options)
+            self.assertIn(words, str(caught.exception))
+            self.assertEqual(len(str(caught.exception).splitlines()), 1)
+
+        refused("a series has 1 dumps; it must have 2 to 1024", paths[0])
+        refused("a series has 1 dumps; it must have 2 to 1024", *paths, every=3)
+        refused("every is 0; it must be a whole number of at least 1", *paths, every=0)
+        refused("row_step is 24; it must leave at least 2 of 24 rows", *paths, row_step=24)
+        refused("iharm0.h5: has the time 1000; it must be later than 1010, the time of", paths[1], paths[0])
+        refused("has the time 1000; it must be later than 1000", paths[0], paths[0])
+        self.refused("every is 2; it must be 1 for one dump", paths[0], every=2)
+        late = self.series((1000, 1010.2, 1020))
+        refused("iharm1.h5: has the time 1010.2; it must be 1010, to a hundredth of the step 10", *late)
+        for change, words in (
+            (("t", np.nan), "it must be a finite number"),
+            (("header/geom/mmks/a", 0.5), "has the spin 0.5; it must be 0.9375, as in "),
+            (("header/gam", 1.5), "has the adiabatic index 1.5; it must be "),
+            (("header/geom/dx1", 0.1), "has other r of its zones than "),
+            (("header/geom/mmks/hslope", 0.7), "has other theta of its zones than "),
+        ):
+            with self.subTest(change[0]):
+                last = self.series((1000, 1010, 1020))
+                with h5py.File(last[2], "r+") as file:
+                    self.assertIn(change[0], file)
+                    file[change[0]][()] = change[1]
+                refused(words, *last)
+        dumps.write_iharm(paths[2], "fmks", (20, 16, 4), any_flow(0.9375))
+        with h5py.File(paths[2], "r+") as file:
+            file["t"][()] = 1020
+        refused("has 20 x 16 x 4 zones; it must have 24 x 16 x 4, as ", *paths)
+        with unittest.mock.patch("kerrd.grmhd.series.NODES_MOST", 4000):
+            refused("it must have at most 4000 zones in all: every=2 or row_step=2 leaves", *self.series((0, 1, 2)))
+
+    def test_series_in_the_program(self):
+        """The command writes the series; the program reads it, and its light changes with the time."""
+        paths, out = self.series((0, 10, 20), "mks"), self.path("series.npz")
+        done = self.command(*paths, "--r-high", "10", "-o", out)
+        self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
+        self.assertIn("3 frames from 0 M to 20 M", done.stderr)
+        grid = ["--asset", "g=" + out, "--set", "volume.model=grid", "--set", "volume.grid=g"]
+        grid += ["--set", "spacetime.spin=0.9375", "--set", "volume.grid_scale=100"]
+        done = subprocess.run([KERRD, "scene", *grid], capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = self.command(str(FOLDER.parents[1] / "docs/examples/disk.xml"), paths[0])
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("is given with other files; it must be a dump", done.stderr)
+        if subprocess.run([KERRD, "doctor"], capture_output=True, timeout=60).returncode:
+            self.skipTest("there is no Vulkan device")
+        flux = []
+        for slow in ("false", "true"):
+            text = subprocess.check_output(
+                [KERRD, "light-curve", "-p", "torus", "--size", "16x16", *grid, "--set", "volume.slow_light=" + slow]
+                + ["--start", "0", "--end", "20", "-n", "3", "-f", "json"],
+                text=True,
+                timeout=300,
+            )
+            flux.append([frame["flux"] for frame in json.loads(text)["frames"]])
+        self.assertTrue(all(value > 0 for curve in flux for value in curve), flux)
+        self.assertGreater(max(flux[0]) / min(flux[0]), 1.05, flux)
+        self.assertGreater(np.abs(np.divide(flux[0], flux[1]) - 1).max(), 0.01, flux)
 
     def command(self, *args):
         env = {**os.environ, "PYTHONPATH": os.pathsep.join([str(FOLDER / "src"), *sys.path])}

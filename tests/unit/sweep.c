@@ -60,7 +60,7 @@ static bool find_grid(void *user, const char *name, struct kd_asset_found *out)
 {
     (void)user;
     const bool large = !strcmp(name, "large");
-    *out = (struct kd_asset_found) { .grid = { { 100, 50, large ? 60 : 1 }, .spin = 0.7 } };
+    *out = (struct kd_asset_found) { .grid = { { 100, 50, large ? 60 : 1 }, .frames = large ? 1 : 3, .spin = 0.7 } };
     memset(out->hash, large ? 'b' : 'a', 64);
     return true;
 }
@@ -81,7 +81,8 @@ static void grids_have_their_own_nodes(void **state)
         fail_msg("%s", error.message);
     for (unsigned i = 0; i < 4; i++) {
         assert_int_equal(kd_sweep_scene(sweep, i, &scene, &error), KD_OK);
-        assert_int_equal(scene.grid_nodes, i < 2 ? 5000 : 300000);
+        assert_int_equal(scene.matter.nodes, i < 2 ? 15000 : 300000);
+        assert_int_equal(scene.matter.frames, i < 2 ? 3 : 1);
     }
     kd_sweep_free(sweep);
     cJSON_Delete(axes);

@@ -76,6 +76,7 @@ const labels = {
   'volume.gold_absorption': 'Absorption A',
   'volume.grid': 'Grid of matter',
   'volume.grid_scale': 'Density of the grid',
+  'volume.slow_light': 'Slow light of the grid',
   'sky.grid_deg': 'Grid spacing',
   'sky.milky_way': 'Milky Way',
   'sky.image': 'Picture of the sky',

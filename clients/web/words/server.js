@@ -358,6 +358,10 @@ const patterns = [
     'the file is not a grid of matter (an NPZ file of arrays): {…}',
   ],
   ['seen.matter-from-a-grid-of-numbers-from', 'Matter from a grid of numbers from {} to {}, at {} GHz.'],
+  [
+    'seen.matter-from-a-series-of-grids-from',
+    'Matter from a series of grids from {} to {}, at {} GHz, whose times are {} to {}; its light left at {} to {}.',
+  ],
   ['seen.no-matter-no-file-is-chosen', 'No matter: no file is chosen.'],
   ['seen.a-thin-disk-from-the-isco-to', 'A thin disk from the ISCO to {}.'],
   ['seen.a-thin-disk-from-to', 'A thin disk from {} to {}.'],

@@ -208,6 +208,18 @@ done:
     return status;
 }
 
+/* A frame far from the series keeps its sign, which is all that the kernels need of it. */
+static void fill_times(struct kd_plasma_block *to, const struct kd_matter_grid *g, const struct kd_scene *scene)
+{
+    const bool slow = kd_scene_is_slow_volume(scene);
+    const double rate = g->frames > 1 ? (g->frames - 1) / (g->time[1] - g->time[0]) : 0,
+                 time = scene->top.time - (slow ? kd_scene_lead(scene) : 0);
+    to->grid_frames = g->frames;
+    to->grid_now = (float)fmin(fmax(rate * (time - g->time[0]), -1e9), 1e9);
+    to->grid_per_time = (float)rate;
+    to->grid_late = slow && g->late;
+}
+
 /* Sets the location of the grid's nodes, and the range of radii that scene and grid have in common. */
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
                            size_t size, struct kd_error *error)
@@ -236,6 +248,7 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
     to->grid_fall = g->ingoing ? (float)scene->spacetime.spin : 0;
     to->grid_field = (float)log2(g->field);
     to->grid_packed = g->packed;
+    fill_times(to, g, scene);
     to->grid_density = (float)g->least[0];
     to->grid_densities = (float)g->range[0];
     to->grid_heat = (float)g->least[1];

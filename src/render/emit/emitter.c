@@ -2,7 +2,6 @@
 
 #include "base/hash.h"
 #include "physics/spacetime/kerr.h"
-#include "render/emit/particles.h"
 #include "render/emit/radio.h"
 #include "scene/hole.h"
 
@@ -273,7 +272,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .pixels_x = kd_scene_window(scene).width,
         .band_pixels = band_pixels,
         .azimuth = (float)(scene->camera.azimuth_deg * (M_PI / 180)),
-        .delay = (float)kd_particle_delay(scene),
+        .delay = (float)kd_scene_lead(scene),
         /* The range is widened by more than a float's rounding, because the emitter itself cuts off at the exact
          * edge. */
         .w_least = (float)fmax((1 - 1e-6) / reach[1], 1e-30), /* 0 means no crossing */

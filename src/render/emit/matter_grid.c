@@ -19,6 +19,8 @@
     40.0 /* An empty node is set this many octaves below the densest one, so that the light falls to nothing within a \
             cell. */
 #define EVEN 1e-3   /* tolerance for the even spacing of rows, as a fraction of a step */
+#define STEADY 1e-2 /* the same of times: codes write a dump at the first step after its time */
+#define LATEST 1e12 /* largest time, M, as that of the scene */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
 #define FINEST 1024 /* most rows per factor of e in r, since a stretch of the march is two cells */
@@ -53,7 +55,9 @@ struct kd_matter_reader {
 
 bool kd_matter_grid_is(const void *data, size_t size) { return size > 4 && !memcmp(data, "PK\3\4", 4); }
 
-static size_t nodes_of(const struct kd_matter_grid *g) { return (size_t)g->rows * g->columns * g->layers; }
+static size_t frame_of(const struct kd_matter_grid *g) { return (size_t)g->rows * g->columns * g->layers; }
+static size_t nodes_of(const struct kd_matter_grid *g) { return g->frames * frame_of(g); }
+static size_t row_of(const struct kd_matter_grid *g, size_t i) { return i / g->layers / g->columns % g->rows; }
 
 static const char *text_of(const cJSON *header, const char *name)
 {
@@ -61,12 +65,13 @@ static const char *text_of(const cJSON *header, const char *name)
     return text ? text : "";
 }
 
-static enum kd_status check_units(const cJSON *units, struct kd_error *error)
+static enum kd_status check_units(const cJSON *units, bool times, struct kd_error *error)
 {
-    static const char *const others[][2] = { { "r", "M" }, { "theta", "rad" } };
+    static const char *const others[][2] = { { "r", "M" }, { "theta", "rad" }, { "time", "M" } };
     char name[60], what[200];
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds + 2; i++) {
-        const char *of = i < 2 ? others[i][0] : kinds[i - 2].name, *unit = i < 2 ? others[i][1] : kinds[i - 2].unit,
+    const size_t n = times ? 3 : 2;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds + n; i++) {
+        const char *of = i < n ? others[i][0] : kinds[i - n].name, *unit = i < n ? others[i][1] : kinds[i - n].unit,
                    *is = text_of(units, of);
         if (!strcmp(is, unit))
             continue;
@@ -106,7 +111,7 @@ done:
     return status;
 }
 
-static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *header, struct kd_error *error)
+static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *header, bool times, struct kd_error *error)
 {
     const cJSON *spin = cJSON_GetObjectItemCaseSensitive(header, "spin"),
                 *version = cJSON_GetObjectItemCaseSensitive(header, "version");
@@ -122,12 +127,16 @@ static enum kd_status check_header(struct kd_matter_grid *grid, const cJSON *hea
     grid->ingoing = !strcmp(azimuth, "kerr-schild");
     if (!grid->ingoing && strcmp(azimuth, "boyer-lindquist"))
         return kd_matter_refuse("header.azimuth", "is neither \"boyer-lindquist\" nor \"kerr-schild\"", error);
+    const cJSON *time = cJSON_GetObjectItemCaseSensitive(header, "time");
+    grid->late = time ? !strcmp(text_of(header, "time"), "kerr-schild") : grid->ingoing;
+    if (time && !grid->late && strcmp(text_of(header, "time"), "boyer-lindquist"))
+        return kd_matter_refuse("header.time", "is neither \"boyer-lindquist\" nor \"kerr-schild\"", error);
     const cJSON *packed = cJSON_GetObjectItemCaseSensitive(header, "packed");
     if (packed && !cJSON_IsBool(packed))
         return kd_matter_refuse("header.packed", "is neither true nor false", error);
     grid->packed = cJSON_IsTrue(packed);
     grid->whole = cJSON_IsFalse(packed);
-    return check_units(cJSON_GetObjectItemCaseSensitive(header, "units"), error);
+    return check_units(cJSON_GetObjectItemCaseSensitive(header, "units"), times, error);
 }
 
 static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *error)
@@ -142,7 +151,7 @@ static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *e
     if (starved)
         status = kd_matter_no_memory(error);
     else if (!status)
-        status = cJSON_IsObject(header) ? check_header(&r->grid, header, error)
+        status = cJSON_IsObject(header) ? check_header(&r->grid, header, kd_matter_has(&r->zip, "time"), error)
                                         : kd_matter_refuse("header", "is not a JSON object", error);
     cJSON_Delete(header);
     kd_buffer_finish(&bytes);
@@ -193,6 +202,45 @@ static enum kd_status take_round(struct kd_matter_reader *r, struct kd_error *er
     g->layers = (uint32_t)a.n;
     g->phi = begin;
     g->turn = 2 * M_PI / parts;
+done:
+    kd_matter_array_finish(&a);
+    return status;
+}
+
+/* Reads the times of a series. */
+static enum kd_status take_times(struct kd_matter_reader *r, struct kd_error *error)
+{
+    struct kd_matter_grid *g = &r->grid;
+    struct kd_matter_array a = { 0 };
+    enum kd_status status;
+    char name[40], what[160];
+    g->frames = 1;
+    if (!kd_matter_has(&r->zip, "time"))
+        return KD_OK;
+    KD_TRY(kd_matter_array_take(&r->zip, "time", KD_MATTER_FRAMES, &a, error));
+    if (a.dimensions != 1 || a.n < 2)
+        KD_TRY(
+            kd_matter_refuse("time", "is not a list of 2 to 1024 numbers; a grid of one moment has no times", error));
+    const double begin = kd_matter_array_at(&a, 0),
+                 step = (kd_matter_array_at(&a, a.n - 1) - begin) / (double)(a.n - 1);
+    for (size_t i = 0; i < a.n; i++) {
+        const double at = kd_matter_array_at(&a, i), want = begin + step * (double)i;
+        snprintf(name, sizeof name, "time[%zu]", i);
+        if (!(fabs(at) <= LATEST))
+            snprintf(what, sizeof what, "is %.9g; it must be a number from -1e12 to 1e12", at);
+        else if (i && !(at > kd_matter_array_at(&a, i - 1)))
+            snprintf(what, sizeof what, "is %.9g; it must be greater than the one before it, %.9g", at,
+                     kd_matter_array_at(&a, i - 1));
+        else if (step > 0 && fabs(at - want) > STEADY * step)
+            snprintf(what, sizeof what, "is %.9g; times must have equal steps, to a hundredth of a step, here %.9g", at,
+                     want);
+        else
+            continue;
+        KD_TRY(kd_matter_refuse(name, what, error));
+    }
+    g->frames = (uint32_t)a.n;
+    g->time[0] = begin;
+    g->time[1] = kd_matter_array_at(&a, a.n - 1);
 done:
     kd_matter_array_finish(&a);
     return status;
@@ -336,10 +384,13 @@ static enum kd_status take_places(struct kd_matter_reader *r, struct kd_error *e
     KD_TRY(take_radii(r, error));
     KD_TRY(take_angles(r, error));
     KD_TRY(take_round(r, error));
-    if ((uint64_t)g->rows * g->columns * g->layers > KD_MATTER_NODES) {
-        char what[120];
-        snprintf(what, sizeof what, "x theta x phi is %u x %u x %u nodes: it must be at most %d in all", g->rows,
-                 g->columns, g->layers, KD_MATTER_NODES);
+    KD_TRY(take_times(r, error));
+    if (frame_of(g) > KD_MATTER_NODES || nodes_of(g) > KD_MATTER_NODES) {
+        char what[160], times[40] = "";
+        if (g->frames > 1)
+            snprintf(times, sizeof times, " in %u frames", g->frames);
+        snprintf(what, sizeof what, "x theta x phi is %u x %u x %u nodes%s: it must be at most %d in all", g->rows,
+                 g->columns, g->layers, times, KD_MATTER_NODES);
         KD_TRY(kd_matter_refuse("r", what, error));
     }
     if (g->whole && nodes_of(g) > KD_MATTER_WHOLE)
@@ -356,26 +407,34 @@ done:
 static enum kd_status check_shape(const struct kd_matter_grid *g, const char *name, const struct kd_matter_array *a,
                                   struct kd_error *error)
 {
-    const bool flat = a->dimensions == 2 && g->layers == 1, round = a->dimensions == 3 && a->shape[2] == g->layers;
-    char what[200];
-    if ((flat || round) && a->shape[0] == g->rows && a->shape[1] == g->columns)
+    const size_t lead = g->frames > 1; /* a leading axis of frames */
+    const bool flat = a->dimensions == 2 + lead && g->layers == 1,
+               round = a->dimensions == 3 + lead && a->shape[2 + lead] == g->layers;
+    char what[200], frames[20] = "", layers[20] = "";
+    if ((flat || round) && a->shape[lead] == g->rows && a->shape[1 + lead] == g->columns &&
+        (!lead || a->shape[0] == g->frames))
         return KD_OK;
+    if (lead)
+        snprintf(frames, sizeof frames, "%u, ", g->frames);
+    if (g->layers > 1)
+        snprintf(layers, sizeof layers, ", %u", g->layers);
     snprintf(what, sizeof what,
-             "has %zu numbers in %zu dimensions; it must have the shape (%u, %u%s%.0u) of r, theta%s", a->n,
-             a->dimensions, g->rows, g->columns, g->layers > 1 ? ", " : "", g->layers > 1 ? g->layers : 0,
-             g->layers > 1 ? " and phi" : "");
+             "has %zu numbers in %zu dimensions; it must have the shape (%s%u, %u%s) of %sr, theta%s", a->n,
+             a->dimensions, frames, g->rows, g->columns, layers, lead ? "time, " : "", g->layers > 1 ? " and phi" : "");
     return kd_matter_refuse(name, what, error);
 }
 
 static enum kd_status refuse_number(const struct kd_matter_grid *g, const char *name, size_t i, double value,
                                     const char *allowed, struct kd_error *error)
 {
-    char at[80], what[200];
-    const size_t layer = i % g->layers, column = i / g->layers % g->columns, row = i / g->layers / g->columns;
+    char at[120], what[200], frame[30] = "";
+    const size_t layer = i % g->layers, column = i / g->layers % g->columns, row = row_of(g, i);
+    if (g->frames > 1)
+        snprintf(frame, sizeof frame, "%zu, ", i / frame_of(g));
     if (g->layers > 1)
-        snprintf(at, sizeof at, "%s[%zu, %zu, %zu]", name, row, column, layer);
+        snprintf(at, sizeof at, "%s[%s%zu, %zu, %zu]", name, frame, row, column, layer);
     else
-        snprintf(at, sizeof at, "%s[%zu, %zu]", name, row, column);
+        snprintf(at, sizeof at, "%s[%s%zu, %zu]", name, frame, row, column);
     snprintf(what, sizeof what, "is %.9g; it must be %s", value, allowed);
     return kd_matter_refuse(at, what, error);
 }
@@ -386,7 +445,7 @@ static enum kd_status take_number(struct kd_matter_reader *r, size_t i, struct k
     struct kd_matter_grid *g = &r->grid;
     const size_t kind = r->kind;
     const int scale = kinds[kind].scale;
-    const double radius = r->r[i / g->layers / g->columns], read = kd_matter_array_at(&r->array, i);
+    const double radius = r->r[row_of(g, i)], read = kd_matter_array_at(&r->array, i);
     const double value = read * (scale > 0 ? radius : scale < 0 ? 1 / radius : 1);
     char allowed[80];
     if (value >= kinds[kind].least && value <= kinds[kind].most) {
@@ -407,7 +466,7 @@ static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struc
     const struct kd_matter_grid *g = &r->grid;
     const struct kd_hole hole = kd_hole_in(g);
     const double edge = 1.001 * hole.outer, t = kd_matter_array_at(&r->array, i);
-    const size_t row = i / g->layers / g->columns;
+    const size_t row = row_of(g, i);
     const double radius = r->r[row], theta = theta_at(r, row, i / g->layers % g->columns), s2 = sin(theta) * sin(theta);
     const struct kd_metric_scalars m = kd_metric_at(&hole, radius, cos(theta));
     const float *n = g->nodes + KD_MATTER_FLOATS * i;
@@ -424,8 +483,8 @@ static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struc
  * Interpolation then gives matter its own temperature up to the edge. */
 static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i)
 {
-    const size_t layers = g->layers, row = i / layers / g->columns, column = i / layers % g->columns,
-                 layer = i % layers, stride = layers * g->columns;
+    const size_t layers = g->layers, row = row_of(g, i), column = i / layers % g->columns, layer = i % layers,
+                 stride = layers * g->columns;
     const size_t beside[] = { row ? i - stride : i,
                               row + 1 < g->rows ? i + stride : i,
                               column ? i - layers : i,
@@ -451,7 +510,7 @@ static void over_sine(struct kd_matter_reader *r)
     for (int pass = 0; pass < 2; pass++) /* first the nodes off the axis, then those on it */
         for (size_t i = 0; i < nodes_of(g); i++) {
             const size_t column = i / g->layers % g->columns, beside = column ? i - g->layers : i + g->layers;
-            const double theta = theta_at(r, i / g->layers / g->columns, column), s2 = sin(theta) * sin(theta);
+            const double theta = theta_at(r, row_of(g, i), column), s2 = sin(theta) * sin(theta);
             for (int k = 0; k < 2 && (s2 > AXIS) == (pass == 0); k++) {
                 float *at = g->nodes + KD_MATTER_FLOATS * i + kind[k];
                 *at = pass ? g->nodes[KD_MATTER_FLOATS * beside + kind[k]] : (float)(*at / s2);
@@ -688,7 +747,12 @@ size_t kd_matter_grid_places(const struct kd_matter_grid *grid) { return (size_t
 
 struct kd_asset_grid kd_matter_grid_told(const struct kd_matter_grid *grid)
 {
-    return (struct kd_asset_grid) { .nodes = { grid->rows, grid->columns, grid->layers }, KD_HOLE_FROM(grid) };
+    return (struct kd_asset_grid) { .nodes = { grid->rows, grid->columns, grid->layers },
+                                    .frames = grid->frames,
+                                    .late = grid->late,
+                                    .time = { grid->time[0], grid->time[1] },
+                                    .outer = grid->r[1],
+                                    KD_HOLE_FROM(grid) };
 }
 
 enum kd_status kd_matter_grid_none(const struct kd_hole *hole, struct kd_matter_grid *out, struct kd_error *error)
@@ -697,6 +761,7 @@ enum kd_status kd_matter_grid_none(const struct kd_hole *hole, struct kd_matter_
     *out = (struct kd_matter_grid) { .rows = 2,
                                      .columns = 2,
                                      .layers = 1,
+                                     .frames = 1,
                                      KD_HOLE_FROM(&told),
                                      .r = { 0.1, 1e6 },
                                      .theta = { 0, M_PI },

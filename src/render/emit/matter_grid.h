@@ -7,6 +7,9 @@
  *   r theta phi   coordinates of rows, columns and layers. r is evenly spaced in log r, and phi in phi. theta has an
  *                 angle for each column, or, with the shape (rows, columns), for each node. phi covers a turn or 1/k
  *                 of a turn with a whole k, and may be missing
+ *   time          optional: the times of the frames of a series, in even steps. Each array below then has a leading
+ *                 axis of frames. The header's "time" names the slices on which the frames are: those of constant
+ *                 "boyer-lindquist" or "kerr-schild" time; if it is missing, those of its azimuth
  *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi
  *                 arrays of the shape (rows, columns) or (rows, columns, layers)
  *   u_con_t       optional; if present, the velocity must be a unit vector
@@ -26,7 +29,8 @@
 
 enum {
     KD_MATTER_SIDE = 4096,      /* limit for rows, columns and layers */
-    KD_MATTER_NODES = 1 << 25,  /* limit for nodes: 512 x 256 x 256 */
+    KD_MATTER_NODES = 1 << 25,  /* limit for nodes of all frames: 512 x 256 x 256 */
+    KD_MATTER_FRAMES = 1024,    /* limit for frames */
     KD_MATTER_WHOLE = 1 << 21,  /* largest number of nodes of a grid that is not packed */
     KD_MATTER_FLOATS = 8,       /* floats of a node; a packed node has half as many words */
     KD_MATTER_ANGLES = 1 << 21, /* limit for the angles theta, if each node of a row and column has its own */
@@ -35,6 +39,9 @@ enum {
 
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
+    uint32_t frames;                /* frames in time; 1: the grid has no times */
+    double time[2];                 /* of the first and the last frame, M */
+    bool late;                      /* the frames are slices of constant ingoing Kerr-Schild time */
     KD_HOLE_MEMBERS
     double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns
                               are evenly spaced */
@@ -43,9 +50,9 @@ struct kd_matter_grid {
     double phi, turn;
     bool ingoing; /* phi is the ingoing Kerr-Schild azimuth; false: the Boyer-Lindquist azimuth */
     double field; /* the largest component of the field, in gauss; 1 if there is no field */
-    /* For each node, with layers adjacent: log2 of density in cm^-3 and of k T/(m_e c^2), u^r, r u^theta, u_phi/(r
-     * sin^2 theta), then b^r, r b^theta and b_phi/(r sin^2 theta), each divided by `field`. These numbers vary
-     * little from node to node and are finite on the axis. */
+    /* For each node, with layers adjacent, then columns, rows and frames: log2 of density in cm^-3 and of k T/(m_e
+     * c^2), u^r, r u^theta, u_phi/(r sin^2 theta), then b^r, r b^theta and b_phi/(r sin^2 theta), each divided by
+     * `field`. These numbers vary little from node to node and are finite on the axis. */
     float *nodes;
     /* A packed node has four words: density and Theta as fractions of their ranges in 16 bits, then six halves in
      * the order above, namely u divided by `speed` and b times KD_MATTER_FIELD. least and range: least value and
@@ -67,7 +74,7 @@ struct kd_matter_grid {
 bool kd_matter_grid_is(const void *data, size_t size);
 /* Reads and checks a whole file. KD_EINVAL: the message says what is wrong and what is valid. KD_ENOMEM. */
 enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error);
-/* Like kd_matter_grid_read, but returns only the numbers of nodes in r, theta and phi, and the hole. */
+/* Like kd_matter_grid_read, but returns only the numbers of nodes in r, theta and phi, the frames and the hole. */
 enum kd_status kd_matter_grid_look(const void *data, size_t size, struct kd_asset_grid *out, struct kd_error *error);
 /* Number of bytes that the nodes take on the device. */
 size_t kd_matter_grid_bytes(const struct kd_matter_grid *grid);

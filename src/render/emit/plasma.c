@@ -23,13 +23,26 @@
 
 static bool present(const struct kd_scene *scene) { return kd_scene_is_radio(scene); }
 
+static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
+static bool has_grid(const struct kd_scene *scene) { return is_grid(scene) && *scene->volume.grid; }
+static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) && !*scene->volume.grid; }
+static bool is_series(const struct kd_scene *scene) { return has_grid(scene) && scene->matter.frames > 1; }
+
+/* A grid whose file has not been found yet may have several frames. */
+static uint32_t grid_traits(const struct kd_scene *scene)
+{
+    const bool series = has_grid(scene) && scene->matter.frames != 1;
+    return KD_TRAIT_PLASMA_GRID | KD_TRAIT_AZIMUTH | (series ? KD_TRAIT_PLASMA_SERIES : 0) |
+           (series && kd_scene_is_slow_volume(scene) ? KD_TRAIT_SLOW : 0);
+}
+
 static uint32_t traits(const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;
     if (v->model == KD_VOLUME_GOLD)
         return KD_TRAIT_PLASMA_GOLD;
     const uint32_t kind = v->model == KD_VOLUME_TORUS  ? KD_TRAIT_PLASMA_TORUS
-                          : v->model == KD_VOLUME_GRID ? KD_TRAIT_PLASMA_GRID | KD_TRAIT_AZIMUTH
+                          : v->model == KD_VOLUME_GRID ? grid_traits(scene)
                                                        : 0;
     return kind | (v->electrons == KD_VOLUME_KAPPA ? KD_TRAIT_PLASMA_KAPPA : 0) |
            (v->field == KD_VOLUME_VERTICAL ? KD_TRAIT_PLASMA_VERTICAL
@@ -70,14 +83,11 @@ static double knot(const struct kd_scene *scene)
     return falls && kd_scene_volume_inner(scene) < isco && isco < scene->volume.outer ? isco : 0;
 }
 
-static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }
-static bool has_no_grid(const struct kd_scene *scene) { return is_grid(scene) && !*scene->volume.grid; }
-
 /* Number of nodes of the scene's grid. If the grid's file has not been found yet, the largest number that is not
  * packed. */
 static uint64_t nodes_of(const struct kd_scene *scene)
 {
-    return scene->grid_nodes ? scene->grid_nodes : KD_MATTER_WHOLE;
+    return scene->matter.nodes ? scene->matter.nodes : KD_MATTER_WHOLE;
 }
 
 static bool is_packed(const struct kd_scene *scene) { return nodes_of(scene) > KD_MATTER_WHOLE; }
@@ -106,7 +116,21 @@ static uint64_t making_bytes(const struct kd_scene *scene)
 /* The picture depends on the azimuth unless the grid is axisymmetric, which the scene does not tell. */
 static unsigned varies(const struct kd_scene *scene)
 {
-    return is_grid(scene) && *scene->volume.grid ? KD_MOVES_WITH_AZIMUTH : 0;
+    return (has_grid(scene) ? KD_MOVES_WITH_AZIMUTH : 0) | (is_series(scene) ? KD_MOVES_WITH_TIME : 0);
+}
+
+/* The times that the light of a picture needs, on the grid's clock. In slow light the latest is that of the outer edge
+ * before the hole. The earliest is that of the outer edge behind it, for an image of order 2: light turns round the
+ * hole by pi more for each order, which takes pi b_c, b_c = 3 sqrt 3 M (J.-P. Luminet 1979, A&A 75, 228). Light of the
+ * horizon is older still. */
+#define ORDERS_M (2 * M_PI * 5.196152422706632)
+static void needs_times(const struct kd_scene *scene, double out[2])
+{
+    const double r = fmin(scene->volume.outer, scene->matter.outer), flight = r + 2 * log(fmax(r, 1)),
+                 time = scene->top.time - kd_scene_lead(scene);
+    const bool slow = kd_scene_is_slow_volume(scene);
+    out[0] = slow ? time - flight - ORDERS_M : scene->top.time;
+    out[1] = slow ? time + flight + (scene->matter.late && r > 4 ? 2 * log(r / 2 - 1) : 0) : scene->top.time;
 }
 
 static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
@@ -117,7 +141,15 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
                                          [KD_VOLUME_GRID] = "Matter from a grid of numbers" };
     if (has_no_grid(scene))
         snprintf(out, KD_EMIT_TOLD, "No matter: no file is chosen.");
-    else
+    else if (is_series(scene)) {
+        double needs[2];
+        needs_times(scene, needs);
+        snprintf(out, KD_EMIT_TOLD,
+                 "Matter from a series of grids from %.6g M to %.6g M, at %.6g GHz, whose times are %.6g M to %.6g M; "
+                 "its light left at %.6g M to %.6g M.",
+                 kd_scene_volume_inner(scene), scene->volume.outer, scene->volume.frequency_ghz, scene->matter.first,
+                 scene->matter.last, needs[0], needs[1]);
+    } else
         snprintf(out, KD_EMIT_TOLD, "%s from %.6g M to %.6g M, at %.6g GHz.", names[scene->volume.model],
                  kd_scene_volume_inner(scene), scene->volume.outer, scene->volume.frequency_ghz);
 }
@@ -230,9 +262,23 @@ static bool is_torus(const struct kd_scene *scene, const struct kd_setting *rays
 {
     return (void)rays, scene->volume.model == KD_VOLUME_TORUS;
 }
-static bool is_from_grid(const struct kd_scene *scene, const struct kd_setting *rays)
+static bool is_from_series(const struct kd_scene *scene, const struct kd_setting *rays)
 {
-    return (void)rays, is_grid(scene) && *scene->volume.grid;
+    return (void)rays, is_series(scene);
+}
+static bool is_still(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return (void)rays, has_grid(scene) && !(is_series(scene) && kd_scene_is_slow_volume(scene));
+}
+static bool is_late(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    return is_from_series(scene, rays) && kd_scene_is_slow_volume(scene);
+}
+static bool is_beyond(const struct kd_scene *scene, const struct kd_setting *rays)
+{
+    double needs[2];
+    needs_times(scene, needs);
+    return is_from_series(scene, rays) && (needs[0] < scene->matter.first || needs[1] > scene->matter.last);
 }
 static bool is_missing(const struct kd_scene *scene, const struct kd_setting *rays)
 {
@@ -267,7 +313,18 @@ static const struct kd_sentence sentences[] = {
     { "plasma.grid",
       "volume: matter is interpolated between the nodes of a grid, density and temperature by their logarithms; "
       "it is shown at one time and does not change while light passes",
-      is_from_grid },
+      is_still },
+    { "plasma.series",
+      "volume: between two frames of a series of grids, density, temperature, velocity and field of each node are "
+      "interpolated as they are between nodes",
+      is_from_series },
+    { "plasma.series-slow",
+      "volume: matter is interpolated between the nodes of a grid, density and temperature by their logarithms; "
+      "each place is shown at the time when its light left it",
+      is_late },
+    { "plasma.series-ends",
+      "volume: some light left before the first or after the last frame of the series, and shows that frame instead",
+      is_beyond },
     { "plasma.no-grid", "volume: volume.grid is not set: there is no matter", is_missing },
     { "plasma.pandya",
       "volume: synchrotron light by the fits of Pandya et al. 2016, which are good to a few percent within "

@@ -142,7 +142,8 @@ done:
     return status;
 }
 
-/* Reduces the scene to what the flux depends on. */
+/* Reduces the scene to what the flux depends on. Of a series, the flux is that of its middle, so that one density holds
+ * at all times. */
 static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;
@@ -159,7 +160,9 @@ static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_l
     bare.volume.normalise_ghz = INFINITY;
     bare.volume.frequency_ghz =
         isfinite(scene->volume.normalise_ghz) ? scene->volume.normalise_ghz : scene->volume.frequency_ghz;
-    bare.top.time = isfinite(scene->camera.r) ? scene->top.time : 0;
+    bare.top.time = scene->matter.frames > 1    ? 0.5 * (scene->matter.first + scene->matter.last)
+                    : isfinite(scene->camera.r) ? scene->top.time
+                                                : 0;
     return bare;
 }
 

@@ -271,11 +271,13 @@ static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *s
                                   const struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
     struct kd_setting *by = &plan->lens.setting;
-    if (kd_emit_slow_along(scene))
-        return kd_error_field(error, "/disk/slow_light",
-                              "disk.slow_light is true; inside the horizon, at camera.r %.9g, it must be false, "
+    if (kd_emit_slow_along(scene)) {
+        const bool volume = kd_scene_is_slow_volume(scene);
+        return kd_error_field(error, volume ? "/volume/slow_light" : "/disk/slow_light",
+                              "%s.slow_light is true; inside the horizon, at camera.r %.9g, it must be false, "
                               "because coordinate time does not define the light's delay there",
-                              scene->camera.r);
+                              volume ? "volume" : "disk", scene->camera.r);
+    }
     if (plan->lens.path != KD_LENS_MAP)
         return kd_error_field(error, "/accuracy/engine",
                               "accuracy.engine is \"%s\" in %s; inside the horizon, at camera.r %.9g, it must be a "

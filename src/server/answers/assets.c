@@ -41,6 +41,13 @@ static void write_grid(struct kd_json *json, const struct kd_asset_about *about)
     for (int i = 0; i < 3; i++)
         kd_json_number(json, NULL, about->grid.nodes[i]);
     kd_json_end(json);
+    if (about->grid.frames > 1) {
+        kd_json_number(json, "frames", about->grid.frames);
+        kd_json_array(json, "times");
+        for (int i = 0; i < 2; i++)
+            kd_json_number(json, NULL, about->grid.time[i]);
+        kd_json_end(json);
+    }
     kd_json_number(json, "spin", about->grid.spin);
 #define MORE(x, name, ...) kd_json_number(json, #name, about->grid.name);
     KD_HOLE_MORE(MORE, )
@@ -56,8 +63,8 @@ static void write_picture(struct kd_json *json, const struct kd_asset_about *abo
 }
 
 /* Writes {"sha256", "type", "bytes", "created"}. A picture also has "width", "height", "bit_depth" and "channels"; a
- * grid has "nodes" and the parameters of its hole; an observation has "visibilities" and "stations". The client that
- * has uploaded the asset also gets its token. */
+ * grid has "nodes" and the parameters of its hole, and a series also "frames" and "times"; an observation has
+ * "visibilities" and "stations". The client that has uploaded the asset also gets its token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);

@@ -34,6 +34,12 @@ void kd_openapi_asset_schema(struct kd_json *json)
           "{\"type\":\"array\",\"items\":" KD_SCHEMA_COUNT
           ",\"minItems\":3,\"maxItems\":3,\"description\":\"numbers of nodes in r, theta and phi\"}",
           true },
+        { "frames", "{\"type\":\"integer\",\"minimum\":2,\"description\":\"frames in time, of a series of grids\"}",
+          true },
+        { "times",
+          "{\"type\":\"array\",\"items\":{\"type\":\"number\"},\"minItems\":2,\"maxItems\":2,\"description\":\"times "
+          "of the first and the last frame, in M\"}",
+          true },
         { "spin", "{\"type\":\"number\",\"description\":\"spin of the hole that the grid is for\"}", true },
 #define MORE(x, name, member, least, most, shown, unit, ...) \
     { #name, "{\"type\":\"number\",\"description\":\"" #name " of the hole that the grid is for, in " unit "\"}", \

@@ -26,6 +26,8 @@ DUMP_OPTIONS = (
     ("outer", float, "leave out rows beyond this r"),
     ("spin", float, "spin of the hole, for Athena++, whose files do not have it"),
     ("gamma", float, "adiabatic index of the gas, for Athena++"),
+    ("every", int, "of so many dumps of a series, keep one (default: 1)"),
+    ("row_step", int, "of so many rows, keep one (default: 1)"),
 )
 
 
@@ -52,7 +54,7 @@ def import_dump(asked: argparse.Namespace) -> int:
     try:
         if asked.output is None or asked.output == "-":
             raise ValueError("-o is missing; it must be the grid's file, such as grid.npz")
-        found = grmhd.matter(asked.file, code=asked.code, **given)
+        found = grmhd.matter(asked.file[0] if len(asked.file) == 1 else asked.file, code=asked.code, **given)
     except (grmhd.DumpProblem, ImportError, ValueError) as problem:
         print(f"python3 -m kerrd: {problem}", file=sys.stderr)
         return 1
@@ -61,11 +63,13 @@ def import_dump(asked: argparse.Namespace) -> int:
     except OSError as problem:
         print(f"python3 -m kerrd: {asked.output}: {problem.strerror}", file=sys.stderr)
         return 1
-    rows, columns = found.arrays["density"].shape[:2]
     layers = 1 if found.phi is None else len(found.phi)
+    name = asked.file[0]
     for note in found.notes:
-        print(f"{asked.file}: {note}", file=sys.stderr)
-    print(f"{asked.file}: {rows} x {columns} x {layers} nodes, spin {found.spin:g}", file=sys.stderr)
+        print(f"{name}: {note}", file=sys.stderr)
+    if found.time is not None:
+        print(f"{name}: {len(found.time)} frames from {found.time[0]:g} M to {found.time[-1]:g} M", file=sys.stderr)
+    print(f"{name}: {len(found.r)} x {found.theta.shape[-1]} x {layers} nodes, spin {found.spin:g}", file=sys.stderr)
     return 0
 
 
@@ -79,9 +83,10 @@ def main(arguments: list[str] | None = None) -> int:
         "KORAL or Athena++",
         description="Print the scene of an input file of GYOTO (XML), ipole (.par) or Blacklight (.input) as JSON, and on "
         "standard error the notes on keys that the scene cannot express. Of a simulation's dump (iharm3d, KHARMA, "
-        "KORAL, Athena++), write the grid that the scene's volume.grid names.",
+        "KORAL, Athena++), write the grid that the scene's volume.grid names. Several dumps, in the order of their "
+        "times, become a series of grids.",
     )
-    one.add_argument("file", metavar="FILE")
+    one.add_argument("file", metavar="FILE", nargs="+")
     one.add_argument(
         "--code", choices=CODES + grmhd.CODES, help="the code that the file is for (default: by its contents)"
     )
@@ -95,16 +100,19 @@ def main(arguments: list[str] | None = None) -> int:
     for name, kind, text in DUMP_OPTIONS:
         dumps.add_argument("--" + name.replace("_", "-"), type=kind, help=text)
     asked = parser.parse_args(arguments)
-    if asked.code in grmhd.CODES or (asked.code is None and grmhd.is_hdf5(asked.file)):
+    path = asked.file[0]
+    if asked.code in grmhd.CODES or (asked.code is None and grmhd.is_hdf5(path)):
         for name in ("model", "all", "strict"):
             if getattr(asked, name):
-                one.error(f"--{name} is given for {asked.file}, a dump; it must be for an input file")
+                one.error(f"--{name} is given for {path}, a dump; it must be for an input file")
         return import_dump(asked)
-    if dump_options(asked) and os.path.exists(asked.file):
+    if dump_options(asked) and os.path.exists(path):
         name = next(iter(dump_options(asked))).replace("_", "-")
-        one.error(f"--{name} is given for {asked.file}, an input file; it must be for a dump, which is HDF5")
+        one.error(f"--{name} is given for {path}, an input file; it must be for a dump, which is HDF5")
+    if len(asked.file) > 1:
+        one.error(f"{path} is given with other files; it must be a dump, which is HDF5, or the only file")
     try:
-        found = scene_from(asked.file, code=asked.code, model=asked.model)
+        found = scene_from(path, code=asked.code, model=asked.model)
     except (ImportProblem, ValueError) as problem:
         print(f"python3 -m kerrd: {problem}", file=sys.stderr)
         return 1

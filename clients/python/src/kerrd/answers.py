@@ -955,6 +955,8 @@ class Asset(TypedDict):
     bytes: int
     created: float
     nodes: NotRequired[list[int]]
+    frames: NotRequired[int]
+    times: NotRequired[list[float]]
     spin: NotRequired[float]
     charge: NotRequired[float]
     visibilities: NotRequired[int]

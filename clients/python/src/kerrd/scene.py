@@ -311,6 +311,8 @@ class Volume:
         without it there is no matter; default null.
     grid_scale: factor on the file's density; the magnetic field is multiplied by the square root of it (model: grid); 0 to 1e+30;
         default 1.
+    slow_light: show each place of a grid with several frames at the time when its light left it, instead of the whole grid at `time`
+        (model: grid); default false.
     gold_emission: C n0: emissivity at 230 GHz at the largest density (model: gold); in erg/(s cm^3 Hz sr); 0 to 1e+30; default 3e-18.
     gold_index: alpha: emissivity goes as nu^-alpha, absorptivity as nu^-(2.5 + alpha) (model: gold); -10 to 10; default 0.
     gold_flattening: h: density goes as exp(-(h cos(theta))^2/2); 0: round (model: gold); 0 to 10000; default 0.
@@ -358,6 +360,7 @@ class Volume:
     frequency_ghz: float | None = None
     grid: None | str | None = None
     grid_scale: float | None = None
+    slow_light: bool | None = None
     gold_emission: float | None = None
     gold_index: float | None = None
     gold_flattening: float | None = None

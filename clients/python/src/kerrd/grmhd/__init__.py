@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
 
 from . import athena, iharm, kharma, koral
 from .dump import Dump
 from .file import DumpFile, DumpProblem, is_hdf5
 from .grid import Matter
 from .plasma import Plasma
+from .series import series
 
 __all__ = ["CODES", "DumpProblem", "Matter", "is_hdf5", "matter"]
 CODES = ("iharm3d", "kharma", "koral", "athena++")
@@ -31,8 +35,23 @@ def _dump(file: DumpFile, code: str | None, spin: float | None, gamma: float | N
     return koral.read(file, outer) if code == "koral" else iharm.read(file, outer)
 
 
+def _thinned(dump: Dump, step: int) -> Dump:
+    """Each step-th row."""
+    if step == 1:
+        return dump
+    if len(dump.r[::step]) < 2:
+        raise ValueError(f"row_step is {step}; it must leave at least 2 of {len(dump.r)} rows")
+    return replace(
+        dump,
+        r=dump.r[::step],
+        theta=dump.theta if dump.theta.ndim == 1 else dump.theta[::step],
+        row=lambda i: dump.row(step * i),
+        notes=(*dump.notes, f"1 of {step} rows is kept"),
+    )
+
+
 def matter(
-    path: str | os.PathLike[str],
+    path: str | os.PathLike[str] | Sequence[str | os.PathLike[str]],
     *,
     mass_msun: float | None = None,
     m_unit: float | None = None,
@@ -47,8 +66,11 @@ def matter(
     spin: float | None = None,
     gamma: float | None = None,
     code: str | None = None,
+    every: int = 1,
+    row_step: int = 1,
 ) -> Matter:
-    """The matter of a simulation's dump, as the file that volume.grid names.
+    """The matter of a simulation's dump, as the file that volume.grid names. A list of dumps in the order of their
+    times becomes a series, which volume.slow_light shows in slow light.
 
     mass_msun, m_unit: mass of the hole, and the code's unit of mass, g; together they give the density in cm^-3 and the
     field in gauss. Without m_unit the largest density is 1e6 cm^-3, and the scene's volume.grid_scale or
@@ -56,7 +78,8 @@ def matter(
     or the name of the stored entropy, such as "KEL", or, of KORAL, "te", their temperature. gamma_e, gamma_p: adiabatic
     indices of electrons and ions; None: the file's, else 4/3 and 5/3. sigma_cut: zones with a larger b^2/rho have no
     matter; None: no such cut. rho_floor: zones whose density in the code's units is at most this have no matter,
-    because the code has set that density; None: no such cut. outer: rows beyond this r are left out. code: "iharm3d",
+    because the code has set that density; None: no such cut. outer: rows beyond this r are left out. row_step: of so
+    many rows, one is kept. every: of so many dumps of a series, one is kept. code: "iharm3d",
     "kharma", "koral" or "athena++"; None: found by the contents. spin, gamma: of the hole, and the gas's adiabatic
     index: needed for Athena++, whose files have neither. DumpProblem, with file and name, for a file that cannot be
     read; ValueError for another argument; ImportError without the package h5py.
@@ -65,5 +88,19 @@ def matter(
         raise ValueError(f"code is {code!r}; it must be {', '.join(CODES)} or None")
     plasma = Plasma(electrons, r_low, r_high, gamma_e, gamma_p, sigma_cut, mass_msun, m_unit, rho_floor)
     plasma.check()
-    with DumpFile(path) as file:
-        return Matter.of(_dump(file, code, spin, gamma, outer), plasma)
+    for name, value in (("every", every), ("row_step", row_step)):
+        if value < 1 or value != int(value):
+            raise ValueError(f"{name} is {value}; it must be a whole number of at least 1")
+
+    @contextmanager
+    def dump(of: str | os.PathLike[str]) -> Iterator[Dump]:
+        with DumpFile(of) as file:
+            yield _thinned(_dump(file, code, spin, gamma, outer), row_step)
+
+    if not isinstance(path, (str, os.PathLike)):
+        paths = [os.fspath(one) for one in path][::every]
+        return series(paths, lambda i: dump(paths[i]), plasma)
+    if every != 1:
+        raise ValueError(f"every is {every}; it must be 1 for one dump")
+    with dump(path) as one:
+        return Matter.of(one, plasma)

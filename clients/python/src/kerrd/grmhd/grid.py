@@ -6,7 +6,9 @@ import io
 import json
 import math
 import os
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -31,13 +33,14 @@ UNITS = {
 }
 ARRAYS = tuple(UNITS)[2:]
 KIND = "application/x-npz"
-NODES_MOST, SIDE_MOST = 1 << 25, 4096  # of a grid, as in src/render/emit/matter_grid.h
+NODES_MOST, SIDE_MOST, FRAMES_MOST = 1 << 25, 4096, 1024  # of a grid, as in src/render/emit/matter_grid.h
 
 
 @dataclass(frozen=True)
 class Matter:
     """A grid of matter. spin, charge: of the hole; the scene's spacetime.spin and spacetime.charge must equal them.
-    r, theta, phi: of the nodes. arrays: each of the shape (rows, columns) or (rows, columns, layers). notes: what was
+    r, theta, phi: of the nodes. arrays: each of the shape (rows, columns) or (rows, columns, layers). time: of each
+    frame of a series, whose arrays have a leading axis of frames; None: the grid shows one moment. notes: what was
     chosen, cut and left out."""
 
     spin: float
@@ -47,40 +50,33 @@ class Matter:
     arrays: dict[str, NDArray[np.float32]] = field(repr=False)
     notes: tuple[str, ...] = ()
     charge: float = 0.0
+    time: NDArray[np.float64] | None = None
 
     @staticmethod
     def of(dump: Dump, plasma: Plasma) -> Matter:
         """The matter of a dump."""
-        stored = (*dump.electrons, *dump.kelvin)
-        if plasma.electrons != "ratio" and plasma.electrons not in stored:
-            names = " or ".join(f'"{name}"' for name in ("ratio", *stored))
-            raise ValueError(printable(f'electrons is "{plasma.electrons}"; it must be {names} for {dump.file}'))
-        _check_size(dump)
+        _check_electrons(dump, plasma)
+        check_size(dump)
         arrays = {name: np.empty(dump.shape, np.float32) for name in ARRAYS}
-        empty = 0
-        with np.errstate(all="ignore"):  # _check_single finds what overflows
-            for i in range(dump.shape[0]):
-                row = dump.row(i)
-                _check(dump, i, row)
-                theta = dump.angles(i)[:, None]
-                moves = flow(
-                    dump.spin, dump.r[i], theta, (row["U1"], row["U2"], row["U3"]), (row["B1"], row["B2"], row["B3"])
-                )
-                cut = plasma.cut(row["rho"], moves.b2)
-                empty += int(np.count_nonzero(cut))
-                values = (np.where(cut, 0, row["rho"]), plasma.kelvin(dump, row, moves.b2), *moves.u, *moves.b)
-                for name, of in zip(ARRAYS, values):
-                    arrays[name][i] = of
+        empty = _fill(arrays, dump, plasma)
         if not arrays["density"].any():
             raise _nothing(dump, plasma, empty == math.prod(dump.shape))
-        _scale(arrays, plasma.density_unit)
-        _check_single(dump, plasma, arrays)
-        if dump.phi is None:
-            arrays = {name: of[..., 0] for name, of in arrays.items()}
-        notes = (*dump.notes, *plasma.said(dump))
-        if empty:
-            notes = (*notes, f"{empty} of {math.prod(dump.shape)} zones have no matter by this cut")
-        return Matter(dump.spin, dump.r, dump.theta, dump.phi, arrays, notes)
+        return _finished(dump, plasma, arrays, empty)
+
+    @staticmethod
+    def series(dumps: Callable[[int], AbstractContextManager[Dump]], time: list[float], plasma: Plasma) -> Matter:
+        """The matter of dumps with the same nodes, in the order of their times, which have been checked. dumps: opens a
+        dump by its number."""
+        with dumps(0) as first:
+            arrays = {name: np.empty((len(time), *first.shape), np.float32) for name in ARRAYS}
+        empty = 0
+        for i in range(len(time)):
+            with dumps(i) as dump:
+                _check_electrons(dump, plasma)
+                empty += _fill({name: of[i] for name, of in arrays.items()}, dump, plasma)
+        if not arrays["density"].any():
+            raise _nothing(first, plasma, empty == arrays["density"].size)
+        return replace(_finished(first, plasma, arrays, empty), time=np.array(time))
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the file that `--asset NAME=FILE` and client.put_asset take."""
@@ -98,9 +94,51 @@ class Matter:
         if self.charge:
             header["charge"] = self.charge
         places = {"r": self.r, "theta": self.theta}
+        if self.time is not None:
+            header["units"] = {**UNITS, "time": "M"}
+            places["time"] = self.time
         if self.phi is not None:
             places["phi"] = self.phi
         np.savez(file, header=np.array(json.dumps(header)), **places, **self.arrays)  # type: ignore[arg-type]
+
+
+def _check_electrons(dump: Dump, plasma: Plasma) -> None:
+    """Refuses a stored entropy or temperature that the dump does not have."""
+    stored = (*dump.electrons, *dump.kelvin)
+    if plasma.electrons != "ratio" and plasma.electrons not in stored:
+        names = " or ".join(f'"{name}"' for name in ("ratio", *stored))
+        raise ValueError(printable(f'electrons is "{plasma.electrons}"; it must be {names} for {dump.file}'))
+
+
+def _fill(arrays: dict[str, NDArray[np.float32]], dump: Dump, plasma: Plasma) -> int:
+    """Fills the arrays in the code's units. Returns the number of zones that a cut leaves without matter."""
+    empty = 0
+    with np.errstate(all="ignore"):  # _check_single finds what overflows
+        for i in range(dump.shape[0]):
+            row = dump.row(i)
+            _check(dump, i, row)
+            theta = dump.angles(i)[:, None]
+            moves = flow(
+                dump.spin, dump.r[i], theta, (row["U1"], row["U2"], row["U3"]), (row["B1"], row["B2"], row["B3"])
+            )
+            cut = plasma.cut(row["rho"], moves.b2)
+            empty += int(np.count_nonzero(cut))
+            values = (np.where(cut, 0, row["rho"]), plasma.kelvin(dump, row, moves.b2), *moves.u, *moves.b)
+            for name, of in zip(ARRAYS, values):
+                arrays[name][i] = of
+    return empty
+
+
+def _finished(dump: Dump, plasma: Plasma, arrays: dict[str, NDArray[np.float32]], empty: int) -> Matter:
+    """The matter of filled arrays; all frames have the same units."""
+    _scale(arrays, plasma.density_unit)
+    _check_single(dump, plasma, arrays)
+    if dump.phi is None:
+        arrays = {name: of[..., 0] for name, of in arrays.items()}
+    notes = (*dump.notes, *plasma.said(dump))
+    if empty:
+        notes = (*notes, f"{empty} of {arrays['density'].size} zones have no matter by this cut")
+    return Matter(dump.spin, dump.r, dump.theta, dump.phi, arrays, notes)
 
 
 def _check(dump: Dump, i: int, row: dict[str, NDArray[np.float64]]) -> None:
@@ -116,7 +154,7 @@ def _check(dump: Dump, i: int, row: dict[str, NDArray[np.float64]]) -> None:
             raise DumpProblem(dump.file, f"{name}[{i}, {j}, {k}]", f"is {values[j, k]:g}; it must be {must}")
 
 
-def _check_size(dump: Dump) -> None:
+def check_size(dump: Dump) -> None:
     """Refuses more nodes than a grid may have."""
     if max(dump.shape) <= SIDE_MOST and math.prod(dump.shape) <= NODES_MOST:
         return
@@ -161,12 +199,12 @@ def _check_single(dump: Dump, plasma: Plasma, arrays: dict[str, NDArray[np.float
         bad = ~np.isfinite(values)
         if not bad.any():
             continue
-        i, j, k = (int(x) for x in np.argwhere(bad)[0])
+        at = ", ".join(str(int(x)) for x in np.argwhere(bad)[0])
         if plasma.m_unit is not None and name not in ("temperature", "u_con_r", "u_con_theta", "u_cov_phi"):
             raise ValueError(
-                f"m_unit is {plasma.m_unit:g}; it must make {name}[{i}, {j}, {k}] smaller than 3.4e38 {UNITS[name]}"
+                f"m_unit is {plasma.m_unit:g}; it must make {name}[{at}] smaller than 3.4e38 {UNITS[name]}"
             )
-        raise DumpProblem(dump.file, None, f"{name}[{i}, {j}, {k}] is infinite in single precision; it must be finite")
+        raise DumpProblem(dump.file, None, f"{name}[{at}] is infinite in single precision; it must be finite")
     if not arrays["density"].any():
         shown = "None" if plasma.m_unit is None else f"{plasma.m_unit:g}"
         raise ValueError(f"m_unit is {shown}; it must make the largest density larger than 1.4e-45 cm^-3")
