@@ -19,9 +19,9 @@ static enum kd_status check_hole(const struct kd_playground_params *params, stru
 #define MORE(x, name, ...) \
     if (params->name != 0) \
         return kd_error_field(error, "/" #name, \
-                              #name " is %.9g; without gravity \"kerr\" it must be 0: the potential, in which stars " \
-                                    "are torn apart, is that of an uncharged hole", \
-                              params->name);
+                              "%s is %.9g; without gravity \"kerr\" it must be 0: the potential, in which stars are " \
+                              "torn apart, is that of an uncharged hole", \
+                              #name, params->name);
     KD_HOLE_MORE(MORE, )
 #undef MORE
     return KD_OK;
@@ -214,7 +214,7 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
         return kd_error_field(error, "/spin", "spin cannot change after a playground is made");
 #define MORE(x, name, ...) \
     if (params->name != p->params.name) \
-        return kd_error_field(error, "/" #name, #name " cannot change after a playground is made");
+        return kd_error_field(error, "/" #name, "%s cannot change after a playground is made", #name);
     KD_HOLE_MORE(MORE, )
 #undef MORE
     struct kd_playground_params looks = *params; /* only appearance may differ */

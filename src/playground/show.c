@@ -235,6 +235,8 @@ done:
     return status;
 }
 
+#define THAT_HOLE "spacetime.%s is %.9g; it must be %.9g: the playground's bodies move round a hole of that %s"
+
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene,
                                       struct kd_error *error)
 {
@@ -242,22 +244,17 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
 #define MORE(x, name, ...) \
     if (!kerr && scene->spacetime.name != 0) \
         return kd_error_field(error, "/spacetime/" #name, \
-                              "spacetime." #name " is %.9g; it must be 0: the playground's bodies and debris move in " \
-                              "the potential of an uncharged hole", \
-                              scene->spacetime.name); \
+                              "spacetime.%s is %.9g; it must be 0: the playground's bodies and debris move in the " \
+                              "potential of an uncharged hole", \
+                              #name, scene->spacetime.name); \
     if (kerr && scene->spacetime.name != p->params.name) \
-        return kd_error_field(error, "/spacetime/" #name, \
-                              "spacetime." #name \
-                              " is %.9g; it must be %.9g: the playground's bodies move round a hole " \
-                              "of that " #name, \
-                              scene->spacetime.name, p->params.name);
+        return kd_error_field(error, "/spacetime/" #name, THAT_HOLE, #name, scene->spacetime.name, p->params.name, \
+                              #name);
     KD_HOLE_MORE(MORE, )
 #undef MORE
     if (kerr && p->params.spin != scene->spacetime.spin)
-        return kd_error_field(
-            error, "/spacetime/spin",
-            "spacetime.spin is %.9g; it must be %.9g: the playground's bodies move round a hole of that spin",
-            scene->spacetime.spin, p->params.spin);
+        return kd_error_field(error, "/spacetime/spin", THAT_HOLE, "spin", scene->spacetime.spin, p->params.spin,
+                              "spin");
     return KD_OK;
 }
 

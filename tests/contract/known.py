@@ -165,7 +165,7 @@ def why(failure, case, response):
 
 def gone():
     """The sentences of TOGETHER that are no longer in the source."""
-    text = re.sub(r'"\s*\n\s*"', "", "\n".join(file.read_text() for file in sorted(SOURCE.rglob("*.c")))).replace(
+    text = re.sub(r'"\s*\\?\n\s*"', "", "\n".join(file.read_text() for file in sorted(SOURCE.rglob("*.c")))).replace(
         '\\"', '"'
     )
     return [

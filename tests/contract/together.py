@@ -478,11 +478,10 @@ TOGETHER = [
     (
         "(POST|PATCH) /v1/playground|POST /v1/jobs",
         (
-            "spacetime.spin is %.9g; it must be %.9g: the playground's bodies move round a hole of that spin",
-            "spacetime.charge is %.9g; it must be %.9g: the playground's bodies move round a hole of that charge",
+            "spacetime.%s is %.9g; it must be %.9g: the playground's bodies move round a hole of that %s",
             HOLE,
-            'charge is %.9g; without gravity "kerr" it must be 0: the potential, in which stars are torn apart, is that of an uncharged hole',
-            "spacetime.charge is %.9g; it must be 0: the playground's bodies and debris move in the potential of an uncharged hole",
+            '%s is %.9g; without gravity "kerr" it must be 0: the potential, in which stars are torn apart, is that of an uncharged hole',
+            "spacetime.%s is %.9g; it must be 0: the playground's bodies and debris move in the potential of an uncharged hole",
             "velocity is %.9g c; it must be %s",
             "position is %.9g M from the hole; it must be more than %g M, inside which the hole captures everything",
             "a snapshot cannot have this body, because it is captured by the hole or faster than c",
@@ -499,7 +498,7 @@ TOGETHER = [
             "there is no body with this id, or it no longer exists",
             "gravity cannot change after a playground is made",
             "spin cannot change after a playground is made",
-            "charge cannot change after a playground is made",
+            "%s cannot change after a playground is made",
         ),
     ),
     (

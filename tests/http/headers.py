@@ -22,6 +22,7 @@ ALL = {
 RICHEST = {
     "gas": {
         **ALL,
+        "flash": {"brightness": 1},
         "disk": {
             "model": "shakura-sunyaev",
             "opacity": 0,
