@@ -199,6 +199,9 @@ class Documents(unittest.TestCase):
     def test_disk(self):
         self.run_all("docs/physics/disk.md", 1)
 
+    def test_echo(self):
+        self.run_all("docs/physics/echo.md", 1)
+
     def test_colour(self):
         self.made("docs/physics/colour.md", 1, "disk.fits")
 
