@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Find inputs that openapi.json allows and the server refuses, and count the refusals by kind.
 
-Random documents and queries (by hypothesis-jsonschema, PyPI; the same ones each time for one document) go to a server
-whose renderer has no device. A kind is an operation, a problem type, and its sentence without numbers and quoted words.
+Random request bodies and queries go to a server whose renderer has no device. hypothesis-jsonschema (PyPI) generates
+them, and the same openapi.json always gives the same ones. Refusals are of one kind if they have the same operation, the
+same problem type, and the same sentence apart from numbers and quoted words.
 Not every kind is a fault of the schema: a schema cannot express a radius inside the horizon of this spin, or a picture
 beyond this server's limit.
 """

@@ -22,7 +22,8 @@ from PIL import Image
 
 PIXEL = 360 / 2048
 STARS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "data", "hipparcos.stars")
-# Right ascension, declination; radius in degrees within which the light is examined. The last two are not judged.
+# Right ascension, declination, and the radius within which the light is measured, all in degrees. M33 and 47 Tuc are
+# measured, but not judged.
 PLACES = {
     "M42": (83.82208, -5.39111, 0.45),
     "omega Cen": (201.69683, -47.47958, 0.6),

@@ -1311,8 +1311,8 @@ export interface LineProfile {
     /** estimated largest error of the cumulative share at any edge. */
     error: number | null;
     /**
-     * equivalent width of the line at the observer over that in the gas's frame; the gas emits one photon of the
-     * line for each photon of the continuum per unit of energy that it receives; null without a source.
+     * equivalent width of the line at the observer over that in the gas's frame; the number of line photons that
+     * the gas emits is the number of continuum photons per unit of energy that reach it; null without a source.
      */
     strength: number | null;
     /**
@@ -1459,7 +1459,10 @@ export interface SpectrumRequest {
    * for a disk at most 64 k/h times its largest colour temperature [Hz]; 0.001 to 1e+25.
    */
   frequency_max_hz?: 'auto' | number;
-  /** number of frequencies, at equal ratios; default 200, for a scene 13 and at most 200; 2 to 1000. */
+  /**
+   * number of frequencies, spaced by equal ratios; default 200; for a scene the default is 13 and the most is
+   * 200; 2 to 1000.
+   */
   frequencies?: number;
   /** frequencies, instead of frequency_min_hz, frequency_max_hz and frequencies [Hz]; up to 20001. */
   frequencies_hz?: number[];
@@ -1599,8 +1602,8 @@ export interface ImpulseResponse {
     /** innermost stable circular orbit. */
     isco: number | null;
     /**
-     * equivalent width of the line at the observer over that in the gas's frame; the gas emits one photon of the
-     * line for each photon of the continuum per unit of energy that it receives.
+     * equivalent width of the line at the observer over that in the gas's frame; the number of line photons that
+     * the gas emits is the number of continuum photons per unit of energy that reach it.
      */
     strength: number | null;
     /** ratio of the source's continuum at the observer to that of the same source at rest far from the hole. */
@@ -1731,8 +1734,8 @@ export interface Lags {
     /** innermost stable circular orbit. */
     isco: number | null;
     /**
-     * equivalent width of the line at the observer over that in the gas's frame; the gas emits one photon of the
-     * line for each photon of the continuum per unit of energy that it receives.
+     * equivalent width of the line at the observer over that in the gas's frame; the number of line photons that
+     * the gas emits is the number of continuum photons per unit of energy that reach it.
      */
     strength: number | null;
     /** ratio of the source's continuum at the observer to that of the same source at rest far from the hole. */
@@ -1912,8 +1915,8 @@ export interface CompareRequest {
    */
   observation: string;
   /**
-   * parameter sets, each compared for its own chi^2: fields of the scene by their paths, such as spacetime.spin,
-   * and flux_jy, size and position_angle_deg; up to 4096.
+   * parameter sets; chi^2 is computed for each. A set may have fields of the scene, named by their paths (such as
+   * spacetime.spin), and flux_jy, size and position_angle_deg; up to 4096.
    */
   sets?: (Record<string, number | string | boolean>)[];
   /** quantities that are compared; visibility: real and imaginary parts, which need calibrated phases. */

@@ -245,8 +245,7 @@ static enum kd_status open_frames(struct work *w, struct kd_error *error)
     if (w->reused && !there)
         KD_TRY(kd_error_set(
             error, KD_EINVAL,
-            "%.200s has pictures with names of frames, but no record of their film: name another folder by --state",
-            path));
+            "%.200s has files named like frames, but no state of a film; --state must name another folder", path));
     w->spec.exposure = there ? w->state.exposure : NAN;
 done:
     return status;

@@ -67,7 +67,9 @@ static enum kd_status span(const struct arguments *arguments, struct kd_scene *s
     if (arguments->end)
         return KD_OK;
     if (!kd_scene_spots(scene, on))
-        return kd_error_set(error, KD_EINVAL, "--end is missing; its default needs a spot, whose orbit it follows");
+        return kd_error_set(
+            error, KD_EINVAL,
+            "--end is missing; by default the curve covers one orbit of the first spot, but the scene has no spot");
     *to = scene->top.time + 2 * M_PI / kd_kerr_omega(kd_scene_hole(scene), on[0]->r);
     return KD_OK;
 }

@@ -130,8 +130,8 @@ static const char *const volume_approximations[] = {
 #define ECHO_VALUES \
     { "isco", "M", "innermost stable circular orbit", false }, \
         { "strength", "1", \
-          "equivalent width of the line at the observer over that in the gas's frame; the gas emits one photon of " \
-          "the line for each photon of the continuum per unit of energy that it receives", \
+          "equivalent width of the line at the observer over that in the gas's frame; the number of line " \
+          "photons that the gas emits is the number of continuum photons per unit of energy that reach it", \
           false }, \
         { "direct_flux", "1", \
           "ratio of the source's continuum at the observer to that of the same source at rest far from the hole", \
@@ -163,9 +163,10 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                              { "inside", "1", "share of the line between the first and the last edge" },
                              { "error", "1", "estimated largest error of the cumulative share at any edge" },
                              { "strength", "1",
-                               "equivalent width of the line at the observer over that in the gas's frame; the gas "
-                               "emits one photon of the line for each photon of the continuum per unit of energy that "
-                               "it receives; "
+                               "equivalent width of the line at the observer over that in the gas's frame; the number "
+                               "of "
+                               "line photons that the gas emits is the number of continuum photons per unit of energy "
+                               "that reach it; "
                                "null without a source" },
                              { "direct_flux", "1",
                                "ratio of the source's continuum at the observer to that of the same source at rest far "

@@ -198,7 +198,8 @@ const struct kd_row kd_integral_fields[] = {
             "last frequency; auto: 30 k/h times the hottest ring's colour temperature; for a scene 30 times "
             "its frequency, for a disk at most 64 k/h times its largest colour temperature"),
     INT(frequencies, 2, KD_INTEGRAL_FREQUENCIES, SPECTRUM | VOLUME,
-        "number of frequencies, at equal ratios; default 200, for a scene 13 and at most 200"),
+        "number of frequencies, spaced by equal ratios; default 200; for a scene the default is 13 and the most is "
+        "200"),
     NUMBERS(frequencies_hz, "Hz", 1e-3, 1e25, SPECTRUM | VOLUME,
             "frequencies, instead of frequency_min_hz, frequency_max_hz and frequencies"),
     NUMBERS(u, "Gl", -1e15, 1e15, VISIBILITY,
@@ -323,9 +324,9 @@ void kd_integral_request_init(struct kd_integral_request *request, enum kd_integ
 #define SETS_SCHEMA \
     "{\"type\":\"array\",\"minItems\":1,\"maxItems\":" KD_SCHEMA_DIGITS( \
         KD_INTEGRAL_SETS_MOST) ",\"description\":\"" \
-                               "parameter sets, each compared for its own chi^2: fields of the scene by their paths, " \
-                               "such as spacetime.spin, and " \
-                               "flux_jy, size and " \
+                               "parameter sets; chi^2 is computed for each. A set may have fields of the scene, " \
+                               "named by " \
+                               "their paths (such as spacetime.spin), and flux_jy, size and " \
                                "position_angle_deg\",\"items\":{\"type\":\"object\",\"additionalProperties\":{" \
                                "\"type\":[" \
                                "\"number\",\"string\",\"boolean\"]}}}"

@@ -248,8 +248,8 @@ static enum kd_status read_exposure(struct reader *r)
 static const char *unblurred(const struct reader *r)
 {
     return r->playground              ? "a playground, whose bodies move from frame to frame"
-           : r->spec->sweep           ? "axes, between whose scenes nothing moves"
-           : r->spec->listed          ? "scenes, between which nothing moves"
+           : r->spec->sweep           ? "axes, because nothing moves between the scenes of a sweep"
+           : r->spec->listed          ? "scenes, because nothing moves between listed scenes"
            : !r->timeline.keyframes   ? "a scene without keyframes, in which nothing moves"
            : !makes_pictures(r->spec) ? "an output of numbers, because only light can be averaged"
                                       : NULL;
@@ -282,8 +282,8 @@ static enum kd_status read_blur(struct reader *r)
     kd_document_defaults(&document, &blur);
     if (!r->blur && !asked->samples)
         return asked->shutter > 0 ? kd_error_field(r->error, "/motion_blur",
-                                                   "samples is missing, which shutter needs; it is the number of "
-                                                   "pictures whose mean is a frame's light")
+                                                   "samples is missing, but shutter needs it; samples is the number "
+                                                   "of pictures averaged for each frame")
                                   : KD_OK;
     if (unblurred(r))
         return kd_error_field(r->error, "/motion_blur",

@@ -178,7 +178,7 @@ enum kd_status kd_observation_read_csv(const char *text, size_t size, struct kd_
             columns = true;
         else if (line.length && *line.text == '#')
             status = columns ? KD_OK
-                             : kd_error_set(error, KD_EINVAL, "its columns are \"%.*s\"; it must be " COLUMNS,
+                             : kd_error_set(error, KD_EINVAL, "the columns are \"%.*s\"; they must be " COLUMNS,
                                             (int)(line.length < 120 ? line.length : 120), line.text);
         else if (line.length)
             status = columns ? read_row(&line, out, &room, error)

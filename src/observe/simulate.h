@@ -21,8 +21,8 @@ struct kd_simulation {
     uint64_t seed;
 };
 
-/* model[i]: visibility in Jy at observation->at[i]. out[i]: the simulated visibility, as the reader reads it from the
- * file. Cross hands of the file are not simulated and become 0 with the weight 0; so do groups that the observation
+/* model[i]: visibility in Jy at observation->at[i]. out[i]: the simulated visibility, rounded as the file
+ * stores it. Two kinds of data in the file become 0 with the weight 0: cross hands, and groups that the observation
  * does not contain. */
 void kd_simulate(const struct kd_simulation *simulation, const double (*model)[2], double (*out)[2]);
 

@@ -13,7 +13,8 @@
 /* after this many samples in a row without an image, a full search is no longer made for each, ... */
 #define SEARCHES 3
 #define SEARCH_EVERY 64 /* ... but only for one sample in 64 */
-/* halvings of the step in the search for an end; each gains a factor of 64, from 1e-10 to rounding */
+/* The search for an orbit's end halves the step this often. Each halving reduces the error by a factor of 64, from
+ * about 1e-10 down to rounding. */
 #define HALVINGS 6
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)

@@ -315,7 +315,7 @@ class Pictures(Case):
                 "with a playground",
             ),
             ({**TURN, "output": "light-curve", "motion_blur": {"samples": 2}}, [], "with an output of numbers"),
-            (TURN, ["--shutter", "0.5"], "samples is missing, which shutter needs"),
+            (TURN, ["--shutter", "0.5"], "samples is missing, but shutter needs it"),
             (
                 {"scene": {"image": {**SIZE, "layers": ["g"]}}, "keyframes": keys, "motion_blur": {"samples": 2}},
                 [],

@@ -362,7 +362,7 @@ static void test_layers(void **state)
     struct kd_frame frame = rendered(&scene);
     int lit = 0;
     for (int i = 0; i < PIXELS; i++) {
-        if (!(intensity(&frame)[i] > 0) || layer_at(&frame, "r", i) <= 10) /* neither a body nor the disk */
+        if (!(intensity(&frame)[i] > 0) || layer_at(&frame, "r", i) <= 10) /* dark, or the disk */
             continue;
         const struct ks_photon photon = photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5);
         const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / 2;

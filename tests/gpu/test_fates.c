@@ -191,7 +191,7 @@ static const struct once_random {
     unsigned number;
 } once_random[] = {
     { random_camera, 7, 998 }, /* steps near an extremal hole missed the second crossing of a circling ray */
-    { random_camera_near_horizon, 91, 4891 }, /* steps carried a crossing at 1.016 M beyond the horizon */
+    { random_camera_near_horizon, 91, 4891 }, /* steps moved a crossing at r = 1.016 M inside the horizon */
 };
 
 static void judge_one(make_camera *make, uint64_t from, unsigned number, struct tally *t)

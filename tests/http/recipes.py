@@ -54,8 +54,8 @@ RECIPES = {
         ),
     ],
     "a parameter of integrals": [
-        ("integral/asked.h", "    double spin, charge", "    uint32_t cups;\n"),
-        ("integral/fields.c", '    { .name = "charge",', '    INT(cups, 1, 9, LINE, "number of cups"),\n'),
+        ("integral/asked.h", "    KD_HOLE_MEMBERS", "    uint32_t cups;\n"),
+        ("integral/fields.c", "#define MORE(x, name_,", '    INT(cups, 1, 9, LINE, "number of cups"),\n'),
     ],
     "a quantity": [("quantity/tea.c", None, QUANTITY), ("quantity/meson.build", "'blackbody'", "'tea', ")],
     "an option": [

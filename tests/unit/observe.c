@@ -387,7 +387,7 @@ static void test_csv_that_is_refused(void **state)
         { "#SRC:M87,DATE(MJD):57848,FREQ:-1GHz\n", "must have a frequency above 0" },
         { HEAD, "no visibility with a weight above 0" },
         { HEAD "1,AA,AP,1,2,3,4,5\n", "line 2 of the CSV: a line of columns must come before it" },
-        { HEAD "#time(UTC),T1,T2,U(lambda),V(lambda),RRamp(Jy)\n", "line 2 of the CSV: its columns are" },
+        { HEAD "#time(UTC),T1,T2,U(lambda),V(lambda),RRamp(Jy)\n", "line 2 of the CSV: the columns are" },
         { HEAD COLUMNS "1,AA,AP,1,2,3,4\n", "line 3 of the CSV: there must be 8 fields" },
         { HEAD COLUMNS "1,AA,AP,1,2,3,4,5,6\n", "there must be 8 fields" },
         { HEAD COLUMNS "1,AA,AP,1,2,x,4,5\n", "its amplitude is \"x\"; it must be a number" },

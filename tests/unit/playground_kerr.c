@@ -9,8 +9,8 @@
 #include <stdlib.h>
 
 /* A body starts with the velocity v measured by an observer of zero angular momentum, and moves for a hundred radial
- * periods. At each of a thousand times its place is that of the closed form at the same time, which is found by
- * bisection. */
+ * periods. At a thousand times its place is compared with the closed form. Bisection finds the Mino time of each
+ * of these times. */
 static void test_bodies_follow_the_closed_form(void **state)
 {
     (void)state;

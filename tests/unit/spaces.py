@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Checks that nothing is rebuilt that has not changed, also if a folder of the path has a space in its name.
+"""Checks that a second build makes only what has changed, even if a folder of the path has a space in its name.
 
 spaces.py SHADERS
 
-The test builds some kernels of SHADERS in a folder with such a name, one with each kind of command. Only kernels have
-dependencies that are found while building.
+The test builds some kernels of SHADERS in a folder with such a name, one for each kind of command. Kernels are enough,
+because only their dependencies are found while building.
 """
 
 import os

@@ -225,8 +225,8 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
 
 /* Weight of rounding errors of a chain of operations, in units of the machine epsilon. It was calibrated with some 1e5
  * rays that were repeated with 64-bit significands: the worst error was 2.5 times its estimate, and one in ten thousand
- * exceeded it. Near maximal spin three roots crowd at the horizon. Slopes in alpha and beta do not show the resulting
- * disturbances, which have the weight 1/(r+ - r-). */
+ * exceeded it. Near maximal spin three roots lie close together at the horizon, which amplifies rounding by 1/(r+ -
+ * r-). The slopes in alpha and beta do not show this, so it is added here. */
 static double weight_of(const struct kd_null_ray *ray) { return 8 + 2 / (ray->hole.outer - ray->hole.inner); }
 
 /* Rounding as a disturbance of the labels, of the answer itself, and of r where phi and t diverge as ln(r - r+). The

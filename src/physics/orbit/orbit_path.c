@@ -291,7 +291,7 @@ static struct kd_orbit_path moved(const struct kd_orbit_path *path, double h)
     return to;
 }
 
-/* The kind of event, which is a zero of a function. */
+/* Kinds of events. Each event is a zero of height(). */
 enum event { APSIS, RADIUS, TIME };
 
 static double height(const struct kd_orbit_path *p, enum event event, double aim)

@@ -315,8 +315,8 @@ static const struct kd_sentence sentences[] = {
       "it is shown at one time and does not change while light passes",
       is_still },
     { "plasma.series",
-      "volume: between two frames of a series of grids, density, temperature, velocity and field of each node are "
-      "interpolated as they are between nodes",
+      "volume: matter is interpolated in time too, between two frames of a series of grids, by the same rule as "
+      "between nodes",
       is_from_series },
     { "plasma.series-slow",
       "volume: matter is interpolated between the nodes of a grid, density and temperature by their logarithms; "

@@ -73,9 +73,9 @@ static double get(const struct work *w, const void *at, size_t i)
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
 }
 
-/* Radius from which a Cartesian ray from infinity starts. From further out, digits of b would be lost, and in Tao's
- * method also phase. A nearer start would be more accurate (from 100 M single precision has a sixth of the error),
- * but only because Mino time (start.c) would then do this engine's work. */
+/* Radius from which a Cartesian ray from infinity starts. A larger radius would lose digits of b, and in Tao's
+ * method also phase. A smaller one would give smaller errors (from 100 M single precision has a sixth of the error),
+ * but only because Mino time (start.c) would then trace more of the ray, and this engine less. */
 #define FAR 1e3
 /* The radius at which a ray counts as escaped: there its momentum has reached its limit within M b/r^2. Further out the
  * direction in single precision does not become more accurate, and the copies of Tao's method diverge. */

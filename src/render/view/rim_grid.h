@@ -3,9 +3,10 @@
  * towards the critical curve and along it. No rays are spent outside the picture, or where even the brightest star
  * would not be seen.
  *
- * A grid owns the images in its part of the rim, a rectangle of turns and logarithms. Near a border images are
- * shared: a grid's share is the fraction of a rectangle of 2 * KD_RIM_SHARED_U by 2 * KD_RIM_SHARED_L about the
- * image's place that lies in its part. Thus all shares add up to 1. Double precision; pure, any thread. */
+ * A grid owns the images in its part of the rim, a rectangle in the coordinates u and l. Grids share an image near
+ * their border. A rectangle of 2 * KD_RIM_SHARED_U by 2 * KD_RIM_SHARED_L is centred on the image. A grid's share is
+ * the fraction of this rectangle within the grid's part. Thus all shares add up to 1. Double precision; pure, any
+ * thread. */
 #ifndef KD_RENDER_VIEW_RIM_GRID_H
 #define KD_RENDER_VIEW_RIM_GRID_H
 

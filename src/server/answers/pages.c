@@ -14,8 +14,8 @@ static const struct kd_served *find(const char *name)
     return NULL;
 }
 
-/* True if a file needs a Content-Security-Policy. The policy has an effect on documents only (HTML, SVG). With
- * scripts and styles it would have none, and all these headers together would be as large as the largest file. */
+/* True if a file is sent with a Content-Security-Policy. Browsers apply the policy to documents only (HTML, SVG).
+ * Scripts and styles are sent without it, which saves as many bytes as the largest file has. */
 static bool document(const struct kd_served *file)
 {
     return strncmp(file->type, "text/javascript", strlen("text/javascript")) &&

@@ -93,8 +93,8 @@ def _render_all(
     layers: Sequence[str],
     paths: Sequence[str | None],
 ) -> list[Any]:
-    """The task: renders some scenes one after the other. If a scene is refused, the task ends with that Problem as its
-    last element, since no other worker could render the scene."""
+    """The task: renders some scenes one after the other. If a scene is refused, the Problem is the
+    last element of the list instead of being raised, because another worker would refuse the scene too."""
     got: list[Any] = []
     try:
         for document, path in zip(documents, paths):

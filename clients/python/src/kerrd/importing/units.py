@@ -58,7 +58,7 @@ class Units:
         return metres / self._hole_m(sheet, key)
 
     def time(self, sheet: Sheet, key: str) -> float:
-        """M. A length is the time that light takes for it."""
+        """The time in M. A length is converted to the time that light needs to travel it."""
         unit = sheet.entries[key].unit or "s"
         if unit in ("geometrical_time", "geometrical"):
             return sheet.number(key)
