@@ -20,7 +20,7 @@ def series(paths: Sequence[str], dumps: Callable[[int], AbstractContextManager[D
     """The matter of the dumps in this order. All times and nodes are checked before a field is read."""
     if not 2 <= len(paths) <= FRAMES_MOST:
         raise ValueError(f"a series has {len(paths)} dumps; it must have 2 to {FRAMES_MOST}")
-    times = []
+    times: list[float] = []
     with dumps(0) as first:
         _check_size(first, len(paths))
     for i in range(len(paths)):
