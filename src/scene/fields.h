@@ -202,7 +202,7 @@
 #define KD_SPOTS 16 /* limit of the number of spots; the kernels have room for this many */
 
 #define KD_FLASH_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
-    REAL(flash, brightness, MODEL, FRONT, 0.0, 0.0, 1e6, "1", \
+    REAL(flash, brightness, MODEL, REST, 0.0, 0.0, 1e6, "1", \
          "surface brightness in the gas's frame where the flash lights the disk most, at its peak, in units of the " \
          "disk's brightest; 0: no flash") \
     REAL(flash, height, MODEL, FRONT, 10.0, 1.0, 1e4, "M", \
