@@ -35,13 +35,10 @@ export function sheet(node) {
   const picture = pinned[node.id] && document.querySelector(pinned[node.id]);
   let at = 0,
     drag = null,
-    placed = false;
+    left = false; // true if a hand has scrolled or typed since the sheet was raised
 
-  // If the page is still too short to scroll to the picture, the picture must be placed again later.
   function show() {
-    if (!at || !picture?.offsetHeight || !handle.offsetParent) return;
-    picture.scrollIntoView();
-    placed = Math.abs(picture.getBoundingClientRect().y - parseFloat(getComputedStyle(picture).scrollMarginTop)) < 2;
+    if (at && picture?.offsetHeight && handle.offsetParent) picture.scrollIntoView();
   }
 
   function rest(wanted) {
@@ -50,7 +47,7 @@ export function sheet(node) {
     node.dataset.height = name;
     node.style.removeProperty('height');
     if (!at) node.scrollTop = 0;
-    placed = false;
+    left = false;
     show();
     handle.setAttribute('aria-valuenow', at);
     handle.setAttribute('aria-valuetext', words);
@@ -123,11 +120,13 @@ export function sheet(node) {
   node.prepend(handle);
   rest(0);
   if (picture) {
-    // The picture, or the content that makes the page long enough, may come after the sheet was raised. The picture is
-    // then placed.
+    // The picture, or the content that makes the page long enough to scroll to it, may come after the sheet was raised. It
+    // may also go for a moment, whereupon the browser scrolls back. The picture is then placed again.
+    for (const kind of ['wheel', 'touchmove', 'keydown'])
+      addEventListener(kind, () => (left = true), { passive: true, capture: true });
     const grows = new ResizeObserver(() => {
-      placed &&= picture.offsetHeight > 0; // when the view is opened again, the picture must be placed again
-      if (!placed) show();
+      left &&= picture.offsetHeight > 0; // when the view is opened again, the picture must be placed again
+      if (!left) show();
     });
     grows.observe(picture);
     grows.observe(document.body);
