@@ -120,8 +120,8 @@ export function sheet(node) {
   node.prepend(handle);
   rest(0);
   if (picture) {
-    // The picture, or the content that makes the page long enough to scroll to it, may come after the sheet was raised. It
-    // may also go for a moment, whereupon the browser scrolls back. The picture is then placed again.
+    // The picture, or the content that makes the page long enough to scroll to it, may come after the sheet was raised.
+    // If the page is too short for a moment, the browser scrolls back. The picture is then placed again.
     for (const kind of ['wheel', 'touchmove', 'keydown'])
       addEventListener(kind, () => (left = true), { passive: true, capture: true });
     const grows = new ResizeObserver(() => {
