@@ -67,12 +67,14 @@ struct kd_matter_grid {
     uint32_t steps, place_rows;
 };
 
-/* half that stands for the largest component of the field, so that smaller components also keep their 11 bits */
+/* half-precision number that stands for the largest component of the field, so that smaller components also keep their
+ * 11 bits */
 #define KD_MATTER_FIELD 16384.0
 
 /* True if bytes begin as an NPZ file does. */
 bool kd_matter_grid_is(const void *data, size_t size);
-/* Reads and checks a whole file. KD_EINVAL: the message says what is wrong and what is valid. KD_ENOMEM. */
+/* Reads and checks a whole file. Returns KD_ENOMEM, or KD_EINVAL with a message that says what is wrong and what is
+ * valid. */
 enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error);
 /* Like kd_matter_grid_read, but returns only the numbers of nodes in r, theta and phi, the frames and the hole. */
 enum kd_status kd_matter_grid_look(const void *data, size_t size, struct kd_asset_grid *out, struct kd_error *error);

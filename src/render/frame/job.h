@@ -36,11 +36,12 @@ struct kd_frame_job {
     /* refine_rows: rows that stand for refinement in the progress and are not reported yet; refine_rays: number of
      * rays that refinement is expected to trace */
     double refine_rows, refine_rays;
-    uint32_t lit;                   /* number of rows of pixels, from the top, whose light is complete */
-    bool looking;                   /* a preview is being made */
-    uint8_t *kinds;                 /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
-    bool teaches;                   /* true if the job's times count as measurements of the passes' costs */
-    struct kd_cpu_pressure waiting; /* time that the job's threads waited for a core; it is subtracted */
+    uint32_t lit;   /* number of rows of pixels, from the top, whose light is complete */
+    bool looking;   /* a preview is being made */
+    uint8_t *kinds; /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
+    bool teaches;   /* true if the job's times count as measurements of the passes' costs */
+    struct kd_cpu_pressure
+        waiting; /* time that the job's threads waited for a core; it is subtracted from measured times */
     struct kd_frame *frame;
     struct kd_error *error;
 };

@@ -21,7 +21,7 @@ static const double RETRY_MS = 3000;
 static const double SETTLE_MS = 50; /* reaction time: from a frame to the user's next change */
 /* HOLD_MS: longest pause within a drag; HOLD_MAX_MS: its upper limit */
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
-/* time for which no lens map counts as cached; doubled each time */
+/* time for which lens maps are assumed not to be cached; doubled at each repetition */
 static const double BLIND_MS = 2000;
 /* narrowest width, as a fraction of the requested width, whatever kd_governor_least says */
 static const double NARROWEST = 0.25;

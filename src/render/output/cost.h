@@ -19,11 +19,11 @@ struct kd_cost {
     struct kd_cube_shape shape;        /* shape that all scenes of a cube have */
 };
 
-/* Adds a frame. sweep: the sweep that the frames' scenes belong to; NULL: none. KD_ENOMEM; KD_EINVAL if the scenes of a
- * cube differ in shape. */
+/* Adds a frame. sweep: the sweep that the frames' scenes belong to; NULL: none. Returns KD_ENOMEM, or KD_EINVAL if the
+ * scenes of a cube differ in shape. */
 enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
                            const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error);
-/* Call after the last frame. KD_ENOMEM. */
+/* Call after the last frame. The only error is KD_ENOMEM. */
 enum kd_status kd_cost_end(struct kd_cost *cost, struct kd_error *error);
 void kd_cost_finish(struct kd_cost *cost);
 
@@ -32,7 +32,7 @@ void kd_cost_finish(struct kd_cost *cost);
  * number, at /axes. series NULL: the output is not known. */
 enum kd_status kd_cost_sweep(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
                              const struct kd_capacity *capacity, double until_ms, struct kd_error *error);
-/* Writes the document of `kerrd plan --axis` for all scenes. KD_ENOMEM. */
+/* Writes the document of `kerrd plan --axis` for all scenes. The only error is KD_ENOMEM. */
 enum kd_status kd_cost_json(const struct kd_cost *cost, const struct kd_sweep *sweep, struct kd_buffer *out);
 
 #endif

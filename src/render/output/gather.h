@@ -43,8 +43,8 @@ struct kd_gather_format {
     void (*close)(void *state);
 };
 
-/* "000012.png" ... for a sequence. For a sweep the names contain values, and index.json comes first, with the scene,
- * the axes and these names. */
+/* A ZIP of the frames' files. Files of a sequence are named "000000.png", "000001.png" and so on. For a sweep the names
+ * contain values, and index.json comes first, with the scene, the axes and these names. */
 extern const struct kd_gather_format kd_gather_zip;
 /* Cubes: one array for each layer over all scenes of a sweep, and one for the values of each axis (cube.h). */
 extern const struct kd_gather_format kd_gather_fits, kd_gather_npz;
