@@ -59,7 +59,7 @@ enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct
 /* KD_EINVAL with "/name", the value and its valid range. */
 enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *name, const char *text,
                                     struct kd_error *error);
-/* KD_EINVAL for more rows than exist, or for more than `most` bytes (0: no limit). */
+/* Returns KD_EINVAL if more rows are requested than exist, or if they take more than `most` bytes (0: no limit). */
 enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t most, struct kd_error *error);
 
 size_t kd_particle_list_row(const struct kd_particle_list *list); /* bytes of a row */

@@ -6,8 +6,8 @@
 
 #include "render/output/notes.h"
 
-/* Appends a packet. n_notes 0: only the properties of GPano are written, and nothing for other projections.
- * KD_ENOMEM. */
+/* Appends a packet. With n_notes 0, only the properties of GPano are written, and nothing if the picture is not a
+ * panorama. The only error is KD_ENOMEM. */
 enum kd_status kd_xmp_put(const struct kd_picture *picture, const struct kd_note *notes, size_t n_notes,
                           struct kd_buffer *out);
 

@@ -59,7 +59,7 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan_lens *lens)
 #define KD_PLAN_SAMPLED (4 * KD_PLAN_SAMPLED_OF_EACH * KD_PLAN_TRUTH_SIDE * KD_PLAN_TRUTH_SIDE)
 #define KD_PLAN_ROUNDS 6                            /* rounds of choosing pixels, at most */
 #define KD_PLAN_REFINING_LOOKS (1 + KD_PLAN_ROUNDS) /* number of times that the displayed picture is examined */
-#define KD_PLAN_LISTED_BYTES (15u << 20)            /* so that the rays fit in 65535 workgroups */
+#define KD_PLAN_LISTED_BYTES (15u << 20)            /* chosen so that the listed rays fit in 65535 workgroups */
 
 /* Pixels, with `rays` rays each, whose lens map fits the buffer of listed pixels. */
 static inline uint64_t kd_plan_listed_most(const struct kd_plan_lens *lens, uint32_t rays)
@@ -89,10 +89,10 @@ static inline uint64_t kd_plan_rays(const struct kd_plan_lens *lens)
     return lens->rays + lens->critical * lens->critical_pixels;
 }
 
-/* If the map is interpolated, the number of traced rays is this many times the square root of the number of the
- * grid's rays. The traced rays lie along edges of orders and fates, and between these edges at nodes, of which
- * there are fewer per ray the denser the rays are. Measured on four presets, one of them from 320 x 180 to 4K
- * (docs/accuracy.md): 117 to 154. */
+/* If the map is interpolated, the number of traced rays is KD_PLAN_FOLLOWED times the square root of the number of the
+ * grid's rays. The traced rays lie along edges of orders and fates, and between these edges at nodes, of which there
+ * are fewer per ray the denser the rays are. Measurements on four presets, one of them from 320 x 180 to 4K, gave
+ * factors of 117 to 154 (docs/accuracy.md). */
 #define KD_PLAN_FOLLOWED 130
 static inline uint64_t kd_plan_followed(const struct kd_plan_lens *lens)
 {

@@ -147,9 +147,9 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
     struct kd_critical_pixels list;
     const uint64_t side = least(plan->lens.side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
+    /* with one order and no ends, nothing is planned: no part of the direct image is thinner than a pixel */
     if (plan->lens.ring || side <= plan->lens.side ||
-        !(plan->lens.orders > 1 || plan->lens.ends ||
-          plan->light.march.steps)) /* not planned, because no part of the direct image is thinner than a pixel */
+        !(plan->lens.orders > 1 || plan->lens.ends || plan->light.march.steps))
         return KD_OK;
     enum kd_status status = kd_critical_cache(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->lens.planes * side * side + 2));

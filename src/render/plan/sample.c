@@ -7,11 +7,12 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Along the side of a block. EVEN: number of even places; LAST: number of cells of the last level. */
+/* Numbers along the side of a block. EVEN: number of even places; LAST: number of cells of the last level. */
 enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
-/* all of these rays may be undecided; one dispatch then has 16384 workgroups, a quarter of what any device allows */
+/* rays sampled at once: all of them may be undecided, and one dispatch then has 16384 workgroups, a quarter of what any
+ * device allows */
 #define RAYS_AT_ONCE KD_GIVEN_MOST
 
 /* Bytes that every device can bind as one storage buffer (Vulkan 1.2, 42.1: maxStorageBufferRange). */

@@ -285,9 +285,10 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
     return status;
 }
 
-/* Number of rays of the next slice, after one of m rays that took `ms`. least_ms: time of the smallest slices. If even
- * one ray takes longer than TARGET_MS, a GPU takes the same time for several rays. Then slices are doubled while their
- * time stays near least_ms, and may take up to 1.5 times least_ms. */
+/* Number of rays of the next slice, after one of m rays that took `ms`. least_ms: time of the smallest slices so far.
+ * On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a slice is
+ * doubled while its time is within 1.25 times least_ms, and may otherwise take 1.5 times least_ms if that exceeds
+ * TARGET_MS. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
     double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms),

@@ -51,8 +51,9 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
         kd_frame_finish(&frame);
     }
     r->probing = false;
-    for (int i = 0; i < KD_FIGURE_COUNT; i++) /* costs that are not measured here: those of particles, and without
-                                               * timestamps all of them */
+    /* costs that are not measured here keep their value: those of particles, and all costs if the device has no
+     * timestamps */
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
         c->ns[i] = isfinite(c->ns[i]) ? c->ns[i] : guess.ns[i];
     return status;
 }

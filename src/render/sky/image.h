@@ -2,7 +2,8 @@
  *
  * The file has 8 or 16 bits a channel, is taken as sRGB whatever it declares, and has the axes of panorama.h. The
  * picture is resampled by area averages. Its rows become the power of two nearest to their number, at most
- * KD_SKY_IMAGE_ROWS: what a device can bind at once, 5.3 minutes of arc a texel. White becomes 1. */
+ * KD_SKY_IMAGE_ROWS, because a device cannot bind more at once. A texel then covers 5.3 minutes of arc. White becomes
+ * 1. */
 #ifndef KD_RENDER_SKY_IMAGE_H
 #define KD_RENDER_SKY_IMAGE_H
 

@@ -58,8 +58,8 @@ struct kd_star_image {
     bool mirrored;                     /* true if left and right are exchanged in the image */
 };
 
-/* Reports each image of n stars (unit vectors in the frame of the map) once, row by row. KD_ENOMEM; another status
- * is that of `found`, which ended the search. */
+/* Reports each image of n stars (unit vectors in the frame of the map) once, row by row. Returns KD_ENOMEM, or the
+ * status by which `found` ended the search. */
 enum kd_status kd_star_images(const struct kd_sky_map *map, const struct kd_vec *stars, size_t n,
                               enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user);
 

@@ -43,15 +43,17 @@ struct kd_rim_grids {
     uint32_t n, rays;
     uint32_t numbers; /* size of the buffer, in numbers */
     double step;      /* rad */
-    double faintest;  /* sr: the largest solid angle that a pixel of the grids shows, on an average about a place */
+    /* largest solid angle of the sky, in sr, that a pixel of the grids shows, averaged around a place */
+    double faintest;
     struct kd_rim_grid of[KD_RIM_GRIDS];
 };
 
 /* Makes the grids; n is 0 if there is no rim or no part of it is seen. 3 to 15 ms. */
 void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *out);
 
-/* Keeps the grids whose images may light pixels of the scene's tile, and drops the others. Of those that it keeps, only
- * the columns and rows are searched whose images may light the tile. Its light stays the same to the bit. */
+/* Keeps the grids whose images may light pixels of the scene's tile, and drops the others. In the grids that remain,
+ * only those columns and rows are searched whose images may light the tile. The tile's light stays the same to the
+ * bit. */
 void kd_rim_grids_keep(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *grids);
 
 /* True if even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a fast
