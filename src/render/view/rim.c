@@ -18,8 +18,8 @@ static void scale(double a[3], double by)
 /* fraction of half the curve: within this distance of the curve's ends, `up` loses digits, and the curve is replaced by
  * a parabola */
 #define ENDS 3e-4
-/* Fraction of ENDS: no point is nearer to an end than this, because light there stays in the observer's plane, for
- * which null_bend.h is not made. */
+/* No point is nearer to an end of the curve than this fraction of ENDS. Light that arrives at an end stays in the
+ * observer's plane, which null_bend.h does not cover. */
 #define MIDST 1e-9
 
 /* A point of the upper half of the curve, along = 0 to 1. Near both ends all components are even functions of the
