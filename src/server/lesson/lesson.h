@@ -87,9 +87,9 @@ enum kd_status kd_lesson_to_json(const struct kd_lesson *one, const struct kd_le
 /* A change of a lesson by its teacher. A member that is absent in the document is NULL or false. */
 struct kd_lesson_change {
     const char *session, *link, *about, *lang; /* point into the document */
-    bool asks, withdraws;                      /* asks: "question" is given; withdraws: it is null */
+    bool asks, withdraws;                      /* asks: the document has "question"; withdraws: its value is null */
     struct kd_question question;
-    bool moves, open; /* moves: "open" is given; open: its value */
+    bool moves, open; /* moves: the document has "open"; open: its value */
 };
 /* An answer of a pupil. */
 struct kd_hand {

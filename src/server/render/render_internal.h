@@ -122,8 +122,8 @@ bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool backg
 bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
 /* called when the job leaves the queue */
 void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
-/* The kernels will be compiled as soon as no job waits for others. They replace earlier ones. NULL
- * changes nothing. */
+/* The kernels will be compiled as soon as no job waits for other kernels. They replace earlier ones. NULL changes
+ * nothing. */
 void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilation *compilation);
 /* Main function of the compiler thread; the argument is the queue. Returns when the queue is closing. */
 void *kd_render_compile_main(void *queue);

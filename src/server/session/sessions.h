@@ -114,7 +114,7 @@ struct kd_viewer {
     struct kd_session *session; /* a counted reference */
     struct MHD_Connection *mhd;
     int socket;
-    uint64_t seen; /* number of the newest frame that it has taken */
+    uint64_t seen; /* number of the newest frame that the viewer has taken */
     bool any;      /* the viewer reads only the descriptions of frames, so it accepts any encoding */
     /* qualities of lossy frames that the viewer accepts, 1 to 100; 0: lossless only. `lossy` is for all frames but
      * the last, last_lossy for the last frame */
