@@ -223,8 +223,8 @@ const bool COLUMNS =
     SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPREAD & 1u) * (QUANTITIES & KD_LENS_FATE) == 0u;
 #endif
 
-/* If the sky consists of points only, each pixel gets its points first; pixels with a crossing are lit again
- * afterwards. Most pixels have no points. */
+/* If the sky consists of points only, the points of all pixels are composed first, and pixels with a crossing are lit
+ * again afterwards. This saves time, because most pixels have no points. */
 void point_column(uint x, uint y, uint end)
 {
     uint has = 0u; /* bit k: whether the pixel in row y + k has points of light, or its ray has no end */

@@ -10,8 +10,8 @@ enum { KD_INTEGRAL_USUAL_FREQUENCIES = 13 };
     1.5 /* pixels per side of the finer picture over pixels per side of the coarse one; with 2, aliases of both grids \
            could coincide */
 
-/* Factor from the difference between the coarse and the finer picture to the error of the coarse one. The error falls
- * as 1/(pixels per side)^2, so the factor is 1/(1 - 1/1.5^2). */
+/* The difference between the coarse and the finer picture, multiplied by this factor, is the error of the coarse one.
+ * The error falls as 1/(pixels per side)^2, so the factor is 1/(1 - 1/1.5^2). */
 #define KD_INTEGRAL_OF_DIFFERENCE (1 / (1 - 1 / (KD_INTEGRAL_FINER * KD_INTEGRAL_FINER)))
 
 /* Number of pictures that a checked request needs; 0: it is not made of pictures. */

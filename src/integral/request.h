@@ -22,8 +22,8 @@
 #define KD_INTEGRAL_FREQUENCIES 1000u
 #define KD_INTEGRAL_LAG_FREQUENCIES 200u /* maximum frequencies of lags: some 10 ms each */
 #define KD_INTEGRAL_PICTURES 200u        /* maximum frequencies of a spectrum made of pictures */
-#define KD_INTEGRAL_LEAST_HZ 1e3         /* lowest frequency, and */
-#define KD_INTEGRAL_MOST_HZ 1e21         /* highest, as for volume.frequency_ghz */
+#define KD_INTEGRAL_LEAST_HZ 1e3         /* lowest frequency, as for volume.frequency_ghz */
+#define KD_INTEGRAL_MOST_HZ 1e21         /* highest frequency, likewise */
 #define KD_INTEGRAL_FACE_ON \
     0.1 /* degrees from the axis within which no ring has a transfer function; INCLINATION of fields.c says so too */
 #define KD_INTEGRAL_EDGE_ON 0.01 /* degrees from edge-on within which there is no transfer function; as above */
@@ -32,7 +32,7 @@
 void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what);
 void kd_integral_request_finish(struct kd_integral_request *request);
 
-/* Merges a document into the request. KD_EINVAL without a pointer: not a JSON document. */
+/* Merges a document into the request. Returns KD_EINVAL without a pointer if the text is not a JSON document. */
 enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length,
                                         struct kd_error *error);
 /* Like the function above, followed by kd_integral_request_check. */
@@ -48,14 +48,14 @@ enum kd_status kd_integral_set_observation(struct kd_integral_request *request, 
 /* Call after all fields are set: fills in fields that follow from others, and checks the rules between fields. */
 enum kd_status kd_integral_request_check(struct kd_integral_request *request, struct kd_error *error);
 
-/* The name as in /v1/NAME; and the integral of such a path. */
+/* kd_integral_name: the NAME of an integral in its path /v1/NAME. kd_integral_of_route: the integral of such a path. */
 const char *kd_integral_name(enum kd_integral what);
 enum kd_integral kd_integral_of_route(const char *path);
 
 /* Number of rows in the answer to a checked request. */
 size_t kd_integral_rows(const struct kd_integral_request *request);
 
-/* The fields of a kind of integral, which the request is filled by. */
+/* The document whose fields fill a request for this kind of integral. */
 struct kd_document kd_integral_document(enum kd_integral what);
 
 /* Writes the schema of a request's document as the member `name`. */

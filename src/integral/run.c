@@ -139,7 +139,7 @@ static void tell_map(struct kd_integral_run *run, const struct kd_scene *scene, 
     memcpy(run->answer.values, told, sizeof told);
 }
 
-/* The worst of all maps, and the number of pictures instead of a flux. */
+/* Writes the worst value of all maps, and the number of pictures in place of a flux. */
 static void tell_sets(struct kd_integral_run *run, const struct kd_scene *scene, double sum, double undefined)
 {
     double *values = run->answer.values;
@@ -169,10 +169,10 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
                                            height - wcs.at[1].pixel };
     for (unsigned k = bands(run); k--;) {
         float *map = (float *)run->maps.data + k * n;
-        if (k &&
-            kd_scene_is_radio_alone(scene)) /* the layer of an order has the unit of light, that of the whole Jy/sr */
+        if (k && kd_scene_is_radio_alone(
+                     scene)) /* the layer of one order is in the unit of light, that of the total light in Jy/sr */
             multiply(map, n, (float)kd_radio_jansky_steradian(scene));
-        sum = total(map, n, &undefined); /* map 0, total light, comes last and leaves its sum */
+        sum = total(map, n, &undefined); /* map 0, the total light, comes last, so that `sum` is its sum */
         run->map[k] = map;
     }
     run->is_dark = !(sum > 0);
@@ -228,7 +228,8 @@ static void tell_once(struct kd_integral_answer *answer, const char *text)
 enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
                                     const struct kd_plan_report *report, struct kd_error *error)
 {
-    for (size_t i = 0; i < report->n_approximations; i++) /* pictures of sets may have different ones */
+    /* the pictures of different sets may have different approximations */
+    for (size_t i = 0; i < report->n_approximations; i++)
         tell_once(&run->answer, report->approximations[i].text);
     return run->answer.request->what == KD_INTEGRAL_VOLUME ? take_flux(run, file, scene, error)
                                                            : begin_map(run, file, scene, error);
@@ -270,7 +271,7 @@ static void model(void *user, double size, double angle_deg, double (*out)[2])
     }
 }
 
-/* Searches for what is solved for. Afterwards run->model is the model there. */
+/* Searches for the quantities that the request solves for. Afterwards run->model is the model with the values found. */
 static void search(struct kd_integral_run *run)
 {
     const struct kd_integral_request *r = run->answer.request;

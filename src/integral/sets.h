@@ -17,7 +17,7 @@ struct kd_integral_set {
 };
 
 struct kd_integral_sets {
-    cJSON *tree;                /* as read */
+    cJSON *tree;                /* the member "sets" as it was read */
     struct kd_integral_set *at; /* ordered by group; equal scenes are adjacent */
     size_t n;
     uint32_t *first; /* first set of each picture, and n behind the last */

@@ -30,7 +30,7 @@ struct kd_table_axis {
 
 struct kd_table {
     struct kd_integral_request base; /* the request of the first node, which was checked */
-    struct kd_table_axis *axes;      /* the hole's and the inclination come first, as far as they are axes */
+    struct kd_table_axis *axes;      /* axes of the hole and of the inclination, if there are any, come first */
     size_t n_axes, nodes;
     size_t run; /* successive nodes with one hole and inclination, which have the disk's image in common */
     char name[KD_TABLE_NAME + 1];

@@ -12,7 +12,7 @@ enum { STARTS = 3, SIMPLEX_STEPS = 90, SHIFT_CELLS = KD_ALIGN_SHIFTS / 2, NEWTON
 struct search {
     const struct kd_comparison *c;
     const struct kd_align_params *p;
-    double given_scale, longest; /* longest: u or v of a compared visibility, in wavelengths */
+    double given_scale, longest; /* longest: largest u or v of a compared visibility, in wavelengths */
     double (*model)[2];
     double *cell; /* cells of the grid of shifts */
     struct kd_alignment best;

@@ -10,9 +10,9 @@
 
 #define LONGEST_TURNS 1000 /* maximum turns of an orbit followed to its end: a whirl next to an unstable circle */
 #define DEFAULT_PERIODS 10
-/* after this many samples in a row without an image, a full search is no longer made for each, ... */
+/* after this many samples in a row without an image, only one sample in SEARCH_EVERY gets a full search */
 #define SEARCHES 3
-#define SEARCH_EVERY 64 /* ... but only for one sample in 64 */
+#define SEARCH_EVERY 64
 /* The search for an orbit's end halves the step this often. Each halving reduces the error by a factor of 64, from
  * about 1e-10 down to rounding. */
 #define HALVINGS 6

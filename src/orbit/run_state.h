@@ -39,7 +39,7 @@ struct kd_orbit_run {
     double first_phi, last_phi;  /* azimuth at the first and the last periastron */
     struct kd_place_view view;   /* of the observer */
     struct kd_place_image image; /* the last image found */
-    unsigned missed;             /* samples since then */
+    unsigned missed;             /* number of samples since that image */
 };
 
 #endif

@@ -31,8 +31,8 @@ static struct trial begin(const struct kd_orbit_run *run)
     struct trial t = { .last = INFINITY };
     /* t is infinite at the horizon, so the trial stops a little before it. */
     t.span = run->closed ? fmin(run->period, run->mino_end) : (run->end == KD_END_HORIZON ? 0.999 : 1) * run->mino_end;
-    /* The end of a fall is fast, which the start of the span does not show. A whirl magnifies errors that are not due
-     * to the step. */
+    /* On an unbound path the step has an upper limit: the end of a fall is fast, which the start of the span does not
+     * show, and a whirl magnifies errors that are not due to the step. */
     t.longest = run->closed ? t.span : 2 * M_PI / kd_orbit_pace(&run->orbit) / 256;
     t.n = (uint32_t)fmin(fmax(16, ceil(t.span * kd_orbit_pace(&run->orbit) * 4)), STEPS_MAX / 4);
     return t;

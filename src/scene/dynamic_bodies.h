@@ -47,7 +47,8 @@ struct kd_dynamic_bodies_debris {
     uint32_t pieces; /* number of pieces of debris that are on the nodes */
     uint32_t hidden; /* number of pieces of debris left out because they have no valid position */
     double thick;    /* mean of |z|/r over the pieces of debris, before they are projected onto the plane */
-    /* temperature_k: that of a black body. depth: optical depth of debris of one body that is spread over 1000 M^2. */
+    /* temperature_k: temperature of the debris, which shines as a black body. depth: optical depth of debris of one
+     * body that is spread over 1000 M^2. */
     double temperature_k, depth;
 };
 #define KD_CROWD_NODE 3

@@ -112,11 +112,12 @@ bool kd_scene_falls(const struct kd_scene *scene);
  * Kerr-Schild coordinates. */
 void kd_scene_go_on(struct kd_scene *scene, double proper_time);
 
-/* Whether matter on a grid is shown at the time when its light left, and whether that or disk.slow_light holds. */
+/* kd_scene_is_slow_volume: whether matter on a grid is shown at the time when its light left. kd_scene_is_slow: whether
+ * this holds, or disk.slow_light does. */
 bool kd_scene_is_slow_volume(const struct kd_scene *scene);
 bool kd_scene_is_slow(const struct kd_scene *scene);
-/* The r of the observer if the scene's time is its own, as in slow light; else 0. Light from the hole's vicinity then
- * left about this long before the scene's time. */
+/* In slow light, the scene's time is that of the observer, and this returns the observer's r in M: light from the
+ * hole's vicinity left about this long before the scene's time. Otherwise, and at infinity, it returns 0. */
 double kd_scene_lead(const struct kd_scene *scene);
 
 /* Clock of a falling observer. to_horizon, to_end: proper times, in M, until it reaches the outer horizon (NAN inside
@@ -174,14 +175,14 @@ bool kd_scene_is_magnetic(const struct kd_scene *scene);
 /* True if all light is of one frequency, so that the picture's flux is physical: only a volume at a radio frequency is
  * visible, or only a disk with disk.band "frequency". */
 bool kd_scene_is_radio_alone(const struct kd_scene *scene);
-/* That frequency, and the path of the field that contains it. Undefined for all other scenes. */
+/* The frequency of such light in GHz, and the path of the field that contains it. Undefined for all other scenes. */
 double kd_scene_frequency_ghz(const struct kd_scene *scene);
 const char *kd_scene_frequency_path(const struct kd_scene *scene);
 void kd_scene_set_frequency(struct kd_scene *scene, double ghz);
 /* True if there is a disk, and it is seen at one frequency. */
 bool kd_scene_has_disk_frequency(const struct kd_scene *scene);
 /* The highest frequency that disk.frequency_ghz may be: KD_DISK_QUANTA k T/h with the disk's largest colour
- * temperature. Light that returns may raise that, but is not counted here. */
+ * temperature. Light that returns to the disk may raise that temperature, but is not counted here. */
 #define KD_DISK_QUANTA 64
 double kd_scene_disk_most_ghz(const struct kd_scene *scene);
 
