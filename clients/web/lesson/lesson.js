@@ -7,8 +7,9 @@ import * as link from '../base/link.js';
 import { linkedTime } from '../picture/scene.js';
 import { ask, module } from '../base/server.js';
 
-const beat_ms = 1000; // between two requests for the answers
+const beat_ms = 1000; // time between two requests for the answers
 const choice_most = 60; // characters of an answer
+
 // fields of this page that copies do not get; pair.FIELD is not copied either
 const own = ['lang', 'full', 'lesson', 'view', 'pace'];
 

@@ -9,7 +9,7 @@ import { kept, windowSize } from './sizes.js';
 export const first_view = 'gas-stars';
 
 const patience_ms = 250; // longest wait for the first picture before the rest of the page is loaded
-const slow_ms = 1000; // the same before a recording of the first view begins
+const slow_ms = 1000; // longest wait for the first picture before a recording of the first view begins
 
 const stage = byId('stage');
 const plain =

@@ -10,6 +10,7 @@ const patience_ms = 1000;
 const link_ms = 1000;
 const hand_ms = 200; // without a move for so long, a drag has come to rest
 const aside = ['tile']; // sections that the page does not use, because it shows whole pictures
+
 // keys of a link without a dot
 const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace', 'lesson'];
 

@@ -5,6 +5,7 @@ import * as link from '../base/link.js';
 const most = { width: 3840, height: 2160 }; // pixels at rest; in a larger window the picture is scaled up
 const drag_px = 1600; // after the first touch, a wider window keeps in motion a share of this width
 const least_part = 0.25; // the server's limit
+
 // limit of a frame's time: if half the width takes longer, Auto keeps less after the first touch
 const max_frame_ms = 100;
 // The least share of the window's width that is kept in motion; null: the whole picture at rest.

@@ -7,7 +7,7 @@ import { holeOf, module, physics } from '../base/server.js';
 
 const begin_r = 20; // M, the radius where the fall begins if the camera is at infinity
 const wide_deg = 100;
-const fold_s = 3; // seconds in which the proper time left to the end shrinks by about a factor e
+const fold_s = 3; // seconds of the page's clock in which the proper time left to the end shrinks by about a factor e
 const fold_pictures = 5; // least number of pictures in that time, so that a slow server shows the fall as well
 const fastest = 1e6; // M a second: the server's limit
 const uneven = 0.1; // the pace is sent again when it has changed by more than this, as a logarithm
@@ -321,7 +321,8 @@ export function buildFall(scene) {
     halt: () => way && !scene.held && scene.hold(true),
     shown({ clock, shows }) {
       if (!way || !clock || shows?.camera?.observer !== 'infall') return;
-      const older = scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3; // than the pause
+      // true if the picture is older than the pause
+      const older = scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3;
       if (older && waits) where.textContent = phase(clock, way, ended());
       waits = false;
       if (older) return;

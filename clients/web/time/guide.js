@@ -5,7 +5,7 @@ import { number, t } from '../words/i18n.js';
 import { offer } from '../base/job.js';
 import { muted } from './struck.js';
 
-export const seconds = 90; // longer if the server makes few pictures a second
+export const seconds = 90; // duration of a guided fall; it is longer if the server makes few pictures a second
 const pitch_hz = 440; // frequency of the tone for an observer far away and at rest
 const loudness = 0.12;
 const glide_s = 0.25;
