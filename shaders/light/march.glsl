@@ -15,7 +15,7 @@
 
 /* Push constants, which differ between dispatches: the same kernel follows a sample of pixels more finely
  * (src/render/frame/march_error.c). */
-#define STEPS slice.steps /* per half period */
+#define STEPS slice.steps /* number of steps per half period */
 #define FINE slice.fine   /* resolution: a stretch is at most 4/FINE grains long */
 
 #include "ray/radial_step.glsl"
@@ -200,7 +200,8 @@ kd_stride kd_stride_of(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h,
     if (KD_MARCH_TURNS) {
         s.x = kd_quintic_of(p.y.x, h * p.v.x, a.x, q.y.x, h * q.v.x, b.x);
         s.y = kd_quintic_of(p.y.y, h * p.v.y, a.y, q.y.y, h * q.v.y, b.y);
-        if (INGOING && drag.returns && drag.way < 0.0 && p.v.w > 0.0) { /* as in comp/lens_map.comp */
+        /* the coordinates change as in comp/lens_map.comp */
+        if (INGOING && drag.returns && drag.way < 0.0 && p.v.w > 0.0) {
             drag.way = 1.0;
             drag.fallen -= 2.0 * kd_drag_fall(p.y.w, cam.spin, cam.root);
         }
@@ -610,7 +611,7 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint 
         KD_MARCH_GIVEN_UP(beam);
     KD_PROBE_MARCHED(y.steps)
     for (uint n = y.crossed; KD_GLOWS && n < min(ORDERS, crossings) && beam.through > 0.0;
-         n++) { /* beyond the volumes */
+         n++) { /* these crossings are beyond the volumes */
         float w = lens[at + n * slice.stride];
         if (w == 0.0)
             break;

@@ -45,14 +45,14 @@ struct kd_integral_request {
     struct kd_number_list edges;
     enum kd_corona_motion motion; /* motion of a corona off the axis */
     double corona_radius, corona_inner, corona_top;
-    double time_min, time_max; /* for an impulse response: bins of time */
+    double time_min, time_max; /* range of the bins of time of an impulse response */
     uint32_t times;
-    /* for lags; reference NaN: the continuum */
+    /* members for lags; reference_min NaN: the reference is the continuum */
     double reflection, reference_min, reference_max, frequency_min, frequency_max;
     struct kd_number_list frequencies_m;
-    struct kd_number_list radii, g_star; /* for a transfer function */
+    struct kd_number_list radii, g_star; /* lists for a transfer function */
     uint32_t rings, g_stars;
-    double mass_msun, distance_pc, mdot_edd, colour_correction; /* for a spectrum */
+    double mass_msun, distance_pc, mdot_edd, colour_correction; /* members for a spectrum */
     int returning;                                              /* enum kd_integral_returning */
     int polarized;                                              /* 1: the spectrum is polarised */
     double frequency_min_hz, frequency_max_hz;                  /* NaN: chosen by the hottest ring */

@@ -42,7 +42,7 @@ enum kd_status kd_integral_request_json(struct kd_integral_request *request, con
 /* Sets one field by name; lists as numbers separated by commas. */
 enum kd_status kd_integral_request_set(struct kd_integral_request *request, const char *name, const char *text,
                                        struct kd_error *error);
-/* Sets the observation of a comparison from the bytes of its file. KD_EINVAL at /observation. */
+/* Sets the observation of a comparison from the bytes of its file. Returns KD_EINVAL at /observation. */
 enum kd_status kd_integral_set_observation(struct kd_integral_request *request, const void *data, size_t size,
                                            struct kd_error *error);
 /* Call after all fields are set: fills in fields that follow from others, and checks the rules between fields. */

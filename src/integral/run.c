@@ -18,9 +18,10 @@
 #define EDGE 1 /* width of the border, in pixels; its brightness indicates light beyond the map */
 
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
-enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* of a spectrum of pictures */
+enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* columns of a spectrum of pictures */
 enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* values of a visibility */
-enum { PICTURES };                                                      /* in the place of FLUX, for sets */
+/* index of the value that sets have in the place of FLUX */
+enum { PICTURES };
 
 static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
 

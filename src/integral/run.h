@@ -29,10 +29,10 @@ struct kd_integral_run {
     bool is_dark; /* true if the set's picture has no light */
     /* for an observation: the model at each visibility, and the simulated visibilities */
     double (*model)[2], (*simulated)[2];
-    uint8_t *marks; /* for kd_simulate */
+    uint8_t *marks; /* marks for kd_simulate */
     double *scratch;
     double *scattering;         /* factor of scattering at each visibility; NULL: none */
-    struct kd_align_room *room; /* for a search; NULL if there is none */
+    struct kd_align_room *room; /* memory of a search; NULL if there is no search */
 };
 
 /* Computes everything if no pictures are needed. On failure there is nothing to finish. */

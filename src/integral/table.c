@@ -269,7 +269,7 @@ static enum kd_status set_energies(struct kd_table *table, struct kd_error *erro
         base->rest_energy = REST_KEV;
     if (!kd_integral_given(base, "energy_min"))
         base->energy_min = LEAST * base->rest_energy;
-    struct kd_integral_request first = *base; /* with the values of the first node */
+    struct kd_integral_request first = *base; /* a request with the values of the first node */
     enum kd_status status = node_of(table, 0, &first, error);
     base->edges = first.edges;
     if (status)

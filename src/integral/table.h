@@ -39,13 +39,14 @@ struct kd_table {
 /* Makes a table from a request for a line. The request need not be checked. The table becomes its owner, even on
  * failure. axes: texts FIELD=VALUES; VALUES are numbers and ranges START:STOP/COUNT with commas, with "log:" before
  * them for an axis in the logarithm. Spin and inclination have default axes if they have neither an axis nor a given
- * value. All nodes are checked. KD_EINVAL at the pointer of the field, KD_ENOMEM. Free the table with kd_table_finish,
- * also after a failure. */
+ * value. All nodes are checked. Returns KD_EINVAL at the pointer of the field, or KD_ENOMEM. Free the table with
+ * kd_table_finish, also after a failure. */
 enum kd_status kd_table_init(struct kd_table *table, struct kd_integral_request *request, const char *const *axes,
                              size_t n_axes, const char *name, struct kd_error *error);
 void kd_table_finish(struct kd_table *table);
 
-/* Appends everything that precedes the rows. rows_sum: kd_fits_sum of all rows (image/fits.h). KD_ENOMEM. */
+/* Appends everything that precedes the rows. rows_sum: kd_fits_sum of all rows (image/fits.h). The only error is
+ * KD_ENOMEM. */
 enum kd_status kd_table_head(const struct kd_table *table, uint32_t rows_sum, struct kd_buffer *out,
                              struct kd_error *error);
 

@@ -23,8 +23,8 @@
 
 struct kd_measured {
     double hour;          /* hours UTC since mjd */
-    double u, v;          /* in wavelengths */
-    double re, im, sigma; /* in Jy */
+    double u, v;          /* baseline in wavelengths */
+    double re, im, sigma; /* visibility and its error in Jy */
     uint8_t station[2];   /* indices of the two stations; the first is lower than the second */
     bool turned;          /* the file has the reverse baseline */
     uint32_t source;      /* number of the file's group, from 0 */

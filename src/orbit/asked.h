@@ -8,11 +8,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define KD_ORBIT_SAMPLES_MAX 200000u /* for one orbit, and in total for many */
+#define KD_ORBIT_SAMPLES_MAX 200000u /* limit for one orbit, and for the sum over many orbits */
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
 
-#define KD_ORBIT_CASE_WORDS "mercury|zoom-whirl|plunge|isco|spherical" /* in the order of kd_orbit_case */
+#define KD_ORBIT_CASE_WORDS "mercury|zoom-whirl|plunge|isco|spherical" /* words in the order of kd_orbit_case */
 #define KD_ORBIT_WAY_WORDS "yoshida6|rkn6|closed"
 enum kd_orbit_case { KD_CASE_MERCURY, KD_CASE_ZOOM_WHIRL, KD_CASE_PLUNGE, KD_CASE_ISCO, KD_CASE_SPHERICAL, KD_CASES };
 

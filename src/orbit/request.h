@@ -42,8 +42,8 @@ struct kd_orbit_request {
 void kd_orbit_request_init(struct kd_orbit_request *request);
 void kd_orbit_request_finish(struct kd_orbit_request *request);
 
-/* Merges a document into a request without orbits. Checks types and ranges, not yet whether each orbit exists.
- * KD_EINVAL without a pointer: not a JSON document. */
+/* Merges a document into a request without orbits. Checks types and ranges, but not whether each orbit exists. Returns
+ * KD_EINVAL without a pointer if the text is not a JSON document. */
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length,
                                      struct kd_error *error);
 

@@ -150,7 +150,8 @@ static bool find_end(struct kd_orbit_run *run, double h)
     }
     run->mino_end = path.mino.value;
     return !isnan(run->aim) || o->circular ||
-           path.place[KD_PATH_W].value == run->start.w; /* at the start if the body starts on an unstable circle */
+           path.place[KD_PATH_W].value ==
+               run->start.w; /* the path ends at its start if the body starts on an unstable circle */
 }
 
 static enum kd_status no_end(const struct kd_orbit_run *run, struct kd_error *error)

@@ -14,9 +14,9 @@ struct kd_orbit_run {
     const struct kd_orbit_params *params;
     struct kd_orbit orbit;
     struct kd_orbit_state start;
-    double phi;       /* at the start */
+    double phi;       /* azimuth at the start */
     double mass_msun; /* NAN: none */
-    double rounding;  /* as kd_orbit_request_solve */
+    double rounding;  /* result of kd_orbit_request_solve */
     bool closed;      /* fate BOUND, so that the motion has a closed form; otherwise `bound`, `frequencies` and `period`
                        * are not set */
     struct kd_orbit_bound bound;
@@ -37,7 +37,7 @@ struct kd_orbit_run {
     struct kd_orbit_drift worst; /* absolute values */
     uint64_t periastra;
     double first_phi, last_phi;  /* azimuth at the first and the last periastron */
-    struct kd_place_view view;   /* of the observer */
+    struct kd_place_view view;   /* view of the observer */
     struct kd_place_image image; /* the last image found */
     unsigned missed;             /* number of samples since that image */
 };

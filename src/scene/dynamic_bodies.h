@@ -28,7 +28,7 @@ struct kd_seen_body {
     double velocity[3];
     double radius;  /* radius in the body's own frame; 0 or less: the body is not drawn */
     uint32_t which; /* index in the maker's list; it is reported for a pixel that shows the body */
-    /* as in the bodies of a scene; a body of temperature 0 is dark, and hides what is behind it */
+    /* same meaning as for the bodies of a scene; a body of temperature 0 is dark, and hides what is behind it */
     double temperature_k, brightness, limb_darkening;
     double albedo; /* fraction of the disk's light that it reflects, isotropically; 0: reflection is not computed */
 };
@@ -67,7 +67,7 @@ struct kd_dynamic_bodies {
 };
 
 /* Creates a set of n bodies and of nodes of debris, all 0. The caller owns a reference and fills the set. Afterwards
- * the set must not be changed. KD_ENOMEM. */
+ * the set must not be changed. The only error is KD_ENOMEM. */
 enum kd_status kd_dynamic_bodies_create(size_t n, uint32_t rows, uint32_t columns, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
 void kd_dynamic_bodies_keep(struct kd_dynamic_bodies *dynamic); /* takes a reference; accepts NULL */

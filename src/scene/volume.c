@@ -11,7 +11,8 @@
  * visible, and the path length to there is finite. */
 #define CLEAR 1.01
 #define CLEAR_RADIO \
-    1.0005 /* for a radio frequency, whose energy in the matter's frame grows as 1/sqrt(distance to the horizon) */
+    1.0005 /* the same for a radio frequency, whose energy in the matter's frame grows as 1/sqrt(distance to the \
+              horizon) */
 
 #define TORUS 0.5 /* ratio of the inner edge to the radius of the largest pressure, as in common simulations */
 

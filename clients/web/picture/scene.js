@@ -8,7 +8,7 @@ import * as link from '../base/link.js';
 const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
-const hand_ms = 200; // without a move for so long, a drag has come to rest
+const hand_ms = 200; // a drag has come to rest when nothing has moved for this time
 const aside = ['tile']; // sections that the page does not use, because it shows whole pictures
 
 // keys of a link without a dot

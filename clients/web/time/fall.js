@@ -104,7 +104,7 @@ function buildGuiding(scene, box, fault, fall) {
     told = el('p', { class: 'help', id: 'fall-film-told', role: 'status' });
   box.append(el('p', { class: 'row' }, guided, ' ', filmed, ' ', got), told);
   let guide = null, // the captions and the sound of a guided fall (guide.js)
-    guided_s = 0, // as fold_s, in a guided fall
+    guided_s = 0, // the value that replaces fold_s in a guided fall
     filming = null, // the guide whose film is being recorded
     asked = 0; // number of times that a guide has been requested
 

@@ -13,7 +13,7 @@ const [width, height, rate] = [1280, 720, 30]; // width, height and pictures a s
 const bits = 8e6; // a second
 const last_ms = 3000; // the last caption stays in the film for so long
 const forms = ['video/webm;codecs=vp9,opus', 'video/webm;codecs=vp8,opus', 'video/mp4'];
-const events = ['visibilitychange', 'viewchange']; // upon which the view may be hidden
+const events = ['visibilitychange', 'viewchange']; // events after which the view may be hidden
 
 const form = globalThis.MediaRecorder && forms.find(name => MediaRecorder.isTypeSupported(name));
 export const films = Boolean(form) && Boolean(HTMLCanvasElement.prototype.captureStream);

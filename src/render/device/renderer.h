@@ -16,8 +16,8 @@ struct kd_compilation;
 #define KD_CREDIT 512 /* bytes for the credits of a picture's sources */
 
 struct kd_renderer_params {
-    const char *device;    /* as kd_vk_params */
-    const char *cache_dir; /* as kd_vk_params */
+    const char *device;    /* same meaning as in kd_vk_params */
+    const char *cache_dir; /* same meaning as in kd_vk_params */
     bool validate;
     /* tests a device that is used for the first time, which takes half a second: kd_first_start
      * (selftest/first_start.h), or NULL for no test */
@@ -34,7 +34,7 @@ struct kd_renderer_params {
     void *lacks_user;
     bool passing;          /* another renderer uses the same device, so measured speeds are not stored */
     bool compiles_only;    /* as in kd_vk_params: pictures are black, and no Milky Way is made */
-    uint32_t deadline_ms;  /* as kd_vk_params */
+    uint32_t deadline_ms;  /* same meaning as in kd_vk_params */
     uint64_t memory_bytes; /* memory limit for all pictures, including those in the background; 0: the device and the
                             * host set the limit */
 };

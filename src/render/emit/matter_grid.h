@@ -40,7 +40,7 @@ enum {
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
     uint32_t frames;                /* frames in time; 1: the grid has no times */
-    double time[2];                 /* of the first and the last frame, M */
+    double time[2];                 /* times of the first and the last frame, M */
     bool late;                      /* the frames are slices of constant ingoing Kerr-Schild time */
     KD_HOLE_MEMBERS
     double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns

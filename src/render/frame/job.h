@@ -26,7 +26,7 @@ struct kd_frame_job {
     struct kd_star_key star_key;   /* key of the light of stars in this frame */
     bool stars_kept;               /* true if the cached light of stars is valid */
     uint64_t undecided;            /* number of rays of the lens map whose tracing was given up */
-    uint64_t traced, interpolated; /* as in kd_accuracy_report */
+    uint64_t traced, interpolated; /* same meaning as in kd_accuracy_report */
     double listed_ms, audit_ms; /* time on the host in ms: listed_ms for tracing listed rays, audit_ms for the audit */
     double kernels_ms;          /* time on the host for making missing kernels before they first run */
     kd_progress_fn progress;

@@ -94,7 +94,7 @@ struct kd_frame_cost {
     double rays_ms;   /* passes over rays: trace, transfer */
     double pixels_ms; /* passes over pixels: expose, post, readback, encode */
     double total_ms;
-    bool lens_reused; /* as in kd_frame */
+    bool lens_reused; /* same meaning as in kd_frame */
 };
 
 struct kd_frame_decision {
@@ -148,7 +148,7 @@ struct kd_governor {
     /* blind_until: until this time lens maps are assumed not to be cached, whatever changes */
     double blind_until, blind_ms;
     uint32_t missed;           /* successive frames that traced although the lens was unchanged */
-    bool rings;                /* only brightness changes, nothing moves */
+    bool rings;                /* only the brightness changes; nothing moves */
     double least, patience_ms; /* arguments of kd_governor_least */
     /* gave_way: frames may be narrower than `least`, because a pace was too slow; slow: index of this pace */
     bool gave_way, slow;

@@ -18,7 +18,7 @@ struct kd_quality {
     /* enum kd_profile in place of all of accuracy.* except engine; -1: accuracy.* as requested */
     int32_t profile;
     bool sketch; /* volumes are marched more coarsely than with any profile: render/plan/march.h */
-    bool bright; /* only bright images of stars: plan.bright of render/plan/plan.h */
+    bool bright; /* only the bright images of stars are shown: plan.bright of render/plan/plan.h */
     bool final;  /* everything is as requested */
 };
 

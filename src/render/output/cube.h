@@ -45,8 +45,8 @@ struct kd_cube {
     } sentences, credits, devices;  /* each different text once: approximations, credits and devices of all scenes */
     char *rows;                     /* KD_CUBE_ROW bytes for each scene */
     uint32_t texts_sum, fluxes_sum; /* kd_fits_sum of the scenes' hashes and accuracies; kd_fits_sum of their fluxes */
-    bool flux;                      /* whether any scene has a flux; if so, the file contains fluxes */
-    uint8_t *piece;                 /* at least KD_GATHER_PIECE bytes, and room for a row of numbers */
+    bool flux;                      /* true if any scene has a flux; the file then contains fluxes */
+    uint8_t *piece;                 /* buffer of at least KD_GATHER_PIECE bytes, with room for a row of numbers */
     size_t piece_bytes;
 };
 

@@ -17,7 +17,7 @@ struct kd_picture {
     const struct kd_frame *frame;
     const struct kd_scene *scene;
     const struct kd_plan *plan;
-    const char *device; /* as kd_renderer_device_name */
+    const char *device; /* the text of kd_renderer_device_name */
     unsigned number;    /* number of the frame in a series, from 0 */
     unsigned lossy;     /* quality for a lossy format, 1 to 100; 0: KD_QUALITY */
     const char *hash;   /* hash of the scene, as kd_scene_hash; NULL or "": computed when needed */
@@ -45,8 +45,8 @@ struct kd_format {
     unsigned carries;
     bool live;  /* the format supports KD_EFFORT_LIVE */
     bool lossy; /* the format takes a quality */
-    /* Adapts a scene so that its frame contains the data that the format needs; NULL: no change is necessary. KD_EINVAL
-     * at a field if the scene has no such data. */
+    /* Adapts a scene so that its frame contains the data that the format needs; NULL: no change is necessary. Returns
+     * KD_EINVAL at a field if the scene has no such data. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
     /* Memory that `encode` takes for a picture of this size besides the frame, counted in the plan's host_bytes; NULL:
      * little. */
@@ -72,7 +72,7 @@ extern const struct kd_format kd_format_cubed;
 
 /* The first format is the default. Defined in formats.c. */
 extern const struct kd_format *const kd_formats[];
-extern const size_t kd_n_formats; /* at most KD_FORMATS_MAX */
+extern const size_t kd_n_formats; /* number of formats, at most KD_FORMATS_MAX */
 enum { KD_FORMATS_MAX = 16 };
 
 const struct kd_format *kd_format_named(const char *name); /* returns NULL if there is no such format */
@@ -89,7 +89,7 @@ enum kd_status kd_format_holds(const struct kd_format *format, const struct kd_s
 enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene,
                               const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
-/* Reads the scene in a picture of any format; KD_EINVAL if there is none. */
+/* Reads the scene in a picture of any format; returns KD_EINVAL if there is none. */
 enum kd_status kd_format_scene(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 
 /* State that an encoding thread keeps between files; initialise with { 0 }. */

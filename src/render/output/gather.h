@@ -48,7 +48,7 @@ struct kd_gather_format {
 extern const struct kd_gather_format kd_gather_zip;
 /* Cubes: one array for each layer over all scenes of a sweep, and one for the values of each axis (cube.h). */
 extern const struct kd_gather_format kd_gather_fits, kd_gather_npz;
-/* Films of PNG frames, all of one size, encoded by the program ffmpeg, with the scene of frame 0 as `comment`.
+/* Films of PNG frames, all of one size, encoded by the program ffmpeg, with the scene of frame 0 as `comment`. Returns
  * KD_EABSENT if there is no ffmpeg. */
 extern const struct kd_gather_format kd_gather_mp4, kd_gather_webm;
 #define KD_FILM_RATE 24u /* default, frames a second */

@@ -34,9 +34,9 @@ struct kd_notes {
     char hash[65];
     struct kd_buffer approximations; /* one approximation a line */
     char accuracy[KD_ACCURACY_TEXT];
-    char clock[KD_CLOCK_TEXT]; /* for a falling observer, otherwise "" */
-    char flux[KD_FLUX_TEXT];   /* at a radio frequency, otherwise "" */
-    char blur[KD_BLUR_TEXT];   /* for a mean of pictures, otherwise "" */
+    char clock[KD_CLOCK_TEXT]; /* kd_fall_clock as text; "" unless the observer falls */
+    char flux[KD_FLUX_TEXT];   /* flux as text; "" unless the picture is at a radio frequency */
+    char blur[KD_BLUR_TEXT];   /* motion blur as text; "" unless the picture is a mean */
 };
 /* Collects the metadata of a picture. The only error is KD_ENOMEM. Call kd_notes_finish in any case. */
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);

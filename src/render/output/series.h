@@ -27,7 +27,7 @@ struct kd_series {
     size_t n_tables;
     /* formats for gathering files, the first is the default; ends with NULL */
     const struct kd_gather_format *const *wholes;
-    bool swept; /* only for sweeps */
+    bool swept; /* the series exists for sweeps only */
 };
 
 extern const struct kd_series *const kd_series_all[]; /* all series; the first is the default */

@@ -47,8 +47,8 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
     KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
     add(&plan, &next);
-    plan.cost.host_bytes =
-        2 * (plan.cost.host_bytes + next.cost.host_bytes); /* for each picture alone, and for both side by side */
+    plan.cost.host_bytes = 2 * (plan.cost.host_bytes +
+                                next.cost.host_bytes); /* memory for each picture alone, and for both side by side */
     plan.picture.eyes = 2;
     kd_plan_say(&plan, scene);
     KD_TRY(name_lens(&plan, scene, error));

@@ -36,7 +36,7 @@ struct work {
     double least;
     struct set { struct kd_vk_buffer *rays, *ends, *host; } sets[2]; /* buffers that successive parts use alternately */
     struct kd_vk_buffer *told;                                       /* buffer for the records of trace.glsl, or NULL */
-    uint32_t steps;                                                  /* per half period */
+    uint32_t steps;                                                  /* number of steps per half period */
     const struct kd_vk_pipeline *pipeline;
     struct kd_error *error;
 };

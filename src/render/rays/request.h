@@ -25,7 +25,7 @@ void kd_rays_request_init(struct kd_rays_request *request);
 void kd_rays_request_finish(struct kd_rays_request *request);
 
 /* Merges a document into a request that has no rays yet. text[length] must be NUL. Checks types; ranges are checked
- * by kd_rays_request_check. KD_EINVAL without a pointer if it is not a JSON document. Time is linear in length;
+ * by kd_rays_request_check. Returns KD_EINVAL without a pointer if it is not a JSON document. Time is linear in length;
  * memory is 32 bytes a ray besides the text. */
 enum kd_status kd_rays_request_json(struct kd_rays_request *request, const char *text, size_t length,
                                     struct kd_error *error);

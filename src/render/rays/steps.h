@@ -8,10 +8,10 @@
 #include <stdlib.h>
 
 enum kd_rays_stage {
-    KD_STAGE_START,    /* at the observer, or at the place where a Cartesian ray starts */
+    KD_STAGE_START,    /* the state at the observer, or at the place where a Cartesian ray starts */
     KD_STAGE_STEP,     /* a step towards the crossing of that order; discarded if there is no such crossing */
     KD_STAGE_CROSSING, /* the crossing of that order; not a step */
-    KD_STAGE_END,      /* after the last crossing, to infinity or the horizon */
+    KD_STAGE_END,      /* a step after the last crossing, towards infinity or the horizon */
 };
 
 /* One record. Members that a stage or an engine does not have are NaN. Azimuths are as in render/rays/rays.h; in

@@ -16,7 +16,7 @@
 struct engine {
     enum kd_engine engine;
     enum kd_precision precision;
-    uint32_t steps; /* per half period */
+    uint32_t steps; /* number of steps per half period */
 };
 static const struct engine engines[] = {
     { KD_ENGINE_CLOSED, KD_PRECISION_F64, 0 },

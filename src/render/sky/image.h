@@ -9,7 +9,7 @@
 
 #include "render/sky/panorama.h"
 
-/* credit: the file's text "Copyright", or else "Author"; "" if it has neither. Errors name the field sky.image.
+/* credit: the file's text "Copyright", or else "Author"; "" if it has neither. Errors name the field sky.image. Returns
  * KD_EINVAL if the bytes are not a valid PNG file, twice as wide as high, of KD_PANORAMA_LEAST to KD_PANORAMA_MOST
  * rows; KD_ENOMEM. Needs memory for all pixels of the file, and 12 bytes a texel; 6500 x 3250 pixels take a second. */
 #define KD_SKY_CREDIT 400

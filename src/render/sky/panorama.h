@@ -33,13 +33,13 @@ static inline size_t kd_panorama_words(uint32_t width, uint32_t height)
         sum += (size_t)width * height;
     return sum;
 }
-/* Makes all levels. The picture's texels are averaged in place. KD_ENOMEM. */
+/* Makes all levels. The picture's texels are averaged in place. The only error is KD_ENOMEM. */
 enum kd_status kd_panorama_fill(struct kd_sky_picture *picture, uint32_t *words, struct kd_error *error);
 
 uint32_t kd_panorama_pack(const float rgb[3]);
 void kd_panorama_unpack(uint32_t word, float rgb[3]);
 
-/* The procedural Milky Way (milky_way.c) of sky.seed. KD_ENOMEM. Takes some tenths of a second. */
+/* The procedural Milky Way (milky_way.c) of sky.seed. The only error is KD_ENOMEM. Takes some tenths of a second. */
 enum { KD_MILKY_WAY_WIDTH = 2048, KD_MILKY_WAY_HEIGHT = 1024 };
 enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error);
 /* Computes only some of the Milky Way's rows, one after the other into texels. They are identical, bit by bit, to the

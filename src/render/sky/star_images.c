@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* in ray spacings: roots of a star that are nearer to each other than this are one image, unless only one of them is
+/* roots of a star that are nearer to each other than this, in ray spacings, are one image, unless only one of them is
  * mirrored */
 #define SAME 1e-3
 #define FOLDED 0.2 /* rad: size of the largest cells in which folds are searched */

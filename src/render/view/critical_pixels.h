@@ -23,7 +23,7 @@ struct kd_critical_pixels {
     size_t n;
 };
 
-/* Lists the pixels of a valid scene whose projection is plane or pinhole. KD_ENOMEM. */
+/* Lists the pixels of a valid scene whose projection is plane or pinhole. The only error is KD_ENOMEM. */
 enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out,
                                      struct kd_error *error);
 uint64_t kd_critical_pixels_made(void); /* number of lists that this process has made so far, for tests */

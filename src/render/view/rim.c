@@ -132,7 +132,8 @@ static double winding(const struct kd_critical *curve)
         const struct kd_critical_point p = kd_critical_round(curve, (double)i / PLACES);
         const struct kd_shell_exponents e = kd_shell_exponents(&p.orbit);
         const double turned = M_PI / e.gamma,
-                     dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma; /* without the jump of delta by pi */
+                     /* delta jumps by pi; the jump is subtracted */
+            dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma;
         if (i)
             apart = fmax(apart, (fabs(turned - turn) + fabs(dragged - drag)) * (2.0 * PLACES / KD_RIM_ANGLES));
         turn = turned, drag = dragged;

@@ -29,8 +29,8 @@
 struct entry {
     struct kd_visitor visitor;
     uint8_t hash[SHA256_DIGEST_SIZE]; /* hash of the token or key, which itself is not stored */
-    struct hmac_sha256_ctx key;       /* of a key: the HMAC state that already contains the key; each signature
-                                       * starts from a copy of it */
+    struct hmac_sha256_ctx key;       /* for an entry that is a key: the HMAC state that already contains the key; each
+                                       * signature starts from a copy of it */
 };
 
 struct kd_access {

@@ -64,7 +64,7 @@ extern const struct kd_taken kd_taken[KD_TAKES];
 
 /* The place where an answer's media types are listed. */
 enum kd_gives {
-    KD_GIVES_ITS_ANSWER, /* in the members `answer` and `also` */
+    KD_GIVES_ITS_ANSWER, /* listed in the members `answer` and `also` */
     KD_GIVES_PICTURE,    /* every format of a picture: render/output/format.h */
     KD_GIVES_RESULT,     /* every result of a job: job/formats.h */
 };

@@ -20,7 +20,7 @@
 #define KD_LESSON_TEXT 600u
 #define KD_LESSON_CHOICE 200u
 #define KD_LESSON_NAME 80u
-#define KD_LESSON_LANG 35u                                /* of a language tag */
+#define KD_LESSON_LANG 35u                                /* largest length of a language tag */
 #define KD_LESSON_SIZE(characters) (4 * (characters) + 1) /* bytes of UTF-8, and NUL */
 
 struct kd_question {

@@ -63,8 +63,8 @@ struct kd_render_job {
     const struct kd_format *format; /* format of the picture's file */
     enum kd_effort effort;
     struct kd_blur blur;    /* motion blur; samples 0, the default: none */
-    unsigned number, lossy; /* see struct kd_picture */
-    char hash[65];          /* see struct kd_picture */
+    unsigned number, lossy; /* same meaning as in struct kd_picture */
+    char hash[65];          /* same meaning as in struct kd_picture */
     bool keeps;             /* the frame's layers are kept after it has been encoded */
     /* NULL: the queue renders and encodes a picture. Otherwise the queue calls this function instead when the job
      * owns the device. If the function sets `more`, it is called again at the job's next turn. */

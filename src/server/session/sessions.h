@@ -55,7 +55,7 @@ void kd_session_keep(struct kd_session *session, const struct kd_session_pace *p
 void kd_session_put(struct kd_session *session, const struct kd_scene *scene, const struct kd_plan *plan);
 bool kd_session_watched(struct kd_session *session);     /* true if a viewer waits or reads a stream */
 unsigned kd_session_viewers(struct kd_session *session); /* number of viewers that wait or read a stream */
-/* whether a frame has shown the latest bodies; if so, kd_session_show accepts new ones */
+/* true if a frame has shown the latest bodies; kd_session_show then accepts new ones */
 bool kd_session_hungry(struct kd_session *session);
 bool kd_session_over(struct kd_session *session); /* true if the session has ended or failed, and so publishes no
                                                    * more frames */

@@ -240,7 +240,7 @@ export function buildPicture(root, hand) {
   let path = null,
     hole = 1,
     spin = 0,
-    circles = []; // of the hole that are large enough to be drawn
+    circles = []; // circles of the hole that are large enough to be drawn
 
   // The hole's circles; the half behind the hole is drawn before it. From below, the other half is nearer.
   const rings = (from, to) =>

@@ -17,8 +17,8 @@ const observation = 'm87-2017-04-05-lo', // the server has it (data/eht)
 
 const grid = Array.from({ length: steps }, (_, i) => ((i + 1) * longest_gl) / steps),
   directions = [
-    [0, 1], // to the north
-    [1, 0], // to the east
+    [0, 1], // direction to the north
+    [1, 0], // direction to the east
   ];
 
 const among = (columns, product) => columns.product.map((_, i) => i).filter(i => columns.product[i] === product);
@@ -124,7 +124,7 @@ export function measurements(root, page) {
         ...document,
         ...map,
         observation,
-        pulse: 'point', // as in /v1/visibility
+        pulse: 'point', // same shape of a pixel as in /v1/visibility
         average_s,
         products: ['amplitude', 'closure_phase'],
         systematic: { amplitude: 0.01, closure_phase_deg: 2 },
