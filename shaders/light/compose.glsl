@@ -38,11 +38,11 @@ struct kd_midst {
     float ago;
     float nearest;
 };
-/* The medium at a point of a ray. light: emission; depth: optical depth. Both are per unit of the affine parameter by
- * the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and matter of velocity U measures the path
- * length -k.U d lambda. With emissivity j and opacity alpha per length in the matter's frame, depth = alpha (-k.U) and
- * bolometric light = j (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray over which the medium changes by about
- * its own size; where there is no matter, the distance to the matter. */
+/* The medium at a point of a ray. light: emission; depth: optical depth. Light and depth are per unit of the affine
+ * parameter lambda, which is normalised by the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and
+ * matter of velocity U measures the path length -k.U d lambda. With emissivity j and opacity alpha per length in the
+ * matter's frame, depth = alpha (-k.U) and bolometric light = j (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray
+ * over which the medium changes by about its own size; where there is no matter, the distance to the matter. */
 struct kd_medium {
     vec3 light;
     float depth, grain;

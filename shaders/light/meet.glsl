@@ -112,7 +112,7 @@ uint kd_met_next(uint node)
 bool kd_meet_lost = false;
 
 #define KD_MEET_CLOSE \
-    0.995 /* fraction of the horizon's 1/r up to which a step covers at most half the way to the horizon, where \
+    0.995 /* up to this fraction of the horizon's 1/r, a step covers at most half the way to the horizon, where \
              azimuths diverge */
 
 kd_met kd_meet(uvec2 place)

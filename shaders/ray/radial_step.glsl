@@ -35,10 +35,10 @@ float kd_radial_potential(kd_geodesic m, float w, float e, float a, float root)
 /* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + (a^2 + q^2) w^2.
  *
  * Towards the horizon chi' diverges as 1/D, and so would its quadrature. For a falling ray the azimuth of ingoing
- * Kerr-Schild coordinates is regular. It leaves out a w'/D, whose integral is elementary and is added by kd_drag_fall.
- * As w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference. The same holds with the
- * other sign of w' for a ray that comes from next to the horizon. way: 1 for a ray that goes straight in, -1 for one
- * that goes straight out, else 0. */
+ * Kerr-Schild coordinates is regular. This azimuth leaves out a w'/D, whose integral is elementary and is added by
+ * kd_drag_fall. As w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference. The same
+ * holds with the other sign of w' for a ray that comes from next to the horizon. way: 1 for a ray that goes straight
+ * in, -1 for one that goes straight out, else 0. */
 float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w = y.w, w2 = w * w;

@@ -39,7 +39,7 @@ enum kd_status kd_integral_request_read(struct kd_integral_request *request, con
 enum kd_status kd_integral_request_json(struct kd_integral_request *request, const char *text, size_t length,
                                         struct kd_error *error);
 
-/* Sets one field by name; lists as numbers separated by commas. */
+/* Sets one field by name. The text of a list is numbers separated by commas. */
 enum kd_status kd_integral_request_set(struct kd_integral_request *request, const char *name, const char *text,
                                        struct kd_error *error);
 /* Sets the observation of a comparison from the bytes of its file. Returns KD_EINVAL at /observation. */

@@ -256,7 +256,7 @@ static enum kd_status node_of(const struct kd_table *table, size_t node, struct 
     return kd_integral_request_check(out, error);
 }
 
-/* Fields that make bins of equal widths, instead of edges. */
+/* Fields that define bins of equal widths, in place of the list `edges`. */
 static const char *const even[] = { "energy_min", "energy_max", "bins" };
 
 /* The default energies are in keV, begin above 0, and surround the line of iron. */
@@ -395,8 +395,8 @@ void kd_table_axes_json(const struct kd_table *table, struct kd_json *json, cons
     kd_json_end(json);
 }
 
-/* The request of the table as JSON: the fields that were given one value, the energies, and the axes. The others have
- * the defaults of kerrd line, which accepts this document without the axes. */
+/* The request of the table as JSON: the fields that were given one value, the energies, and the axes. All other fields
+ * have the defaults of kerrd line, which accepts this document without the axes. */
 static enum kd_status put_request(const struct kd_table *table, struct kd_buffer *cards)
 {
     struct kd_buffer text = { 0 };

@@ -17,8 +17,8 @@ struct kd_orbit_run {
     double phi;       /* azimuth at the start */
     double mass_msun; /* NAN: none */
     double rounding;  /* result of kd_orbit_request_solve */
-    bool closed;      /* fate BOUND, so that the motion has a closed form; otherwise `bound`, `frequencies` and `period`
-                       * are not set */
+    bool closed; /* true if the fate is BOUND, so that the motion has a closed form; if false, `bound`, `frequencies`
+                  * and `period` are not set */
     struct kd_orbit_bound bound;
     struct kd_orbit_frequencies frequencies;
     double period; /* Mino time of a radial period; of a turn in phi if r is constant */

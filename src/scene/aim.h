@@ -7,7 +7,7 @@
 
 /* HOLE: towards light that flies straight out, along the outgoing principal null direction: E = 1, L = a sin^2(theta),
  * p_theta = 0, Sigma p^r = Sigma (Chandrasekhar 1983, The Mathematical Theory of Black Holes, section 62). Without spin
- * that is straight ahead for an observer in radial motion.
+ * this direction is straight ahead for an observer in radial motion.
  *
  * PLACE: along the straight line in flat space from the camera to (r, theta, phi). Both points are read as spherical
  * coordinates, and phi is measured like camera.azimuth_deg. With r = INFINITY the camera looks in the direction (theta,

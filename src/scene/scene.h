@@ -106,10 +106,10 @@ bool kd_scene_time_goes_on(const struct kd_scene *scene);
 bool kd_scene_azimuth_goes_on(const struct kd_scene *scene);
 bool kd_scene_falls(const struct kd_scene *scene);
 
-/* Moves the observer along its own path by a proper time of 0 or more. That changes camera.r, camera.azimuth_deg and
+/* Moves the observer along its own path by a proper time of 0 or more. This changes camera.r, camera.azimuth_deg and
  * time. The scene must be valid, and its observer must have such a path (physics/spacetime/worldline.h). With slow
- * light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing
- * Kerr-Schild coordinates. */
+ * light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing Kerr-Schild
+ * coordinates. */
 void kd_scene_go_on(struct kd_scene *scene, double proper_time);
 
 /* kd_scene_is_slow_volume: whether matter on a grid is shown at the time when its light left. kd_scene_is_slow: whether

@@ -88,8 +88,8 @@ function drawMarks(u, marks) {
   ctx.restore();
 }
 
-// Brightness by x and y beneath the curves: rows from below upwards, each from left to right. By the square root,
-// because the brightest cell may exceed all others many times.
+// Brightness by x and y beneath the curves: rows from below upwards, each from left to right. The brightness is drawn
+// as its square root, because the brightest cell may exceed all others many times.
 function drawMap(u, { rows, x, y }) {
   const wide = rows[0].length,
     tall = rows.length,

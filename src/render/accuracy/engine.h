@@ -65,7 +65,7 @@ struct kd_setting {
 
 struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene);
 
-/* True if the request needs a device. If not, the closed form serves it on any device. */
+/* True if the request needs a device. If not, the closed form on the CPU serves the request. */
 bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy);
 
 /* Resolves a request. Without a tolerance, an engine, precision or number of steps that the request does not name

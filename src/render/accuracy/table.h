@@ -3,9 +3,9 @@
  * thread.
  *
  * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h). An
- * error covers all orders together, over the crossings that both methods have from the ISCO to KD_ACCURACY_FAR. It is
- * relative for r and g, absolute for phi (radians) and delay (M). A ray whose fate or number of crossings differs from
- * the closed form's is counted in `differ`. */
+ * error covers all orders together, over the crossings that both methods have from the ISCO to KD_ACCURACY_FAR. Errors
+ * of r and g are relative, those of phi (radians) and delay (M) absolute. A ray whose fate or number of crossings
+ * differs from the closed form's is counted in `differ`. */
 #ifndef KD_RENDER_ACCURACY_TABLE_H
 #define KD_RENDER_ACCURACY_TABLE_H
 
@@ -76,7 +76,7 @@ enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double 
  * bench/results: errors hardly depend on the device, speeds do. Any thread; never freed; NULL if out of memory. */
 const struct kd_accuracy_table *kd_accuracy_built_in(void);
 
-/* kd_accuracy_to_json appends the document of GET /v1/accuracy. The other function reads it back, and returns
+/* kd_accuracy_to_json appends the document of GET /v1/accuracy. kd_accuracy_from_json reads it back, and returns
  * KD_EINVAL for any other text. */
 enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct kd_buffer *out);
 enum kd_status kd_accuracy_from_json(const char *text, size_t length, struct kd_accuracy_table *out,

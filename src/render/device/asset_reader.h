@@ -60,7 +60,7 @@ bool kd_asset_reader_begin(struct kd_asset_reader *reader, const struct kd_asset
  * error of `make`. Called with the lock. */
 enum kd_status kd_asset_reader_wait(struct kd_asset_reader *reader, const struct kd_asset_request *request,
                                     struct kd_error *error);
-/* True if nothing is requested or being made. Called with the lock. */
+/* True if there is no request, waiting or in progress. Called with the lock. */
 bool kd_asset_reader_is_idle(const struct kd_asset_reader *reader);
 /* Waits for the request in progress and drops all others. `made` is not called again before a new request. */
 void kd_asset_reader_stop(struct kd_asset_reader *reader);

@@ -42,8 +42,8 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
                                   struct kd_error *error);
 void kd_renderer_destroy(struct kd_renderer *renderer);
 
-/* Closes a device that has failed and reopens it. The measurements and the data cached on the host are kept, and
- * later pictures are the same; buffers and kernels are made again when needed. Returns KD_EDEVICE if the device
+/* Closes a device that has failed and reopens it. Measurements and data cached on the host are kept, so that later
+ * pictures are the same as before. Buffers and kernels are made again when needed. Returns KD_EDEVICE if the device
  * hangs and so cannot be closed (kd_renderer_hangs), if it is unavailable now, or if another device has taken its
  * place. The call may be repeated. */
 enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error);
@@ -87,7 +87,7 @@ struct kd_accuracy_report {
     uint64_t traced, interpolated;
     /* sampled: number of rays that were traced again; crossings: number of crossings that were compared */
     uint32_t sampled, crossings;
-    /* number of crossings that only one of the two results has, plus number of rays with different fates */
+    /* number of crossings that only one of the two results has, plus the number of rays with different fates */
     uint32_t differ;
     double median, worst; /* relative error of the radius over the sample */
     uint64_t followed;    /* number of rays that refinement traced beyond those of the plan */
@@ -111,8 +111,8 @@ struct kd_accuracy_report {
 /* Largest number of pictures that may be rendered in the background at once (render/frame/frame.h). */
 #define KD_BACKGROUND_RENDERS 8
 
-/* Called between slices of long work, with the completed fraction. It returns false to stop the work, which then
- * ends with KD_ECANCELLED. */
+/* Called between slices of long work, with the completed fraction. If it returns false, the work stops with
+ * KD_ECANCELLED. */
 typedef bool (*kd_progress_fn)(void *user, double fraction);
 
 #endif

@@ -52,8 +52,9 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *renderer);
 /* Updates the counts after each frame, without system calls. Render thread only. */
 void kd_renderer_count(struct kd_renderer *renderer);
 /* Frees everything beyond the bounds above, and returns the host's free memory to the kernel. Later pictures are the
- * same. Pictures of the latest view take no longer, unless the device had to be reopened (KD_REST_BYTES). Errors are
- * those of kd_renderer_reopen. Render thread only, while nothing is being rendered, here or in the background. */
+ * same. Pictures of the latest view take no longer than before, unless the device had to be reopened (KD_REST_BYTES).
+ * Errors are those of kd_renderer_reopen. Render thread only, while nothing is being rendered, here or in the
+ * background. */
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error);
 /* Call this after the process has opened the device for the first time. Memory that is resident then is not counted
  * as kept. */

@@ -58,7 +58,7 @@ static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_
 
 /* Sorts stars into cells and keeps their order, so that each cell has its brightest star first. During the sort,
  * cells[c + 1] advances from the start of cell c to its end, which is the start of the next cell. all: number of
- * places, after which the temperatures follow. */
+ * entries; the temperatures follow after all entries. */
 static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t all, float *rows)
 {
     for (size_t i = 0; i < stars->n; i++)

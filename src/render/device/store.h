@@ -20,7 +20,7 @@ struct kd_bands {
     uint64_t band_bytes;
 };
 
-/* Everything besides the lens map on which the light of stars depends. That light stays valid while only time
+/* Everything, besides the lens map, that determines the light of stars. The light of stars stays valid while only time
  * advances. */
 struct kd_star_key {
     char lens[65];
@@ -45,7 +45,7 @@ struct kd_lens_map {
     bool rim_known; /* true if rim and rim_grids are set */
     bool rim_traced;
     struct kd_vk_buffer *rim_lens; /* directions and tables of the rim (frame/rim.c); NULL: never made */
-    struct kd_star_key star_key;   /* key of the star light; lens "": it is missing or incomplete */
+    struct kd_star_key star_key;   /* key of the star light; lens "": the star light is missing or incomplete */
     struct kd_accuracy_report accuracy;
     uint64_t used;
 };

@@ -10,7 +10,7 @@ struct kd_renderer;
 
 struct kd_verdict {
     enum { KD_UNTESTED, KD_PASSED, KD_FAILED } result;
-    bool now; /* this process ran the test; false: an earlier process did */
+    bool now; /* true: this process ran the test; false: an earlier process did */
     unsigned checks, failed;
     double seconds;  /* duration of the test */
     char worst[160]; /* the first check that failed; "" if none failed */

@@ -20,7 +20,7 @@ struct kd_bodies_view {
     struct kd_hole hole;
     double azimuth, peak_k;
     const struct kd_illumination *lit;
-}; /* lit: the disk as a light source; NULL if it does not illuminate the bodies */
+}; /* lit: the disk as a light source; NULL if the disk does not illuminate the bodies */
 
 /* kd_illumination_exists: whether the scene has a thin disk. kd_illumination_of: prepares the disk as a light source
  * for bodies (bodies_illumination.c); returns false if there is no thin disk. */

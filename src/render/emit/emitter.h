@@ -73,10 +73,11 @@ struct kd_emitter {
     const struct kd_sentence *sentences;
     size_t n_sentences;
     const struct kd_emitter *kind; /* an emitter whose approximations also apply to this one; NULL: none */
-    /* another emitter whose numbers and tables this one reads, including those that the other one reads itself;
-     * NULL: none */
+    /* another emitter whose numbers and tables this one reads, together with all that the other emitter reads; NULL:
+     * none */
     const struct kd_emitter *reads;
-    const struct kd_emitter *replaces; /* an emitter that is left out where this one is present; NULL: none */
+    /* an emitter that is left out of scenes in which this one is present; NULL: none */
+    const struct kd_emitter *replaces;
 };
 
 #define KD_EMIT_NUMBER_(number, name) KD_EMITTER_##name = number,

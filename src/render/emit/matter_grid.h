@@ -8,8 +8,8 @@
  *                 angle for each column, or, with the shape (rows, columns), for each node. phi covers a turn or 1/k
  *                 of a turn with a whole k, and may be missing
  *   time          optional: the times of the frames of a series, in even steps. Each array below then has a leading
- *                 axis of frames. The header's "time" names the slices on which the frames are: those of constant
- *                 "boyer-lindquist" or "kerr-schild" time; if it is missing, those of its azimuth
+ *                 axis of frames. The header's "time" names the time that is constant in a frame, "boyer-lindquist" or
+ *                 "kerr-schild"; if it is missing, it is the time that "azimuth" names
  *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi
  *                 arrays of the shape (rows, columns) or (rows, columns, layers)
  *   u_con_t       optional; if present, the velocity must be a unit vector
@@ -28,13 +28,14 @@
 #include <stdint.h>
 
 enum {
-    KD_MATTER_SIDE = 4096,      /* limit for rows, columns and layers */
-    KD_MATTER_NODES = 1 << 25,  /* limit for nodes of all frames: 512 x 256 x 256 */
-    KD_MATTER_FRAMES = 1024,    /* limit for frames */
-    KD_MATTER_WHOLE = 1 << 21,  /* largest number of nodes of a grid that is not packed */
-    KD_MATTER_FLOATS = 8,       /* floats of a node; a packed node has half as many words */
-    KD_MATTER_ANGLES = 1 << 21, /* limit for the angles theta, if each node of a row and column has its own */
-    KD_MATTER_PLACES = 1 << 20  /* limit for the cells of `places`, of four floats each */
+    KD_MATTER_SIDE = 4096,     /* limit for rows, columns and layers */
+    KD_MATTER_NODES = 1 << 25, /* limit for nodes of all frames: 512 x 256 x 256 */
+    KD_MATTER_FRAMES = 1024,   /* limit for frames */
+    KD_MATTER_WHOLE = 1 << 21, /* largest number of nodes of a grid that is not packed */
+    KD_MATTER_FLOATS = 8,      /* floats of a node; a packed node has half as many words */
+    /* limit for the number of angles theta, if each pair of row and column has an angle of its own */
+    KD_MATTER_ANGLES = 1 << 21,
+    KD_MATTER_PLACES = 1 << 20 /* limit for the cells of `places`, of four floats each */
 };
 
 struct kd_matter_grid {

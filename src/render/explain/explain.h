@@ -27,10 +27,10 @@ struct kd_explained {
     struct kd_ray_end end;
     struct kd_ray_path_frame frame;
     struct kd_ray_path path; /* path of the middle ray; for other rays it has no places */
-    double picture_error;    /* largest relative error in 1/r of the picture's crossings; 1: the picture has another
-                              * number of them */
-    double shown[3];         /* displayed value of the pixel, 0 to 1 */
-    char why[240];           /* where the ray ends and why, one sentence */
+    /* largest relative error in 1/r of the picture's crossings; 1: the picture has another number of crossings */
+    double picture_error;
+    double shown[3]; /* displayed value of the pixel, 0 to 1 */
+    char why[240];   /* one sentence: where the ray ends, and why */
 };
 
 /* kd_explain explains the middle ray. kd_explain_each explains one of the rays whose mean is the pixel's light,

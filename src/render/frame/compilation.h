@@ -3,7 +3,7 @@
  * A driver compiles a kernel when its pipeline is created, or at its first dispatch on the device's queue (lavapipe:
  * half a second to some seconds). So pipelines are created while the device works. For a driver of the second kind,
  * the work that needs the kernels is also run on a second device that computes nothing (kd_vk_params.compiles_only).
- * That fills the driver's cache on disk, from which the first device then reads. */
+ * This run fills the driver's cache on disk, from which the first device then reads. */
 #ifndef KD_RENDER_FRAME_COMPILATION_H
 #define KD_RENDER_FRAME_COMPILATION_H
 

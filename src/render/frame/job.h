@@ -153,8 +153,8 @@ enum kd_status kd_frame_probe_pixel(struct kd_frame_job *job);
 enum kd_status kd_frame_probe_ask(struct kd_frame_job *job);
 
 /* kd_frame_sample_march traces rays through volumes again for a sample of this band's pixels, both as in the picture
- * and more finely. The other function is called after all bands and writes the differences into the frame's
- * accuracy. Both do nothing without volumes. */
+ * and more finely. The second function is called after all bands and writes the differences into the frame's accuracy.
+ * Both functions do nothing if the scene has no volumes. */
 enum kd_status kd_frame_sample_march(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_march_error(struct kd_frame_job *job);
 
@@ -193,7 +193,7 @@ enum kd_status kd_frame_post(struct kd_frame_job *job);
 enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out); /* the kernel */
 /* Runs the passes from light to pixels, in order. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
-/* kd_frame_add_layers allocates the layers of a plan other than the picture. The other function copies them to the
+/* kd_frame_add_layers allocates the layers of a plan other than the picture. The second function copies them to the
  * host, as far as light is complete. A single requested layer replaces the picture, in false colour. */
 enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_picture *picture,
                                    struct kd_error *error);

@@ -16,8 +16,8 @@
 
 static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
 
-/* Number of rows of pixels of a band, from `row` on, that one submission processes. If a slice of a sampled map
- * reaches the end of a block, it ends there, so that no block is traced twice. */
+/* Number of rows of pixels of a band, from `row` on, that one submission processes. A slice of a sampled map ends at
+ * the end of a block, so that no block is traced twice. */
 static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint32_t row, double ns_per_row, bool maps)
 {
     const struct kd_plan *p = j->plan;
@@ -190,7 +190,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
-    /* waits for the march, which is slow, so that its time does not count as time for these rays */
+    /* waits for the march, which is slow, so that the time of the march does not count as time for these rays */
     enum kd_status status = j->plan->light.march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK;
     double start = kd_clock_ms();
     if (!status)

@@ -25,7 +25,8 @@ static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
 static const double BLIND_MS = 2000;
 /* narrowest width, as a fraction of the requested width, whatever kd_governor_least says */
 static const double NARROWEST = 0.25;
-/* frames of the requested width are tried again when they would take less than this fraction of the patience */
+/* frames of the requested width are tried again when they are estimated to take less than this fraction of
+ * max_frame_ms */
 static const double PATIENT_AGAIN = 0.6;
 enum {
     MOVING_AUDIT = 4, /* frames that will be refined audit one in this many rays */
@@ -81,7 +82,7 @@ static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint3
 }
 
 /* Mean over the middle half of the window, sorted by total time, so that spikes and empty frames do not affect it.
- * If two kinds of frames alternate, the mean lies between them, whereas a median would be one of the two. */
+ * If two kinds of frames alternate, this mean lies between their costs; a median would be one of the two costs. */
 static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
 {
     const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
@@ -218,9 +219,9 @@ static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pa
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
-/* Estimates the fraction of the rays' time on this rung that does not depend on size. The estimate is the line through
- * the time at another size a moment ago and the time now. A falling line means only that the machine's load has
- * changed. */
+/* Estimates the fraction of the rays' time on this rung that does not depend on size. The estimate is a straight line
+ * through two measured times: one at another size a moment ago, and the present one. If the smaller size took longer,
+ * only the machine's load has changed. */
 static void learn(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
     const struct kd_rung *here = &g->ladder.rungs[pace->rung], *other = &pace->other;
@@ -520,8 +521,9 @@ struct kd_frame_decision kd_governor_decide(const struct kd_governor *g, double 
     return decision;
 }
 
-/* Counts lens maps that should have been cached. One may be missing after a change of rung. If no map is cached, for
- * example because maps do not fit in memory, each frame must trace, even if only time advances. */
+/* Counts lens maps that were traced although they should have been cached. After a change of rung one may be missing.
+ * If maps are never cached, for example because they do not fit in memory, each frame traces, even if only time
+ * advances. */
 static void miss(struct kd_governor *g, double now)
 {
     if (++g->missed < MISSES)

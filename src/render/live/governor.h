@@ -100,8 +100,9 @@ struct kd_frame_cost {
 struct kd_frame_decision {
     /* quality of the frame to render now; if nothing is to be rendered, quality of the picture shown */
     struct kd_quality quality;
-    double wait_ms; /* 0: render now. Otherwise there is nothing to render for this long; INFINITY: the session rests */
-    bool refining;  /* the scene rests, and this frame is a step upwards */
+    /* 0: render now. Otherwise the time for which there is nothing to render; INFINITY: the session rests */
+    double wait_ms;
+    bool refining; /* the scene rests, and this frame is a step upwards */
     /* 1 or 4: one in this many of the sampled rays is audited. The audit runs on one core and takes a third of a
      * small frame */
     uint32_t audit;
@@ -122,13 +123,14 @@ struct kd_pace {
     double changed_at, failed_at, retry_ms;
     /* widest: largest target since the last change; failed_target: target when failed_at was set */
     double widest, failed_target;
-    bool climbed;         /* the last change was upwards */
-    uint32_t held;        /* a rung that was left because other sessions began */
-    double held_target;   /* the target at which frames of that rung were in time; 0: there is no such rung */
-    struct kd_rung other; /* the rung before; rays 0: it is unknown or was already used */
-    double other_ms;      /* time that the rays of frames took on that rung */
-    double stays;         /* estimated fraction of the rays' time that does not depend on size */
-    bool tried;           /* the fraction `stays` is measured, so no trial of another rung is needed */
+    bool climbed;       /* the last change was upwards */
+    uint32_t held;      /* a rung that was left because other sessions began */
+    double held_target; /* the target at which frames of that rung were in time; 0: there is no such rung */
+    /* the rung before the present one; rays 0: it is unknown, or was used for an estimate already */
+    struct kd_rung other;
+    double other_ms; /* time that the rays of frames took on that rung */
+    double stays;    /* estimated fraction of the rays' time that does not depend on size */
+    bool tried;      /* the fraction `stays` is measured, so no trial of another rung is needed */
 };
 
 /* All members are private. */

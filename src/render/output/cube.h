@@ -1,6 +1,6 @@
 /* A cube: for each layer an array over all scenes of a sweep, made from the scenes' FITS files. Shared by cube_fits.c
- * and cube_npz.c. All files are scanned before anything is written, because checksums and sentences precede the
- * numbers.
+ * and cube_npz.c. All files are scanned before anything is written, because checksums and sentences come before the
+ * numbers in a cube.
  *
  * In FITS a layer is an image whose axes are those of the picture, for "rgb" the three colours, then the axes of the
  * sweep from the last to the first. In NumPy the array's shape is (axes of the sweep, height, width[, 3]). Internal to

@@ -125,7 +125,7 @@ static uint64_t bytes_of(const struct kd_gather_source *source)
 
 /* Starts ffmpeg. The scene of frame 0, as stored in its picture, goes into the film. Colours: the pictures are sRGB,
  * which players display alike if BT.709 is named; the conversion to Y'CbCr is BT.709's, in video range. Since ffmpeg 7
- * an encoder takes the colour tags of its frames (for a PNG those of sRGB), whatever the encoder's options are, so the
+ * an encoder uses the colour tags of its frames, which for a PNG are those of sRGB, and ignores its own options. So the
  * filter setparams sets the tags as well. Two pixels share a chroma sample, so odd sides are padded. */
 static enum kd_status begin(struct film *f, struct kd_error *error)
 {

@@ -26,8 +26,8 @@ struct kd_picture {
 enum kd_effort {
     /* for live views of many frames a second: 8 bits a channel, as fast as possible, without metadata */
     KD_EFFORT_LIVE,
-    KD_EFFORT_QUICK, /* a client waits for it */
-    KD_EFFORT_KEEP,  /* a file that is kept: smaller */
+    KD_EFFORT_QUICK, /* a file for which a client waits */
+    KD_EFFORT_KEEP,  /* a file that is stored, so that small size matters more than time */
 };
 
 /* Bits for the parts that a frame must carry for a format. */

@@ -13,7 +13,8 @@
 struct kd_plan_lens {
     uint32_t side; /* rays along each side of a pixel */
     uint64_t rays; /* rays of the grid */
-    /* rays of each pixel at the critical curve (view/critical_pixels.h); 0: as any other pixel */
+    /* number of rays of each pixel at the critical curve (view/critical_pixels.h); 0: the same number as for any other
+     * pixel */
     uint32_t critical;
     uint32_t critical_dense;  /* rays of each such pixel after refinement (frame/refine.c); 0: no refinement there */
     uint64_t critical_pixels; /* number of pixels at the critical curve */

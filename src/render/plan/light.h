@@ -34,7 +34,7 @@ struct kd_plan_light {
                 whose aspect ratio is rounded to whole pixels */
 };
 
-/* True if every ray that escapes meets light, such as that of a grid or of the Milky Way (KD_TRAIT_SPREAD), and not
+/* True if the sky has light in every direction, such as that of a grid or of the Milky Way (KD_TRAIT_SPREAD), and not
  * only points of light such as stars. */
 bool kd_plan_is_spread(const struct kd_plan_light *light);
 

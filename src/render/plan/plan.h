@@ -70,7 +70,7 @@ static inline uint64_t kd_plan_lost_bytes(uint64_t most) { return most ? 4 * (KD
  * and rays, for one slice of KD_PLAN_STAR_RAYS rays or one row (frame/stars.c). A slice takes about 20 ms, and its
  * pairs fit. */
 #define KD_PLAN_PAIRS (1u << 18)
-#define KD_PLAN_BRIGHT 8 /* searching only bright images is about this many times as fast as searching all */
+#define KD_PLAN_BRIGHT 8 /* a search for bright images alone is about this many times as fast as one for all images */
 #define KD_PLAN_STAR_RAYS (1u << 17)
 static inline uint64_t kd_plan_pair_bytes(void) { return 8ull * (KD_PLAN_PAIRS + 1); }
 static inline uint32_t kd_plan_star_slice(const struct kd_plan *plan)

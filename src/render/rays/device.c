@@ -73,9 +73,10 @@ static double get(const struct work *w, const void *at, size_t i)
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
 }
 
-/* Radius from which a Cartesian ray from infinity starts. A larger radius would lose digits of b, and in Tao's
- * method also phase. A smaller one would give smaller errors (from 100 M single precision has a sixth of the error),
- * but only because Mino time (start.c) would then trace more of the ray, and this engine less. */
+/* Radius from which a Cartesian ray from infinity starts. A larger radius would lose digits of b, and in Tao's method
+ * also phase. A smaller radius would give smaller errors (from 100 M, single precision has a sixth of the error). But
+ * the errors would be smaller only because start.c would then trace more of the ray in Mino time, and this engine less
+ * of it. */
 #define FAR 1e3
 /* The radius at which a ray counts as escaped: there its momentum has reached its limit within M b/r^2. Further out the
  * direction in single precision does not become more accurate, and the copies of Tao's method diverge. */

@@ -22,8 +22,8 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
     return response;
 }
 
-/* A text shorter than PACK_LEAST gains less than gzip's header costs. A text longer than PACK_MOST would block the
- * HTTP thread for more than some 20 ms. */
+/* For a text shorter than PACK_LEAST, compression saves less than gzip's header costs. A text longer than PACK_MOST
+ * would block the HTTP thread for more than some 20 ms. */
 enum { PACK_LEAST = 1 << 10, PACK_MOST = 1 << 20 };
 
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type)

@@ -29,7 +29,7 @@ struct kd_job_record {
     unsigned traced;                /* number of lens maps traced */
     unsigned frames;                /* number of frames requested; 0 in records of older versions */
     const struct kd_series *series; /* kind of result */
-    struct kd_once once;            /* hashes of its Idempotency-Key and request */
+    struct kd_once once;            /* hashes of the job's Idempotency-Key and request */
     char preset[32];                /* preset over which the job's scenes are merged; "": none */
     char error[480];                /* message of a failed job */
 };

@@ -22,7 +22,7 @@ static bool is_large(const struct kd_render_queue *queue, const struct kd_render
 }
 
 /* True if the picture fits in memory beside the large pictures in lanes. A picture that needs nearly all memory starts
- * only when no other large one runs. */
+ * only when no other large picture is in a lane. */
 static bool fits(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_capacity c;

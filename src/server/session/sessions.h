@@ -1,8 +1,9 @@
 /* Live sessions. A session has a scene that its owner changes, the newest frame of that scene, and viewers.
  *
- * A frame is rendered only while a viewer waits for a newer one, and only if it would differ: the scene has changed,
- * the scene moves by itself, or a finer picture is still to come. One frame is traced while the previous one is
- * encoded, and all viewers share the frames. Any thread; functions on viewers belong to the HTTP thread. */
+ * A frame is rendered only while a viewer waits for a newer one, and only if it would differ from the newest one: the
+ * scene has changed, the scene moves by itself, or a finer picture is still to come. One frame is traced while the
+ * previous one is encoded, and all viewers share the frames. Any thread; functions on viewers belong to the HTTP
+ * thread. */
 #ifndef KD_SERVER_SESSION_SESSIONS_H
 #define KD_SERVER_SESSION_SESSIONS_H
 

@@ -54,7 +54,7 @@ function triangles(columns) {
     .sort((a, b) => a.length - b.length);
 }
 
-// A triangle of each of the shapes with the most data, neither the smallest nor the largest.
+// Picks the shapes of triangles with the most data. For each shape, returns a triangle of middle size.
 function shapes(all) {
   const by = {};
   for (const one of all) (by[one.corners] ??= []).push(one);
