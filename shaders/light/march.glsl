@@ -33,12 +33,12 @@
 #define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
 /* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */
 #define KD_MARCH_BEHIND 1.5
-#define KD_MARCH_LOOPS \
-    65536u /* more loop passes than needed; lavapipe may end loops before their condition does, and unfinished work \
-            * must be detected */
-#define KD_MARCH_CLOSE \
-    1e-8 /* Delta w^4 at which a turning ray is as close to the horizon as 32 bits resolve: its time there has no \
-            valid digits, but stays finite */
+/* more loop passes than needed; lavapipe may end loops before their condition does, and unfinished work must be
+ * detected */
+#define KD_MARCH_LOOPS 65536u
+/* Delta w^4 at which a turning ray is as close to the horizon as 32 bits resolve: its time there has no valid digits,
+ * but stays finite */
+#define KD_MARCH_CLOSE 1e-8
 /* Largest number of loop passes for one stretch, including the root finding for the ends of its part. */
 #define KD_MARCH_STRETCH (4u + 3u * (KD_THICK_TAKEN + 4u + (KD_HAS(stokes) ? 12u : 0u)))
 #define KD_MARCH_ENDS 100u

@@ -31,9 +31,9 @@ struct kd_stokes_cell {
     vec4 light;
 };
 
-#define KD_STOKES_NEAR \
-    0.25 /* below this |lambda|, or below a tenth of a larger depth, differences of nearly equal numbers are replaced \
-            by series: at this limit both forms are accurate to about 1e-6 */
+/* below this |lambda|, or below a tenth of a larger depth, differences of nearly equal numbers are replaced by series:
+ * at this limit both forms are accurate to about 1e-6 */
+#define KD_STOKES_NEAR 0.25
 
 vec2 kd_complex_times(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x); }
 

@@ -6,9 +6,9 @@
 #include "render/output/format.h"
 
 enum { KD_INTEGRAL_USUAL_FREQUENCIES = 13 };
-#define KD_INTEGRAL_FINER \
-    1.5 /* pixels per side of the finer picture over pixels per side of the coarse one; with 2, aliases of both grids \
-           could coincide */
+/* pixels per side of the finer picture over pixels per side of the coarse one; with 2, aliases of both grids could
+ * coincide */
+#define KD_INTEGRAL_FINER 1.5
 
 /* The difference between the coarse and the finer picture, multiplied by this factor, is the error of the coarse one.
  * The error falls as 1/(pixels per side)^2, so the factor is 1/(1 - 1/1.5^2). */

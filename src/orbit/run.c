@@ -101,9 +101,9 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
-#define SEARCH_STEPS \
-    5e6 /* minimum number of steps before giving up, some one second in all: far out the steps may be too short to \
-           ever arrive */
+/* minimum number of steps before giving up, some one second in all: far out the steps may be too short to ever
+ * arrive */
+#define SEARCH_STEPS 5e6
 
 /* Finds the end of an unbound path by following it once in steps of h. The end is at the horizon, far away, or at the
  * end of its time. Returns false if the path strays, or does not reach the requested end. */

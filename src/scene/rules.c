@@ -404,8 +404,8 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
                           show(v->outer).text, show_bound(least).text);
 }
 
-#define JETS_GROWTH \
-    60 /* limit of the growth of a jet's brightness between its edges, in octaves; more overflows single precision */
+/* limit of the growth of a jet's brightness between its edges, in octaves; more overflows single precision */
+#define JETS_GROWTH 60
 static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_jets *j = &scene->jets;

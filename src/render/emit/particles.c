@@ -12,8 +12,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#define PER_CELL \
-    5.0 /* mean number of particles in a cell; with it the density scatters by a third, in spots some pixels wide */
+/* mean number of particles in a cell; with it the density scatters by a third, in spots some pixels wide */
+#define PER_CELL 5.0
 
 static double inner(const struct kd_scene *scene)
 {

@@ -9,9 +9,9 @@
  * mirrored */
 #define SAME 1e-3
 #define FOLDED 0.2 /* rad: size of the largest cells in which folds are searched */
-#define REACH \
-    0.5 /* fraction of a cell's size: where the map folds, stars this near to a corner or the middle of the cell are \
-         * searched for */
+/* fraction of a cell's size: where the map folds, stars this near to a corner or the middle of the cell are searched
+ * for */
+#define REACH 0.5
 #define BESIDE 0.35 /* rays: distance from the fold at which the search starts, on both sides */
 #define MARGIN 3.0  /* except at folds, an image is at most this many times as bright as its triangle indicates */
 

@@ -7,9 +7,9 @@
 /* The derivative is kept only if the step is also shorter by this factor than the step before. The next step then
  * shrinks by the same factor. */
 #define SHRINKS 0.1
-#define DOUBTFUL \
-    1e-3 /* rad: next to a fold, a star may have an image if the interpolated map comes this near to it; the image is \
-          * then searched */
+/* rad: next to a fold, a star may have an image if the interpolated map comes this near to it; the image is then
+ * searched */
+#define DOUBTFUL 1e-3
 #define STEPS 30
 
 void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, double *dx, double *dy)
