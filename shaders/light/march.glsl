@@ -33,8 +33,8 @@
 #define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
 /* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */
 #define KD_MARCH_BEHIND 1.5
-/* more loop passes than needed; lavapipe may end loops before their condition does, and unfinished work must be
- * detected */
+/* limit of loop passes, more than any ray needs: lavapipe may end a loop before its condition does, and unfinished work
+ * must be detected */
 #define KD_MARCH_LOOPS 65536u
 /* Delta w^4 at which a turning ray is as close to the horizon as 32 bits resolve: its time there has no valid digits,
  * but stays finite */

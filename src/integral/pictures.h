@@ -6,7 +6,7 @@
 #include "render/output/format.h"
 
 enum { KD_INTEGRAL_USUAL_FREQUENCIES = 13 };
-/* pixels per side of the finer picture over pixels per side of the coarse one; with 2, aliases of both grids could
+/* pixels per side of the finer picture divided by those of the coarse one; with 2, aliases of both grids could
  * coincide */
 #define KD_INTEGRAL_FINER 1.5
 

@@ -24,10 +24,11 @@
 #define KD_INTEGRAL_PICTURES 200u        /* maximum frequencies of a spectrum made of pictures */
 #define KD_INTEGRAL_LEAST_HZ 1e3         /* lowest frequency, as for volume.frequency_ghz */
 #define KD_INTEGRAL_MOST_HZ 1e21         /* highest frequency, likewise */
-/* degrees from the axis within which no ring has a transfer function; INCLINATION of fields.c says so too */
+/* degrees from the axis within which no ring has a transfer function; INCLINATION of fields.c has the same limit */
 #define KD_INTEGRAL_FACE_ON 0.1
-#define KD_INTEGRAL_EDGE_ON 0.01 /* degrees from edge-on within which there is no transfer function; as above */
-#define KD_INTEGRAL_ORDERS 8u    /* image orders that are distinguished */
+/* degrees from edge-on within which there is no transfer function; the same limit is in fields.c */
+#define KD_INTEGRAL_EDGE_ON 0.01
+#define KD_INTEGRAL_ORDERS 8u /* image orders that are distinguished */
 
 void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what);
 void kd_integral_request_finish(struct kd_integral_request *request);

@@ -4,7 +4,7 @@ import { t } from '../words/i18n.js';
 
 const wide = 240,
   high = 180; // CSS pixels
-const rings = [5, 10, 20, 40]; // M, radii of the circles in the equatorial plane
+const rings = [5, 10, 20, 40]; // radii in M of the circles in the equatorial plane
 
 export function buildInset() {
   const node = el('canvas', {

@@ -13,7 +13,7 @@ const rest_ms = 40; // a pointer must rest for this time before the server is as
 const late_ms = 150; // time after which the old text is replaced by "Following this light back …"
 const change_ms = 400; // the scene must be unchanged for this time before the server is asked again
 const star_px = 6;
-const sideways = 0.005; // c: gas with a smaller velocity counts as neither approaching nor receding
+const sideways = 0.005; // gas with a smaller velocity, in c, counts as neither approaching nor receding
 const faint = 0.005; // share of the light below which a source goes unmentioned
 
 // Values that make the pixel independent of the rest of the picture, so that no other pixel is rendered. The card shows

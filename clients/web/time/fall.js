@@ -5,11 +5,11 @@ import { byId, el, latest, still } from '../base/dom.js';
 import { duration, number, t, tell } from '../words/i18n.js';
 import { holeOf, module, physics } from '../base/server.js';
 
-const begin_r = 20; // M, the radius where the fall begins if the camera is at infinity
+const begin_r = 20; // radius in M where the fall begins if the camera is at infinity
 const wide_deg = 100;
 const fold_s = 3; // seconds of the page's clock in which the proper time left to the end shrinks by about a factor e
 const fold_pictures = 5; // least number of pictures in that time, so that a slow server shows the fall as well
-const fastest = 1e6; // M a second: the server's limit
+const fastest = 1e6; // largest rate of the fall, M a second: the server's limit
 const uneven = 0.1; // the pace is sent again when it has changed by more than this, as a logarithm
 
 const numbers = ['infall_from', 'infall_energy', 'infall_momentum'];

@@ -24,9 +24,11 @@
 #define LATEST 1e12 /* largest time, M, as that of the scene */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
-#define FINEST 1024 /* most rows per factor of e in r, since a stretch of the march is two cells */
-#define PARTS 64    /* largest k, if the grid covers 1/k of a turn */
-#define PLACES 4    /* cells for each column in the table of uneven columns */
+#define FINEST \
+    1024         /* largest number of rows per factor of e in r, because a stretch of the march is two cells long \
+                   \ */
+#define PARTS 64 /* largest k, if the grid covers 1/k of a turn */
+#define PLACES 4 /* cells for each column in the table of uneven columns */
 #define PLACES_LEAST 256
 #define HEADER_MOST 65536
 

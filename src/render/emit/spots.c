@@ -1,4 +1,4 @@
-/* in sizes of a spot: beyond this distance, less than 1e-9 of the peak is left */
+/* largest distance at which a spot is seen, in sizes of the spot: beyond it, less than 1e-9 of the peak is left */
 #include "render/emit/emitter.h"
 
 #include "physics/spacetime/kerr.h"

@@ -15,12 +15,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* rad: limit between the ends of neighbouring rays; near the critical curve, rays whose ends are further apart are
- * not used */
+/* limit in rad of the angle between the ends of neighbouring rays; near the critical curve, rays whose ends are further
+ * apart are not used */
 #define COARSE 0.15
 /* fraction of the rim's width: nearer to the curve than this, only the images from the rim count */
 #define INNER 0.9
-#define APART 0.05 /* pixels: images of the two grids that are nearer to each other than this are the same */
+#define APART \
+    0.05 /* images of the two grids that are nearer to each other than this many pixels are the same image \
+           \ */
 
 enum { MOST = 400 }; /* largest number of images in a file; the brightest are kept */
 

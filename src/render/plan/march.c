@@ -10,7 +10,7 @@
 enum { LEAST = 2, BALANCED = 4, MOST = 64, SKETCH = 2 };
 
 #define UNSEEN 0.05 /* octaves of less than this amplitude contribute less than 1e-4 to the light */
-/* like UNSEEN, for a sketch: it also leaves out octaves that a ray's footprint mostly averages out */
+/* the same for a sketch, which also leaves out octaves that a ray's footprint mostly averages out */
 #define SKETCH_UNSEEN 0.15
 
 static bool is_stirred(const struct kd_scene *scene)

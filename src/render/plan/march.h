@@ -20,13 +20,13 @@ struct kd_march {
     /* resolution, 2 to 64: a stretch is at most 4/fine grains long (grain: the length that an emitter reports). Where
      * light is smooth, the error falls at least as the fourth power of `fine` */
     uint32_t fine;
-    /* a ray ends where less than this fraction of the light from behind is transmitted: a tenth of the target for
-     * the error */
+    /* a ray ends where less than this fraction of the light from behind is transmitted. The fraction is a tenth of the
+     * target for the error */
     double opaque;
     /* octaves of noise are left out whose amplitude, reduced by the local gas and the ray's footprint, is less than
      * this fraction of the first octave's */
     double unseen;
-    bool sketched; /* the march is coarser than with any profile: kd_march_sketch */
+    bool sketched; /* the march is a sketch, coarser than with any profile (kd_march_sketch) */
     struct kd_march_sample
         sample; /* pixels whose rays are followed twice more, to measure the error (frame/march_error.c) */
 };

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NUMBER_MAX 60 /* characters, the limit for numbers anywhere in a document */
+#define NUMBER_MAX 60 /* largest number of characters of a number, as anywhere in a document */
 
 enum kd_status kd_rays_list_add(struct kd_rays_list *list, double alpha, double beta, struct kd_error *error)
 {

@@ -8,11 +8,11 @@
 /* roots of a star that are nearer to each other than this, in ray spacings, are one image, unless only one of them is
  * mirrored */
 #define SAME 1e-3
-#define FOLDED 0.2 /* rad: size of the largest cells in which folds are searched */
+#define FOLDED 0.2 /* size in rad of the largest cells in which folds are searched for */
 /* fraction of a cell's size: where the map folds, stars this near to a corner or the middle of the cell are searched
  * for */
 #define REACH 0.5
-#define BESIDE 0.35 /* rays: distance from the fold at which the search starts, on both sides */
+#define BESIDE 0.35 /* distance from the fold, in rays, at which the search starts on both sides */
 #define MARGIN 3.0  /* except at folds, an image is at most this many times as bright as its triangle indicates */
 
 struct listed {

@@ -12,8 +12,9 @@ enum {
     LEAST = 9, /* least number of intervals along a side of a grid */
     MOST = 96,
     ASIDE = 4, /* lines across the grid on which a number of intervals is tried */
-    SHARED = 4 /* up to this number of grids, all threads work on one grid at a time; with more grids, each thread
-                * takes whole grids */
+    /* if there are at most this many grids, all threads work on one grid at a time; if there are more, each thread
+     * takes whole grids */
+    SHARED = 4
 };
 
 /* A ray has four angles: turn, drag, t_theta, t_phi. */

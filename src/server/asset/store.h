@@ -18,7 +18,7 @@ struct kd_asset_store;
 struct kd_asset;
 
 #define KD_ASSET_BYTES ((size_t)32 << 20)   /* largest size of one asset */
-#define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* most pixels of one picture */
+#define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* largest number of pixels of one picture */
 
 struct kd_asset_limits {
     /* most: largest number of assets; client_most: the same for one client */

@@ -11,7 +11,7 @@
 
 #include <stdbool.h>
 
-/* most open connections of the health routes' daemon; beyond that the oldest is shut down */
+/* limit of open connections of the health routes' daemon; if there are more, the oldest is shut down */
 #define KD_HEALTH_CONNECTIONS 64u
 
 struct kd_connections;

@@ -13,7 +13,7 @@
 #define KD_LESSON_IDLE_S 600u   /* a lesson ends after this time without a request of its teacher */
 #define KD_LESSON_PUPILS 64u    /* limit of pupils of one lesson */
 #define KD_LESSON_PRESENT_S 20u /* a pupil counts as present for this time after a request */
-#define KD_LESSON_CHOICES 6u    /* most choices of a question; it has at least two */
+#define KD_LESSON_CHOICES 6u    /* largest number of choices of a question; the smallest is two */
 /* Limits of texts, in characters. */
 #define KD_LESSON_LINK 8000u
 #define KD_LESSON_ABOUT 1000u
