@@ -19,7 +19,7 @@
 #define KD_OBSERVATION_BYTES ((size_t)32 << 20) /* limit of a file's size */
 #define KD_OBSERVATION_ROWS (1u << 20)          /* limit of the visibilities in a file */
 #define KD_OBSERVATION_STATIONS 64u
-#define KD_STATION_NAME 12u /* bytes, including NUL */
+#define KD_STATION_NAME 12u /* size of a station's name in bytes, including NUL */
 
 struct kd_measured {
     double hour;          /* hours UTC since mjd */

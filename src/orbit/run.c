@@ -101,8 +101,8 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
-/* minimum number of steps before giving up, some one second in all: far out the steps may be too short to ever
- * arrive */
+/* the search for the end is given up only after this many steps, which take about a second: far out, steps may be too
+ * short for the path ever to arrive */
 #define SEARCH_STEPS 5e6
 
 /* Finds the end of an unbound path by following it once in steps of h. The end is at the horizon, far away, or at the

@@ -39,9 +39,10 @@ struct kd_dynamic_bodies;
 /* A grid of matter. It has no padding, because scenes are compared by their bytes. */
 struct kd_scene_matter {
     uint64_t nodes, frames; /* nodes of all frames; frames in time, 1 for a grid of one moment */
-    uint64_t late;          /* 1: its times are those of ingoing Kerr-Schild coordinates; 0: Boyer-Lindquist's */
-    double first, last;     /* times of the first and the last frame, M */
-    double outer;           /* r of its last row, M */
+    /* 1: `first` and `last` are times of ingoing Kerr-Schild coordinates; 0: of Boyer-Lindquist coordinates */
+    uint64_t late;
+    double first, last; /* times of the first and the last frame, M */
+    double outer;       /* r of its last row, M */
 };
 struct kd_scene {
     KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)

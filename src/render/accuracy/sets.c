@@ -23,7 +23,7 @@ const char *const kd_accuracy_set_rays[KD_ACCURACY_SETS] = {
     [KD_ACCURACY_NEAR_EXTREMAL] = "a = 0.9999, i = 70°, ±12 M",
 };
 
-#define HALF 12.0 /* M, half the side of the image plane */
+#define HALF 12.0 /* half the side of the image plane, M */
 #define NEAR 0.05
 
 uint32_t kd_accuracy_views(enum kd_accuracy_set set, struct kd_accuracy_view out[KD_ACCURACY_VIEWS])

@@ -247,8 +247,8 @@ static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace
            traceable(g, pace, to, CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* Climbs as far as is safe. If no rung is safe, climbs one rung on a more favourable assumption; a rung that then
- * turns out too slow is left again, and is not tried again soon. */
+/* Climbs as far as is safe. If no rung is safe, climbs one rung on a more favourable assumption. If that rung turns out
+ * to be too slow, the pace leaves it and does not try it again soon. */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
 {
     uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);

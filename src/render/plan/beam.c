@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* pixels: a narrower beam changes nothing, because a neighbouring pixel gets less than exp(-50) of the weight of the
- * pixel itself */
+/* width in pixels: a narrower beam changes nothing, because a neighbouring pixel gets less than exp(-50) of the weight
+ * of the pixel itself */
 #define FWHM 2.3548200450309493
 /* width in pixels: a narrower beam gives a neighbouring pixel less than exp(-50) of the weight of the pixel itself */
 #define LEAST 0.1

@@ -1,7 +1,7 @@
-/* A tile of a picture (image.tile) is identical to that part of the whole picture, byte by byte. It is rendered with a
- * margin of surrounding pixels, as far as the picture has them, because light at the tile's edges depends on rays
- * beyond the edges. Then the margin is cut off. A tile cannot use anything that depends on all pixels at once: exposure
- * "auto", bloom, a beam, and rays chosen by the displayed picture. Pure; any thread. */
+/* A tile (image.tile) is a part of a picture. It is identical, byte by byte, to the same part of the whole picture. It
+ * is rendered with a margin of surrounding pixels, as far as the picture has them, because light at the tile's edges
+ * depends on rays beyond the edges. Then the margin is cut off. A tile cannot use anything that depends on all pixels
+ * at once: exposure "auto", bloom, a beam, and rays chosen by the displayed picture. Pure; any thread. */
 #ifndef KD_RENDER_PLAN_TILE_H
 #define KD_RENDER_PLAN_TILE_H
 

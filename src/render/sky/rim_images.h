@@ -6,7 +6,7 @@
 #include "render/sky/star_images.h"
 #include "render/view/rim_grid.h"
 
-#define KD_RIM_COARSE 1.0 /* rad: largest side of the triangles in which images are searched */
+#define KD_RIM_COARSE 1.0 /* largest side in rad of the triangles in which images are searched for */
 
 /* Reports each image in the rim, if the scene has a rim: the image's place among the pixels' rays (one a pixel), and
  * how the map transforms the square of four of those rays. stars: unit vectors in the frame of the lens map; most: as

@@ -18,7 +18,7 @@
 
 struct kd_star {
     float x, y, z;
-    float flux;   /* sr, as above */
+    float flux;   /* flux in sr, in the unit described above */
     float kelvin; /* temperature of the black body that has the star's colour, K */
 };
 struct kd_stars {

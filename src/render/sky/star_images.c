@@ -85,10 +85,10 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
     return s->found(s->user, &image);
 }
 
-/* Corners of a triangle, clockwise as the picture is seen. The first has the right angle, the second is along `across`,
- * the third along `down`, +1 or -1. A star s = w0 a + w1 b + w2 c is inside if all w are positive (Cramer's rule). The
- * volume of a, b, c is twice the solid angle of the triangle, which is the solid angle of a pixel, since a pixel has
- * two triangles. */
+/* Corners of a triangle, clockwise as the picture is seen. The right angle is at the first corner; the second lies from
+ * it along `across`, the third along `down`, each +1 or -1. A star s = w0 a + w1 b + w2 c is inside if all w are
+ * positive (Cramer's rule). The volume of a, b, c is twice the solid angle of the triangle, which is the solid angle of
+ * a pixel, since a pixel has two triangles. */
 struct corner {
     double x, y;
     struct kd_vec n;

@@ -50,11 +50,11 @@ struct kd_sky_map {
 struct kd_star_stencil { double x, y, across, down; };
 
 struct kd_star_image {
-    size_t star;               /* index in the list */
-    double x, y;               /* the image's place among the rays */
-    double solid_angle;        /* sr: solid angle of the part of the sky to which the map takes the square of four rays
-                                * about the place */
-    struct kd_star_stencil by; /* how solid_angle was measured */
+    size_t star; /* index in the list */
+    double x, y; /* the image's place among the rays */
+    /* solid angle in sr of the part of the sky to which the map takes the square of four rays about the place */
+    double solid_angle;
+    struct kd_star_stencil by;         /* how solid_angle was measured */
     double x_by_azimuth, y_by_azimuth; /* change of the place per radian of the observer's azimuth */
     bool mirrored;                     /* true if left and right are exchanged in the image */
 };

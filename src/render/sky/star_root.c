@@ -8,8 +8,8 @@
 /* The derivative is kept only if the step is also shorter by this factor than the step before. The next step then
  * shrinks by the same factor. */
 #define SHRINKS 0.1
-/* rad: next to a fold, a star may have an image if the interpolated map comes this near to it; such an image is
- * searched for */
+/* angle in rad: next to a fold, a star may have an image if the interpolated map comes this near to the star; such an
+ * image is searched for */
 #define DOUBTFUL 1e-3
 #define STEPS 30
 

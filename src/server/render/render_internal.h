@@ -151,8 +151,8 @@ void kd_render_next(struct kd_render_queue *queue);
 void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job);
 /* Updates device_json. Called without the lock by the owner of the device. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue);
-/* Main functions of threads: kd_render_short_main runs short work, its argument is the queue; kd_render_lane_main is
- * that of a lane. They return when the queue is closing and empty. */
+/* Main functions of threads: kd_render_short_main runs short work, and its argument is the queue; kd_render_lane_main
+ * runs a lane, which is its argument. They return when the queue is closing and empty. */
 void *kd_render_short_main(void *queue);
 void *kd_render_lane_main(void *lane);
 

@@ -104,8 +104,8 @@ function dots(columns, rows) {
 }
 const line = (name, y) => ({ name, x: grid, y });
 
-// Returns show(what), which draws both charts; what: the parts of a request that name a scene, or null, which hides
-// them. view: the name of the view that has them.
+// Returns show(what), which draws both charts. what: the parts of a request that name a scene; null hides the charts.
+// view: the name of the view that has the charts.
 export function measurements(root, page) {
   const amplitudes = plot(),
     phases = plot(),
