@@ -132,8 +132,8 @@ bool kd_scene_is_flat(const struct kd_scene *scene);
 
 /* Makes the scene of one eye: -1 is the left one, 1 the right one. The scene must be valid, at a finite radius, and its
  * camera.stereo must be "pair". The eye is the camera of the same observer at the same time, moved sideways by half of
- * camera.eye_distance along a leg of the observer's local frame, to first order. Its axis and its up direction stay
- * parallel as in flat space. The result has camera.stereo "none". */
+ * camera.eye_distance. The shift is along a leg of the observer's local frame, to first order. Its axis and its up
+ * direction stay parallel as in flat space. The result has camera.stereo "none". */
 struct kd_scene kd_scene_eye(const struct kd_scene *scene, int side);
 
 /* The pixels that are rendered: those of image.tile, or the whole picture. */

@@ -43,8 +43,8 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
 void kd_renderer_destroy(struct kd_renderer *renderer);
 
 /* Closes a device that has failed and reopens it. Measurements and data cached on the host are kept, so that later
- * pictures are the same as before. Buffers and kernels are made again when needed. Returns KD_EDEVICE if the device
- * hangs and so cannot be closed (kd_renderer_hangs), if it is unavailable now, or if another device has taken its
+ * pictures are the same as before. Buffers and kernels are made again when needed. Returns KD_EDEVICE in three cases:
+ * the device hangs and cannot be closed (kd_renderer_hangs); it is unavailable now; or another device has taken its
  * place. The call may be repeated. */
 enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error);
 /* True if the device has missed a deadline. It can then be neither closed nor reopened, and the process should soon

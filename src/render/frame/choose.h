@@ -28,10 +28,10 @@ void kd_choice_finish(struct kd_choice *choice);
  * The second difference decides because on a linear gradient one ray at the pixel's centre is already exact, whatever
  * the slope. Pixels outside the picture count as dark, because light may end at the edge.
  *
- * In a smooth picture the remaining pixels may hold more than KD_CHOOSE_LEFT of the sum of squares of all second
- * differences, which is proportional to the sum of squares of errors. Then the pixels with the next largest
- * differences are chosen as well, until only that much remains, but none with less than KD_CHOOSE_FLOOR of the bound.
- * The only error is KD_ENOMEM. */
+ * The sum of squares of errors is proportional to the sum of squares of second differences. In a smooth picture the
+ * pixels that are not chosen may have more than the fraction KD_CHOOSE_LEFT of that sum. Then the pixels with the next
+ * largest differences are chosen as well, until only this fraction remains. Pixels with less than KD_CHOOSE_FLOOR of
+ * the bound are never chosen. The only error is KD_ENOMEM. */
 #define KD_CHOOSE_LEFT 2e-4
 #define KD_CHOOSE_FLOOR 0.1
 enum kd_status kd_choose_bent(const struct kd_shown *now, double pixel_error, struct kd_choice *out,

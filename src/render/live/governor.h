@@ -29,42 +29,45 @@
  *   the hole has moved recently.
  * - A pace moves down if its cost exceeds the budget by a tenth. It does so at once if four frames in a row, or the
  *   first two on a rung, exceed it by half, judged by the cheapest of them. Otherwise the mean over the middle half of
- *   the last 8 to 32 frames decides, which single spikes do not affect. It moves as far as needed if everything except
- *   the fixed part shrank with the picture.
+ *   the last 8 to 32 frames decides, which single spikes do not affect. It moves down as far as needed, on the
+ *   assumption that everything except the fixed part shrinks with the picture.
  * - A rung that was left because it was too slow becomes the ceiling: the pace does not climb to it or above it. The
- *   ceiling is lifted after 3 s. That time doubles with each climb that failed, so that in N hours only log N climbs
- *   are lost to a machine that looks faster than it is.
- * - A pace moves up as far as the cost stays below 80 % of the budget if everything except the fixed part grows. It
+ *   ceiling is lifted after 3 s. That time doubles with each climb that failed. So on a machine that looks faster than
+ *   it is, only about log N climbs fail in N hours.
+ * - A pace moves up as far as the cost stays below 80 % of the budget, on the assumption that everything except the
+ * fixed part grows with the picture. It
  *   moves up by one rung if only the parts known to depend on size grow, or if the cost of rays follows the line
  *   through measurements at two sizes: rays next to the critical curve and the star search take the same time at any
  *   size. It does not move up within a second of the last change of rung.
- * - A pace that has been on one rung only, as in a session that began low, tries the next one up once, if that is in
- *   time with the whole cost of rays unchanged: one frame at that size shows how the cost depends on it.
+ * - A pace that has been on one rung only, as in a session that began low, tries the next rung up once. It does so if
+ * that rung would be in time with the whole cost of rays unchanged: one frame at that size shows how the cost depends
+ * on it.
  * - After each change of rung averages start again. Ceilings start again when the scene changes its kind, such as
  *   particles for a smooth disk.
  * - Frames that reuse a lens map take no rung whose map would take longer than stall_ms to trace. That matters when a
  *   drag ends and time goes on.
  *
  * While the lens changes, frames on any rung but the first have an image.critical_factor of at most 2. There are then
- * fewer rays next to the critical curve, whose number is proportional to the picture's width, and the cost is nearly
- * proportional to the picture's size. Frames in which only time advances keep all of these rays, even if no lens map is
- * cached and each frame traces: the ring stands still, and four rays a pixel would show as dots.
+ * fewer rays next to the critical curve. The number of these rays is proportional to the picture's width, so with few
+ * of them the cost of a frame is nearly proportional to the picture's size. Frames in which only time advances keep all
+ * of these rays, even if no lens map is cached and each frame traces: the ring stands still, and four rays a pixel
+ * would show as dots.
  *
  * If other sessions move too, kd_governor_share sets the fraction of the device's time for this one. Its target is then
  * that fraction of the time between frames. The time between frames grows as the inverse square root of the fraction,
- * up to sparse_ms, so that frame rate and picture are reduced alike, and beyond that only the picture. A single session
- * has 33 ms; each of two has 23 ms every 47 ms, each of eight 7.5 ms every 60 ms. The costs compared with the target do
- * not include waiting for other sessions. A ceiling set with a smaller fraction is ignored, and a rung that was left
- * because other sessions began is taken again as soon as they stop.
+ * up to sparse_ms. Frame rate and picture are thus reduced alike until that limit is reached, and after that only the
+ * picture. A single session has 33 ms; each of two has 23 ms every 47 ms, each of eight 7.5 ms every 60 ms. The costs
+ * compared with the target do not include waiting for other sessions. A ceiling set with a smaller fraction is ignored,
+ * and a rung that was left because other sessions began is taken again as soon as they stop.
  *
  * If only the ringdown of a hole changes the picture, nothing moves: frames keep the requested size however long they
  * take, and only reduce the rays a pixel. A change of the scene's motion alone does not change the picture: it is
  * rendered once more, as at rest.
  *
  * After rest_ms without a change, one frame is rendered for each step of the ladder upwards, except steps below the
- * quality that is shown. Then nothing is rendered until the next change. On a shared device a frame may itself wait for
- * rest_ms, so the rest is counted from when it was shown, and a client that waited longer for a frame has 50 ms for its
- * next change. A scene whose time advances with each frame does not rest. */
+ * quality that is shown. Then nothing is rendered until the next change. On a shared device a frame itself may wait for
+ * rest_ms. So rest_ms is counted from the time when the frame was shown; a client that waited longer for a frame has 50
+ * ms for its next change. A scene whose time advances with each frame does not rest. */
 #ifndef KD_RENDER_LIVE_GOVERNOR_H
 #define KD_RENDER_LIVE_GOVERNOR_H
 
@@ -183,8 +186,8 @@ void kd_governor_least(struct kd_governor *governor, double scale, double patien
 /* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: the lens
  * map has changed, which means that lens_key differs between the plans of the two requested scenes; true for a
  * session's first scene. A change of image.* or accuracy.* makes a new ladder, and starts on the rung that old
- * averages suggest. A change of the scene's kind, or of the cost of what it emits by more than a factor of two since
- * averages started, starts averages and waits again. */
+ * averages suggest. Averages and waits start again if the scene changes its kind, or if the cost of its emitters has
+ * changed by more than a factor of two since the averages started. */
 void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *shown, bool lens);
 
 /* Sets the expected cost of a frame at the requested quality, for example from its plan. The cost chooses the first

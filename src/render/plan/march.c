@@ -59,9 +59,9 @@ static uint32_t steps_of(double error, const struct kd_setting *rays)
     return mino && rays->steps > least ? rays->steps : least;
 }
 
-/* Cost of a ray through matter at a radio frequency, relative to a ray through a uniform volume. Measured in core
- * seconds of pictures of two sizes by lavapipe, for test 3 of Gold et al., ipole's flow, the torus, and a grid of the
- * torus with 192 x 96 nodes. */
+/* Cost of a ray through matter at a radio frequency, relative to a ray through a uniform volume. Measured with
+ * lavapipe, in core seconds of pictures of two sizes. The scenes were test 3 of Gold et al., ipole's flow, the torus,
+ * and a grid of the torus with 192 x 96 nodes. */
 static double of_matter(const struct kd_scene *scene)
 {
     static const double of[] = { [KD_VOLUME_NONE] = 1,   [KD_VOLUME_UNIFORM] = 1, [KD_VOLUME_GOLD] = 1.7,

@@ -102,8 +102,8 @@ done:
     return status;
 }
 
-/* Errors are in steps of 1/65535: half a step of rounding, plus the errors of the kernel's polynomial for the power
- * (5.4e-7) and of Vulkan's square roots (three units in the last place), together a fifteenth of a step. */
+/* Errors are in steps of 1/65535: rounding adds half a step. The kernel's polynomial for the power (5.4e-7) and
+ * Vulkan's square roots (three units in the last place) together add a fifteenth of a step. */
 static enum kd_status greys(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance,
                             struct kd_vk_buffer *words)
 {
