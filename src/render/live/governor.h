@@ -35,13 +35,12 @@
  *   ceiling is lifted after 3 s. That time doubles with each climb that failed. So on a machine that looks faster than
  *   it is, only about log N climbs fail in N hours.
  * - A pace moves up as far as the cost stays below 80 % of the budget, on the assumption that everything except the
- * fixed part grows with the picture. It
- *   moves up by one rung if only the parts known to depend on size grow, or if the cost of rays follows the line
- *   through measurements at two sizes: rays next to the critical curve and the star search take the same time at any
- *   size. It does not move up within a second of the last change of rung.
+ *   fixed part grows with the picture. It moves up by one rung if only the parts known to depend on size grow, or if
+ *   the cost of rays follows the line through measurements at two sizes: rays next to the critical curve and the star
+ *   search take the same time at any size. It does not move up within a second of the last change of rung.
  * - A pace that has been on one rung only, as in a session that began low, tries the next rung up once. It does so if
- * that rung would be in time with the whole cost of rays unchanged: one frame at that size shows how the cost depends
- * on it.
+ *   that rung would be in time with the whole cost of rays unchanged: one frame at that size shows how the cost
+ *   depends on it.
  * - After each change of rung averages start again. Ceilings start again when the scene changes its kind, such as
  *   particles for a smooth disk.
  * - Frames that reuse a lens map take no rung whose map would take longer than stall_ms to trace. That matters when a
