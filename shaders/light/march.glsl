@@ -36,8 +36,8 @@
 /* limit of loop passes, more than any ray needs: lavapipe may end a loop before its condition does, and unfinished work
  * must be detected */
 #define KD_MARCH_LOOPS 65536u
-/* Delta w^4 at which a turning ray is as close to the horizon as 32 bits resolve: its time there has no valid digits,
- * but stays finite */
+/* least Delta w^4 of a turning ray; below it the ray is as close to the horizon as 32 bits resolve, and its time there
+ * has no valid digits, but stays finite */
 #define KD_MARCH_CLOSE 1e-8
 /* Largest number of loop passes for one stretch, including the root finding for the ends of its part. */
 #define KD_MARCH_STRETCH (4u + 3u * (KD_THICK_TAKEN + 4u + (KD_HAS(stokes) ? 12u : 0u)))

@@ -1,6 +1,7 @@
 /* Kernel: makes light (linear sRGB radiance) from the lens map. An invocation lights a pixel, or a column of
- * KD_TRANSFER_ROWS pixels. KD_MARCH: for scenes with volumes, along the rays themselves, one ray of each pixel:
- * slice.ray. KD_PIECES: continues those rays that the same kernel could not complete, one piece at a time. */
+ * KD_TRANSFER_ROWS pixels. Variants: KD_MARCH is for scenes with volumes; it follows the rays themselves, one ray of
+ * each pixel, which slice.ray numbers. KD_PIECES continues the rays that KD_MARCH could not complete, one piece at a
+ * time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -76,8 +76,8 @@ struct kd_integral_request {
     size_t file_size;
     uint32_t seed;
     int noiseless;
-    /* malloc'd once a comparison's request has been checked. The run fills in the models. Its baselines become the
-     * lists u and v. */
+    /* malloc'd once a comparison's request has been checked. The run fills in the models. The baselines of the
+     * comparison become the request's lists u and v. */
     struct kd_comparison *comparison;
     struct kd_integral_sets *sets; /* integral/sets.h: malloc'd; NULL: none given */
     double average_s, snr_cut, uv_min_gl, systematic_visibility, systematic_amplitude, systematic_closure_phase_deg;

@@ -247,9 +247,10 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
     c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
 }
 
-/* Visibility of the map, enlarged and rotated, at a baseline. The transform of an enlarged map is that of the map at
- * baselines longer by as much; of a rotated one, at baselines rotated back. Observations use the conjugate of
- * kd_fourier's sign (observe/observation.h). */
+/* Visibility of the map, enlarged and rotated, at a baseline. Neither map is made: the visibility of an enlarged map
+ * equals that of the map at a baseline that is longer by the same factor, and that of a rotated map equals that of the
+ * map at a baseline that is rotated back. Observations use the conjugate of kd_fourier's sign
+ * (observe/observation.h). */
 static void model_at(struct kd_integral_run *run, size_t i, double size, double angle_deg, double out[2])
 {
     const struct kd_integral_request *r = run->answer.request;

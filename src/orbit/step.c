@@ -45,8 +45,8 @@ static double distance(const struct kd_orbit_place *a, const struct kd_orbit_pla
     return isnan(a->t) || isnan(a->r) ? INFINITY : d;
 }
 
-/* For a method of order 6 the error is 1/63 of the change when the step is halved. The search stops when rounding, or a
- * whirl that magnifies it, prevents further gain. */
+/* For a method of order 6, the error that remains is 1/63 of the change of the result when the step is halved. The
+ * search stops when rounding, or a whirl that magnifies it, prevents further gain. */
 static void judge(struct kd_orbit_run *run, struct trial *t)
 {
     double error = distance(&t->coarse, &t->fine) / 63, tolerance = fmax(run->params->tolerance, 0.1 * run->rounding);

@@ -38,7 +38,8 @@
 struct kd_dynamic_bodies;
 /* A grid of matter. It has no padding, because scenes are compared by their bytes. */
 struct kd_scene_matter {
-    uint64_t nodes, frames; /* nodes of all frames; frames in time, 1 for a grid of one moment */
+    /* nodes: number of nodes of all frames together; frames: number of frames in time, 1 for a grid of one moment */
+    uint64_t nodes, frames;
     /* 1: `first` and `last` are times of ingoing Kerr-Schild coordinates; 0: of Boyer-Lindquist coordinates */
     uint64_t late;
     double first, last; /* times of the first and the last frame, M */

@@ -130,7 +130,7 @@ function panel(scene, session) {
     if (ended) return void (opened && deleteLesson());
     if (opened) {
       memory.set(lesson);
-      scene.dispatchEvent(new Event('change')); // the scales over a picture are then drawn into it
+      scene.dispatchEvent(new Event('change')); // now that a lesson runs, the server draws the scales into the picture
       showInvitation();
     }
     Object.assign(sent, Object.fromEntries(news));

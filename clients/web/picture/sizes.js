@@ -8,7 +8,7 @@ const least_part = 0.25; // the server's limit
 
 // limit of a frame's time: if half the width takes longer, Auto keeps less after the first touch
 const max_frame_ms = 100;
-// The least share of the window's width that is kept in motion; null: the whole picture at rest.
+// The least share of the window's width that is kept in motion; null: pictures in motion are as large as at rest.
 const parts = { auto: 0.5, sharp: null, fast: 0.25 };
 
 // Reading an element's size forces a layout when the page has changed. The sizes are therefore cached and updated by a

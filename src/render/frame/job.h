@@ -20,7 +20,7 @@ struct kd_frame_job {
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     const struct kd_light_sum *others; /* pictures with which the light is averaged; NULL: none */
-    /* light of the sampled pixels, as in the picture and traced more finely; NULL: none */
+    /* light of the sampled pixels, traced once as in the picture and once more finely; NULL: none */
     struct kd_vk_buffer *marched;
     struct kd_lens_map *lens;
     struct kd_star_key star_key;   /* key of the light of stars in this frame */

@@ -114,8 +114,8 @@ static double room(const struct kd_governor *g, const struct kd_frame_cost *cost
     return fmax(all - cost->fixed_ms, fmax(LEAST_ROOM * all, LEAST_SHARE * cost->fixed_ms));
 }
 
-/* Predicts the varying time of a frame on another rung. Time that belongs neither to rays nor to pixels either stays or
- * grows with the pixels. */
+/* Predicts the varying time of a frame on another rung. Time that belongs neither to rays nor to pixels may stay
+ * constant, or may grow with the pixels. */
 static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to,
                       bool rest_stays)
 {

@@ -10,7 +10,8 @@
 /* The least number of rays for which the device is used again: the closed form traces fewer rays in less time than it
  * takes to compile a kernel. */
 #define WORTH_A_KERNEL 8192
-#define MORE_STEPS 4 /* factor by which the steps grow: at order 6 the error then falls by a factor of 4096 */
+/* factor by which the number of steps grows: at order 6 the error then falls by a factor of 4096 */
+#define MORE_STEPS 4
 
 /* The rays of one slice that are traced again. */
 struct batch {

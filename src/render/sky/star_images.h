@@ -38,8 +38,8 @@ struct kd_sky_map {
                   struct kd_vec *out); /* direction from which any single ray comes; false: unknown. NULL: no ray can be
                                         * followed */
     /* The linearised map at a place between rays, except `area`, accurate to 1e-3 of a ray. With this map, exact rays
-     * need not be traced where there is no image. Returns false if the map is unknown there. NULL: it is unknown
-     * everywhere. */
+     * need not be traced where there is no image. Returns false if the map is unknown at the place. A NULL pointer
+     * means that it is unknown everywhere. */
     bool (*between)(const void *of, double x, double y, struct kd_sky_tangent *out);
     bool (*wanted)(const void *of, double x,
                    double y); /* true if an image near this place must be reported, to 0.01 rays; NULL: always */
