@@ -100,7 +100,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 
 kd_met kd_met_nothing() { return kd_met(KD_MEET_FAR, KD_NOBODY, ORDERS, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0); }
 
-/* The node after this one; or, if the ray is far from this node, the node after its subtree. 0: none. */
+/* The node after the subtree of this node, which is next if the ray is far from this node. 0: there is none. */
 uint kd_met_next(uint node)
 {
     uint next = (node + 1u) >> uint(findLSB(node + 1u));

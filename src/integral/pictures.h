@@ -34,7 +34,8 @@ enum kd_status kd_integral_plan(const struct kd_integral_request *request, struc
 void kd_integral_name_set(const struct kd_integral_request *request, unsigned picture, enum kd_status status,
                           struct kd_error *error);
 
-/* Replaces the request's scene by the default one. A spectrum becomes that of a volume. */
+/* Replaces the request's scene by the default scene. A request for a spectrum of a disk becomes one for a spectrum of a
+ * volume. */
 enum kd_status kd_integral_make_scene(struct kd_integral_request *request, struct kd_error *error);
 
 /* For a picture seen from far away: radians a pixel, and the longest baseline that this pixel size resolves. */

@@ -116,7 +116,8 @@ static double clamp_size(double log_size)
     return exp(fmin(fmax(log_size, log(KD_ALIGN_LEAST_SIZE)), log(KD_ALIGN_MOST_SIZE)));
 }
 
-/* chi^2 at a place: the logarithm of the size, and the angle in degrees. Keeps the best place. */
+/* Computes chi^2 at a place, and stores the place if it is the best so far. at: the logarithm of the size, and the
+ * angle in degrees. */
 static double try_at(struct search *s, const double at[2])
 {
     struct kd_alignment here = KD_ALIGNMENT_NONE;

@@ -91,8 +91,8 @@ static void give_back(struct kd_renderer *r)
     kd_grids_rest(&r->grids);
 }
 
-/* Closes the device and reopens it. If the process is still larger afterwards, the growth is reported separately
- * from the device and does not cause another reopening. The latest kernels are made again, in a third of a second on
+/* Closes the device and reopens it. If the process is still larger afterwards, the growth does not count as the
+ * device's memory and does not cause another reopening. The latest kernels are made again, in a third of a second on
  * two cores, so that the next picture of the same view does not wait for them. */
 static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
 {

@@ -43,7 +43,8 @@ struct kd_emitter_buffers {
                            char *credit, size_t size, struct kd_error *error);
 };
 
-/* Services of the renderer for `prepare`. *buffer, NULL at first, is replaced if it has fewer than `bytes` bytes. */
+/* Services of the renderer for `prepare`. kd_emitter_buffers_at_least replaces *buffer, which is NULL at first, if it
+ * has fewer than `bytes` bytes. */
 enum kd_status kd_emitter_buffers_at_least(const struct kd_emitter_buffers_work *work, struct kd_vk_buffer **buffer,
                                            uint64_t bytes, enum kd_vk_memory memory, const char *name,
                                            struct kd_error *error);

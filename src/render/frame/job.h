@@ -122,11 +122,12 @@ struct kd_footprint_area {
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
 /* Like the function above, for a sampled map whose rows from `traced` on have just been sampled. row0: the picture's
- * row of rays that is the buffer's first. The rays are those traced singly, and earlier rays that are marked as
- * incomplete. */
+ * row of rays that is the first row of the buffer. Footprints are made for rays that were traced singly, and for
+ * earlier rays that are marked as incomplete. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
-/* The kernel of footprints. lattice: of listed pixels; NULL: the grid. *out is NULL if no light needs footprints. */
+/* The kernel of footprints. lattice: that of the listed pixels; NULL: rays of the grid. *out is NULL if no light needs
+ * footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
 /* Spreads the light of stars over the pixels of a band. The stars are those that the band's rays see; if the whole

@@ -53,7 +53,7 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* True if texels are read. A software device then takes a third of the time. */
+/* True if the kernels read texels. A software device then takes a third of the time. */
 static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
 {
     return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);

@@ -188,7 +188,8 @@ static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
     return pace->count > 1;
 }
 
-/* True if frames that reuse a lens map may take this rung: the rung's map must first be traced within the limit. */
+/* True if frames that reuse a lens map may take this rung: tracing the rung's map must not take longer than the
+ * limit. */
 static bool traceable(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_rung *rung, double limit)
 {
     return pace != &g->paces[0] || g->traced_on.rays == 0 || predict(&g->traced, &g->traced_on, rung, true) <= limit;

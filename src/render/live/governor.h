@@ -79,7 +79,7 @@
 struct kd_governor_params {
     double target_ms; /* limit for a frame while the scene changes; above 0 */
     double rest_ms;   /* time without a change after which the picture is refined */
-    /* limit for tracing once the lens map that frames will reuse; multiplied by the session's share */
+    /* limit of the time for tracing a lens map that later frames will reuse; it is multiplied by the session's share */
     double stall_ms;
     double sparse_ms; /* largest time between frames on a shared device; ignored if below the target */
     struct kd_ladder_bounds bounds;
@@ -149,7 +149,7 @@ struct kd_governor {
     double changed_at, lens_at, hold_ms;
     struct kd_frame_cost traced; /* latest average of frames that trace */
     struct kd_rung traced_on;    /* the rung of these frames; rays 0: no frame yet */
-    /* blind_until: until this time lens maps are assumed not to be cached, whatever changes */
+    /* blind_until: until this time lens maps are assumed not to be cached, even if only time advances */
     double blind_until, blind_ms;
     uint32_t missed;           /* successive frames that traced although the lens was unchanged */
     bool rings;                /* only the brightness changes; nothing moves */

@@ -74,8 +74,9 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* If the file also has the layer jy_per_pixel, Stokes Q, U and V are converted to that layer's unit, as programs that
- * read them together expect. Sets *out to numbers that the caller frees, or to NULL if nothing is converted. */
+/* If the file also has the layer jy_per_pixel, Stokes Q, U and V are converted to that layer's unit, because programs
+ * that read these layers together expect the same unit. Sets *out to numbers that the caller frees, or to NULL if
+ * nothing is converted. */
 static enum kd_status in_jansky(const struct kd_picture *picture, size_t word, const struct kd_layer *layer,
                                 float **out)
 {

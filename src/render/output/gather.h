@@ -15,7 +15,7 @@
 
 #define KD_GATHER_PIECE (256u << 10) /* approximate bytes that one call produces */
 
-/* The frames' files, all of which must exist. It must outlive the gather. */
+/* The frames' files, all of which must exist. The struct must outlive the gather. */
 struct kd_gather_source {
     void *user;
     const struct kd_sweep *sweep;  /* sweep of the frames' scenes; NULL: none, allowed for a ZIP only */

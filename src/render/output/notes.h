@@ -13,8 +13,8 @@
 #define KD_ACCURACY_TEXT 384
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan_lens *lens,
                       char out[KD_ACCURACY_TEXT]);
-/* Writes the same accuracy as members of a JSON object, without rays, engine, precision and steps. median, worst: names
- * for the two errors of radii. */
+/* Writes the accuracy of kd_accuracy_text as members of a JSON object, without rays, engine, precision and steps.
+ * median, worst: names for the two errors of radii. */
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median,
                          const char *worst);
 

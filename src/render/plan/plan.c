@@ -265,9 +265,9 @@ static double beyond_orbits(const struct kd_scene *scene)
 
 static bool within_horizon(const struct kd_scene *scene) { return scene->camera.r <= kd_scene_hole(scene)->outer; }
 
-/* Settings for an observer inside the horizon, where only lens_map.comp traces light. Near the centre, w'' = 3K w^2
- * is faster by sqrt(6w) than at w = 1/2, for which the number of steps per half turn was chosen. So more steps are
- * needed there. */
+/* Settings for an observer inside the horizon, where only lens_map.comp traces light. The number of steps per half turn
+ * was chosen for w = 1/2. Near the centre, where w'' = 3K w^2, the motion is faster by sqrt(6w), so more steps are
+ * needed. */
 static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene,
                                   const struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {

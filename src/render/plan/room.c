@@ -10,8 +10,8 @@
 #include "render/view/layout.h"
 #include "render/view/rim_grid.h"
 
-/* Limits of the device: those of the capacity if they are known, otherwise those that Vulkan 1.2 guarantees
- * (maxComputeWorkGroupCount, maxMemoryAllocationSize). */
+/* The functions below return limits of the device: the capacity's if they are known, otherwise what Vulkan 1.2
+ * guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize). */
 static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
 static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
 static uint64_t buffer_bytes(const struct kd_capacity *c)

@@ -40,7 +40,7 @@ static size_t skip_string(const char *text, size_t at, size_t length)
     return at < length ? at + 1 : length;
 }
 
-/* Finds the array. Reports no errors; the parser of the rest of the document does that. */
+/* Finds the array. Errors are not reported here, but by the parser of the rest of the document. */
 bool kd_rays_list_find(const char *text, size_t length, size_t *start)
 {
     int depth = 0;

@@ -64,8 +64,9 @@ static const char *const quantities[QUANTITIES] = { "r (relative)", "phi (rad)",
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Compares with known numbers. Each bound is a unit of error times the size of the terms summed and the gain. phi is a
- * sum over half turns. delay is a sum of terms that are as large as the radius, or about 10 M near the hole. */
+/* Compares with known numbers. Each bound is a unit of error, multiplied by the size of the summed terms plus the gain.
+ * phi is a sum over half turns. delay is a sum of terms that are as large as the radius, or about 10 M near the
+ * hole. */
 static void judge(const struct kd_selftest_ray *ray, const struct engine *e, const struct kd_ray_crossing *crossings,
                   const struct kd_ray_end *end, struct kd_selftest_row rows[QUANTITIES])
 {

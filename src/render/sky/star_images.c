@@ -13,7 +13,8 @@
  * for */
 #define REACH 0.5
 #define BESIDE 0.35 /* distance from the fold, in rays, at which the search starts on both sides */
-#define MARGIN 3.0  /* except at folds, an image is at most this many times as bright as its triangle indicates */
+/* except at folds, an image is at most this many times as bright as an estimate from its triangle */
+#define MARGIN 3.0
 
 struct listed {
     struct kd_vec n;
@@ -178,8 +179,8 @@ done:
 /* Four rows of rays; the cells are between the middle two. NULL: the row does not exist. */
 struct rows { const struct kd_vec *of[4]; };
 
-/* The difference between the rays on both sides of a ray, two steps apart. If one of them is missing, twice the
- * difference between the ray and the other one. */
+/* The difference between the two neighbours of a ray, which are two steps apart. If one neighbour is missing: twice the
+ * difference between the ray and the other neighbour. */
 static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
 {
     const bool has_before = before && isfinite(before->x), has_after = after && isfinite(after->x);

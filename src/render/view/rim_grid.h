@@ -56,8 +56,8 @@ void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, str
  * bit. */
 void kd_rim_grids_keep(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *grids);
 
-/* True if even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a fast
- * hole, and no time for others. */
+/* True if even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a hole
+ * that spins fast, and no time for any other. */
 bool kd_rim_is_thinned(const struct kd_scene *scene, const struct kd_rim *rim);
 
 /* Largest solid angle of the sky, sr, that a pixel may show with Sirius still visible; with some margin, since the
