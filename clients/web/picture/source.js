@@ -157,7 +157,7 @@ export function openSource(scene, size, shown, failed, rests) {
       signal: polls.signal,
     }),
     arrived,
-    // The change is sent once more by itself, whose answer has the error.
+    // The change is sent once more in a request of its own, whose answer has the error.
     refused(from) {
       from.plain = true;
       if (session === from) put();

@@ -195,7 +195,7 @@ export function buildFall(scene) {
   }
 
   const showGuided = () => guiding.shown(r, !scene.held && !ended());
-  // Numbers of the sky depend on the radius alone; the others are shown before them.
+  // Numbers of the sky depend on the radius alone; all other numbers are shown before them.
   const measure = latest(async () => {
     const at_r = r;
     guiding.heard(await showSky(scene, at_r), at_r);

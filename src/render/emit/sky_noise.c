@@ -24,7 +24,7 @@ static struct kd_null_path path_of(const struct kd_camera_exact *c, const struct
 
 static bool sees_the_sky(const struct kd_null_path *p) { return p->status == KD_NULL_OK && p->fate == KD_NULL_ESCAPED; }
 
-/* True if two rays end at unrelated places. Rays with different fates do. */
+/* True if two rays end at unrelated places. Rays with different fates always do. */
 static bool elsewhere(const struct kd_null_path *a, const struct kd_null_path *b)
 {
     if (!sees_the_sky(b))

@@ -28,7 +28,7 @@ struct part {
  * rim. */
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
-/* True if the rim is searched. A search for bright images leaves it out. */
+/* True if the rim is searched. A search for bright images leaves the rim out. */
 static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->light.bright; }
 
 static enum rays rays_of(const struct kd_frame_job *j, const struct part *part)

@@ -235,7 +235,8 @@ static void learn(const struct kd_governor *g, struct kd_pace *pace, const struc
     pace->other.rays = 0;
 }
 
-/* True if one rung up is in time if a given fraction of the rays' time does not depend on size. */
+/* True if a frame one rung up would be in time, assuming that a given fraction of the rays' time is independent of
+ * size. */
 static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
                          double part)
 {

@@ -57,8 +57,8 @@ struct kd_render_queue {
     struct kd_shares missing;      /* fair queueing of compilations */
     /* compiling: kernels being compiled; compiled: kernels that are compiled but not yet passed to the renderer */
     struct kd_compilation *compiling, *compiled;
-    /* Kernels that no job waits for; they are compiled while no other compilation waits. compiling_ahead: they are
-     * being compiled. */
+    /* ahead: kernels that no job waits for; they are compiled while no other compilation waits. compiling_ahead: such
+     * kernels are being compiled now. */
     struct kd_compilation *ahead;
     bool compiling_ahead;
     double ahead_ms;                       /* time of the latest search for such kernels */

@@ -50,7 +50,7 @@ const ready = [
 const comparable = ({ path, type }) =>
   ['number', 'integer', 'choice', 'switch'].includes(type) && !/^(image|motion|accuracy|time)\b/.test(path);
 
-// The other scene, as openSource uses a scene: the first one with other values.
+// The other scene, in the form that openSource needs: the first scene with other values of some fields.
 class Other {
   constructor(scene, over) {
     Object.assign(this, { scene, over, emitters: [], jumped: new Set() });
