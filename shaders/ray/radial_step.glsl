@@ -116,7 +116,7 @@ kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_s
     return b;
 }
 
-/* Error of R along a ray traced by steps, due to rounding at its start: of w, and of w', whose square is R. */
+/* Error of R = w'^2 along a ray traced by steps, due to rounding of w and of w' at the start of the ray. */
 float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
 {
     float dw = kd_speed_noise(m, y, off);

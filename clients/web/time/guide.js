@@ -18,8 +18,9 @@ const events = ['visibilitychange', 'viewchange']; // events after which the vie
 const form = globalThis.MediaRecorder && forms.find(name => MediaRecorder.isTypeSupported(name));
 export const films = Boolean(form) && Boolean(HTMLCanvasElement.prototype.captureStream);
 
-// The captions, the outermost first, each with the radius below which it is shown. One is a function of the black share
-// of the sky. hole: values of the quantity kerr. way: values of the quantity infall at the start of the fall.
+// The captions, the outermost first, each with the radius below which it is shown. A caption is a text, or a function
+// that makes the text from the fraction of the sky that is black. hole: values of the quantity kerr. way: values of
+// the quantity infall at the start of the fall.
 export function captions({ horizon, ...hole }, { r, end }) {
   const inner = end > 0,
     isco = Math.min(hole.isco, hole.isco_retrograde),

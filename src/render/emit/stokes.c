@@ -1,5 +1,5 @@
 /* Polarisation of light from a volume at a radio frequency, and its transfer along the ray:
- * shaders/emit/stokes.glsl. It emits nothing itself. */
+ * shaders/emit/stokes.glsl. This emitter adds no light of its own. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/synchrotron.h"

@@ -1,6 +1,6 @@
 /* Writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array, each
  * further one an IMAGE extension of that name; "rgb" has a third axis. The primary header has the scene, the hole,
- * the observer, the accuracy, and each approximation in force; all have world coordinates. */
+ * the observer, the accuracy, and each approximation in force; all headers have world coordinates. */
 #include "render/output/format.h"
 
 #include "image/fits.h"

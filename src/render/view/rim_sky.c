@@ -99,7 +99,7 @@ static struct side side_of(const struct kd_rim_grid *g, bool along_u)
                    : (struct side) { g->l, g->l - (g->rows - 1) * g->dl, 0 };
 }
 
-/* Follows the ray at `place` along one side and at `line` along the other. */
+/* Follows the ray at u = place and l = line if along_u, else at l = place and u = line. */
 static bool follow_on(const struct follower *f, bool along_u, double place, double line, struct angles *out)
 {
     return along_u ? follow(f, place, line, out) : follow(f, line, place, out);

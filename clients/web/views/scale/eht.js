@@ -188,8 +188,8 @@ function panel(hole) {
 
   return {
     node,
-    // v: values of the quantity `scale`. Draws the lines, and returns functions that load the pictures and measure the
-    // ring, and what differs from the preset, as a document.
+    // v: values of the quantity `scale`. Draws the lines. Returns { tasks, scene }: functions that load the pictures
+    // and measure the ring, and a document with the fields that differ from the preset.
     async show(spin, inclination, v) {
       const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:357:120', digits: 4 }))
           .values,
