@@ -27,8 +27,8 @@
 #define KD_MARCH_WAY 0.5   /* longest stretch, times r: three nodes then integrate r^2 with an error of 4e-5 */
 #define KD_MARCH_DEPTH 1.0 /* longest stretch, in optical depth */
 #define KD_MARCH_TURN 1.0  /* longest stretch, in radians of Faraday rotation and conversion */
-/* Faraday rotation leaves at least this fraction of the length otherwise allowed. Light that rotates further within a
- * stretch is mixed and mostly depolarised */
+/* Faraday rotation shortens a stretch to no less than this fraction of the length otherwise allowed. Light that rotates
+ * further within a stretch is mixed and mostly depolarised */
 #define KD_MARCH_TURNED 0.125
 #define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
 /* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */

@@ -394,8 +394,8 @@ void end_piece(kd_beam beam)
     atomicAdd(lost_rays[lost_word(KD_LOST_WAITING)], 1u);
 }
 
-/* Each pixel has several listed rays. For each pixel, this follows the next piece of the ray with the number slice.ray,
- * if that ray waits. */
+/* Each pixel has several listed rays. For each pixel, this function follows the next piece of the ray with the number
+ * slice.ray, if that ray waits. */
 void main()
 {
     kd_camera_read();

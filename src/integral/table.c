@@ -197,7 +197,7 @@ done:
     return status;
 }
 
-/* Adds an axis at its place: those on which the image depends come first. */
+/* Adds an axis at its place: axes on which the image depends come first. */
 static enum kd_status add_axis(struct kd_table *table, const char *text, struct kd_error *error)
 {
     struct kd_table_axis axis;

@@ -20,7 +20,7 @@
 enum { KD_TABLE_AXES = 10, KD_TABLE_VALUES = 2000, KD_TABLE_NAME = 12 };
 #define KD_TABLE_NODES 10000000u
 
-/* An axis: a field of the request, or the inner edge over the ISCO (inner_isco). */
+/* An axis: a field of the request, or the inner edge divided by the ISCO's radius (inner_isco). */
 struct kd_table_axis {
     const struct kd_row *field;
     bool isco, log; /* log: interpolated in the logarithm of the value */

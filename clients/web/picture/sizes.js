@@ -46,7 +46,7 @@ let landing = true; // the user has not touched anything yet
 atFirstTouch(() => (landing = false));
 
 // The query that asks the session to keep a share of the width in motion. If frames take too long, Auto gives the share
-// up so that a drag is followed. Before the first touch it does not, because nothing has to follow a hand.
+// up so that a drag is followed. Before the first touch Auto keeps the share, because there is no drag to follow.
 export function kept() {
   const part = parts[pace()],
     here = sizeOf(byId('stage'));
