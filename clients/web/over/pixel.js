@@ -107,7 +107,7 @@ function round(order) {
     : t('pixel.it-is-the-photon', 'It is the photon ring: light that went {0} times half way round the hole.', order);
 }
 
-// The velocity of gas along the light, as it is measured beside the gas.
+// The gas's component of velocity along the light, as an observer beside the gas measures it.
 function motion({ kind, approach }) {
   if (kind !== 'crossing' || approach == null || Math.abs(approach) < sideways) return '';
   const speed = `${number(Math.abs(approach), 2)} c`;

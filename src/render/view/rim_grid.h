@@ -20,7 +20,8 @@
 #define KD_RIM_GRID_RAYS (1u << 16) /* limit of rays of one grid */
 #define KD_RIM_TILE_RAYS 3          /* side of a tile of the star search on a grid */
 #define KD_RIM_HALO 3               /* extra rays on each side of the part */
-#define KD_RIM_REACH 0.601          /* steps from a ray to the images that it finds (star_images.comp, share) */
+/* largest distance, in steps, from a ray to an image that it finds (star_images.comp, share) */
+#define KD_RIM_REACH 0.601
 #define KD_RIM_SHARED_U 0.5
 #define KD_RIM_SHARED_L 0.05
 
