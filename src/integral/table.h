@@ -57,7 +57,7 @@ void kd_table_axes_json(const struct kd_table *table, struct kd_json *json, cons
 size_t kd_table_row_bytes(const struct kd_table *table);
 
 /* Computes the rows of n successive nodes, all of one run. *worst is raised to the largest error that a profile
- * states. Some milliseconds a row. */
+ * states. Takes some milliseconds a row. */
 enum kd_status kd_table_rows(const struct kd_table *table, size_t first, size_t n, uint8_t *rows, double *worst,
                              struct kd_error *error);
 
