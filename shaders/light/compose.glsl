@@ -20,8 +20,8 @@ struct kd_glow {
     vec3 light;
     float alpha, apart;
 };
-/* The ellipse across a ray that the ray stands for, at its nearest crossing of the plane: M_rr, M_rf, M_ff in the plane
- * as in KD_LENS_SHAPE (shared/lens.h), and M_rz, M_fz, M_zz, M^2; z is along the normal. */
+/* The ellipse that a ray stands for, perpendicular to the ray, at the ray's nearest crossing of the plane: M_rr, M_rf,
+ * M_ff in the plane as in KD_LENS_SHAPE (shared/lens.h), and M_rz, M_fz, M_zz, M^2; z is along the normal. */
 struct kd_spread { vec3 plane, rise; };
 /* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: their derivatives by Mino time in the direction of
  * tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures. They
@@ -38,11 +38,11 @@ struct kd_midst {
     float ago;
     float nearest;
 };
-/* The medium at a point of a ray. light: emission; depth: optical depth. Both are per unit of the affine parameter by
- * the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and matter of velocity U measures the path
- * length -k.U d lambda. With emissivity j and opacity alpha per length in the matter's frame, depth = alpha (-k.U) and
- * bolometric light = j (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray over which the medium changes by about
- * its own size; where there is no matter, the distance to the matter. */
+/* The medium at a point of a ray. light: emission; depth: optical depth. Light and depth are per unit of the affine
+ * parameter lambda, which is normalised by the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and
+ * matter of velocity U measures the path length -k.U d lambda. With emissivity j and opacity alpha per length in the
+ * matter's frame, depth = alpha (-k.U) and bolometric light = j (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray
+ * over which the medium changes by about its own size; where there is no matter, the distance to the matter. */
 struct kd_medium {
     vec3 light;
     float depth, grain;
@@ -99,7 +99,7 @@ const uint KD_END_TRAITS =
     0u KD_EMITTERS(KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_);
 const bool KD_ENDS = (KD_END_TRAITS & KD_TRAIT_PRESENT) != 0u;
 
-/* Adds the light of all emitters at a place. They share the place: none hides another's light. */
+/* Adds the light of all emitters at a place. The emitters share the place, so none of them hides another's light. */
 void kd_beam_at(inout kd_beam beam, kd_sample s)
 {
     float seen = beam.through;
@@ -120,7 +120,7 @@ void kd_beam_at(inout kd_beam beam, kd_sample s)
 }
 
 #ifdef KD_MARCH
-/* The sum of all emitters at a point. They share the point: none hides another's light. */
+/* The sum of all emitters at a point. The emitters share the point, so none of them hides another's light. */
 kd_medium kd_medium_at(kd_midst p)
 {
     kd_medium sum = kd_medium(vec3(0.0), 0.0, 1e30);

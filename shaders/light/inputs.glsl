@@ -25,8 +25,8 @@ layout(set = 0, binding = 0) readonly buffer LensMap { float lens[]; };
 struct kd_spot_block { KD_BLOCK_spot(F, U) };
 KD_EMIT_BLOCKS(BLOCK)
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
-/* Numbers that are uniform over all invocations. They are read before the first branch: after one, lavapipe reads them
- * again for each lane and each use. */
+/* Numbers that are uniform over all invocations. They are read before the first branch, because after a branch lavapipe
+ * reads them again for each lane and each use. */
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 #include "light/tables.glsl"

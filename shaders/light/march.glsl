@@ -15,7 +15,7 @@
 
 /* Push constants, which differ between dispatches: the same kernel follows a sample of pixels more finely
  * (src/render/frame/march_error.c). */
-#define STEPS slice.steps /* per half period */
+#define STEPS slice.steps /* number of steps per half period */
 #define FINE slice.fine   /* resolution: a stretch is at most 4/FINE grains long */
 
 #include "ray/radial_step.glsl"
@@ -27,22 +27,22 @@
 #define KD_MARCH_WAY 0.5   /* longest stretch, times r: three nodes then integrate r^2 with an error of 4e-5 */
 #define KD_MARCH_DEPTH 1.0 /* longest stretch, in optical depth */
 #define KD_MARCH_TURN 1.0  /* longest stretch, in radians of Faraday rotation and conversion */
-/* Faraday rotation leaves at least this fraction of the length otherwise allowed. Light that rotates further within a
- * stretch is mixed and mostly depolarised */
+/* Faraday rotation shortens a stretch to no less than this fraction of the length otherwise allowed. Light that rotates
+ * further within a stretch is mixed and mostly depolarised */
 #define KD_MARCH_TURNED 0.125
 #define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
 /* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */
 #define KD_MARCH_BEHIND 1.5
-#define KD_MARCH_LOOPS \
-    65536u /* more loop passes than needed; lavapipe may end loops before their condition does, and unfinished work \
-            * must be detected */
-#define KD_MARCH_CLOSE \
-    1e-8 /* Delta w^4 at which a turning ray is as close to the horizon as 32 bits resolve: its time there has no \
-            valid digits, but stays finite */
+/* limit of loop passes, more than any ray needs: lavapipe may end a loop before its condition does, and unfinished work
+ * must be detected */
+#define KD_MARCH_LOOPS 65536u
+/* least Delta w^4 of a turning ray; below it the ray is as close to the horizon as 32 bits resolve, and its time there
+ * has no valid digits, but stays finite */
+#define KD_MARCH_CLOSE 1e-8
 /* Largest number of loop passes for one stretch, including the root finding for the ends of its part. */
 #define KD_MARCH_STRETCH (4u + 3u * (KD_THICK_TAKEN + 4u + (KD_HAS(stokes) ? 12u : 0u)))
 #define KD_MARCH_ENDS 100u
-#define KD_MARCH_DEEP 1e3            /* optical depth beyond which more makes no difference */
+#define KD_MARCH_DEEP 1e3            /* a larger optical depth makes no difference */
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this fraction of the light behind is transmitted */
 
 /* A driver's limit on loops may stop a ray. Such a ray is traced again in pieces, one dispatch each (KD_PIECES). left:
@@ -146,9 +146,9 @@ struct kd_stride {
 /* Boyer-Lindquist time along the ray backwards grows by t' = (1 + a^2 w^2) W/(w^2 D) + a (L - a E (1 - u^2)), D = 1 -
  * 2w + a^2 w^2 and W = E + a (a E - L) w^2. With w'^2 = W^2 - D K w^2 the first part of t' is (1 + a^2 w^2) (w'/(w^2 D)
  * + K/(W + w')) where the ray goes inwards, and the same with -w' where it goes outwards. The first term of this part
- * is d/dtau of -1/w + ln(w^2/D) + (2 - q^2) kd_fall, for D and W with the charge q. That contains everything that grows
- * without bound towards infinity and at the horizon, and minus r_o + 2 ln r_o vanishes for an observer at infinity. The
- * rest is smooth. In the step in which the ray turns, t' itself is smooth. */
+ * is d/dtau of -1/w + ln(w^2/D) + (2 - q^2) kd_fall, for D and W with the charge q. This term contains everything that
+ * grows without bound towards infinity and at the horizon. After subtraction of r_o + 2 ln r_o it vanishes for an
+ * observer at infinity. The rest of t' is smooth. In the step in which the ray turns, t' itself is smooth. */
 float kd_march_edge(float w) { return w > 0.0 ? kd_late(w) - 1.0 / w + kd_log(w * w / kd_horizons(w, cam.root)) : 0.0; }
 
 float kd_march_later(kd_geodesic m, kd_ray ray, kd_stride s, float t)
@@ -200,7 +200,8 @@ kd_stride kd_stride_of(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h,
     if (KD_MARCH_TURNS) {
         s.x = kd_quintic_of(p.y.x, h * p.v.x, a.x, q.y.x, h * q.v.x, b.x);
         s.y = kd_quintic_of(p.y.y, h * p.v.y, a.y, q.y.y, h * q.v.y, b.y);
-        if (INGOING && drag.returns && drag.way < 0.0 && p.v.w > 0.0) { /* as in comp/lens_map.comp */
+        /* the coordinates change as in comp/lens_map.comp */
+        if (INGOING && drag.returns && drag.way < 0.0 && p.v.w > 0.0) {
             drag.way = 1.0;
             drag.fallen -= 2.0 * kd_drag_fall(p.y.w, cam.spin, cam.root);
         }
@@ -306,8 +307,8 @@ kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, u
 
 /* Light of a node is attenuated by half its own depth and all depth before it. By Gauss's method of three stages
  * (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij, the attenuation is sum_j a_ij/b_j x_j. This function
- * returns the remainder to first order in depth. The remainder is 0 where light is proportional to depth, because the
- * sum is then exact. */
+ * returns the difference between the two attenuations, to first order in depth. It is 0 where light is proportional to
+ * depth, because the sum over the three nodes is then exact. */
 vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 {
     float x = one.w + two.w + three.w;
@@ -317,7 +318,7 @@ vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 }
 
 /* Compensated sum of many small terms (Kahan 1965). In a plain sum the rounding of thousands of similar terms adds up
- * to an error of 5e-5. */
+ * to a relative error of 5e-5. */
 void kd_march_add(inout float sum, inout float off, float more)
 {
     precise float y = more - off, t = sum + y;
@@ -341,7 +342,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
 {
     float coarse = 4.0 / float(FINE), front = beam.through, depth = 0.0, depth_off = 0.0;
     vec3 light = vec3(0.0), light_off = vec3(0.0), seen = vec3(0.0), seen_off = vec3(0.0);
-    /* length of the next stretch; 0: unknown, so that a stretch of length 0 determines it */
+    /* length of the next stretch; 0: unknown. A stretch of length 0 then determines the length */
     float wish = stretch / s.h;
     for (uint n = 0u; n < KD_MARCH_LOOPS && from < to && beam.through > KD_MARCH_OPAQUE && KD_MARCH_MAY; n++) {
         KD_MARCH_SPEND(KD_MARCH_STRETCH)
@@ -403,7 +404,7 @@ void kd_march_part(inout kd_beam beam, kd_geodesic m, kd_ray ray, kd_stride s, k
     beam.through = beam.through > KD_MARCH_OPAQUE ? beam.through : 0.0;
 }
 
-/* True if a ray can reach the volumes, by w'^2 = R(w): R must not vanish before them for a ray from outside. */
+/* True if a ray can reach the volumes. For a ray from outside, w'^2 = R(w) must be positive at their outer edge. */
 bool kd_march_meets(kd_geodesic m, kd_ray ray)
 {
     float w = emission.frame.along_least, w2 = w * w;
@@ -610,7 +611,7 @@ void kd_march_follow(inout kd_beam beam, uvec2 place, uint at, float time, uint 
         KD_MARCH_GIVEN_UP(beam);
     KD_PROBE_MARCHED(y.steps)
     for (uint n = y.crossed; KD_GLOWS && n < min(ORDERS, crossings) && beam.through > 0.0;
-         n++) { /* beyond the volumes */
+         n++) { /* these crossings are beyond the volumes */
         float w = lens[at + n * slice.stride];
         if (w == 0.0)
             break;

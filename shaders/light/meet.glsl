@@ -12,8 +12,8 @@
 #ifndef KD_MEET_GLSL
 #define KD_MEET_GLSL
 
-#define KD_MEET_SLACK \
-    0.02 /* A ray is tested closely if its distance from the ball is less than this times r, plus 0.1 of its radius */
+/* A ray is tested closely if its distance from the ball is less than this times r, plus 0.1 of its radius */
+#define KD_MEET_SLACK 0.02
 #define KD_MEET_FAR 1e30
 
 /* An end of a step. p: (n, w); d: the change of (n, w) over a step. */
@@ -100,7 +100,7 @@ float kd_met_time(kd_met_end a, kd_met_end b, uint body, out float cosine)
 
 kd_met kd_met_nothing() { return kd_met(KD_MEET_FAR, KD_NOBODY, ORDERS, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0); }
 
-/* The node after this one; or, if the ray is far from this node, the node after its subtree. 0: none. */
+/* The node after the subtree of this node, which is next if the ray is far from this node. 0: there is none. */
 uint kd_met_next(uint node)
 {
     uint next = (node + 1u) >> uint(findLSB(node + 1u));
@@ -111,9 +111,9 @@ uint kd_met_next(uint node)
  * overlapping bodies exceed lavapipe's limit. */
 bool kd_meet_lost = false;
 
-#define KD_MEET_CLOSE \
-    0.995 /* fraction of the horizon's 1/r up to which a step covers at most half the way to the horizon, where \
-             azimuths diverge */
+/* up to this fraction of the horizon's 1/r, a step covers at most half the way to the horizon, where azimuths
+ * diverge */
+#define KD_MEET_CLOSE 0.995
 
 kd_met kd_meet(uvec2 place)
 {

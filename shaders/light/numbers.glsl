@@ -1,5 +1,5 @@
-/* Numbers of a place on a ray, whether a picture shows them or not: for layers (shared/layers.h) and for explaining
- * a ray. Needs light/inputs.glsl. */
+/* Computes the numbers of a place on a ray, even if the picture does not show them: for layers (shared/layers.h) and
+ * for explaining a ray. Needs light/inputs.glsl. */
 #ifndef KD_NUMBERS_GLSL
 #define KD_NUMBERS_GLSL
 
@@ -12,7 +12,7 @@ float kd_layer_g(kd_sample s)
     return kd_orbit_shift(s.w, s.energy, s.momentum, KD_TRAIT_DOPPLER | KD_TRAIT_REDSHIFT);
 }
 
-/* Temperature, in the gas's own frame, of the black body as which the gas emits, K. */
+/* Temperature in K of the black body as which the gas emits, in the gas's own frame. */
 float kd_layer_temperature(kd_sample s)
 {
     if (kd_plunge_falls(s))

@@ -31,9 +31,9 @@ struct kd_stokes_cell {
     vec4 light;
 };
 
-#define KD_STOKES_NEAR \
-    0.25 /* below this |lambda|, or below a tenth of a larger depth, differences of nearly equal numbers are replaced \
-            by series: both are accurate to about 1e-6 there */
+/* below this |lambda|, or below a tenth of a larger depth, differences of nearly equal numbers are replaced by series:
+ * at this limit both forms are accurate to about 1e-6 */
+#define KD_STOKES_NEAR 0.25
 
 vec2 kd_complex_times(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x); }
 
@@ -74,7 +74,7 @@ vec4 kd_stokes_sound(vec4 s)
     return vec4(i, i > 0.0 ? s.yzw * (part > 1.0 ? 1.0 / part : 1.0) : vec3(0.0));
 }
 
-/* The mean of exp(-y s) for s from 0 to 1, for a real y here, and below for a complex y with a given exp(-y). */
+/* The mean of exp(-y s) for s from 0 to 1, for a real y. The next function is for a complex y with a given exp(-y). */
 float kd_stokes_mean(float y)
 {
     return abs(y) < 0.25 ? 1.0 - y * (0.5 - y * (1.0 / 6.0 - y * (1.0 / 24.0 - y * (1.0 / 120.0 - y * (1.0 / 720.0)))))

@@ -1,6 +1,7 @@
 /* Kernel: makes light (linear sRGB radiance) from the lens map. An invocation lights a pixel, or a column of
- * KD_TRANSFER_ROWS pixels. KD_MARCH: for scenes with volumes, along the rays themselves, one ray of each pixel:
- * slice.ray. KD_PIECES: continues those rays that the same kernel could not complete, one piece at a time. */
+ * KD_TRANSFER_ROWS pixels. Variants: KD_MARCH is for scenes with volumes; it follows the rays themselves, one ray of
+ * each pixel, which slice.ray numbers. KD_PIECES continues the rays that KD_MARCH could not complete, one piece at a
+ * time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -223,8 +224,8 @@ const bool COLUMNS =
     SIDE == 1 && CRITICAL == 0 && (KD_END_TRAITS / KD_TRAIT_SPREAD & 1u) * (QUANTITIES & KD_LENS_FATE) == 0u;
 #endif
 
-/* If the sky consists of points only, each pixel gets its points first; pixels with a crossing are lit again
- * afterwards. Most pixels have no points. */
+/* If the sky consists of points only, the points of all pixels are composed first, and pixels with a crossing are lit
+ * again afterwards. This saves time, because most pixels have no points. */
 void point_column(uint x, uint y, uint end)
 {
     uint has = 0u; /* bit k: whether the pixel in row y + k has points of light, or its ray has no end */
@@ -393,8 +394,8 @@ void end_piece(kd_beam beam)
     atomicAdd(lost_rays[lost_word(KD_LOST_WAITING)], 1u);
 }
 
-/* Each pixel has several listed rays. For each pixel, this follows the next piece of the ray with the number slice.ray,
- * if that ray waits. */
+/* Each pixel has several listed rays. For each pixel, this function follows the next piece of the ray with the number
+ * slice.ray, if that ray waits. */
 void main()
 {
     kd_camera_read();

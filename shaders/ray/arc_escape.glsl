@@ -16,8 +16,8 @@ float kd_arc_time(kd_lattice l, float g)
 }
 
 /* Scaled time from `last` to infinity, for a ray that gets there before `next`, a time z later. `middle` is the arc of
- * z/2. The nearest of the three points gives the time to 1e-3. The remaining w there gives the correction, because w''
- * = 0 at w = 0. */
+ * z/2. The point nearest to infinity gives the time to 1e-3. The value of w after that time gives the correction,
+ * because w'' = 0 at w = 0. */
 float kd_arc_escape_time(kd_arcs a, kd_centre last, kd_arc middle, kd_state next, float z, float e)
 {
     float most = last.dv < 0.0 ? 4.0 * last.v / min(e, -last.dv) : 1e30; /* points further along are meaningless */

@@ -4,7 +4,7 @@
 #ifndef KD_AROUND_GLSL
 #define KD_AROUND_GLSL
 
-/* Columns and rows of the whole picture: in rays if side is 1, in pixels if it is SIDE. */
+/* Columns and rows of the whole picture: in rays if `side` is 1, in pixels if `side` is SIDE. */
 ivec2 kd_around_size(uint side) { return ivec2(vec2(4.0, 2.0) / (vec2(cam.turn_x, cam.turn_y) * float(side)) + 0.5); }
 
 /* Moves a place outside the picture, by up to a whole picture, into it. With an odd number of columns the place is off

@@ -20,7 +20,7 @@ struct kd_sampling { KD_SAMPLE_FIELDS_(F, U) };
 struct kd_camera_block { KD_CAMERA_FIELDS_(F, U) };
 layout(push_constant) uniform Push { kd_sampling push_; };
 layout(set = 0, binding = KD_SAMPLE_CAMERA_BINDING, std140) uniform Camera { kd_camera_block camera_; };
-kd_sampling push; /* both are read before the first branch, as in ray/camera.glsl */
+kd_sampling push; /* this and the next variable are read before the first branch, as in ray/camera.glsl */
 kd_camera_block cam;
 
 const bool PHI = (QUANTITIES & KD_LENS_PHI) != 0u, SLOPE = (QUANTITIES & KD_LENS_SLOPE) != 0u,
@@ -46,7 +46,7 @@ ivec2 place_of(uvec2 at) { return ivec2(at) + ivec2(int(push.origin_x), int(push
 uint blocks() { return push.blocks_x * push.blocks_y; }
 uint side_of(uint level) { return KD_CELL_BLOCK >> (level - 1u); }
 
-/* Start of the list of units of a kind: 0 for crossings, 1 for the sky. */
+/* Word at which the list of units of a kind begins: 0 for crossings, 1 for the sky. */
 uint units_of(uint kind) { return KD_SAMPLE_QUEUES + blocks() * (KD_SAMPLE_QUEUED + kind * KD_SAMPLE_UNITS); }
 
 /* A unit in one word: the cell's corner in units of eight rays, the number of the unit's eight columns in the cell, and

@@ -4,7 +4,7 @@
 
 #include "shared/math.glsl"
 
-/* The larger singular value of J, where J^T J, or J J^T, has a and b on its diagonal and c off the diagonal. */
+/* The larger singular value of J. Either J^T J or J J^T has a and b on its diagonal, and c off the diagonal. */
 float kd_longest(float a, float b, float c)
 {
     float half_ = 0.5 * (a - b), size = sqrt(0.5 * (a + b) + sqrt(half_ * half_ + c * c));

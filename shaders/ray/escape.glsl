@@ -81,8 +81,8 @@ float kd_path_drag(kd_geodesic m, kd_ray ray, kd_path p, kd_path q, float h)
                 kd_drag(m, c, ray.e, cam.spin, cam.root, way));
 }
 
-/* w' of an outgoing ray, from the first integral. Inside the horizon w' does not vanish and may be large, so its
- * rounding there would matter outside. */
+/* w' of an outgoing ray, from the first integral. Inside the horizon w' is not 0 and may be large. If it were
+ * integrated there, its rounding error would matter outside the horizon. */
 float kd_leaving(kd_geodesic m, float w, float e) { return -sqrt(kd_radial_potential(m, w, e, cam.spin, cam.root)); }
 
 kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
@@ -91,8 +91,8 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
     o.fate = KD_FATE_UNDECIDED;
     o.u = 0.0;
     o.phi = 0.0;
-    /* Steps are as fine as between crossings. They are no coarser than 1/E where the ray is nearly radial, nor than
-     * 1/sqrt(6K w), which matters deep inside the hole. */
+    /* Steps are as short as between crossings. They are also limited to 1/E, for a ray that is nearly radial, and to
+     * 1/sqrt(6K w), for a ray deep inside the hole. */
     float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e);
     float h = KD_PI / (float(STEPS) * sqrt(rate2));
     /* Twelve half periods: after them only rays within 1e-13 of the critical curve still circle. */

@@ -22,7 +22,7 @@ float kd_delta(float w, float root)
 /* Delta/r^2 with a positive lower bound, for use as a divisor. */
 float kd_horizons(float w, float root) { return max(kd_delta(w, root), 1e-30); }
 
-/* The part of the rate of the time that is divided by D (rays.comp), for E = 1. */
+/* The numerator of that part of dt/dtau which has the divisor D (rays.comp), for E = 1. */
 float kd_time_over(kd_hole_numbers hole, float w, float momentum)
 {
     float a = hole.spin, a2w2 = a * a * w * w;

@@ -43,7 +43,8 @@ float kd_late(float w)
     return part * kd_fall(w, cam.root);
 }
 
-/* Coefficient of r^2 in (Sigma u^r)^2 of a body of unit mass, from that of its motion, a^2 (E^2 - 1) - L^2 - Q. */
+/* Coefficient of r^2 in (Sigma u^r)^2 of a body of unit mass. moving: the coefficient in the Kerr metric, a^2 (E^2 - 1)
+ * - L^2 - Q; a charge q of the hole subtracts q^2. */
 float kd_body_quadratic(float moving)
 {
     float c2 = moving;

@@ -47,8 +47,8 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
     float k0 = sqrt(o.b / max(root, 1e-30));
     float p = sqrt(root), q = k0 * p;
 #ifdef KD_POLAR_LISTED
-    /* Each step replaces 1 - k by about its square over eight. For k from 1e-15 on, eight steps therefore end below a
-     * roundoff. */
+    /* Each step replaces 1 - k by about (1 - k)^2/8. For k above 1e-15, 1 - k is therefore below a roundoff after eight
+     * steps. */
     float weight = 0.5, correction = 0.0, k = k0;
     for (int i = 0; i < 8; i++) {
         float n = 1.0 / (cx * cx + sx * sx);
@@ -59,8 +59,8 @@ kd_polar kd_polar_of(kd_geodesic m, kd_ray ray, float u, float s)
         cx = (cx * cx - k * sx * sx) * n;
         sx = y;
         p *= 0.5 + 0.5 * k;
-        k = 2.0 * sqrt(k) / (1.0 + k); /* the ratio of the next two means, computed without their product, which might
-                                        * exceed a float's range */
+        k = 2.0 * sqrt(k) / (1.0 + k); /* the ratio q/p of the next two means, computed without the product of the
+                                        * means, which might exceed a float's range */
     }
     float mean = p;
 #else

@@ -35,10 +35,10 @@ float kd_radial_potential(kd_geodesic m, float w, float e, float a, float root)
 /* The azimuth chi by which the hole drags a ray, chi' = a (W/D - E), D = 1 - 2w + (a^2 + q^2) w^2.
  *
  * Towards the horizon chi' diverges as 1/D, and so would its quadrature. For a falling ray the azimuth of ingoing
- * Kerr-Schild coordinates is regular. It leaves out a w'/D, whose integral is elementary and is added by kd_drag_fall.
- * As w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference. The same holds with the
- * other sign of w' for a ray that comes from next to the horizon. way: 1 for a ray that goes straight in, -1 for one
- * that goes straight out, else 0. */
+ * Kerr-Schild coordinates is regular. This azimuth leaves out a w'/D, whose integral is elementary and is added by
+ * kd_drag_fall. As w'^2 = W^2 - D K w^2, the rest is a (K w^2/(W + w') - E), without a pole or a difference. The same
+ * holds with the other sign of w' for a ray that comes from next to the horizon. way: 1 for a ray that goes straight
+ * in, -1 for one that goes straight out, else 0. */
 float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w = y.w, w2 = w * w;
@@ -48,8 +48,9 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
 }
 
 /* kd_drag for a ray that may come from inside the horizon or return to it. It uses ingoing coordinates (way = -1) while
- * the ray goes outwards, and outgoing ones (1) while the ray returns. Each of these divides by D only on the other half
- * of the way. Both are smooth where the ray turns, because w'^2 = W^2 - D K w^2. */
+ * the ray goes outwards, and outgoing ones (1) while the ray returns. Ingoing coordinates divide by D only while the
+ * ray returns, and outgoing ones only while it goes outwards. Both are smooth where the ray turns, because w'^2 = W^2 -
+ * D K w^2. */
 float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w2 = y.w * y.w, speed = abs(y.dw), sum = max(e + a * (a * e - m.momentum) * w2 + speed, 1e-12);
@@ -69,7 +70,7 @@ float kd_drag_fall(float w, float a, float root) { return a * kd_fall(w, root); 
 
 /* The turning point of the radial motion, which together with the constants of motion decides where a ray ends. R' = 2w
  * (A + 3Kw - 2Dw^2) vanishes at one place between infinity and the photon region, and at the horizon R = W^2. So a ray
- * reaches the other side of that place if and only if R > 0 there. R = W^2 - D K w^2 keeps its precision next to the
+ * passes that place if and only if R > 0 at the place. The form R = W^2 - D K w^2 keeps its precision next to the
  * horizon too. */
 struct kd_turning_point {
     float w, r;  /* w: the place, or the horizon if the place is inside the horizon; r: R at w */
@@ -100,9 +101,9 @@ float kd_speed_noise(kd_geodesic m, kd_state y, kd_rounding off)
     return off.unit * (off.size_e + sqrt(max(m.k, 0.0)) * y.w);
 }
 
-/* The turning point, for an observer next to the photon orbits, from the observer's place. There R = w'^2. Between the
- * two places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), where x is their distance, since R' vanishes at
- * the turning point. If w' is close to 0, its square is more precise than R. */
+/* Computes the turning point for an observer next to the photon orbits. It starts from the observer's place, where R =
+ * w'^2. Between the two places R changes by x^2 (A + 6Kw - 6Dw^2 + x (2K - 4Dw) - x^2 D), where x is their distance,
+ * since R' vanishes at the turning point. If w' is close to 0, its square is more precise than R. */
 kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_state y, float horizon, kd_rounding off)
 {
     float x = y.w - b.w, c2 = m.a2 + 6.0 * b.w * (m.k - m.d * b.w),
@@ -115,7 +116,7 @@ kd_turning_point kd_turning_point_beside(kd_geodesic m, kd_turning_point b, kd_s
     return b;
 }
 
-/* Error of R along a ray traced by steps, due to rounding at its start: of w, and of w', whose square is R. */
+/* Error of R = w'^2 along a ray traced by steps, due to rounding of w and of w' at the start of the ray. */
 float kd_start_noise(kd_geodesic m, kd_state y, kd_rounding off)
 {
     float dw = kd_speed_noise(m, y, off);

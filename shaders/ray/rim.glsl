@@ -120,8 +120,8 @@ kd_rim_cell kd_rim_cell_at(uint x, uint y, vec2 p)
     return o;
 }
 
-/* The current grid's share of the light of an image at this column and row. With `within` above 0: an upper bound of
- * the share of all images no further than that from the place. */
+/* The current grid's share of the light of an image at this column and row. If `within` is above 0: an upper bound of
+ * the share of all images whose distance from the place is at most `within`. */
 float kd_rim_part(vec2 at, float within)
 {
     vec2 low = (at + within - vec2(rim[push.rim], rim[push.rim + 3u])),

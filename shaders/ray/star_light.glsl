@@ -23,8 +23,8 @@ vec3 kd_star_weights(float d) { return vec3(0.5 * (0.5 - d) * (0.5 - d), 0.75 - 
 float kd_star_level(float row, float rows) { return abs(sin(KD_PI * (row + 0.5) / rows)); }
 
 /* Spreads the light of an image. place: in pixels of the picture. light: the mean radiance of a pixel centred there.
- * Near the poles of a picture of all directions adjacent rows have different solid angles: the sum of light times solid
- * angle over all pixels is that of the centred pixel. */
+ * Near the poles of a picture of all directions adjacent rows have different solid angles. The sum of light times solid
+ * angle over all pixels is then the same as if a pixel centred at the place had all the light. */
 void kd_star_spread(vec2 place, vec3 light)
 {
     vec2 middle = floor(place + 0.5);

@@ -27,7 +27,7 @@ struct kd_integral_answer {
     double values[KD_INTEGRAL_VALUES];
     double map_jy;                     /* flux of the last map, computed from its scene; NaN: the scene's light has no
                                         * frequency */
-    struct kd_alignment solved;        /* of a comparison */
+    struct kd_alignment solved;        /* result of a comparison's search */
     const struct kd_integral_set *set; /* for a comparison of sets: the current set; otherwise NULL */
     double chi2[2][KD_PRODUCTS];       /* for a comparison: chi^2 for the map, and for the finer map */
     size_t rows;
@@ -51,11 +51,11 @@ const char *kd_integral_word(const struct kd_integral_answer *answer, size_t col
 void kd_integral_answer_finish(struct kd_integral_answer *answer);
 
 /* JSON: {"integral", "scene" if it has one, "parameters", "values", "columns", "units", "sources",
- * "approximations"}. CSV: a line of names, then the rows; of a simulated observation the EHT's CSV. NPY: one record a
- * row. NPZ: an array for each column, and answer.json, the rest of the JSON. UVFITS: of a simulated observation whose
- * request has a uvfits file. */
+ * "approximations"}. CSV: a line of names, then the rows; for a simulated observation, the EHT's CSV. NPY: one record a
+ * row. NPZ: an array for each column, and answer.json, the rest of the JSON. UVFITS: only for a simulated observation
+ * whose request has a uvfits file. */
 enum kd_integral_format { KD_INTEGRAL_JSON, KD_INTEGRAL_CSV, KD_INTEGRAL_NPY, KD_INTEGRAL_NPZ, KD_INTEGRAL_UVFITS };
-/* True if a checked request has an answer in this format. */
+/* Checks that the answer to a checked request exists in this format. */
 enum kd_status kd_integral_check_format(const struct kd_integral_request *request, enum kd_integral_format format,
                                         struct kd_error *error);
 enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format,

@@ -39,20 +39,20 @@ struct kd_integral_request {
     enum kd_line_emissivity emissivity;
     double index, outer_index, break_r, height, photon_index, tolerance;
     enum kd_limb limb;
-    int energy;                                 /* profile in: 0 photons, 1 energy */
+    int energy;                                 /* the profile counts 0: photons, 1: energy */
     double rest_energy, energy_min, energy_max; /* energy_max NaN: 1.7 rest_energy */
     uint32_t bins;
     struct kd_number_list edges;
     enum kd_corona_motion motion; /* motion of a corona off the axis */
     double corona_radius, corona_inner, corona_top;
-    double time_min, time_max; /* for an impulse response: bins of time */
+    double time_min, time_max; /* range of the bins of time of an impulse response */
     uint32_t times;
-    /* for lags; reference NaN: the continuum */
+    /* members for lags; reference_min NaN: the reference is the continuum */
     double reflection, reference_min, reference_max, frequency_min, frequency_max;
     struct kd_number_list frequencies_m;
-    struct kd_number_list radii, g_star; /* for a transfer function */
+    struct kd_number_list radii, g_star; /* lists for a transfer function */
     uint32_t rings, g_stars;
-    double mass_msun, distance_pc, mdot_edd, colour_correction; /* for a spectrum */
+    double mass_msun, distance_pc, mdot_edd, colour_correction; /* members for a spectrum */
     int returning;                                              /* enum kd_integral_returning */
     int polarized;                                              /* 1: the spectrum is polarised */
     double frequency_min_hz, frequency_max_hz;                  /* NaN: chosen by the hottest ring */
@@ -61,7 +61,7 @@ struct kd_integral_request {
     struct kd_scene *scene; /* malloc'd; NULL: none given */
     /* Resolves names of assets while the scene is read. NULL: the caller resolves and validates the scene. */
     const struct kd_assets *assets;
-    uint32_t pixels; /* on the longer side of a picture; 0: the default */
+    uint32_t pixels; /* pixels on the longer side of a picture; 0: the default */
     int unchecked;   /* 0: finer pictures estimate the error */
     struct kd_number_list u, v, lengths,
         /* For a visibility, in Gl (10^9 wavelengths): a list of baselines, or lengths and angles, which are expanded
@@ -76,8 +76,8 @@ struct kd_integral_request {
     size_t file_size;
     uint32_t seed;
     int noiseless;
-    /* malloc'd once a comparison's request has been checked. Its models are filled in by the run; its visibilities
-     * are u and v. */
+    /* malloc'd once a comparison's request has been checked. The run fills in the models. The baselines of the
+     * comparison become the request's lists u and v. */
     struct kd_comparison *comparison;
     struct kd_integral_sets *sets; /* integral/sets.h: malloc'd; NULL: none given */
     double average_s, snr_cut, uv_min_gl, systematic_visibility, systematic_amplitude, systematic_closure_phase_deg;
@@ -92,11 +92,12 @@ struct kd_integral_request {
 /* The hole of a thin disk, for use as an argument. The value lives until the end of the enclosing block. */
 #define kd_integral_hole(r) ((const struct kd_hole[]) { kd_hole_in(r) })
 
-/* The first is true if the integral needs pictures, the second if these are maps of light to be Fourier-transformed. */
+/* kd_integral_is_pictured: whether the integral needs pictures. kd_integral_is_mapped: whether these are maps of light
+ * to be Fourier-transformed. */
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
 
-/* True if a field of a checked request may be left open: NAN, its word in the answer. */
+/* True if fields of a checked request may be left open. An open field is NAN, and its word in the answer. */
 static inline bool kd_integral_leaves_open(enum kd_integral what)
 {
     return kd_integral_is_mapped(what) || what == KD_INTEGRAL_LAGS;
@@ -116,7 +117,8 @@ static inline bool kd_integral_is_searched(const struct kd_integral_request *r)
     return kd_integral_is_compared(r->what) && r->solve & ~(uint32_t)KD_ALIGN_FLUX;
 }
 
-/* Number of transforms of the first map, at most. A shift's grid counts as one more. */
+/* Upper bound of the number of transforms of the first map. If a shift is searched, each transform counts twice,
+ * because a grid of shifts takes as long. */
 static inline double kd_integral_evaluations(const struct kd_integral_request *r)
 {
     return kd_integral_is_searched(r) ? kd_align_evaluations(r->solve) * (r->solve & KD_ALIGN_SHIFT ? 2. : 1.) : 1;

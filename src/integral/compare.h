@@ -16,7 +16,7 @@ void kd_integral_compare_schema(struct kd_json *json);
 void kd_integral_sets_judge(struct kd_integral_answer *answer, double (*model)[2]);
 void kd_integral_sets_write(struct kd_json *json, const struct kd_integral_answer *answer);
 void kd_integral_sets_schema(struct kd_json *json);
-/* The member about the observation, of comparisons and simulations. */
+/* Writes the member about the observation, in answers of comparisons and simulations. */
 void kd_integral_observation_write(struct kd_json *json, const struct kd_integral_request *request);
 void kd_integral_observation_schema(struct kd_json *json, bool compared);
 

@@ -399,7 +399,7 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
  * here to edge-on the flux changes by 3e-5. */
 #define FLATTEST 1.7e-4
 
-/* The light that reaches the observer from the source itself; not numbers without a source. */
+/* The light that reaches the observer from the source itself; NaN if there is no source. */
 static enum kd_status continuum_of(const struct kd_integral_request *r, const struct kd_disk_image *image,
                                    struct kd_corona_continuum *out, struct kd_error *error)
 {
@@ -506,8 +506,8 @@ static enum kd_status returning_of(const struct kd_integral_request *r, struct k
     return KD_OK;
 }
 
-/* Adds scattered light to the fluxes, and fills the columns of polarisation. The direct light of both sums must agree:
- * their difference is added to the error. */
+/* Adds scattered light to the fluxes, and fills the columns of polarisation. The direct light is computed here again;
+ * the largest relative difference from the flux that the column already has is added to the error. */
 static enum kd_status add_stokes(const struct kd_integral_request *r, const struct kd_disk_image *image,
                                  const struct kd_disk_spectrum_params *params, struct kd_integral_answer *answer,
                                  struct kd_error *error)
@@ -543,7 +543,7 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     struct kd_disk_spectrum_params params = { r->inner,       r->outer,    r->mass_msun,
                                               r->distance_pc, r->mdot_edd, r->colour_correction,
                                               r->limb,        NULL };
-    struct kd_returning *table = NULL; /* of scattered light it is only checked that its energies balance */
+    struct kd_returning *table = NULL; /* for scattered light, the only check is that its energies balance */
     const struct kd_hole *const hole = kd_integral_hole(r);
     const double hottest = fmax(r->inner, kd_disk_peak_page_thorne(hole)), distance = r->distance_pc * KD_PARSEC_M;
     enum kd_status status;

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 
 enum { ISCO, STRENGTH, DIRECT_FLUX, DIRECT_G, DIRECT_TIME, UNIT, AFTER };
-enum { INSIDE = AFTER, MEAN, ERROR }; /* of an impulse response */
-enum { WORST = AFTER };               /* of lags */
+enum { INSIDE = AFTER, MEAN, ERROR }; /* further values of an impulse response */
+enum { WORST = AFTER };               /* further values of lags */
 
 /* The source exists: the request has been checked. */
 static struct kd_echo_params params_of(const struct kd_integral_request *r)
@@ -33,7 +33,7 @@ static void fill_values(const struct kd_integral_request *r, const struct kd_dis
     values[UNIT] = second_of(r);
 }
 
-/* The edges over rest_energy, and room for more of them. */
+/* The edges of the bins divided by rest_energy, in an array with room for `more` further edges. */
 static double *edges_of(const struct kd_integral_request *r, size_t more)
 {
     double *edges = malloc((r->edges.n + more) * sizeof *edges);
@@ -69,7 +69,7 @@ done:
     return status;
 }
 
-/* Photons of the power law between two energies, those of an energy 1 being 1. */
+/* Number of photons of the power law between two energies. The spectrum is normalised to 1 at an energy of 1. */
 static double continuum(double photon_index, double low, double high)
 {
     const double power = 1 - photon_index;
@@ -95,8 +95,8 @@ static size_t all_edges(const struct kd_integral_request *r, double *edges)
     return kept;
 }
 
-/* Light between two energies at one frequency: that of the continuum and that of the line, whose photons at all
- * energies number `line`. Sums are over bins between the edges. */
+/* Light between two energies at one frequency, from the continuum and from the line. `line`: number of the line's
+ * photons at all energies. The light of the line is summed over the bins between the two energies. */
 struct band { double re, im; };
 
 static struct band band_of(const double *edges, size_t n, const double *part, size_t stride, double photon_index,

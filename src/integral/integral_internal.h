@@ -32,7 +32,7 @@ struct kd_corona_shape kd_integral_corona(const struct kd_integral_request *requ
 enum kd_status kd_integral_check_frequencies(struct kd_integral_request *request, uint32_t most,
                                              struct kd_error *error);
 
-/* echo.c: integrals of an echo. image: of the disk of the request. */
+/* echo.c: integrals of an echo. image: the image of the request's disk. */
 struct kd_disk_image;
 struct kd_integral_answer;
 enum kd_status kd_integral_impulse(const struct kd_integral_request *request, const struct kd_disk_image *image,

@@ -6,12 +6,12 @@
 #include "render/output/format.h"
 
 enum { KD_INTEGRAL_USUAL_FREQUENCIES = 13 };
-#define KD_INTEGRAL_FINER \
-    1.5 /* pixels per side of the finer picture over pixels per side of the coarse one; with 2, aliases of both grids \
-           could coincide */
+/* pixels per side of the finer picture divided by those of the coarse one; with 2, aliases of both grids could
+ * coincide */
+#define KD_INTEGRAL_FINER 1.5
 
-/* Factor from the difference between the coarse and the finer picture to the error of the coarse one. The error falls
- * as 1/(pixels per side)^2, so the factor is 1/(1 - 1/1.5^2). */
+/* The difference between the coarse and the finer picture, multiplied by this factor, is the error of the coarse one.
+ * The error falls as 1/(pixels per side)^2, so the factor is 1/(1 - 1/1.5^2). */
 #define KD_INTEGRAL_OF_DIFFERENCE (1 / (1 - 1 / (KD_INTEGRAL_FINER * KD_INTEGRAL_FINER)))
 
 /* Number of pictures that a checked request needs; 0: it is not made of pictures. */
@@ -34,7 +34,8 @@ enum kd_status kd_integral_plan(const struct kd_integral_request *request, struc
 void kd_integral_name_set(const struct kd_integral_request *request, unsigned picture, enum kd_status status,
                           struct kd_error *error);
 
-/* Replaces the request's scene by the default one. A spectrum becomes that of a volume. */
+/* Replaces the request's scene by the default scene. A request for a spectrum of a disk becomes one for a spectrum of a
+ * volume. */
 enum kd_status kd_integral_make_scene(struct kd_integral_request *request, struct kd_error *error);
 
 /* For a picture seen from far away: radians a pixel, and the longest baseline that this pixel size resolves. */

@@ -22,40 +22,41 @@
 #define KD_INTEGRAL_FREQUENCIES 1000u
 #define KD_INTEGRAL_LAG_FREQUENCIES 200u /* maximum frequencies of lags: some 10 ms each */
 #define KD_INTEGRAL_PICTURES 200u        /* maximum frequencies of a spectrum made of pictures */
-#define KD_INTEGRAL_LEAST_HZ 1e3         /* lowest frequency, and */
-#define KD_INTEGRAL_MOST_HZ 1e21         /* highest, as for volume.frequency_ghz */
-#define KD_INTEGRAL_FACE_ON \
-    0.1 /* degrees from the axis within which no ring has a transfer function; INCLINATION of fields.c says so too */
-#define KD_INTEGRAL_EDGE_ON 0.01 /* degrees from edge-on within which there is no transfer function; as above */
-#define KD_INTEGRAL_ORDERS 8u    /* image orders that are distinguished */
+#define KD_INTEGRAL_LEAST_HZ 1e3         /* lowest frequency, as for volume.frequency_ghz */
+#define KD_INTEGRAL_MOST_HZ 1e21         /* highest frequency, likewise */
+/* degrees from the axis within which no ring has a transfer function; INCLINATION of fields.c has the same limit */
+#define KD_INTEGRAL_FACE_ON 0.1
+/* degrees from edge-on within which there is no transfer function; the same limit is in fields.c */
+#define KD_INTEGRAL_EDGE_ON 0.01
+#define KD_INTEGRAL_ORDERS 8u /* image orders that are distinguished */
 
 void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what);
 void kd_integral_request_finish(struct kd_integral_request *request);
 
-/* Merges a document into the request. KD_EINVAL without a pointer: not a JSON document. */
+/* Merges a document into the request. Returns KD_EINVAL without a pointer if the text is not a JSON document. */
 enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length,
                                         struct kd_error *error);
 /* Like the function above, followed by kd_integral_request_check. */
 enum kd_status kd_integral_request_json(struct kd_integral_request *request, const char *text, size_t length,
                                         struct kd_error *error);
 
-/* Sets one field by name; lists as numbers separated by commas. */
+/* Sets one field by name. The text of a list is numbers separated by commas. */
 enum kd_status kd_integral_request_set(struct kd_integral_request *request, const char *name, const char *text,
                                        struct kd_error *error);
-/* Sets the observation of a comparison from the bytes of its file. KD_EINVAL at /observation. */
+/* Sets the observation of a comparison from the bytes of its file. Returns KD_EINVAL at /observation. */
 enum kd_status kd_integral_set_observation(struct kd_integral_request *request, const void *data, size_t size,
                                            struct kd_error *error);
 /* Call after all fields are set: fills in fields that follow from others, and checks the rules between fields. */
 enum kd_status kd_integral_request_check(struct kd_integral_request *request, struct kd_error *error);
 
-/* The name as in /v1/NAME; and the integral of such a path. */
+/* kd_integral_name: the NAME of an integral in its path /v1/NAME. kd_integral_of_route: the integral of such a path. */
 const char *kd_integral_name(enum kd_integral what);
 enum kd_integral kd_integral_of_route(const char *path);
 
 /* Number of rows in the answer to a checked request. */
 size_t kd_integral_rows(const struct kd_integral_request *request);
 
-/* The fields of a kind of integral, which the request is filled by. */
+/* The document whose fields fill a request for this kind of integral. */
 struct kd_document kd_integral_document(enum kd_integral what);
 
 /* Writes the schema of a request's document as the member `name`. */

@@ -18,9 +18,10 @@
 #define EDGE 1 /* width of the border, in pixels; its brightness indicates light beyond the map */
 
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
-enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* of a spectrum of pictures */
+enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* columns of a spectrum of pictures */
 enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* values of a visibility */
-enum { PICTURES };                                                      /* in the place of FLUX, for sets */
+/* index of the value that sets have in the place of FLUX */
+enum { PICTURES };
 
 static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
 
@@ -139,7 +140,7 @@ static void tell_map(struct kd_integral_run *run, const struct kd_scene *scene, 
     memcpy(run->answer.values, told, sizeof told);
 }
 
-/* The worst of all maps, and the number of pictures instead of a flux. */
+/* Writes the worst value of all maps, and the number of pictures in place of a flux. */
 static void tell_sets(struct kd_integral_run *run, const struct kd_scene *scene, double sum, double undefined)
 {
     double *values = run->answer.values;
@@ -169,10 +170,10 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
                                            height - wcs.at[1].pixel };
     for (unsigned k = bands(run); k--;) {
         float *map = (float *)run->maps.data + k * n;
-        if (k &&
-            kd_scene_is_radio_alone(scene)) /* the layer of an order has the unit of light, that of the whole Jy/sr */
+        if (k && kd_scene_is_radio_alone(
+                     scene)) /* the layer of one order is in the unit of light, that of the total light in Jy/sr */
             multiply(map, n, (float)kd_radio_jansky_steradian(scene));
-        sum = total(map, n, &undefined); /* map 0, total light, comes last and leaves its sum */
+        sum = total(map, n, &undefined); /* map 0, the total light, comes last, so that `sum` is its sum */
         run->map[k] = map;
     }
     run->is_dark = !(sum > 0);
@@ -228,7 +229,8 @@ static void tell_once(struct kd_integral_answer *answer, const char *text)
 enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
                                     const struct kd_plan_report *report, struct kd_error *error)
 {
-    for (size_t i = 0; i < report->n_approximations; i++) /* pictures of sets may have different ones */
+    /* the pictures of different sets may have different approximations */
+    for (size_t i = 0; i < report->n_approximations; i++)
         tell_once(&run->answer, report->approximations[i].text);
     return run->answer.request->what == KD_INTEGRAL_VOLUME ? take_flux(run, file, scene, error)
                                                            : begin_map(run, file, scene, error);
@@ -245,9 +247,10 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
     c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
 }
 
-/* Visibility of the map, enlarged and rotated, at a baseline. The transform of an enlarged map is that of the map at
- * baselines longer by as much; of a rotated one, at baselines rotated back. Observations use the conjugate of
- * kd_fourier's sign (observe/observation.h). */
+/* Visibility of the map, enlarged and rotated, at a baseline. Neither map is made: the visibility of an enlarged map
+ * equals that of the map at a baseline that is longer by the same factor, and that of a rotated map equals that of the
+ * map at a baseline that is rotated back. Observations use the conjugate of kd_fourier's sign
+ * (observe/observation.h). */
 static void model_at(struct kd_integral_run *run, size_t i, double size, double angle_deg, double out[2])
 {
     const struct kd_integral_request *r = run->answer.request;
@@ -270,7 +273,7 @@ static void model(void *user, double size, double angle_deg, double (*out)[2])
     }
 }
 
-/* Searches for what is solved for. Afterwards run->model is the model there. */
+/* Searches for the quantities that the request solves for. Afterwards run->model is the model with the values found. */
 static void search(struct kd_integral_run *run)
 {
     const struct kd_integral_request *r = run->answer.request;

@@ -23,25 +23,25 @@ struct kd_integral_run {
     struct kd_buffer maps;
     struct kd_fourier_grid grid;
     const float *map[1 + KD_INTEGRAL_ORDERS];
-    double scale; /* factor of a sum */
+    double scale; /* factor by which a sum over pixels is multiplied */
     size_t baseline;
-    size_t set;   /* the current one, of a comparison of sets */
+    size_t set;   /* for a comparison of sets: index of the current set */
     bool is_dark; /* true if the set's picture has no light */
     /* for an observation: the model at each visibility, and the simulated visibilities */
     double (*model)[2], (*simulated)[2];
-    uint8_t *marks; /* for kd_simulate */
+    uint8_t *marks; /* marks for kd_simulate */
     double *scratch;
-    double *scattering;         /* factor at each visibility; NULL: none */
-    struct kd_align_room *room; /* for a search; NULL if there is none */
+    double *scattering;         /* factor of scattering at each visibility; NULL: none */
+    struct kd_align_room *room; /* memory of a search; NULL if there is no search */
 };
 
 /* Computes everything if no pictures are needed. On failure there is nothing to finish. */
 enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct kd_integral_request *request,
                                      struct kd_error *error);
-/* Takes ownership of the file's bytes. KD_EINVAL at /scene: the picture has no light. */
+/* Takes ownership of the file's bytes. Returns KD_EINVAL at /scene if the picture has no light. */
 enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
                                     const struct kd_plan_report *report, struct kd_error *error);
-/* Continues until `until_ms` on kd_clock_ms. False: finished with this picture. */
+/* Continues until `until_ms` on kd_clock_ms. Returns false when this picture is finished. */
 bool kd_integral_run_step(struct kd_integral_run *run, double until_ms);
 void kd_integral_run_finish(struct kd_integral_run *run);
 

@@ -17,7 +17,7 @@ struct kd_integral_set {
 };
 
 struct kd_integral_sets {
-    cJSON *tree;                /* as read */
+    cJSON *tree;                /* the member "sets" as it was read */
     struct kd_integral_set *at; /* ordered by group; equal scenes are adjacent */
     size_t n;
     uint32_t *first; /* first set of each picture, and n behind the last */
@@ -26,7 +26,7 @@ struct kd_integral_sets {
 
 /* Takes the member "sets" out of a document, whose integral becomes KD_INTEGRAL_SETS. */
 enum kd_status kd_integral_read_sets(struct kd_integral_request *request, cJSON *root, struct kd_error *error);
-/* Makes a valid scene for each set from the request's scene. KD_EINVAL at /sets/N. */
+/* Makes a valid scene for each set from the request's scene. Returns KD_EINVAL at /sets/N. */
 enum kd_status kd_integral_make_sets(struct kd_integral_request *request, struct kd_error *error);
 void kd_integral_drop_sets(struct kd_integral_request *request);
 

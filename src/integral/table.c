@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define REST_KEV 6.4 /* default energy of the line: that of iron */
-#define LEAST 0.05   /* default first edge over that energy; an edge at 0 has no logarithm */
+#define LEAST 0.05   /* default first edge divided by that energy; not 0, because 0 has no logarithm */
 #define ISCO "inner_isco"
 
 /* Fields that may be axes, with the names that they have in the file, which has at most twelve letters. The image of
@@ -40,9 +40,9 @@ static const struct {
 };
 enum { IMAGE_AXES = 2 + KD_HOLE_MORE_COUNT };
 
-/* Default axes, chosen so that interpolated profiles of r^-3 are within 0.3 % of the line (docs/xspec.md). What else
- * the emissivity depends on has one value unless it is given an axis: a table in three dimensions with this accuracy
- * has some 1e5 nodes and more. */
+/* Default axes, chosen so that interpolated profiles of r^-3 are within 0.3 % of the line (docs/xspec.md). Other
+ * parameters of the emissivity have one value each, unless the request gives them an axis: a table of this accuracy in
+ * three dimensions would have 1e5 nodes or more. */
 static const char *const defaults[KD_TABLE_DEFAULTS] = {
     "spin=0:0.6/11,0.64:0.8/5,0.82:0.9/5,0.91:0.95/5,0.955:0.98/6,0.9825:0.99/4,0.9916:0.998/5",
     "inclination_deg=5:25/41,25.3:40/50,40.2:50/50,50.16:65/93,65.13:80/115",
@@ -107,7 +107,8 @@ static enum kd_status read_number(const char *name, const char *text, double *ou
     return KD_OK;
 }
 
-/* Adds a value, rounded to what the file stores. It must be in the range of the field, and more than the one before. */
+/* Adds a value, rounded to what the file stores. It must be in the range of the field, and greater than the value
+ * before. */
 static enum kd_status add_value(struct kd_table_axis *axis, double value, struct kd_error *error)
 {
     char pointer[40], text[KD_NUMBER_SIZE];
@@ -170,7 +171,7 @@ done:
     return status;
 }
 
-/* Reads FIELD=VALUES; VALUES are numbers and ranges with commas, with "log:" before them or not. */
+/* Reads FIELD=VALUES; VALUES are numbers and ranges with commas, optionally with "log:" before them. */
 static enum kd_status read_axis(const struct kd_integral_request *request, const char *text, struct kd_table_axis *axis,
                                 struct kd_error *error)
 {
@@ -196,7 +197,7 @@ done:
     return status;
 }
 
-/* Adds an axis at its place: those on which the image depends come first. */
+/* Adds an axis at its place: axes on which the image depends come first. */
 static enum kd_status add_axis(struct kd_table *table, const char *text, struct kd_error *error)
 {
     struct kd_table_axis axis;
@@ -236,7 +237,7 @@ done:
     return status;
 }
 
-/* The checked request of a node. It has no memory of its own. */
+/* The checked request of a node. The request owns no memory. */
 static enum kd_status node_of(const struct kd_table *table, size_t node, struct kd_integral_request *out,
                               struct kd_error *error)
 {
@@ -255,10 +256,10 @@ static enum kd_status node_of(const struct kd_table *table, size_t node, struct 
     return kd_integral_request_check(out, error);
 }
 
-/* Fields that make bins of equal widths, instead of edges. */
+/* Fields that define bins of equal widths, in place of the list `edges`. */
 static const char *const even[] = { "energy_min", "energy_max", "bins" };
 
-/* The default energies are keV about the line of iron, from an energy above 0. */
+/* The default energies are in keV, begin above 0, and surround the line of iron. */
 static enum kd_status set_energies(struct kd_table *table, struct kd_error *error)
 {
     struct kd_integral_request *base = &table->base;
@@ -268,7 +269,7 @@ static enum kd_status set_energies(struct kd_table *table, struct kd_error *erro
         base->rest_energy = REST_KEV;
     if (!kd_integral_given(base, "energy_min"))
         base->energy_min = LEAST * base->rest_energy;
-    struct kd_integral_request first = *base; /* with the values of the first node */
+    struct kd_integral_request first = *base; /* a request with the values of the first node */
     enum kd_status status = node_of(table, 0, &first, error);
     base->edges = first.edges;
     if (status)
@@ -394,8 +395,8 @@ void kd_table_axes_json(const struct kd_table *table, struct kd_json *json, cons
     kd_json_end(json);
 }
 
-/* The request of the table as JSON: the fields that were given one value, the energies, and the axes. The others have
- * the defaults of kerrd line, which accepts this document without the axes. */
+/* The request of the table as JSON: the fields that were given one value, the energies, and the axes. All other fields
+ * have the defaults of kerrd line, which accepts this document without the axes. */
 static enum kd_status put_request(const struct kd_table *table, struct kd_buffer *cards)
 {
     struct kd_buffer text = { 0 };

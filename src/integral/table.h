@@ -20,7 +20,7 @@
 enum { KD_TABLE_AXES = 10, KD_TABLE_VALUES = 2000, KD_TABLE_NAME = 12 };
 #define KD_TABLE_NODES 10000000u
 
-/* An axis: a field of the request, or the inner edge over the ISCO (inner_isco). */
+/* An axis: a field of the request, or the inner edge divided by the ISCO's radius (inner_isco). */
 struct kd_table_axis {
     const struct kd_row *field;
     bool isco, log; /* log: interpolated in the logarithm of the value */
@@ -30,7 +30,7 @@ struct kd_table_axis {
 
 struct kd_table {
     struct kd_integral_request base; /* the request of the first node, which was checked */
-    struct kd_table_axis *axes;      /* the hole's and the inclination come first, as far as they are axes */
+    struct kd_table_axis *axes;      /* axes of the hole and of the inclination, if there are any, come first */
     size_t n_axes, nodes;
     size_t run; /* successive nodes with one hole and inclination, which have the disk's image in common */
     char name[KD_TABLE_NAME + 1];
@@ -39,13 +39,14 @@ struct kd_table {
 /* Makes a table from a request for a line. The request need not be checked. The table becomes its owner, even on
  * failure. axes: texts FIELD=VALUES; VALUES are numbers and ranges START:STOP/COUNT with commas, with "log:" before
  * them for an axis in the logarithm. Spin and inclination have default axes if they have neither an axis nor a given
- * value. All nodes are checked. KD_EINVAL at the pointer of the field, KD_ENOMEM. Free the table with kd_table_finish,
- * also after a failure. */
+ * value. All nodes are checked. Returns KD_EINVAL at the pointer of the field, or KD_ENOMEM. Free the table with
+ * kd_table_finish, also after a failure. */
 enum kd_status kd_table_init(struct kd_table *table, struct kd_integral_request *request, const char *const *axes,
                              size_t n_axes, const char *name, struct kd_error *error);
 void kd_table_finish(struct kd_table *table);
 
-/* Appends everything that precedes the rows. rows_sum: kd_fits_sum of all rows (image/fits.h). KD_ENOMEM. */
+/* Appends everything that precedes the rows. rows_sum: kd_fits_sum of all rows (image/fits.h). The only error is
+ * KD_ENOMEM. */
 enum kd_status kd_table_head(const struct kd_table *table, uint32_t rows_sum, struct kd_buffer *out,
                              struct kd_error *error);
 
@@ -56,7 +57,7 @@ void kd_table_axes_json(const struct kd_table *table, struct kd_json *json, cons
 size_t kd_table_row_bytes(const struct kd_table *table);
 
 /* Computes the rows of n successive nodes, all of one run. *worst is raised to the largest error that a profile
- * states. Some milliseconds a row. */
+ * states. Takes some milliseconds a row. */
 enum kd_status kd_table_rows(const struct kd_table *table, size_t first, size_t n, uint8_t *rows, double *worst,
                              struct kd_error *error);
 

@@ -60,7 +60,7 @@ static void write_units(struct kd_json *json, const struct kd_integral_kind_of *
     kd_json_end(json);
 }
 
-/* Lists the sources of what not every request of its kind asks for. Returns their number. */
+/* Lists the sources that only some requests of a kind need. Returns their number. */
 enum { MORE_SOURCES = 2 + KD_HOLE_MORE_COUNT };
 static size_t more_sources(const struct kd_integral_request *r, const char *out[MORE_SOURCES])
 {

@@ -12,7 +12,7 @@ enum { STARTS = 3, SIMPLEX_STEPS = 90, SHIFT_CELLS = KD_ALIGN_SHIFTS / 2, NEWTON
 struct search {
     const struct kd_comparison *c;
     const struct kd_align_params *p;
-    double given_scale, longest; /* longest: u or v of a compared visibility, in wavelengths */
+    double given_scale, longest; /* longest: largest u or v of a compared visibility, in wavelengths */
     double (*model)[2];
     double *cell; /* cells of the grid of shifts */
     struct kd_alignment best;
@@ -116,7 +116,8 @@ static double clamp_size(double log_size)
     return exp(fmin(fmax(log_size, log(KD_ALIGN_LEAST_SIZE)), log(KD_ALIGN_MOST_SIZE)));
 }
 
-/* chi^2 at a place: the logarithm of the size, and the angle in degrees. Keeps the best place. */
+/* Computes chi^2 at a place, and stores the place if it is the best so far. at: the logarithm of the size, and the
+ * angle in degrees. */
 static double try_at(struct search *s, const double at[2])
 {
     struct kd_alignment here = KD_ALIGNMENT_NONE;

@@ -12,8 +12,8 @@
 
 enum { KD_ALIGN_FLUX = 1, KD_ALIGN_SIZE = 2, KD_ALIGN_ANGLE = 4, KD_ALIGN_SHIFT = 8 };
 
-/* Steps of the grid. 7.5 degrees and 9 percent move a fringe of the EHT's longest baselines over a ring of 50 uas by
- * less than a sixth of a turn. */
+/* Numbers of steps of the grid. A step of 7.5 degrees, or of 9 percent in size, shifts the phase of the EHT's longest
+ * baselines by less than a sixth of a turn for a ring of 50 uas. */
 enum { KD_ALIGN_SIZES = 17, KD_ALIGN_ANGLES = 48, KD_ALIGN_SHIFTS = 65 };
 
 #define KD_ALIGN_LEAST_SIZE 0.5

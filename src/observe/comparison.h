@@ -43,9 +43,11 @@ struct kd_comparison_row {
     enum kd_product product;
     bool imaginary;
     double hour;
-    uint8_t station[4]; /* 2, 3 or 4 stations; the datum uses V of the baselines 12, or 12, 23, 31, or 12, 34, 14, 23 */
-    uint32_t at[4];     /* indices of the visibilities in `at` of struct kd_comparison */
-    bool conjugate[4];  /* this visibility is stored for the reverse baseline */
+    /* 2, 3 or 4 stations. With 2 stations the datum uses V of the baseline 12; with 3, of 12, 23 and 31; with 4, of 12,
+     * 34, 14 and 23 */
+    uint8_t station[4];
+    uint32_t at[4];    /* indices of the visibilities in `at` of struct kd_comparison */
+    bool conjugate[4]; /* this visibility is stored for the reverse baseline */
     double data, error, model;
 };
 unsigned kd_product_stations(enum kd_product product);

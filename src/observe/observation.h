@@ -19,12 +19,12 @@
 #define KD_OBSERVATION_BYTES ((size_t)32 << 20) /* limit of a file's size */
 #define KD_OBSERVATION_ROWS (1u << 20)          /* limit of the visibilities in a file */
 #define KD_OBSERVATION_STATIONS 64u
-#define KD_STATION_NAME 12u /* bytes, including NUL */
+#define KD_STATION_NAME 12u /* size of a station's name in bytes, including NUL */
 
 struct kd_measured {
     double hour;          /* hours UTC since mjd */
-    double u, v;          /* in wavelengths */
-    double re, im, sigma; /* in Jy */
+    double u, v;          /* baseline in wavelengths */
+    double re, im, sigma; /* visibility and its error in Jy */
     uint8_t station[2];   /* indices of the two stations; the first is lower than the second */
     bool turned;          /* the file has the reverse baseline */
     uint32_t source;      /* number of the file's group, from 0 */

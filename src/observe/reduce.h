@@ -7,7 +7,7 @@
 /* average.c: copies or averages the visibilities. They are sorted by time, then by stations; *out is malloc'd. */
 enum kd_status kd_average(const struct kd_observation *observation, double seconds, struct kd_measured **out, size_t *n,
                           struct kd_error *error);
-/* closures.c: adds the rows of one time. Its visibilities are n, from index `first` on. */
+/* closures.c: adds the rows of one time. n: the number of visibilities at that time, which begin at index `first`. */
 enum kd_status kd_closures(struct kd_comparison *c, const struct kd_observation *observation,
                            const struct kd_comparison_params *params, enum kd_product product, size_t first, size_t n,
                            struct kd_error *error);

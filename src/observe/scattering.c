@@ -6,8 +6,9 @@
 #define INNER_CM 800e5  /* inner scale of the turbulence */
 #define MAJOR_MAS 1.380 /* FWHM of the kernel at 1 cm, in the limit of long wavelengths */
 #define MINOR_MAS 0.703
-#define POSITION_DEG 81.9           /* position angle of the major axis, from north to east */
-#define MAGNIFICATION (2.82 / 5.53) /* distances of the screen: from the observer over from the source, in kpc */
+#define POSITION_DEG 81.9 /* position angle of the major axis, from north to east */
+/* the screen's distance from the observer divided by its distance from the source, both in kpc */
+#define MAGNIFICATION (2.82 / 5.53)
 #define RADIANS_PER_MAS (M_PI / 180 / 3.6e6)
 #define C_CM_S 2.99792458e10
 

@@ -4,14 +4,14 @@
  *
  *     V = V_source exp(-D(b/(1 + M))/2)
  *
- * b is the baseline, M the distance of the screen from the observer over its distance from the source, and D the phase
- * structure function: the mean of 4 C/alpha (1F1(-alpha/2; 1/2; -(b cos)^2/(2 r_in)^2) - 1) over the directions of the
- * wave vector, ehtim's Dphi_exact. Refractive noise is not part of the kernel. */
+ * b is the baseline, M the distance of the screen from the observer divided by its distance from the source, and D the
+ * phase structure function: the mean of 4 C/alpha (1F1(-alpha/2; 1/2; -(b cos)^2/(2 r_in)^2) - 1) over the directions
+ * of the wave vector, ehtim's Dphi_exact. Refractive noise is not part of the kernel. */
 #ifndef KD_OBSERVE_SCATTERING_H
 #define KD_OBSERVE_SCATTERING_H
 
-/* Directions of the mean, over half a turn. The integrand is periodic and smooth, so that the mean has 1e-9 or better
- * for baselines within the Earth. */
+/* Directions of the mean, over half a turn. The integrand is periodic and smooth, so that the relative error of the
+ * mean is at most 1e-9 for baselines within the Earth. */
 enum { KD_SCATTERING_POINTS = 192 };
 
 struct kd_scattering { double weight[KD_SCATTERING_POINTS], strength, wavelength_cm; };

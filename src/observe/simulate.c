@@ -39,7 +39,7 @@ static void put(uint8_t *at, bool is_double, double value)
         at[n] = (uint8_t)word;
 }
 
-/* Replaces the numbers of one group. model NULL: it is not part of the observation. */
+/* Replaces the numbers of one group. model NULL: the group is not part of the observation. */
 static void fill_group(const struct kd_simulation *s, const struct groups *g, size_t group, uint8_t *data,
                        const double model[2])
 {
@@ -80,8 +80,8 @@ static void fill_file(const struct kd_simulation *s, const struct groups *g, con
     }
 }
 
-/* Sets groups to zero that no visibility of the observation comes from: repetitions of the same time and baseline.
- * Flagged groups have no positive weight, and become 0 too. */
+/* Sets to zero the groups from which no visibility of the observation comes. These are repetitions of the same time and
+ * baseline, and flagged groups, which have no positive weight. */
 static void empty_others(const struct kd_simulation *s, const struct groups *g)
 {
     const struct kd_observation *o = s->observation;

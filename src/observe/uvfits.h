@@ -27,7 +27,7 @@ struct groups {
     /* hands: number of polarizations in STOKES; hand_step: distance from one to the next, counted in numbers */
     size_t hands, hand_step;
     size_t channels, channel_step, ifs, if_step;
-    bool circular; /* the polarizations are RR and LL; otherwise I */
+    bool circular; /* true: the polarizations are RR and LL; false: the file has Stokes I */
     struct parameter u, v, baseline, date[2];
     double scale, zero; /* BSCALE and BZERO of the data */
 };

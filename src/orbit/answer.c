@@ -16,8 +16,8 @@ enum {
     PLAIN = 10,
     COLUMNS = 17,
     SUMMARY = 15
-}; /* number of columns: of an orbit without an observer, with one, and
-    * of a summary */
+}; /* numbers of columns: PLAIN for an orbit without an observer, COLUMNS for one with an observer, SUMMARY for a
+      summary */
 
 static const char *const columns[COLUMNS] = { "mino",  "tau_proper", "t",     "r",  "theta",
                                               "phi",   "x",          "y",     "z",  "energy_error",
@@ -143,8 +143,8 @@ static void frequencies(struct text *t, const struct kd_orbit_run *run)
     close(t);
 }
 
-/* A circle has no periastron. For it the formula would give the advance of its smallest oscillation, which is infinite
- * at the ISCO. */
+/* A circle has no periastron. For a circle the formula would give the advance of its smallest oscillation, which is
+ * infinite at the ISCO. */
 static double periastron_advance(const struct kd_orbit_run *run)
 {
     return run->closed && !run->orbit.circular ? kd_orbit_periastron_advance(&run->bound) : NAN;

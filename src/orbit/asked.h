@@ -8,11 +8,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define KD_ORBIT_SAMPLES_MAX 200000u /* for one orbit, and in total for many */
+#define KD_ORBIT_SAMPLES_MAX 200000u /* limit for one orbit, and for the sum over many orbits */
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
 
-#define KD_ORBIT_CASE_WORDS "mercury|zoom-whirl|plunge|isco|spherical" /* in the order of kd_orbit_case */
+#define KD_ORBIT_CASE_WORDS "mercury|zoom-whirl|plunge|isco|spherical" /* words in the order of kd_orbit_case */
 #define KD_ORBIT_WAY_WORDS "yoshida6|rkn6|closed"
 enum kd_orbit_case { KD_CASE_MERCURY, KD_CASE_ZOOM_WHIRL, KD_CASE_PLUNGE, KD_CASE_ISCO, KD_CASE_SPHERICAL, KD_CASES };
 
@@ -21,7 +21,8 @@ const char *kd_orbit_way_name(enum kd_orbit_way way); /* "yoshida6", "rkn6", "cl
 
 struct kd_orbit_spec {
     enum kd_orbit_form form;
-    /* NAN: those of the request; the spin of a named case otherwise its own, and the rest 0 */
+    /* NAN: as in the request. If the request does not give the parameter either, the spin is that of the named case,
+     * and all others are 0 */
     KD_HOLE_MEMBERS
     double p, e, inclination_deg;
     double energy, momentum, carter, r; /* r: NAN if not given */
@@ -33,7 +34,8 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    KD_HOLE_MEMBERS /* NAN if not given, which is 0, or for the spin that of the named case */
+    KD_HOLE_MEMBERS /* NAN: not given. The parameter is then 0, but the spin is that of the named case, if there is
+                      one */
         double periods,
         /* Duration: radial periods (turns, if r is constant), or t in M. At most one is given, the other is NAN. */
         time;
@@ -42,7 +44,7 @@ struct kd_orbit_params {
     /* Relative error allowed in a radial period, 1e-12 by default. It determines the step if `steps` is 0. */
     double tolerance;
     double mass_msun; /* mass for times in seconds; NAN: not given */
-    uint32_t steps;   /* per radial period */
+    uint32_t steps;   /* steps per radial period */
     uint32_t samples; /* 0: no series */
     uint32_t digits;  /* significant digits of the series' numbers in text */
     enum kd_orbit_way way;

@@ -72,7 +72,7 @@ static int by_steps(const void *a, const void *b)
     return (x->steps > y->steps) - (x->steps < y->steps);
 }
 
-/* Follows a few orbits. Those that can run in SIMD lanes do so, grouped by similar duration. */
+/* Follows a few orbits. Orbits that can run in SIMD lanes do so, grouped by similar duration. */
 static enum kd_status follow_few(struct kd_orbit_batch *batch, size_t first, size_t last, struct kd_error *error)
 {
     struct kd_orbit_run *all[FEW], *abreast[FEW];

@@ -30,8 +30,8 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, struct kd_hole
     if (!kd_hole_exists(&hole)) /* such a hole is refused later */
         return spec;
     switch (which) {
-    case KD_CASE_ZOOM_WHIRL: /* a ten-thousandth outside the separatrix: several turns of whirl for each radial period
-                              */
+    case KD_CASE_ZOOM_WHIRL: /* p exceeds the separatrix by 1e-4 of its value: several turns of whirl for each radial
+                                period */
         spec.e = 0.8;
         spec.p = 1.0001 * kd_orbit_separatrix(&hole, spec.e, 1);
         return spec;

@@ -7,7 +7,8 @@
 #define STATE (1u << KD_ORBIT_STATE)
 #define CASE (1u << KD_ORBIT_CASE)
 /* Ranges that hold for every request, so that a schema can express them. Stricter limits, such as the horizon for the
- * given spin, are checked later. A horizon is above 1 M: 1 + sqrt(1 - a^2), Bardeen, Press & Teukolsky 1972. */
+ * given spin, are checked later. The horizon, at 1 + sqrt(1 - a^2), is further out than 1 M for any spin (Bardeen,
+ * Press & Teukolsky 1972). */
 #define RADIUS(most) "\"type\":\"number\",\"exclusiveMinimum\":1,\"maximum\":" most
 _Static_assert(KD_ORBIT_SAMPLES_MAX == 200000, "the schema says so");
 

@@ -5,7 +5,7 @@
 #include "document/document.h"
 #include "orbit/asked.h"
 
-/* `of` has a bit for each form of an orbit. */
+/* The member `of` of a row has a bit for each form of an orbit. */
 extern const struct kd_document kd_orbit_request_document; /* the whole request, of struct kd_orbit_params */
 extern const struct kd_document kd_orbit_document;         /* one orbit, of struct kd_orbit_spec */
 

@@ -291,7 +291,7 @@ static void inherit(struct kd_orbit_spec *spec, const struct kd_orbit_params *pa
 #undef INHERIT
 }
 
-/* Whether an error about the hole is about a parameter that is the request's and not the orbit's own. */
+/* True if an error about the hole concerns a parameter that the orbit takes from the request. */
 static bool is_of_request(const char *pointer, const struct kd_orbit_spec *spec)
 {
 #define OR_MORE(x, name, ...) || (!strcmp(pointer, "/" #name) && isnan(spec->name))

@@ -30,7 +30,7 @@
 /* Maximum number of samples with an observer. Each takes some 2 ms; a stream ends when its client disconnects. */
 #define KD_ORBIT_SEEN_MAX 20000u
 #define KD_ORBIT_ROUNDING_MAX 1e-3
-#define KD_ORBIT_STEPS_MAX 1000000000. /* maximum for one orbit: five minutes */
+#define KD_ORBIT_STEPS_MAX 1000000000. /* maximum number of steps of one orbit; so many steps take five minutes */
 
 struct kd_orbit_request {
     struct kd_orbit_params params;
@@ -42,8 +42,8 @@ struct kd_orbit_request {
 void kd_orbit_request_init(struct kd_orbit_request *request);
 void kd_orbit_request_finish(struct kd_orbit_request *request);
 
-/* Merges a document into a request without orbits. Checks types and ranges, not yet whether each orbit exists.
- * KD_EINVAL without a pointer: not a JSON document. */
+/* Merges a document into a request without orbits. Checks types and ranges, but not whether each orbit exists. Returns
+ * KD_EINVAL without a pointer if the text is not a JSON document. */
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length,
                                      struct kd_error *error);
 
@@ -55,9 +55,9 @@ enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error);
 
 /* Solves for the motion that a spec describes. KD_EINVAL has the pointer within the request, such as "/orbits/17/p".
- * The result does not include the initial azimuth. *rounding: if the constants lead to a whirl, close to an unstable
- * circular orbit, the error that their rounding causes, relative to the whole path. Above KD_ORBIT_ROUNDING_MAX the
- * orbit is refused. */
+ * The result does not include the initial azimuth. *rounding: for a whirl, which is close to an unstable circular
+ * orbit, the error that rounding of the constants causes, relative to the whole path. If it exceeds
+ * KD_ORBIT_ROUNDING_MAX, the orbit is refused. */
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
                                       struct kd_orbit_state *start, double *rounding, struct kd_error *error);
 

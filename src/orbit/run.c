@@ -10,9 +10,9 @@
 
 #define LONGEST_TURNS 1000 /* maximum turns of an orbit followed to its end: a whirl next to an unstable circle */
 #define DEFAULT_PERIODS 10
-/* after this many samples in a row without an image, a full search is no longer made for each, ... */
+/* after this many samples in a row without an image, only one sample in SEARCH_EVERY gets a full search */
 #define SEARCHES 3
-#define SEARCH_EVERY 64 /* ... but only for one sample in 64 */
+#define SEARCH_EVERY 64
 /* The search for an orbit's end halves the step this often. Each halving reduces the error by a factor of 64, from
  * about 1e-10 down to rounding. */
 #define HALVINGS 6
@@ -101,9 +101,9 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
-#define SEARCH_STEPS \
-    5e6 /* minimum number of steps before giving up, some one second in all: far out the steps may be too short to \
-           ever arrive */
+/* the search for the end is given up only after this many steps, which take about a second: far out, steps may be too
+ * short for the path ever to arrive */
+#define SEARCH_STEPS 5e6
 
 /* Finds the end of an unbound path by following it once in steps of h. The end is at the horizon, far away, or at the
  * end of its time. Returns false if the path strays, or does not reach the requested end. */
@@ -150,7 +150,8 @@ static bool find_end(struct kd_orbit_run *run, double h)
     }
     run->mino_end = path.mino.value;
     return !isnan(run->aim) || o->circular ||
-           path.place[KD_PATH_W].value == run->start.w; /* at the start if the body starts on an unstable circle */
+           path.place[KD_PATH_W].value ==
+               run->start.w; /* the path ends at its start if the body starts on an unstable circle */
 }
 
 static enum kd_status no_end(const struct kd_orbit_run *run, struct kd_error *error)

@@ -14,11 +14,11 @@ struct kd_orbit_run {
     const struct kd_orbit_params *params;
     struct kd_orbit orbit;
     struct kd_orbit_state start;
-    double phi;       /* at the start */
+    double phi;       /* azimuth at the start */
     double mass_msun; /* NAN: none */
-    double rounding;  /* as kd_orbit_request_solve */
-    bool closed;      /* fate BOUND, so that the motion has a closed form; otherwise `bound`, `frequencies` and `period`
-                       * are not set */
+    double rounding;  /* result of kd_orbit_request_solve */
+    bool closed; /* true if the fate is BOUND, so that the motion has a closed form; if false, `bound`, `frequencies`
+                  * and `period` are not set */
     struct kd_orbit_bound bound;
     struct kd_orbit_frequencies frequencies;
     double period; /* Mino time of a radial period; of a turn in phi if r is constant */
@@ -37,9 +37,9 @@ struct kd_orbit_run {
     struct kd_orbit_drift worst; /* absolute values */
     uint64_t periastra;
     double first_phi, last_phi;  /* azimuth at the first and the last periastron */
-    struct kd_place_view view;   /* of the observer */
+    struct kd_place_view view;   /* view of the observer */
     struct kd_place_image image; /* the last image found */
-    unsigned missed;             /* samples since then */
+    unsigned missed;             /* number of samples since that image */
 };
 
 #endif

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* At a horizon E, L and Delta p_r are no longer independent (tetrad.h). A camera that is closer to it than this, in M,
- * is therefore treated as if it were at this distance. */
+/* At a horizon E, L and Delta p_r are no longer independent (tetrad.h). A camera that is closer to the horizon than
+ * this, in M, is therefore treated as if it were at this distance. */
 static const double BESIDE = 1e-7;
 
 static struct kd_vantage beside_horizon(struct kd_vantage at)
@@ -31,7 +31,7 @@ static struct kd_covector straight_out(const struct kd_vantage *at)
     return (struct kd_covector) { 1, a * at->s, 0, at->r * at->r + a * a * at->u * at->u };
 }
 
-/* Makes a photon that arrives from that direction; it moves the opposite way. */
+/* Makes the photon that arrives from a direction. The photon moves in the opposite direction. */
 static bool arriving(const struct kd_aim *aim, const struct kd_scene *scene, const struct kd_vantage *at,
                      struct kd_covector *out)
 {

@@ -7,20 +7,20 @@
 
 /* HOLE: towards light that flies straight out, along the outgoing principal null direction: E = 1, L = a sin^2(theta),
  * p_theta = 0, Sigma p^r = Sigma (Chandrasekhar 1983, The Mathematical Theory of Black Holes, section 62). Without spin
- * that is straight ahead for an observer in radial motion.
+ * this direction is straight ahead for an observer in radial motion.
  *
  * PLACE: along the straight line in flat space from the camera to (r, theta, phi). Both points are read as spherical
- * coordinates, and phi is measured like camera.azimuth_deg. r = INFINITY: in that direction. The camera sees light that
- * arrives along this line in the frame of zero angular momentum. For an infalling observer it is the rain frame
- * instead, whose space is flat if there is no spin. */
+ * coordinates, and phi is measured like camera.azimuth_deg. With r = INFINITY the camera looks in the direction (theta,
+ * phi). The camera sees light that arrives along this line in the frame of zero angular momentum. For an infalling
+ * observer it is the rain frame instead, whose space is flat if there is no spin. */
 struct kd_aim {
     enum kd_aim_kind { KD_AIM_FREE, KD_AIM_HOLE, KD_AIM_PLACE } kind; /* FREE: yaw and pitch decide */
     double r, theta_deg, phi_deg;
 };
 
 /* Computes the viewing direction of a camera with this aim. The result is a unit vector with components right, up and
- * inwards, as yaw and pitch define them. The scene must be valid. KD_EINVAL if its camera is at infinity, or at the
- * place at which it aims. */
+ * inwards, as yaw and pitch define them. The scene must be valid. Returns KD_EINVAL if the camera is at infinity, or at
+ * the place at which it aims. */
 enum kd_status kd_aim_look(const struct kd_aim *aim, const struct kd_scene *scene, double look[3],
                            struct kd_error *error);
 

@@ -15,10 +15,10 @@
 struct kd_asset_grid {
     uint32_t nodes[3]; /* nodes in r, theta and phi; 0: the asset is not a grid */
     uint32_t frames;   /* frames in time; 1: the grid shows one moment */
-    bool late;         /* these times are those of ingoing Kerr-Schild coordinates */
+    bool late;         /* `time` is the time of ingoing Kerr-Schild coordinates */
     double time[2];    /* times of the first and the last frame, M */
     double outer;      /* r of the last row, M */
-    KD_HOLE_MEMBERS    /* of the hole for which it was made */
+    KD_HOLE_MEMBERS    /* parameters of the hole for which the grid was made */
 };
 /* Properties of an asset, which is a picture or a grid of matter. */
 struct kd_asset_found {

@@ -4,7 +4,8 @@
 
 #include <string.h>
 
-/* State while a difference is written: `base` with all fields applied that have been written so far. */
+/* State while a difference is written. `base` is the base scene with all fields applied that have been written so
+ * far. */
 struct telling {
     const struct kd_scene *scene;
     struct kd_scene made;

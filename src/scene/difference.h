@@ -5,8 +5,9 @@
 #include "scene/scene.h"
 
 /* Appends the difference, such as "style.name=film spacetime.spin=0.99 camera.r=40", with `between` as separator. If
- * these fields are applied in this order to *base, the result is *scene. KD_EINVAL if that is impossible: a list of
- * *base is longer, or *scene names an asset by an unresolved name; *out is then unchanged. KD_ENOMEM. */
+ * these fields are applied in this order to *base, the result is *scene. Returns KD_EINVAL, with *out unchanged, if
+ * that is impossible: a list of *base is longer, or *scene names an asset by an unresolved name. The only other error
+ * is KD_ENOMEM. */
 enum kd_status kd_scene_difference(const struct kd_scene *base, const struct kd_scene *scene, char between,
                                    struct kd_buffer *out);
 

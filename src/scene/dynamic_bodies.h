@@ -28,7 +28,7 @@ struct kd_seen_body {
     double velocity[3];
     double radius;  /* radius in the body's own frame; 0 or less: the body is not drawn */
     uint32_t which; /* index in the maker's list; it is reported for a pixel that shows the body */
-    /* as in the bodies of a scene; a body of temperature 0 is dark, and hides what is behind it */
+    /* same meaning as for the bodies of a scene; a body of temperature 0 is dark, and hides what is behind it */
     double temperature_k, brightness, limb_darkening;
     double albedo; /* fraction of the disk's light that it reflects, isotropically; 0: reflection is not computed */
 };
@@ -47,7 +47,8 @@ struct kd_dynamic_bodies_debris {
     uint32_t pieces; /* number of pieces of debris that are on the nodes */
     uint32_t hidden; /* number of pieces of debris left out because they have no valid position */
     double thick;    /* mean of |z|/r over the pieces of debris, before they are projected onto the plane */
-    /* temperature_k: that of a black body. depth: optical depth of debris of one body that is spread over 1000 M^2. */
+    /* temperature_k: temperature of the debris, which shines as a black body. depth: optical depth of debris of one
+     * body that is spread over 1000 M^2. */
     double temperature_k, depth;
 };
 #define KD_CROWD_NODE 3
@@ -66,7 +67,7 @@ struct kd_dynamic_bodies {
 };
 
 /* Creates a set of n bodies and of nodes of debris, all 0. The caller owns a reference and fills the set. Afterwards
- * the set must not be changed. KD_ENOMEM. */
+ * the set must not be changed. The only error is KD_ENOMEM. */
 enum kd_status kd_dynamic_bodies_create(size_t n, uint32_t rows, uint32_t columns, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
 void kd_dynamic_bodies_keep(struct kd_dynamic_bodies *dynamic); /* takes a reference; accepts NULL */

@@ -139,8 +139,8 @@ void kd_scene_link_preview(struct kd_scene *scene, int32_t width, int32_t height
     scene->image.width = width;
     scene->image.height = height;
     scene->image.samples = 2;
-    /* Light from a volume varies slowly over a picture, and each of its rays takes a hundred times as long. Presets
-     * with volumes change by at most 2 of 255 by the profile. */
+    /* Light from a volume varies slowly over a picture, and each of its rays takes a hundred times as long. The profile
+     * "draft" changes the pixels of presets with volumes by at most 2 of 255. */
     if (scene->volume.model != KD_VOLUME_NONE || scene->jets.brightness > 0) {
         scene->image.samples = 1;
         scene->accuracy.profile = KD_PROFILE_DRAFT;

@@ -6,8 +6,8 @@
 #include "scene/scene.h"
 
 /* Appends the shortest link among those from each preset and from the default scene, and a NUL that out->size does not
- * count. Equal scenes have equal links; the link of the default scene is "". KD_EINVAL with a pointer: the scene names
- * an asset. KD_ENOMEM. */
+ * count. Equal scenes have equal links; the link of the default scene is "". Returns KD_EINVAL with a pointer if the
+ * scene names an asset. The only other error is KD_ENOMEM. */
 enum kd_status kd_scene_link(const struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error);
 
 /* Checks that a scene names no asset. Another server that reads the link may not have it. */

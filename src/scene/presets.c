@@ -67,9 +67,10 @@ const struct kd_preset kd_presets[] = {
       "\"camera\":{\"r\":74.1,\"inclination_deg\":86.56,\"fov_deg\":38},"
       "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000},"
       "\"image\":{\"samples\":2}}" },
-    /* These two have the same scale: 214 microarcseconds across. The flow's inner edge gives the ring, through the
-     * beam, the measured diameter, and its density about the measured flux, 0.6 and 2.4 Jy. The beam is much wider than
-     * a pixel, so that one ray a pixel is enough, also at the critical curve. */
+    /* The next two presets have the same scale: 214 microarcseconds across. The inner edge of the flow is chosen so
+     * that the ring, seen through the beam, has the measured diameter. The density of the flow is chosen so that the
+     * flux is close to the measured one, 0.6 or 2.4 Jy. The beam is much wider than a pixel, so one ray a pixel is
+     * enough, even at the critical curve. */
     { "m87", "M87*",
       "A hot flow round a hole of the mass of M87*, seen at 230 GHz as the Event Horizon Telescope would: a beam of 20 "
       "microarcseconds, north up, brightness in false colour; the flow's inner edge is chosen so that the ring is as "
@@ -284,8 +285,8 @@ static enum kd_status unknown(const char *name, struct kd_error *error)
 
 void kd_scene_smooth(struct kd_scene *scene)
 {
-    /* Repeats SMOOTH; a test compares the two. Parsing SMOOTH could fail for lack of memory, and the callers of this
-     * function rely on its success. */
+    /* These lines repeat SMOOTH; a test compares the two. Parsing SMOOTH could fail for lack of memory, and the callers
+     * of this function rely on its success. */
     kd_scene_defaults(scene);
     scene->disk.emission_opacity = 0;
     scene->disk.peak_temperature_k = 5600;

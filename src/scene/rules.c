@@ -323,12 +323,12 @@ static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *
                           show(scene->disk.height).text);
 }
 
-/* Bounds of the hole with returning light. Beyond the first the energy balance of the flux is wrong by more than 1e-3;
- * beyond the second light that is reflected again and again would gain energy without bound. */
+/* Limits of the spin if light returns to the disk. Beyond FASTEST_RETURNS the energy balance of the flux is wrong by
+ * more than 1e-3. Beyond FASTEST_REFLECTS light that is reflected again and again would gain energy without bound. */
 #define FASTEST_RETURNS 0.999999
 #define FASTEST_REFLECTS 0.998
 
-/* The kernel of returning light is that of a thin disk of Page & Thorne's flux from the ISCO on. */
+/* The kernel of returning light is that of a thin disk that begins at the ISCO and has Page & Thorne's flux. */
 static enum kd_status returning(const struct kd_scene *scene, struct kd_error *error)
 {
     const bool reflects = scene->disk.returning == KD_RETURNS_REFLECTED;
@@ -404,8 +404,8 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
                           show(v->outer).text, show_bound(least).text);
 }
 
-#define JETS_GROWTH \
-    60 /* limit of the growth of a jet's brightness between its edges, in octaves; more overflows single precision */
+/* limit of the growth of a jet's brightness between its edges, in octaves; more overflows single precision */
+#define JETS_GROWTH 60
 static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_jets *j = &scene->jets;
@@ -441,7 +441,8 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
     return KD_OK;
 }
 
-#define FLASH_APART 12    /* least time between flashes, in durations: at half of it exp(-18) of the peak is left */
+/* least time between flashes, in durations of a flash: half-way between two flashes, exp(-18) of the peak is left */
+#define FLASH_APART 12
 #define BODIES_CLEAR 1.05 /* a body's smallest radius as a multiple of the horizon's */
 
 /* Refuses a field of a body. */

@@ -38,10 +38,12 @@
 struct kd_dynamic_bodies;
 /* A grid of matter. It has no padding, because scenes are compared by their bytes. */
 struct kd_scene_matter {
-    uint64_t nodes, frames; /* nodes of all frames; frames in time, 1 for a grid of one moment */
-    uint64_t late;          /* 1: its times are those of ingoing Kerr-Schild coordinates; 0: Boyer-Lindquist's */
-    double first, last;     /* times of the first and the last frame, M */
-    double outer;           /* r of its last row, M */
+    /* nodes: number of nodes of all frames together; frames: number of frames in time, 1 for a grid of one moment */
+    uint64_t nodes, frames;
+    /* 1: `first` and `last` are times of ingoing Kerr-Schild coordinates; 0: of Boyer-Lindquist coordinates */
+    uint64_t late;
+    double first, last; /* times of the first and the last frame, M */
+    double outer;       /* r of its last row, M */
 };
 struct kd_scene {
     KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)
@@ -106,17 +108,18 @@ bool kd_scene_time_goes_on(const struct kd_scene *scene);
 bool kd_scene_azimuth_goes_on(const struct kd_scene *scene);
 bool kd_scene_falls(const struct kd_scene *scene);
 
-/* Moves the observer along its own path by a proper time of 0 or more. That changes camera.r, camera.azimuth_deg and
+/* Moves the observer along its own path by a proper time of 0 or more. This changes camera.r, camera.azimuth_deg and
  * time. The scene must be valid, and its observer must have such a path (physics/spacetime/worldline.h). With slow
- * light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing
- * Kerr-Schild coordinates. */
+ * light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing Kerr-Schild
+ * coordinates. */
 void kd_scene_go_on(struct kd_scene *scene, double proper_time);
 
-/* Whether matter on a grid is shown at the time when its light left, and whether that or disk.slow_light holds. */
+/* kd_scene_is_slow_volume: whether matter on a grid is shown at the time when its light left. kd_scene_is_slow: whether
+ * this holds, or disk.slow_light does. */
 bool kd_scene_is_slow_volume(const struct kd_scene *scene);
 bool kd_scene_is_slow(const struct kd_scene *scene);
-/* The r of the observer if the scene's time is its own, as in slow light; else 0. Light from the hole's vicinity then
- * left about this long before the scene's time. */
+/* In slow light, the scene's time is that of the observer, and this returns the observer's r in M: light from the
+ * hole's vicinity left about this long before the scene's time. Otherwise, and at infinity, it returns 0. */
 double kd_scene_lead(const struct kd_scene *scene);
 
 /* Clock of a falling observer. to_horizon, to_end: proper times, in M, until it reaches the outer horizon (NAN inside
@@ -130,8 +133,8 @@ bool kd_scene_is_flat(const struct kd_scene *scene);
 
 /* Makes the scene of one eye: -1 is the left one, 1 the right one. The scene must be valid, at a finite radius, and its
  * camera.stereo must be "pair". The eye is the camera of the same observer at the same time, moved sideways by half of
- * camera.eye_distance along a leg of the observer's local frame, to first order. Its axis and its up direction stay
- * parallel as in flat space. The result has camera.stereo "none". */
+ * camera.eye_distance. The shift is along a leg of the observer's local frame, to first order. Its axis and its up
+ * direction stay parallel as in flat space. The result has camera.stereo "none". */
 struct kd_scene kd_scene_eye(const struct kd_scene *scene, int side);
 
 /* The pixels that are rendered: those of image.tile, or the whole picture. */
@@ -174,14 +177,14 @@ bool kd_scene_is_magnetic(const struct kd_scene *scene);
 /* True if all light is of one frequency, so that the picture's flux is physical: only a volume at a radio frequency is
  * visible, or only a disk with disk.band "frequency". */
 bool kd_scene_is_radio_alone(const struct kd_scene *scene);
-/* That frequency, and the path of the field that contains it. Undefined for all other scenes. */
+/* The frequency of such light in GHz, and the path of the field that contains it. Undefined for all other scenes. */
 double kd_scene_frequency_ghz(const struct kd_scene *scene);
 const char *kd_scene_frequency_path(const struct kd_scene *scene);
 void kd_scene_set_frequency(struct kd_scene *scene, double ghz);
 /* True if there is a disk, and it is seen at one frequency. */
 bool kd_scene_has_disk_frequency(const struct kd_scene *scene);
 /* The highest frequency that disk.frequency_ghz may be: KD_DISK_QUANTA k T/h with the disk's largest colour
- * temperature. Light that returns may raise that, but is not counted here. */
+ * temperature. Light that returns to the disk may raise that temperature, but is not counted here. */
 #define KD_DISK_QUANTA 64
 double kd_scene_disk_most_ghz(const struct kd_scene *scene);
 

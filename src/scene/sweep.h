@@ -31,9 +31,11 @@ struct kd_sweep_axis {
     bool even;        /* the values are evenly spaced, to 1e-12 of the larger end */
     size_t n;
     struct kd_sweep_value {
-        char *text;    /* in the form that kd_scene_set accepts; for an asset its hash, once the name is resolved */
+        /* text of the value in the form that kd_scene_set accepts; for an asset, its hash once the name is resolved */
+        char *text;
         double number; /* NAN if the value is not a number */
-        struct kd_scene_matter matter; /* of a volume.grid whose name is resolved; otherwise 0 */
+        /* what is known about a volume.grid whose name is resolved; 0 for any other value */
+        struct kd_scene_matter matter;
     } *values;
 };
 
@@ -45,8 +47,8 @@ struct kd_sweep {
 };
 
 /* Reads an object of axes over a valid scene. Each value is checked against its field; whether a combination is valid
- * is checked by kd_sweep_scene. assets: where names are looked up; NULL: hashes are not looked up. KD_EINVAL with the
- * pointer /axes/FIELD/NUMBER, KD_ENOMEM. Free *out with kd_sweep_free. */
+ * is checked by kd_sweep_scene. assets: where names are looked up; NULL: hashes are not looked up. Returns KD_EINVAL
+ * with the pointer /axes/FIELD/NUMBER, or KD_ENOMEM. Free *out with kd_sweep_free. */
 enum kd_status kd_sweep_read(const cJSON *axes, const struct kd_scene *base, const struct kd_assets *assets,
                              struct kd_sweep **out, struct kd_error *error);
 

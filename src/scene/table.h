@@ -87,7 +87,7 @@ struct kd_json kd_scene_json(struct kd_buffer *out);
 /* Checks the member "version", which must be 1. */
 enum kd_status kd_scene_version(const struct kd_value *value, struct kd_error *error);
 
-/* Finds a field by its dotted path, like kd_scene_set, and the index of its element, which need not exist yet.
+/* Finds a field by its dotted path, like kd_scene_set, and the index of its element, which need not exist yet. Returns
  * KD_EINVAL with a pointer. */
 enum kd_status kd_field_at(const char *path, const struct kd_row **out, size_t *index, struct kd_error *error);
 

@@ -67,7 +67,8 @@ struct kd_timeline_key {
 };
 
 struct kd_timeline {
-    struct kd_timeline_key *keys; /* in ascending order, the first at 0; n_keys 0: there is no timeline */
+    /* keys in ascending order of `at`, which is 0 for the first; n_keys 0: there is no timeline */
+    struct kd_timeline_key *keys;
     size_t n_keys;
     enum kd_interpolation interpolation;
     enum kd_ease ease; /* ease of the whole timeline */
@@ -99,8 +100,8 @@ struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *
 const char *kd_timeline_manner(const struct kd_timeline_items *items);
 
 /* Reads a timeline. Its first key is *first, which must be a valid scene; then each key of *out is valid. assets: where
- * names are looked up; NULL: hashes are not looked up. KD_EINVAL with the pointer into the request. Free *out with
- * kd_timeline_finish. */
+ * names are looked up; NULL: hashes are not looked up. Returns KD_EINVAL with the pointer into the request. Free *out
+ * with kd_timeline_finish. */
 enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const struct kd_timeline_form *form,
                                 const struct kd_assets *assets, const struct kd_scene *first, struct kd_timeline *out,
                                 struct kd_error *error);

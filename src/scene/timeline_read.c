@@ -45,7 +45,7 @@ static enum kd_status read_place(struct reader *r, const cJSON *item, const char
     return kd_member_refuse(item, pointer, allowed, r->error);
 }
 
-/* The proper time that "horizon" or "end" means for a falling observer. The infall parameters are those of the
+/* The proper time that "horizon" or "end" means for a falling observer. The parameters of the fall come from the
  * keyframe. */
 static double proper_time_to(const struct kd_scene *scene, const char *word)
 {

@@ -278,7 +278,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
-    /* opened after the jobs, because they lock the folder, and before kd_jobs_begin, because jobs may use assets */
+    /* the assets are opened after the jobs, because the jobs lock the folder, and before kd_jobs_begin, because jobs
+     * may use assets */
     if (params->state)
         KD_TRY(kd_asset_store_open(server->assets, params->state, error));
     if (params->sky)
@@ -287,7 +288,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         KD_TRY(kd_link_budgets_open(server->links, params->state, error));
     kd_jobs_begin(server->jobs);
     const int listening = fd;
-    fd = -1; /* from here on the front closes it */
+    fd = -1; /* from here on the front owns and closes the socket */
     KD_TRY(start_http(server, listening, connections, error));
     KD_TRY(start_reaper(server, error));
 done:

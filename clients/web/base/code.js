@@ -2,7 +2,7 @@
 import { svg } from './dom.js';
 import { t } from '../words/i18n.js';
 
-const quiet = 4; // modules: the least white margin of a QR code (ISO/IEC 18004)
+const quiet = 4; // least white margin of a QR code, in modules (ISO/IEC 18004)
 
 // Throws a sentence if the library cannot be loaded, or if the address is too long for a code.
 export async function drawCode(url) {

@@ -1,5 +1,5 @@
-// Charts by uPlot. This module adds curves with x columns of their own, marks, a legend that hides curves and shows
-// their values, reading by keyboard, and a table of the numbers beside each chart.
+// Charts by uPlot. This module adds to uPlot: curves with their own columns of x, marks, a legend that hides curves and
+// shows their values, reading by keyboard, and a table of numbers beside each chart.
 import { el, svg } from './dom.js';
 import { number, t } from '../words/i18n.js';
 import { numbers, shared } from './numbers.js';
@@ -88,8 +88,8 @@ function drawMarks(u, marks) {
   ctx.restore();
 }
 
-// Brightness by x and y beneath the curves: rows from below upwards, each from left to right. By the square root,
-// because the brightest cell may exceed all others many times.
+// Brightness by x and y beneath the curves: rows from below upwards, each from left to right. The brightness is drawn
+// as its square root, because the brightest cell may exceed all others many times.
 function drawMap(u, { rows, x, y }) {
   const wide = rows[0].length,
     tall = rows.length,

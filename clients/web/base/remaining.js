@@ -1,4 +1,4 @@
-// Estimates the remaining time: the time since the start, times the share left, over the share done in that time.
+// Estimates the remaining time: the time since the start, multiplied by the share left and divided by the share done.
 const least_ms = 3000; // time that must have passed before the first estimate
 const least_share = 0.02; // share that must be done before the first estimate
 const smoothing = 0.2; // weight of the newest estimate

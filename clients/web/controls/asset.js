@@ -1,5 +1,5 @@
-// The control of a field that names an asset, a picture or a grid of matter. It uploads a file to the server and sets
-// the field to the SHA-256 of the file's bytes.
+// The control of a field that names an asset: a picture or a grid of matter. The control uploads a file to the server
+// and sets the field to the SHA-256 of the file's bytes.
 import { el, latest } from '../base/dom.js';
 import { t, tell } from '../words/i18n.js';
 import { ask, module } from '../base/server.js';

@@ -45,7 +45,8 @@ const only_with = {
 
 const far = scene => scene.get('camera.r') === 'infinity';
 
-// Fields of the camera that have an effect only with certain choices: the choice in force, and the fields of each.
+// Fields of the camera that have an effect only with certain choices: the choice that is made, and for each choice the
+// fields that have an effect.
 const of_camera = [
   {
     chosen: scene =>

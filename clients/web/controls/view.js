@@ -11,7 +11,7 @@ const round = (x, digits) => Number(x.toFixed(digits));
 const radians = Math.PI / 180;
 const tap_px = 4; // a tap may move by up to this
 const pace_ms = 30; // least time between two updates of the scene during a drag: pictures follow no faster
-const near_r = 10; // M, within which a drag looks around by default
+const near_r = 10; // radius in M within which a drag looks around by default
 
 // True if a drag turns the camera itself rather than moving it round the hole. A choice by hand is kept in the address.
 function looker(scene) {

@@ -7,8 +7,9 @@ import * as link from '../base/link.js';
 import { linkedTime } from '../picture/scene.js';
 import { ask, module } from '../base/server.js';
 
-const beat_ms = 1000; // between two requests for the answers
+const beat_ms = 1000; // time between two requests for the answers
 const choice_most = 60; // characters of an answer
+
 // fields of this page that copies do not get; pair.FIELD is not copied either
 const own = ['lang', 'full', 'lesson', 'view', 'pace'];
 
@@ -109,7 +110,7 @@ function panel(scene, session) {
   const present = () => ({
     session: session()?.split('/').at(-1),
     link: linkOf(scene).slice(0, 8000),
-    about: describe(scene).slice(0, 300), // at most 900 bytes
+    about: describe(scene).slice(0, 300), // this has at most 900 bytes
     lang,
   });
 
@@ -129,7 +130,7 @@ function panel(scene, session) {
     if (ended) return void (opened && deleteLesson());
     if (opened) {
       memory.set(lesson);
-      scene.dispatchEvent(new Event('change')); // the scales over a picture are then drawn into it
+      scene.dispatchEvent(new Event('change')); // now that a lesson runs, the server draws the scales into the picture
       showInvitation();
     }
     Object.assign(sent, Object.fromEntries(news));

@@ -2,7 +2,7 @@
 // other module of the page except the language, so that thirty telephones load little.
 import { lang, t } from '../words/language.js';
 
-const beat_ms = 1000; // between two requests for the state of the lesson
+const beat_ms = 1000; // time between two requests for the state of the lesson
 const again_ms = 2000; // time from a failed request to the next one
 const quality = 80, // JPEG quality of moving pictures
   fine = 92; // JPEG quality of a picture at rest: less than a third of the bytes of an exact one

@@ -4,7 +4,7 @@ import { t } from '../words/i18n.js';
 import { drawn, holeOf, physics } from '../base/server.js';
 
 const radians = Math.PI / 180;
-const dragged_for = 10; // M, the time for which the spokes are dragged
+const dragged_for = 10; // time in M for which the spokes are dragged
 
 // The grid in space, projected along straight lines from the camera.
 export async function flamm(scene, look, path) {

@@ -4,7 +4,7 @@ import { t } from '../words/i18n.js';
 
 const wide = 240,
   high = 180; // CSS pixels
-const rings = [5, 10, 20, 40]; // M, radii of the circles in the equatorial plane
+const rings = [5, 10, 20, 40]; // radii in M of the circles in the equatorial plane
 
 export function buildInset() {
   const node = el('canvas', {
@@ -25,8 +25,8 @@ export function buildInset() {
     pitch = 0.5,
     grip = null;
 
-  // Distance from the axis at which a place of the plane is drawn: x and y of the path are made from Boyer–Lindquist
-  // coordinates.
+  // Distance from the axis at which a point of the equatorial plane at the radius r is drawn. The server computes x and
+  // y of the path with the factor sqrt(r^2 + a^2).
   const wider = r => Math.hypot(r, spin);
 
   // The radius that is shown, M: it contains the bend and the visible crossings.

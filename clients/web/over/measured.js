@@ -70,7 +70,8 @@ export function buildMeasured(stage, scene, size, choose) {
 
   const without = () => {
     const { width, height } = size();
-    // The march through a volume takes long: it has more rays only where the photon ring is thinner than a pixel.
+    // A march through a volume takes long, so its pixels have more than one ray only where the photon ring is thinner
+    // than a pixel.
     const volume = scene.get('volume.model') !== 'none',
       rays = volume ? { 'image.samples': 1, 'image.critical_factor': 4 } : { 'image.samples': 2 };
     return scene.document({ 'image.width': width, 'image.height': height, ...rays });

@@ -50,7 +50,8 @@ function camera(scene, width, height) {
   };
 }
 
-// Pixels: neighbouring points that are further apart lie on different sides of the seam of a picture of all directions.
+// Neighbouring points that are more than this number of pixels apart lie on different sides of the seam of a picture of
+// all directions.
 let seam = Infinity;
 const beyondSeam = (a, b) => a && b && Math.abs(a[0] - b[0]) > seam;
 

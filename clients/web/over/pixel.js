@@ -1,7 +1,7 @@
 // The card "What is this light?" explains in sentences where the light of one pixel comes from. A drawing beside them
-// shows the pixel's ray past the hole, and the numbers are folded below. A tap or the arrow keys choose the pixel. A
-// card that was opened by its button or key follows the pointer and explains the pixel where it rests, until a tap or
-// an arrow key pins it.
+// shows the pixel's ray past the hole, and the numbers are folded below. A tap or the arrow keys choose the pixel. If
+// the card was opened by its button or key, it follows the pointer and explains the pixel under the resting pointer,
+// until a tap or an arrow key pins a pixel.
 import { byId, el, latest } from '../base/dom.js';
 import { duration, number, said, t, tell } from '../words/i18n.js';
 import { buildInset } from './inset.js';
@@ -13,7 +13,7 @@ const rest_ms = 40; // a pointer must rest for this time before the server is as
 const late_ms = 150; // time after which the old text is replaced by "Following this light back …"
 const change_ms = 400; // the scene must be unchanged for this time before the server is asked again
 const star_px = 6;
-const sideways = 0.005; // c: gas with a smaller velocity counts as neither approaching nor receding
+const sideways = 0.005; // gas with a smaller velocity, in c, counts as neither approaching nor receding
 const faint = 0.005; // share of the light below which a source goes unmentioned
 
 // Values that make the pixel independent of the rest of the picture, so that no other pixel is rendered. The card shows
@@ -107,7 +107,7 @@ function round(order) {
     : t('pixel.it-is-the-photon', 'It is the photon ring: light that went {0} times half way round the hole.', order);
 }
 
-// The velocity of gas along the light, as it is measured beside the gas.
+// The gas's component of velocity along the light, as an observer beside the gas measures it.
 function motion({ kind, approach }) {
   if (kind !== 'crossing' || approach == null || Math.abs(approach) < sideways) return '';
   const speed = `${number(Math.abs(approach), 2)} c`;

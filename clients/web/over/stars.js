@@ -71,7 +71,7 @@ export function buildStars(stage, scene) {
     marks = byId('star-marks');
   let timer = 0,
     pointer = null,
-    azimuth = null, // of the latest picture
+    azimuth = null, // azimuth of the latest picture
     last = null, // list of stars for a turning picture
     pace = 0, // pixels per degree by which the named star moves
     asked = 0;

@@ -9,7 +9,7 @@ import { kept, windowSize } from './sizes.js';
 export const first_view = 'gas-stars';
 
 const patience_ms = 250; // longest wait for the first picture before the rest of the page is loaded
-const slow_ms = 1000; // the same before a recording of the first view begins
+const slow_ms = 1000; // longest wait for the first picture before a recording of the first view begins
 
 const stage = byId('stage');
 const plain =
@@ -45,8 +45,8 @@ function poll(url) {
 }
 
 // Returns the session as the server describes it, { id, token, revision, … }, the window's size, the share of its width
-// that is kept in motion, and the requests in progress. Null if it failed; the caller then opens a session itself and
-// shows the error.
+// that is kept in motion, and the requests in progress. Returns null if the server opened no session; the caller then
+// opens a session itself and shows the error.
 async function open() {
   const size = windowSize(stage),
     keeps = kept(),

@@ -5,9 +5,9 @@ import { atFirstTouch, still } from '../base/dom.js';
 import { begun, end, leave, length_s, play, rate_deg, seconds } from './loop.js';
 import { goesOn } from '../share/share.js';
 
-const trial_ms = 3000; // the pictures of this time are counted
-const least_pace = 4; // pictures a second
-const tell_ms = 250; // between two updates of the scene while the recording plays
+const trial_ms = 3000; // duration of the trial in which pictures are counted
+const least_pace = 4; // least number of pictures a second for live pictures
+const tell_ms = 250; // time between two updates of the scene while the recording plays
 
 // fresh: the user has not touched anything yet. Returns shown(frame), to be called with each picture that is shown.
 export function begin(stage, scene, fresh) {
@@ -19,7 +19,7 @@ export function begin(stage, scene, fresh) {
     scene.get('motion.proper_time_rate') === 0;
   let pictures = 0,
     timer = 0,
-    jumps = -1; // value of the scene's counter of jumps when live pictures continued; -1: they were never interrupted
+    jumps = -1; // the scene's counter of jumps when live pictures continued; -1: live pictures always ran
   if (!drifts) {
     end();
     return () => begun() && leave();
@@ -27,7 +27,7 @@ export function begin(stage, scene, fresh) {
 
   const tell = () =>
     scene.tick(seconds() * scene.get('motion.time_rate'), false, {
-      'camera.azimuth_deg': Number((seconds() * rate_deg).toFixed(3)), // as of live pictures
+      'camera.azimuth_deg': Number((seconds() * rate_deg).toFixed(3)), // rounded as for live pictures
     });
 
   // Returns a promise of whether the recording plays.

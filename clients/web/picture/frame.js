@@ -54,8 +54,9 @@ export function fits(quality, { width }, { keeps, part }) {
   };
 }
 
-// Takes the state of a newer picture over into the scene and the session. Returns it, with get(header) and whether the
-// picture is of the current scene and the last one of it.
+// Takes the state of a newer picture over into the scene and the session. Returns this state with three further
+// members. get(header): the value of a header. current: whether the picture is of the current scene. final: whether it
+// is also the last picture of that scene.
 export function head({ headers }, scene, from) {
   const get = name => headers.get(name),
     now = state(get, scene),

@@ -8,8 +8,9 @@ import * as link from '../base/link.js';
 const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
-const hand_ms = 200; // without a move for so long, a drag has come to rest
+const hand_ms = 200; // a drag has come to rest when nothing has moved for this time
 const aside = ['tile']; // sections that the page does not use, because it shows whole pictures
+
 // keys of a link without a dot
 const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace', 'lesson'];
 
@@ -53,7 +54,7 @@ function sections([path, spec]) {
 // One M of one solar mass, in metres: G m_sun/c^2 (nominal, IAU 2015 resolution B3).
 export const light_m_s = 299792458;
 export const sun_m = 1.3271244e20 / light_m_s ** 2;
-// Its width on the sky at a distance of one parsec (IAU 2015 resolution B2), in microarcseconds.
+// Width on the sky of this length at a distance of one parsec (IAU 2015 resolution B2), in microarcseconds.
 export const m_uas = (sun_m / 3.085677581491367e16) * ((180 * 3.6e9) / Math.PI);
 
 // The time as a link has it: a seventh digit would not be seen.

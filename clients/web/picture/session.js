@@ -27,7 +27,7 @@ const load = ({ camera, time, motion, ...rest }) => JSON.stringify(rest);
 // The scene's document in the size of the window, or in the share of it for which the server accepts a picture.
 export function buildFitting(scene, size) {
   let part = 1,
-    laden = ''; // load() of the scene that this share was found for
+    laden = ''; // load() of the scene for which `part` was found
   const now = () => document_of(scene, size(), part);
   return {
     wanted() {

@@ -5,9 +5,10 @@ import * as link from '../base/link.js';
 const most = { width: 3840, height: 2160 }; // pixels at rest; in a larger window the picture is scaled up
 const drag_px = 1600; // after the first touch, a wider window keeps in motion a share of this width
 const least_part = 0.25; // the server's limit
+
 // limit of a frame's time: if half the width takes longer, Auto keeps less after the first touch
 const max_frame_ms = 100;
-// The least share of the window's width that is kept in motion; null: the whole picture at rest.
+// The least share of the window's width that is kept in motion; null: pictures in motion are as large as at rest.
 const parts = { auto: 0.5, sharp: null, fast: 0.25 };
 
 // Reading an element's size forces a layout when the page has changed. The sizes are therefore cached and updated by a
@@ -45,7 +46,7 @@ let landing = true; // the user has not touched anything yet
 atFirstTouch(() => (landing = false));
 
 // The query that asks the session to keep a share of the width in motion. If frames take too long, Auto gives the share
-// up so that a drag is followed. Before the first touch it does not, because nothing has to follow a hand.
+// up so that a drag is followed. Before the first touch Auto keeps the share, because there is no drag to follow.
 export function kept() {
   const part = parts[pace()],
     here = sizeOf(byId('stage'));

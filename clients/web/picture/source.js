@@ -29,8 +29,9 @@ import { kept } from './sizes.js';
 const heard = (target, event) => new Promise(resolve => target.addEventListener(event, resolve, { once: true }));
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
-// Pictures a second in the last two seconds, or, for a slow server, those of the last three pictures; false until there
-// are three, and while the scene is at rest. To be called with the time of each picture.
+// Pictures a second, over the last two seconds, or over the last three pictures if the server is slow. False until
+// there are three pictures, and while the scene is at rest. The returned function is called with the time of each
+// picture.
 function buildRate(scene) {
   let recent = [];
   return now => {
@@ -157,7 +158,7 @@ export function openSource(scene, size, shown, failed, rests) {
       signal: polls.signal,
     }),
     arrived,
-    // The change is sent once more by itself, whose answer has the error.
+    // The change is sent once more in a request of its own, whose answer has the error.
     refused(from) {
       from.plain = true;
       if (session === from) put();

@@ -8,7 +8,7 @@ import { ask, getJson, postJson } from '../base/server.js';
 import { samples } from '../picture/changes.js';
 
 export const seconds = 5;
-const plan_ms = 600; // after the last change, before the cost is requested
+const plan_ms = 600; // time from the last change to the request for the cost
 const even = x => Math.max(2, 2 * Math.round(x / 2));
 
 const choose = (id, label, options) =>

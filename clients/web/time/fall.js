@@ -5,11 +5,11 @@ import { byId, el, latest, still } from '../base/dom.js';
 import { duration, number, t, tell } from '../words/i18n.js';
 import { holeOf, module, physics } from '../base/server.js';
 
-const begin_r = 20; // M, the radius where the fall begins if the camera is at infinity
+const begin_r = 20; // radius in M where the fall begins if the camera is at infinity
 const wide_deg = 100;
-const fold_s = 3; // seconds in which the proper time left to the end shrinks by about a factor e
+const fold_s = 3; // seconds of the page's clock in which the proper time left to the end shrinks by about a factor e
 const fold_pictures = 5; // least number of pictures in that time, so that a slow server shows the fall as well
-const fastest = 1e6; // M a second: the server's limit
+const fastest = 1e6; // largest rate of the fall, M a second: the server's limit
 const uneven = 0.1; // the pace is sent again when it has changed by more than this, as a logarithm
 
 const numbers = ['infall_from', 'infall_energy', 'infall_momentum'];
@@ -104,7 +104,7 @@ function buildGuiding(scene, box, fault, fall) {
     told = el('p', { class: 'help', id: 'fall-film-told', role: 'status' });
   box.append(el('p', { class: 'row' }, guided, ' ', filmed, ' ', got), told);
   let guide = null, // the captions and the sound of a guided fall (guide.js)
-    guided_s = 0, // as fold_s, in a guided fall
+    guided_s = 0, // the value that replaces fold_s in a guided fall
     filming = null, // the guide whose film is being recorded
     asked = 0; // number of times that a guide has been requested
 
@@ -195,7 +195,7 @@ export function buildFall(scene) {
   }
 
   const showGuided = () => guiding.shown(r, !scene.held && !ended());
-  // Numbers of the sky depend on the radius alone; the others are shown before them.
+  // Numbers of the sky depend on the radius alone; all other numbers are shown before them.
   const measure = latest(async () => {
     const at_r = r;
     guiding.heard(await showSky(scene, at_r), at_r);
@@ -321,7 +321,8 @@ export function buildFall(scene) {
     halt: () => way && !scene.held && scene.hold(true),
     shown({ clock, shows }) {
       if (!way || !clock || shows?.camera?.observer !== 'infall') return;
-      const older = scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3; // than the pause
+      // true if the picture is older than the pause
+      const older = scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3;
       if (older && waits) where.textContent = phase(clock, way, ended());
       waits = false;
       if (older) return;

@@ -5,7 +5,7 @@ import { number, t } from '../words/i18n.js';
 import { offer } from '../base/job.js';
 import { muted } from './struck.js';
 
-export const seconds = 90; // longer if the server makes few pictures a second
+export const seconds = 90; // duration of a guided fall; it is longer if the server makes few pictures a second
 const pitch_hz = 440; // frequency of the tone for an observer far away and at rest
 const loudness = 0.12;
 const glide_s = 0.25;
@@ -13,13 +13,14 @@ const [width, height, rate] = [1280, 720, 30]; // width, height and pictures a s
 const bits = 8e6; // a second
 const last_ms = 3000; // the last caption stays in the film for so long
 const forms = ['video/webm;codecs=vp9,opus', 'video/webm;codecs=vp8,opus', 'video/mp4'];
-const events = ['visibilitychange', 'viewchange']; // upon which the view may be hidden
+const events = ['visibilitychange', 'viewchange']; // events after which the view may be hidden
 
 const form = globalThis.MediaRecorder && forms.find(name => MediaRecorder.isTypeSupported(name));
 export const films = Boolean(form) && Boolean(HTMLCanvasElement.prototype.captureStream);
 
-// The captions, the outermost first, each with the radius below which it is shown. One is a function of the black share
-// of the sky. hole: values of the quantity kerr. way: values of the quantity infall at the start of the fall.
+// The captions, the outermost first, each with the radius below which it is shown. A caption is a text, or a function
+// that makes the text from the fraction of the sky that is black. hole: values of the quantity kerr. way: values of
+// the quantity infall at the start of the fall.
 export function captions({ horizon, ...hole }, { r, end }) {
   const inner = end > 0,
     isco = Math.min(hole.isco, hole.isco_retrograde),

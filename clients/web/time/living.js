@@ -5,7 +5,7 @@ import { duration, number, t, tell } from '../words/i18n.js';
 import { meansSomething } from '../controls/known.js';
 import { physics } from '../base/server.js';
 
-const usual_rate = 8; // M a second, unless a rate was chosen
+const usual_rate = 8; // rate of time in M a second, unless another one was chosen
 
 // Properties of a scene that the server states: an emitter with separate photometry, light of higher image orders,
 // which can ring, and whether another time or azimuth would change the picture.

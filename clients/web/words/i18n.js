@@ -213,7 +213,8 @@ const choices = {
 // The label of a choice. Some labels depend on the field, which path names.
 export const word = (value, path) =>
   locale?.values[`${path} ${value}`] ?? choices[`${path} ${value}`] ?? locale?.values[value] ?? choices[value] ?? value;
-export const preset = (name, title) => locale?.playgrounds[name] ?? title; // of the playground; for scenes: captions.js
+// The title of a preset of the playground; captions.js has the titles of presets of scenes.
+export const preset = (name, title) => locale?.playgrounds[name] ?? title;
 export const label = (name, text) => locale?.presets[name] ?? text;
 
 const raised = text => [...text].map(c => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');

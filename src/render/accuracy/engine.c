@@ -31,9 +31,10 @@ uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision)
     return engines[engine].steps[precision];
 }
 
-/* The most steps with which every ray is completed: llvmpipe silently ends a kernel's loops after 65535 rounds,
- * counted over all loops together. In Mino time a ray takes at most 12 + KD_RAYS_MAX_ORDERS half periods.
- * rays_kerr_schild.comp gives the counts of the Kerr-Schild engines; Tao's has an inner loop. */
+/* The largest number of steps that can be requested, so that every ray is completed: llvmpipe silently ends a kernel's
+ * loops after 65535 rounds, counted over all loops together. In Mino time a ray takes at most 12 + KD_RAYS_MAX_ORDERS
+ * half periods, each of this many steps. For the Kerr-Schild engines, rays_kerr_schild.comp counts the rounds; Tao's
+ * engine has a lower limit, because each of its steps has an inner loop. */
 uint32_t kd_engine_most_steps(enum kd_engine engine)
 {
     return engine == KD_ENGINE_KS_TAO6 ? 512 : engine >= KD_ENGINE_KS_EULER ? 1024 : KD_STEPS_MAX;
@@ -46,8 +47,8 @@ enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, stru
                           steps, kd_engine_name(engine), kd_engine_most_steps(engine));
 }
 
-/* The words of a scene's enumeration are "auto" and then the names of the values, in the order of our enums
- * (tests/unit/engine.c). */
+/* In a scene's enumeration the first word is "auto". The other words are the names of our enum's values, in the same
+ * order (tests/unit/engine.c). */
 struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene)
 {
     const struct kd_accuracy *a = &scene->accuracy;

@@ -18,8 +18,8 @@ enum kd_engine {
     KD_ENGINE_MINO_RKN6, /* Mino time on the device: Albrecht's Nystroem method of order 6 */
     KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler */
     KD_ENGINE_KS_RK4,    /* the Kerr-Schild Hamiltonian on the device: classical Runge-Kutta */
-    KD_ENGINE_KS_TAO6,   /* the same Hamiltonian in Tao's extended phase space: Yoshida's method of order 6. Engines
-                          * named KS give no delay */
+    KD_ENGINE_KS_TAO6, /* the Kerr-Schild Hamiltonian in Tao's extended phase space, on the device: Yoshida's method of
+                          order 6. No engine named KS gives the delay */
     KD_ENGINE_COUNT
 };
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
@@ -43,7 +43,7 @@ struct kd_accuracy_request {
     int profile;    /* enum kd_profile; -1: none was named */
     int engine;     /* enum kd_engine; -1: any */
     int precision;  /* enum kd_precision; -1: any */
-    uint32_t steps; /* step number per half period, a multiple of 4; 0: the number of the profile or of the engine */
+    uint32_t steps; /* number of steps per half period, a multiple of 4; 0: the profile or the engine sets it */
     /* largest relative error of the crossing radii according to the table; INFINITY: no tolerance was requested, so
      * the profile decides */
     double tolerance;
@@ -52,7 +52,7 @@ struct kd_accuracy_request {
 struct kd_setting {
     enum kd_engine engine;
     enum kd_precision precision;
-    uint32_t steps; /* step number; 0 for the closed form */
+    uint32_t steps; /* number of steps; 0 for the closed form */
     /* relative error of the crossing radii that the table gives for this setting; NaN: no tolerance was requested */
     double holds;
 };
@@ -65,7 +65,7 @@ struct kd_setting {
 
 struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene);
 
-/* True if the request needs a device. If not, the closed form serves it on any device. */
+/* True if the request needs a device. If not, the closed form on the CPU serves the request. */
 bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy);
 
 /* Resolves a request. Without a tolerance, an engine, precision or number of steps that the request does not name

@@ -76,7 +76,7 @@ enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct
     kd_json_string(json, "skipped", table->skipped);
     kd_json_string(json, "reference", kd_engine_name(KD_ENGINE_CLOSED));
     kd_json_number(json, "orders", KD_ACCURACY_ORDERS);
-    kd_json_number(json, "quantile", 0.99); /* quantile of the bulk set's errors, for "holds" */
+    kd_json_number(json, "quantile", 0.99); /* "holds" is this quantile of the bulk set's errors */
     kd_json_object(json, "sets");
     for (int k = 0; k < KD_ACCURACY_SETS; k++)
         kd_json_string(json, kd_accuracy_set_names[k], kd_accuracy_set_rays[k]);

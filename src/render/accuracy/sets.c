@@ -23,7 +23,7 @@ const char *const kd_accuracy_set_rays[KD_ACCURACY_SETS] = {
     [KD_ACCURACY_NEAR_EXTREMAL] = "a = 0.9999, i = 70°, ±12 M",
 };
 
-#define HALF 12.0 /* M, half the side of the image plane */
+#define HALF 12.0 /* half the side of the image plane, M */
 #define NEAR 0.05
 
 uint32_t kd_accuracy_views(enum kd_accuracy_set set, struct kd_accuracy_view out[KD_ACCURACY_VIEWS])
@@ -41,7 +41,8 @@ uint32_t kd_accuracy_views(enum kd_accuracy_set set, struct kd_accuracy_view out
     }
 }
 
-/* Coordinate of point k of the sequence in the unit square, from the sequence's step along that axis. */
+/* One coordinate, 0 to 1, of point k of the sequence in the unit square. `step` is the sequence's step along that
+ * axis. */
 static double fraction(size_t k, double step)
 {
     double x = 0.5 + step * (double)(k + 1);

@@ -5,9 +5,10 @@
  * 1/g and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. Positions are not rounded:
  * if an engine rounds them to single precision, that counts as the engine's error.
  *
- * Rays within 5 % of the critical curve belong to the near-critical set only. All crossings of order 2 are among
- * them. There the error of any method is the error of the arithmetic times a condition number of several hundred.
- * rho is measured from the centre of physics/null/critical.h. Pure; any thread. */
+ * Only the near-critical set has rays within 5 % of the critical curve. All crossings of order 2 belong to such rays.
+ * Near the curve the error of any method is the rounding error times a condition number of several hundred. rho is the
+ * distance in the image plane from the centre that physics/null/critical.h defines; rho_c is that of the critical
+ * curve. Pure; any thread. */
 #ifndef KD_RENDER_ACCURACY_SETS_H
 #define KD_RENDER_ACCURACY_SETS_H
 
@@ -16,9 +17,11 @@
 
 enum kd_accuracy_set {
     KD_ACCURACY_BULK,          /* a = 0.9, i = 70, +-12 M */
-    KD_ACCURACY_NEAR_CRITICAL, /* the same view, with |rho/rho_c - 1| from 5e-2 to 5e-6 in turn, inside and outside */
-    KD_ACCURACY_NEAR_AXIS,     /* a = 0.9: i = 0.001 degrees, +-12 M; i = 70, alpha = 0, +-1e-12 ... +-1e-2 */
-    KD_ACCURACY_EDGE_ON,       /* a = 0.9: i = 90 and 89.99, +-12 M */
+    KD_ACCURACY_NEAR_CRITICAL, /* a = 0.9, i = 70 degrees: |rho/rho_c - 1| is 5e-2, 5e-3, ... 5e-6, alternately inside
+                                  and outside the critical curve */
+    KD_ACCURACY_NEAR_AXIS, /* a = 0.9: one view at i = 0.001 degrees, with positions within +-12 M; another at i = 70
+                              degrees, with alpha = 0 or +-1e-12 to +-1e-2 */
+    KD_ACCURACY_EDGE_ON,   /* a = 0.9: i = 90 and 89.99, +-12 M */
     KD_ACCURACY_NEAR_EXTREMAL, /* a = 0.9999, i = 70, +-12 M */
     KD_ACCURACY_SETS
 };

@@ -2,10 +2,10 @@
  * accuracy` measures it, GET /v1/accuracy serves it, and accuracy.tolerance is looked up in it. Plain values; any
  * thread.
  *
- * Errors are those of render/rays/rays.h against KD_ENGINE_CLOSED on named sets of rays (render/accuracy/sets.h). An
- * error covers all orders together, over the crossings that both methods have from the ISCO to KD_ACCURACY_FAR. It is
- * relative for r and g, absolute for phi (radians) and delay (M). A ray whose fate or number of crossings differs from
- * the closed form's is counted in `differ`. */
+ * An engine's errors are the differences of its results (render/rays/rays.h) from those of KD_ENGINE_CLOSED, on named
+ * sets of rays (render/accuracy/sets.h). An error covers all orders together, over the crossings that both methods have
+ * from the ISCO to KD_ACCURACY_FAR. Errors of r and g are relative, those of phi (radians) and delay (M) absolute. A
+ * ray whose fate or number of crossings differs from the closed form's is counted in `differ`. */
 #ifndef KD_RENDER_ACCURACY_TABLE_H
 #define KD_RENDER_ACCURACY_TABLE_H
 
@@ -14,12 +14,14 @@
 #include "render/accuracy/engine.h"
 
 #define KD_ACCURACY_ORDERS 3
-#define KD_ACCURACY_FAR 1e3 /* M: w = 1/r has an absolute error, so the relative error of r is proportional to r */
+/* M; crossings further out do not count: w = 1/r has an absolute error, so the relative error of r grows with r */
+#define KD_ACCURACY_FAR 1e3
 #define KD_ACCURACY_ROWS 64
-/* The tolerance that a row meets: the 99th percentile of the error over the crossings of the bulk set, or the
- * largest median of the other sets if that is larger, because few steps lose more accuracy edge-on. The
- * near-critical set is left out, since more steps do not help there. The table gives only the first choice: in a
- * list of rays, each ray whose own error exceeds the tolerance is traced again (rays/hold.h). */
+/* The tolerance that a row meets is the larger of two errors: the 99th percentile over the crossings of the bulk set,
+ * and the largest median of the other sets. The other sets count, because an engine with few steps loses more accuracy
+ * edge-on. The near-critical set does not count, because more steps do not help near the critical curve. The table
+ * gives only the first choice: in a list of rays, each ray whose own error exceeds the tolerance is traced again
+ * (rays/hold.h). */
 /* a row meets no tolerance if more than this fraction of rays differ in one of these sets */
 #define KD_ACCURACY_STRAY 0.01
 
@@ -29,7 +31,7 @@ extern const char *const kd_accuracy_quantity_names[KD_ACCURACY_QUANTITIES]; /* 
 struct kd_accuracy_errors { double median, p99, worst; }; /* NaN: the engine has no such quantity */
 
 struct kd_accuracy_entry {
-    double rays_per_s; /* by the device's clock, or by the host's if the device has none */
+    double rays_per_s; /* rays per second of the device's clock, or of the host's clock if the device has none */
     uint32_t rays, crossings, differ;
     struct kd_accuracy_errors of[KD_ACCURACY_QUANTITIES];
 };
@@ -74,7 +76,7 @@ enum kd_status kd_accuracy_choose(const struct kd_accuracy_table *table, double 
  * bench/results: errors hardly depend on the device, speeds do. Any thread; never freed; NULL if out of memory. */
 const struct kd_accuracy_table *kd_accuracy_built_in(void);
 
-/* kd_accuracy_to_json appends the document of GET /v1/accuracy. The other function reads it back, and returns
+/* kd_accuracy_to_json appends the document of GET /v1/accuracy. kd_accuracy_from_json reads it back, and returns
  * KD_EINVAL for any other text. */
 enum kd_status kd_accuracy_to_json(const struct kd_accuracy_table *table, struct kd_buffer *out);
 enum kd_status kd_accuracy_from_json(const char *text, size_t length, struct kd_accuracy_table *out,

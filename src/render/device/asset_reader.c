@@ -21,7 +21,8 @@ static bool is_cached(struct kd_asset_reader *reader, const struct kd_asset_requ
     return reader->maker->is_cached(reader->owner, request);
 }
 
-/* Makes the first object that is requested. Called with the lock, which is released meanwhile. */
+/* Makes the object of the first request. Called with the lock; the function releases the lock while it makes the
+ * object. */
 static void make_first(struct kd_asset_reader *reader)
 {
     struct kd_asset_request request = reader->asked[0];
@@ -87,15 +88,15 @@ bool kd_asset_reader_begin(struct kd_asset_reader *reader, const struct kd_asset
 enum kd_status kd_asset_reader_wait(struct kd_asset_reader *reader, const struct kd_asset_request *request,
                                     struct kd_error *error)
 {
-    if (!is_invalid(reader, request->of) && !strcmp(reader->broken, request->of)) /* after any other failure the
-                                                                                   * request may be tried again */
+    /* a request that failed may be tried again, unless its asset is invalid */
+    if (!is_invalid(reader, request->of) && !strcmp(reader->broken, request->of))
         *reader->broken = 0;
     while (!is_cached(reader, request) && strcmp(reader->broken, request->of)) {
         if (kd_asset_reader_begin(reader, request) || reader->runs) {
             pthread_cond_wait(&reader->changed, &reader->lock);
             continue;
         }
-        reader->asked[reader->n_asked++] = *request; /* without a thread the list is empty */
+        reader->asked[reader->n_asked++] = *request; /* if no thread runs, the list is empty */
         reader->runs = true;                         /* the calling thread does the work of the missing thread */
         while (reader->n_asked)
             make_first(reader);

@@ -12,14 +12,14 @@
 /* A request. Two requests with the same name count as one. */
 struct kd_asset_request {
     char of[KD_ASSET_NAME]; /* the asset's hash, or another name that the owner chooses */
-    int32_t seed;           /* for the owner */
+    int32_t seed;           /* used by the owner only */
     bool ahead;             /* the object is loaded in advance, and nobody waits for it */
     bool whole;             /* for the owner: the object itself is needed, and its description is not enough */
 };
 
 /* Callbacks of the owner. Only one call of `make` runs at a time, so the owner can store its result until `keep`. */
 struct kd_asset_maker {
-    bool (*is_cached)(void *owner, const struct kd_asset_request *request); /* with the lock */
+    bool (*is_cached)(void *owner, const struct kd_asset_request *request); /* called with the lock */
     /* evicts objects before `make`; called with the lock */
     void (*make_room)(void *owner);
     /* Makes the object; called without the lock. *invalid is false before. The function sets it if the asset can
@@ -60,7 +60,7 @@ bool kd_asset_reader_begin(struct kd_asset_reader *reader, const struct kd_asset
  * error of `make`. Called with the lock. */
 enum kd_status kd_asset_reader_wait(struct kd_asset_reader *reader, const struct kd_asset_request *request,
                                     struct kd_error *error);
-/* True if nothing is requested or being made. Called with the lock. */
+/* True if there is no request, waiting or in progress. Called with the lock. */
 bool kd_asset_reader_is_idle(const struct kd_asset_reader *reader);
 /* Waits for the request in progress and drops all others. `made` is not called again before a new request. */
 void kd_asset_reader_stop(struct kd_asset_reader *reader);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST = 4096 }; /* most numbers in the file; the oldest are dropped first */
+enum { MOST = 4096 }; /* largest number of entries in the file; the oldest entries are dropped first */
 
 static uint64_t number_of(const struct kd_kernel_request *w, uint64_t folder)
 {

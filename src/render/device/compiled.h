@@ -1,6 +1,7 @@
-/* Records which kernels the driver has compiled into its own cache (kd_vk_compiling), so that the second device does
- * not compile them again. A file beside the pipeline cache holds 8 bytes for each kernel: a hash of the kernel and
- * of the driver's cache folder. An entry thus becomes invalid when that folder is removed. One thread at a time. */
+/* Records which kernels the driver has compiled into its own cache (kd_vk_compiling). The device that only compiles
+ * (frame/compilation.h) does not compile these kernels again. A file beside the pipeline cache holds 8 bytes for each
+ * kernel: a hash of the kernel and of the driver's cache folder. An entry thus becomes invalid when that folder is
+ * removed. One thread at a time. */
 #ifndef KD_RENDER_DEVICE_COMPILED_H
 #define KD_RENDER_DEVICE_COMPILED_H
 

@@ -36,7 +36,8 @@ struct kd_renderer {
         uint32_t deadline_ms;
     } opening;                /* the parameters with which the device was opened */
     struct kd_vk_info opened; /* description of the opened device */
-    char *files;              /* kd_vk_cache_file without a suffix; NULL: there is no folder */
+    /* path of the device's cache files without a suffix (kd_vk_cache_file); NULL: there is no cache folder */
+    char *files;
     struct kd_kernels kernels;
     struct kd_store store;
     struct kd_prepared prepared;
@@ -49,7 +50,7 @@ struct kd_renderer {
         enum kd_precision precision;
         uint32_t steps, orders, size;
     } rays_pace;
-    bool passing; /* passing and the next two members have the meaning that they have in kd_renderer_params */
+    bool passing; /* this member and the next two have the meaning that they have in kd_renderer_params */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
     struct kd_emit_state *emit; /* numbers and tables of the emitters, as the last frame left them */
@@ -70,9 +71,9 @@ struct kd_renderer {
     struct kd_capacity stored;       /* capacity as it is stored in the file */
     struct kd_slice_pace slice_pace; /* pace of pictures that release the device between slices */
     uint32_t frames;                 /* number of frames so far, counted by learn.c */
-    /* the cost of a pass is the smallest of the measured costs instead of their mean */
+    /* if true, the cost of a pass is the smallest of its measured costs; otherwise it is their mean */
     bool probing;
-    char name[800]; /* the next two members, joined */
+    char name[800]; /* `device` and `driver`, joined */
     char device[256], driver[520];
 };
 

@@ -208,7 +208,8 @@ done:
     return status;
 }
 
-/* A frame far from the series keeps its sign, which is all that the kernels need of it. */
+/* The frame number of the present time is limited to +-1e9. For a time so far outside the series, the kernels need only
+ * the sign of that number. */
 static void fill_times(struct kd_plasma_block *to, const struct kd_matter_grid *g, const struct kd_scene *scene)
 {
     const bool slow = kd_scene_is_slow_volume(scene);
@@ -257,7 +258,8 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
     to->grid_scale = (float)(1 / KD_MATTER_FIELD);
     to->inner = (float)fmin(inner, outer);
     to->outer = (float)outer;
-    if (kd_scene_is_radio_alone(scene)) { /* if the grid is the only volume, the march finds its edges */
+    /* if no other volume is present, the march can be limited to the grid's own radii */
+    if (kd_scene_is_radio_alone(scene)) {
         out->frame.along_least = (float)(1 / outer);
         out->frame.along_most = (float)fmin(1 / fmin(inner, outer), 1e30);
     }

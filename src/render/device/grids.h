@@ -24,7 +24,7 @@ struct kd_grids {
     uint64_t used;
     char uploaded[KD_ASSET_NAME];   /* the grid that was last found on the device; "": no grid */
     const struct kd_assets *assets; /* NULL: there are none */
-    bool blank; /* for a device that only compiles: no file is read, and every grid has few, empty nodes */
+    bool blank; /* true on a device that only compiles: no file is read, and every grid has a few empty nodes */
 };
 void kd_grids_init(struct kd_grids *grids, const struct kd_assets *assets, void (*made)(void *user), void *user);
 

@@ -366,7 +366,8 @@ static void request_kernel(struct kd_kernels *kernels, const struct kd_vk_pipeli
             return;
     struct kd_kernel_entry *known = find(kernels, source, key);
     if (known)
-        known->used = ++kernels->clock; /* updated so that the kernel is not evicted and made again for each frame */
+        known->used = ++kernels->clock; /* marks the kernel as recently used, so that it is not evicted and made again
+                                           for each frame */
     if (known || all->n == KD_KERNEL_WISHES || all->n == room_of(kernels))
         return;
     struct kd_kernel_request *w = &all->at[all->n++];

@@ -71,7 +71,7 @@ enum kd_kernel {
 #define KD_KERNEL_WISHES 32
 
 struct kd_kernel_entry {
-    const struct kd_vk_pipeline_params *source; /* in constant data */
+    const struct kd_vk_pipeline_params *source; /* points to constant data */
     uint32_t constants[KD_KERNEL_MAX_CONSTANTS];
     size_t n; /* number of constants */
     struct kd_vk_pipeline *pipeline;
@@ -117,13 +117,13 @@ void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
 void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);
-/* True if a device reads the radiance of this many pixels as texels of four floats. Software devices read texels in
- * a third of the time, but differ in how many they can bind. */
+/* True if a device reads the radiance of this many pixels as texels of four floats. Software devices read texels in a
+ * third of the time that a storage buffer takes, but they differ in how many texels they can bind. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
 /* like kd_kernels_texels, for this number of bytes of any data */
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes);
-/* like kd_kernels_texels, for any lens map, with one number in each texel: software devices take less than half the
- * time */
+/* like kd_kernels_texels, for any lens map, with one number in each texel: software devices read such texels in less
+ * than half the time */
 bool kd_kernels_map_as_texels(const struct kd_vk *vk);
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);
 static inline enum kd_kernel kd_kernel_post(bool texels, bool bloom, bool heat)

@@ -1,5 +1,5 @@
 /* Cache of the latest densities that were found for given fluxes (frame/normalise.h). Only the thread that owns the
- * renderer. */
+ * renderer uses this cache. */
 #ifndef KD_RENDER_DEVICE_NORMALISED_H
 #define KD_RENDER_DEVICE_NORMALISED_H
 

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The name of a Milky Way has a space, and a hash has none. */
+/* True if the request names an asset. An asset's name is its hash, which has no space; a Milky Way's name, "seed N",
+ * has one. */
 static bool is_image(const struct kd_asset_request *request) { return !strchr(request->of, ' '); }
 
 static enum kd_status fill(struct kd_panorama *p, struct kd_sky_picture *picture, struct kd_error *error)
@@ -124,7 +125,8 @@ static void keep(void *owner, const struct kd_asset_request *request)
     all->fresh = all->recalled || is_image(request) ? NULL : place;
 }
 
-/* Writes the file without the lock. The words stay valid, because only this thread evicts slots. */
+/* Writes the new Milky Way to its file, without the lock. The panorama's words stay valid, because only this thread
+ * evicts slots. */
 static void write_file(void *owner, const struct kd_asset_request *request)
 {
     struct kd_panoramas *all = owner;

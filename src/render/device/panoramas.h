@@ -28,7 +28,8 @@ struct kd_panoramas {
     uint64_t used;
     const struct kd_assets *assets; /* NULL: there are none */
     char *file; /* file in which the first Milky Way is stored for later processes; NULL: none, or already written */
-    /* for a device that only compiles: panoramas are black and have a Milky Way's size, which costs no time */
+    /* true on a device that only compiles: panoramas are black, which takes no time to make, and have a Milky Way's
+     * size */
     bool blank;
 };
 void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *assets, void (*made)(void *user),

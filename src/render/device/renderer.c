@@ -187,7 +187,7 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer) { return renderer->vk
 
 enum kd_status kd_renderer_reopen(struct kd_renderer *r, struct kd_error *error)
 {
-    /* If submitted work hangs, the device cannot be closed. No second device is opened then. */
+    /* If submitted work hangs, the device cannot be closed, and no second device is opened. */
     if (r->vk)
         kd_vk_wait(r->vk, 0, NULL);
     if (kd_renderer_hangs(r))

@@ -16,8 +16,8 @@ struct kd_compilation;
 #define KD_CREDIT 512 /* bytes for the credits of a picture's sources */
 
 struct kd_renderer_params {
-    const char *device;    /* as kd_vk_params */
-    const char *cache_dir; /* as kd_vk_params */
+    const char *device;    /* same meaning as in kd_vk_params */
+    const char *cache_dir; /* same meaning as in kd_vk_params */
     bool validate;
     /* tests a device that is used for the first time, which takes half a second: kd_first_start
      * (selftest/first_start.h), or NULL for no test */
@@ -34,7 +34,7 @@ struct kd_renderer_params {
     void *lacks_user;
     bool passing;          /* another renderer uses the same device, so measured speeds are not stored */
     bool compiles_only;    /* as in kd_vk_params: pictures are black, and no Milky Way is made */
-    uint32_t deadline_ms;  /* as kd_vk_params */
+    uint32_t deadline_ms;  /* same meaning as in kd_vk_params */
     uint64_t memory_bytes; /* memory limit for all pictures, including those in the background; 0: the device and the
                             * host set the limit */
 };
@@ -42,9 +42,9 @@ enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struc
                                   struct kd_error *error);
 void kd_renderer_destroy(struct kd_renderer *renderer);
 
-/* Closes a device that has failed and reopens it. The measurements and the data cached on the host are kept, and
- * later pictures are the same; buffers and kernels are made again when needed. Returns KD_EDEVICE if the device
- * hangs and so cannot be closed (kd_renderer_hangs), if it is unavailable now, or if another device has taken its
+/* Closes a device that has failed and reopens it. Measurements and data cached on the host are kept, so that later
+ * pictures are the same as before. Buffers and kernels are made again when needed. Returns KD_EDEVICE in three cases:
+ * the device hangs and cannot be closed (kd_renderer_hangs); it is unavailable now; or another device has taken its
  * place. The call may be repeated. */
 enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error);
 /* True if the device has missed a deadline. It can then be neither closed nor reopened, and the process should soon
@@ -87,7 +87,7 @@ struct kd_accuracy_report {
     uint64_t traced, interpolated;
     /* sampled: number of rays that were traced again; crossings: number of crossings that were compared */
     uint32_t sampled, crossings;
-    /* number of crossings that only one of the two results has, plus number of rays with different fates */
+    /* number of crossings that only one of the two results has, plus the number of rays with different fates */
     uint32_t differ;
     double median, worst; /* relative error of the radius over the sample */
     uint64_t followed;    /* number of rays that refinement traced beyond those of the plan */
@@ -111,8 +111,8 @@ struct kd_accuracy_report {
 /* Largest number of pictures that may be rendered in the background at once (render/frame/frame.h). */
 #define KD_BACKGROUND_RENDERS 8
 
-/* Called between slices of long work, with the completed fraction. It returns false to stop the work, which then
- * ends with KD_ECANCELLED. */
+/* Called between slices of long work, with the completed fraction. If it returns false, the work stops with
+ * KD_ECANCELLED. */
 typedef bool (*kd_progress_fn)(void *user, double fraction);
 
 #endif

@@ -41,8 +41,9 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
     return named + more_than(resident_bytes(), r->opened_bytes + named);
 }
 
-/* Resident memory that belongs to no other category is counted as heap or `other`. Device memory is counted in full,
- * although some of its pages may never have been touched. What remains then bounds the heap. */
+/* Resident memory that belongs to no other category is divided between heap and `other`. Heap memory counts as heap
+ * only up to the size of this remainder: device memory counts in full although some of its pages may never have been
+ * touched, so the remainder may be smaller than the heap. */
 void kd_renderer_cached(const struct kd_renderer *r, uint64_t out[KD_N_CACHE_KINDS])
 {
     const uint64_t left = more_than(resident_bytes(), r->started_bytes + named_bytes(r, out)),
@@ -90,8 +91,8 @@ static void give_back(struct kd_renderer *r)
     kd_grids_rest(&r->grids);
 }
 
-/* Closes the device and reopens it. If the process is still larger afterwards, the growth is reported separately
- * from the device and does not cause another reopening. The latest kernels are made again, in a third of a second on
+/* Closes the device and reopens it. If the process is still larger afterwards, the growth does not count as the
+ * device's memory and does not cause another reopening. The latest kernels are made again, in a third of a second on
  * two cores, so that the next picture of the same view does not wait for them. */
 static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
 {

@@ -40,11 +40,11 @@ static inline const char *kd_cached_documents_word(size_t kind)
     return kind < KD_N_CACHE_KINDS ? words[kind] : NULL;
 }
 /* Counts the bytes of each kind. The device's kinds are those after the latest frame or rest; kernels are counted by
- * their SPIR-V. The last two kinds, `heap` and `other`, divide the resident memory that exceeds the other kinds and
- * the size of the process when it first opened the device. heap: memory in use on the heap, mostly what lavapipe has
- * compiled. other: code, stacks, freed memory that was not yet returned, and blocks of a MiB and more that are in
- * use for rendering, encoding or sending. Reads a file in /proc and inspects the heap, in about a millisecond. Any
- * thread. */
+ * their SPIR-V. The last two kinds, `heap` and `other`, divide the rest of the resident memory: what is left after
+ * subtraction of the other kinds, and of the size that the process had when it first opened the device. heap: memory in
+ * use on the heap, mostly what lavapipe has compiled. other: code, stacks, freed memory that was not yet returned, and
+ * blocks of a MiB and more that are in use for rendering, encoding or sending. Reads a file in /proc and inspects the
+ * heap, in about a millisecond. Any thread. */
 void kd_renderer_cached(const struct kd_renderer *renderer, uint64_t out[KD_N_CACHE_KINDS]);
 /* The sum of all kinds without inspecting the heap. Memory that remained after the device was reopened is not
  * included. Any thread. */
@@ -52,8 +52,9 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *renderer);
 /* Updates the counts after each frame, without system calls. Render thread only. */
 void kd_renderer_count(struct kd_renderer *renderer);
 /* Frees everything beyond the bounds above, and returns the host's free memory to the kernel. Later pictures are the
- * same. Pictures of the latest view take no longer, unless the device had to be reopened (KD_REST_BYTES). Errors are
- * those of kd_renderer_reopen. Render thread only, while nothing is being rendered, here or in the background. */
+ * same. Pictures of the latest view take no longer than before, unless the device had to be reopened (KD_REST_BYTES).
+ * Errors are those of kd_renderer_reopen. Render thread only, while nothing is being rendered, here or in the
+ * background. */
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error);
 /* Call this after the process has opened the device for the first time. Memory that is resident then is not counted
  * as kept. */

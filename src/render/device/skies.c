@@ -26,7 +26,7 @@ done:
     return status;
 }
 
-/* Cell of a star on a face of side x side cells; -1: beyond the face's edge. */
+/* Cell of a star on a face of side x side cells; -1: the star lies beyond the face's edge. */
 static int64_t cell_on(const struct kd_star *s, int face, int side)
 {
     const float n[] = { s->x, s->y, s->z, s->x, s->y }, *axis = &n[face / 2], along = face % 2 ? -*axis : *axis;
@@ -39,8 +39,8 @@ static int64_t cell_on(const struct kd_star *s, int face, int side)
     return ((int64_t)face * side + y) * side + x;
 }
 
-/* Computes the start of each cell, counted from `from` and shifted by one entry as `sort` needs it. The last number
- * is the end of the last cell. */
+/* Computes at which entry of the list each cell begins, counting from `from`. cells[c + 1] becomes the start of cell c,
+ * as `sort` needs it. The last number is the end of the last cell. */
 static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_t *cells)
 {
     const size_t n = (size_t)KD_FACE_TABLE(side) - 2;
@@ -58,7 +58,7 @@ static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_
 
 /* Sorts stars into cells and keeps their order, so that each cell has its brightest star first. During the sort,
  * cells[c + 1] advances from the start of cell c to its end, which is the start of the next cell. all: number of
- * places, after which the temperatures follow. */
+ * entries; the temperatures follow after all entries. */
 static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t all, float *rows)
 {
     for (size_t i = 0; i < stars->n; i++)

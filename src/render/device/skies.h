@@ -1,6 +1,6 @@
-/* The sky on the device: a panorama, which the transfer pass reads, and stars sorted by place. Both are made on the
- * host when the sky has changed (kd_emitter_buffers_sky, render/emit/own.h). A panorama takes up to a second, on a
- * thread of its own (panoramas.h); stars take 30 ms. Render thread only. */
+/* The sky on the device: a panorama, which the transfer pass reads, and stars sorted by place. Panorama and stars are
+ * made on the host when the sky has changed (kd_emitter_buffers_sky, render/emit/own.h). A panorama takes up to a
+ * second, on a thread of its own (panoramas.h); stars take 30 ms. Render thread only. */
 #ifndef KD_RENDER_DEVICE_SKIES_H
 #define KD_RENDER_DEVICE_SKIES_H
 

@@ -2,8 +2,9 @@
 
 #include <math.h>
 
-/* Submissions become shorter at once, but longer only over some ten of them, because one that is too long does more
- * harm. */
+/* Weights of a new measurement in the smoothed slowness. When the device becomes slower, submissions become shorter
+ * within one or two submissions. When it becomes faster, they become longer only over some ten of them, because a
+ * submission that is too long does more harm than one that is too short. */
 #define FALLS 0.5
 #define RISES 0.1
 

@@ -1,6 +1,6 @@
-/* The present duration of submissions on this device. The costs of passes are measured on an idle device. When other
- * programs use the same cores, or when the costs are too low, a submission takes longer, and everybody who waits for
- * the device must wait for its end. Pure. */
+/* Limits the duration of submissions when this device is slow. The costs of passes are measured on an idle device. When
+ * other programs use the same cores, or when the measured costs are too low, a submission takes longer than planned,
+ * and everybody who waits for the device must wait for its end. Pure. */
 #ifndef KD_RENDER_DEVICE_SLICE_PACE_H
 #define KD_RENDER_DEVICE_SLICE_PACE_H
 

@@ -167,7 +167,8 @@ done:
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error)
 {
-    /* Made in any case, because a map that was found may come from another store, and refine.c traces further rays. */
+    /* The buffer for undecided rays is made even if the lens map was found: the map may come from another store, and
+     * refine.c traces further rays. */
     const uint64_t bytes = 4 * (1 + kd_plan_open_most(plan));
     enum kd_status status =
         kd_store_at_least(store->vk, &store->undecided, bytes, KD_VK_DEVICE, "undecided rays", error);

@@ -20,7 +20,7 @@ struct kd_bands {
     uint64_t band_bytes;
 };
 
-/* Everything besides the lens map on which the light of stars depends. That light stays valid while only time
+/* Everything, besides the lens map, that determines the light of stars. The light of stars stays valid while only time
  * advances. */
 struct kd_star_key {
     char lens[65];
@@ -31,7 +31,7 @@ struct kd_star_key {
 };
 
 struct kd_lens_map {
-    char key[65]; /* "" while empty or incomplete */
+    char key[65]; /* "": the map is empty or incomplete */
     struct kd_bands bands;
     struct kd_bands
         critical; /* the lens maps of the pixels at the critical curve, part by part, each followed by its list */
@@ -45,7 +45,7 @@ struct kd_lens_map {
     bool rim_known; /* true if rim and rim_grids are set */
     bool rim_traced;
     struct kd_vk_buffer *rim_lens; /* directions and tables of the rim (frame/rim.c); NULL: never made */
-    struct kd_star_key star_key;   /* key of the star light; lens "": it is missing or incomplete */
+    struct kd_star_key star_key;   /* key of the star light; lens "": the star light is missing or incomplete */
     struct kd_accuracy_report accuracy;
     uint64_t used;
 };
@@ -79,7 +79,7 @@ struct kd_store {
     struct kd_vk_buffer *listed;     /* lens map of listed pixels, overwritten part by part */
     /* buffers for a sampled map (frame/sample.c): its lists, index and nodes; NULL: no frame had such a map */
     struct kd_vk_buffer *sample, *sample_index, *nodes;
-    uint32_t alone;                      /* offset in the lists at which the rays begin that are traced singly */
+    uint32_t alone;                      /* the rays that are traced singly begin at this offset in the lists */
     int32_t alone_x, alone_y;            /* the ray from which the places of these rays are counted */
     struct kd_vk_buffer *sample_head;    /* head of the lists, on the host */
     struct kd_vk_buffer *undecided;      /* rays that the kernels leave undecided (frame/settle.c): a counter, then the

@@ -10,7 +10,7 @@ struct kd_renderer;
 
 struct kd_verdict {
     enum { KD_UNTESTED, KD_PASSED, KD_FAILED } result;
-    bool now; /* this process ran the test; false: an earlier process did */
+    bool now; /* true: this process ran the test; false: an earlier process did */
     unsigned checks, failed;
     double seconds;  /* duration of the test */
     char worst[160]; /* the first check that failed; "" if none failed */
@@ -18,7 +18,7 @@ struct kd_verdict {
 
 /* Loads the cached verdict for a new renderer's device, and the costs of its passes. */
 void kd_verdict_recall(struct kd_renderer *renderer);
-/* Writes the renderer's verdict. The costs of this capacity are written too if they were measured. */
+/* Writes the renderer's verdict. Also writes the costs of passes in `capacity`, if they were measured. */
 void kd_verdict_save(const struct kd_renderer *renderer, struct kd_capacity capacity);
 /* Stores the present costs of passes for the next start, if there is a cache. */
 void kd_verdict_keep(struct kd_renderer *renderer);

@@ -13,7 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Velocity relative to the observer of zero angular momentum. Returns the angular velocity. */
+/* Computes a body's velocity relative to the observer of zero angular momentum at its position. Returns its angular
+ * velocity. */
 static double motion_of(const struct kd_body *body, const struct kd_vantage *at, double velocity[3])
 {
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO), motion = kd_body_motion(body);

@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* the most bodies that are seen */
+#define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* largest number of bodies in a picture */
 
 /* The appearance of bodies depends on these: the hole, the observer's azimuth, and the temperature that corresponds to
  * the disk's brightness 1. */
@@ -20,7 +20,7 @@ struct kd_bodies_view {
     struct kd_hole hole;
     double azimuth, peak_k;
     const struct kd_illumination *lit;
-}; /* lit: the disk as a light source; NULL if it does not illuminate the bodies */
+}; /* lit: the disk as a light source; NULL if the disk does not illuminate the bodies */
 
 /* kd_illumination_exists: whether the scene has a thin disk. kd_illumination_of: prepares the disk as a light source
  * for bodies (bodies_illumination.c); returns false if there is no thin disk. */
@@ -37,8 +37,8 @@ void kd_illumination_body(const struct kd_illumination *lit, const struct kd_see
 /* Number of floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
 /* Writes bodies and tree, in 10 us for 16 bodies and 2 ms for 4096. n is at most KD_SEEN_BODIES. Three kinds of
- * bodies are left out: those without a size, those at impossible places, and those nearer to the horizon than
- * KD_BODIES_CLEAR of its radius. */
+ * bodies are left out: those without a size, those at impossible places, and those whose distance from the horizon is
+ * less than KD_BODIES_CLEAR times the horizon's radius. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                               float *words, struct kd_error *error);
 /* True if a body is packed. A body of temperature 0 is packed, because it is dark but hides what is behind it. */

@@ -1,14 +1,14 @@
 /* Illumination of bodies by the disk. The disk is taken as smooth and thin, with KD_LIT_RINGS rings of KD_LIT_PLACES
- * places each, evenly spaced in ln r and azimuth. Its light travels straight, and nothing casts shadows. A place of
- * area dA and brightness I, seen at distance d in the direction n from the centre of a body at height z over the plane,
- * contributes
+ * places each, evenly spaced in ln r and azimuth. Light travels from the disk to a body on straight lines, and nothing
+ * casts shadows. A place of area dA and brightness I, seen at distance d in the direction n from the centre of a body
+ * at height z over the plane, contributes
  *
  *   dF = I g^4 (z/d) dA/d^2 / D^2,   g = D (lapse there/lapse here)/(gamma' (1 + v'.n)),   D = gamma (1 + v.n),
  *
  * where v' and v are the velocities of gas and body relative to observers of zero angular momentum, whose frames are
  * taken as parallel. In the body's frame the source has a solid angle smaller by D^2, in the direction n' = (n +
- * gamma v (1 + gamma/(gamma + 1) v.n))/D. The numbers of a body are the sums of dF, dF n' and dF n'n'. From these
- * follows the illumination of each side to second order (shaders/emit/bodies.glsl). */
+ * gamma v (1 + gamma/(gamma + 1) v.n))/D. The numbers of a body are the sums of dF, dF n' and dF n'n'. These sums
+ * determine the illumination of each side to second order (shaders/emit/bodies.glsl). */
 #include "render/emit/bodies.h"
 
 #include "physics/spacetime/kerr.h"

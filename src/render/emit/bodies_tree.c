@@ -26,8 +26,8 @@ static uint32_t leaves_of(size_t n)
 
 size_t kd_bodies_words(size_t n) { return (8 + KD_BODY_WORDS) * (size_t)leaves_of(n); }
 
-/* The metric at a body's centre (Bardeen, Press & Teukolsky 1972): lapse, sqrt of g_rr, g_thetatheta and
- * g_phiphi/sin^2, and frame dragging. */
+/* The metric at a body's centre (Bardeen, Press & Teukolsky 1972): the lapse, the square roots of g_rr, of g_thetatheta
+ * and of g_phiphi/sin^2(theta), and frame dragging. */
 struct metric { double lapse, r, theta, phi, omega; };
 
 static struct metric metric_at(const struct kd_hole *hole, const struct kd_seen_body *b)

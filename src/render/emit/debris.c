@@ -39,10 +39,8 @@ static void tell(const struct kd_scene *scene, char out[KD_EMIT_TOLD])
 }
 
 static size_t words(const struct kd_dynamic_bodies_debris *d) { return KD_CROWD_NODE * (size_t)d->rows * d->columns; }
-static uint64_t device_bytes(const struct kd_scene *scene)
-{
-    return 2 * sizeof(float) * words(of(scene));
-} /* numbers: on the device; staging: on their way there */
+/* Two buffers: `numbers` on the device, and `staging`, through which they are uploaded. */
+static uint64_t device_bytes(const struct kd_scene *scene) { return 2 * sizeof(float) * words(of(scene)); }
 
 /* The area of a node is r^2 (2 pi/turn)^2. */
 static void fill(struct kd_emission *out, const struct kd_scene *scene)

@@ -42,7 +42,7 @@ static enum kd_limb limb_of(const struct kd_scene *scene)
                                                                 : KD_LIMB_ISOTROPIC;
 }
 
-/* The flux of a scene's disk, divided by Mdot. With returning light a table gives it. */
+/* The flux of a scene's disk, divided by Mdot. If light returns to the disk, the flux comes from a table. */
 struct profile {
     struct kd_hole hole;
     kd_disk_flux_fn own;
@@ -127,7 +127,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     };
 }
 
-/* Computes the cubic through the ends of a cell and the places at one and two thirds of it. */
+/* Computes the cubic through four values of a cell: at its ends, and at one and two thirds of its length. */
 static void put_cubic(float out[4], const double f[4])
 {
     out[0] = (float)f[0];

@@ -34,7 +34,8 @@ _Static_assert(sizeof(struct kd_emit_tables) == sizeof(kd_table_row) * (0 KD_EMI
                "no gaps: the kernels count rows");
 #undef KD_T
 
-/* Checks that no two traits share a bit of a word: otherwise the sum of all traits would exceed their bitwise or. */
+/* Checks that no two traits share a bit of a word. If two did, the sum of all traits would differ from their bitwise
+ * or. */
 #define ADDED(trait) +(uint64_t)KD_TRAIT_##trait
 #define JOINED(trait) | KD_TRAIT_##trait
 #define DISJOINT(number, name) \

@@ -210,7 +210,7 @@ static bool is_current(const struct kd_emit_state *state, int i, const struct kd
     return true;
 }
 
-/* Range of radii of all emitters of some kinds; radii[0] > radii[1] if there is none. */
+/* Range of radii of all emitters whose kind is in `of`; radii[0] > radii[1] if there is no such emitter. */
 static void reach_of_all(const struct kd_scene *scene, unsigned of, double radii[2])
 {
     radii[0] = INFINITY;
@@ -226,7 +226,7 @@ static void reach_of_all(const struct kd_scene *scene, unsigned of, double radii
     }
 }
 
-/* Least and largest |cos(theta)| of all volumes. */
+/* The least |cos(theta)| of all volumes. height_of_all gives the largest. */
 static double hollow_of_all(const struct kd_scene *scene)
 {
     double least = 1;
@@ -242,7 +242,7 @@ static double height_of_all(const struct kd_scene *scene)
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         if (kinds[i] == ALONG && kd_emit_has(scene, kd_emitters[i]))
             most = fmax(most, kd_emitters[i]->height ? kd_emitters[i]->height(scene) : 1);
-    return most >= 1 ? 2 : most; /* a value of 2 means that no ray stops at the axis */
+    return most >= 1 ? 2 : most; /* 2 if a volume reaches the axis: then no ray stops at the axis */
 }
 
 /* 1/r of the outermost knot in a volume; 0: none. */

@@ -58,8 +58,9 @@ struct kd_emitter {
      * emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
     /* For ALONG emitters: the least and the largest |cos(theta)| at which they emit or absorb; NULL: 0 and 1.
-     * `reach`, `hollow` and `height` give bounds, which the march resolves to a float's accuracy, for all volumes of
-     * a scene together. An edge inside these bounds is resolved only as finely as the emitter's grain requires. */
+     * The march takes the outermost bounds that `reach`, `hollow` and `height` give for the scene's volumes, and
+     * resolves these bounds to a float's accuracy. It resolves an edge inside them only as finely as the emitter's
+     * grain requires. */
     double (*hollow)(const struct kd_scene *scene), (*height)(const struct kd_scene *scene);
     /* Radius in M of a sphere within `reach` at which light or optical depth has an edge. The march finds this edge
      * as well. 0 or NULL: none. */
@@ -72,10 +73,11 @@ struct kd_emitter {
     const struct kd_sentence *sentences;
     size_t n_sentences;
     const struct kd_emitter *kind; /* an emitter whose approximations also apply to this one; NULL: none */
-    /* another emitter whose numbers and tables this one reads, including those that the other one reads itself;
-     * NULL: none */
+    /* another emitter whose numbers and tables this one reads, together with all that the other emitter reads; NULL:
+     * none */
     const struct kd_emitter *reads;
-    const struct kd_emitter *replaces; /* an emitter that is left out where this one is present; NULL: none */
+    /* an emitter that is left out of scenes in which this one is present; NULL: none */
+    const struct kd_emitter *replaces;
 };
 
 #define KD_EMIT_NUMBER_(number, name) KD_EMITTER_##name = number,
@@ -92,8 +94,8 @@ extern const struct kd_emitter *const kd_emitters[KD_EMITTER_COUNT];
 bool kd_emit_has(const struct kd_scene *scene, const struct kd_emitter *emitter);
 /* Computes the words of the specialisation constants. The words of emitters that the scene does not have are 0. */
 void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]);
-/* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads. For a device that reads this buffer as
- * texels. */
+/* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads. Call this for a device that reads the
+ * buffer as texels. */
 void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT]);
 /* The needs of the scene's emitters. kd_emit_needs: quantities of the lens map. The other functions are true if there
  * is light at crossings of the plane, at the ends of rays, with separate luminance, or from points. */

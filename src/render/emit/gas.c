@@ -7,13 +7,14 @@
 
 #include <math.h>
 
-/* Displacement of an octave where the octave before is one standard deviation from its mean, in widths of the
- * octave's cells. With this value streaks bend but do not tear. */
+/* How far an octave is displaced by the octave before, in widths of the octave's own cells, where the octave before is
+ * one standard deviation from its mean. With this value streaks bend but do not tear. */
 #define WARP 0.2
-/* Mean square slope of both noises along an axis, per cell. A displacement increases slopes in proportion to it. */
+/* Mean square slope, along an axis and per cell, of each of the two noises. The amount by which a displacement steepens
+ * an octave is proportional to this number. */
 #define STEEPNESS 16.6
 /* Ratio of the amplitudes of successive octaves of the logarithm. Each octave has KD_GAS_FINER times as many cells,
- * and by Kolmogorov's law amplitudes fall as the cube root of that. */
+ * and by Kolmogorov's law amplitudes fall as the cube root of this number. */
 #define PERSISTENCE 0.72
 
 static bool present(const struct kd_scene *scene)
@@ -46,8 +47,8 @@ static double inner_radius(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Amplitude of the first octave with which the logarithm has the standard deviation `amplitude` over all octaves
- * together. */
+/* Amplitude of the first octave. With it the logarithm, which is the sum of all octaves, has the standard deviation
+ * `amplitude`. */
 static double loudness(const struct kd_scene *scene)
 {
     double sum = 0;

@@ -7,7 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#define CLEAR 1.05 /* least inner radius divided by the horizon's radius: outflow further in is not visible */
+/* least inner radius of a jet divided by the horizon's radius: gas that flows out from further in is not visible */
+#define CLEAR 1.05
 
 static bool present(const struct kd_scene *scene) { return scene->jets.brightness > 0; }
 

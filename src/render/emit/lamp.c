@@ -29,7 +29,7 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
     struct kd_lamppost lamp;
     const bool lit = kd_lamppost_init(&lamp, kd_scene_hole(scene), scene->flash.height, scene->flash.photon_index,
                                       inner, scene->disk.outer);
-    assert(lit); /* as the rules of scenes ensure: tests/unit/physics_disk.c */
+    assert(lit); /* the rules of scenes ensure this (tests/unit/physics_disk.c) */
     (void)lit;
     for (int i = 0; i < KD_LAMP_TABLE; i++) {
         const double r = inner * exp(i * step), received = kd_lamppost_at(&lamp, r);

@@ -15,17 +15,20 @@
 
 #define NEVER -1e6 /* log2 of zero */
 #define COLD -24.0 /* log2 of k T/(m_e c^2) below which no fit is valid: 354 K */
-#define EMPTY \
-    40.0 /* An empty node is set this many octaves below the densest one, so that the light falls to nothing within a \
-            cell. */
-#define EVEN 1e-3   /* tolerance for the even spacing of rows, as a fraction of a step */
-#define STEADY 1e-2 /* the same of times: codes write a dump at the first step after its time */
+/* an empty node lies this many octaves below the densest one, so that the light falls to nothing within a cell */
+#define EMPTY 40.0
+#define EVEN 1e-3 /* tolerance for the even spacing of rows, as a fraction of a step */
+/* tolerance for the even spacing of times, as a fraction of a step: codes write a dump at the first of their steps
+ * after the intended time */
+#define STEADY 1e-2
 #define LATEST 1e12 /* largest time, M, as that of the scene */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
-#define FINEST 1024 /* most rows per factor of e in r, since a stretch of the march is two cells */
-#define PARTS 64    /* largest k, if the grid covers 1/k of a turn */
-#define PLACES 4    /* cells for each column in the table of uneven columns */
+#define FINEST \
+    1024         /* largest number of rows per factor of e in r, because a stretch of the march is two cells long \
+                   \ */
+#define PARTS 64 /* largest k, if the grid covers 1/k of a turn */
+#define PLACES 4 /* cells for each column in the table of uneven columns */
 #define PLACES_LEAST 256
 #define HEADER_MOST 65536
 
@@ -83,7 +86,7 @@ static enum kd_status check_units(const cJSON *units, bool times, struct kd_erro
     return KD_OK;
 }
 
-/* Reads a parameter of the hole, which may be missing: then it is 0. */
+/* Reads a parameter of the hole. A missing parameter is 0. */
 static enum kd_status take_parameter(struct kd_matter_grid *grid, const cJSON *given, double least, const char *field,
                                      double *out, struct kd_error *error)
 {
@@ -340,8 +343,8 @@ static double theta_at(const struct kd_matter_reader *r, size_t row, size_t colu
     return r->theta[(r->theta_rows > 1 ? row * r->grid.columns : 0) + column];
 }
 
-/* Computes the column, as a number with a fraction, at each bound of a table's cells, by linear interpolation
- * between the columns' angles. */
+/* Computes the column number, with its fraction, at each boundary between cells of a table. It interpolates linearly
+ * between the angles of the columns. */
 static void columns_at(const double *theta, size_t columns, uint32_t steps, float *out, size_t stride)
 {
     size_t below = 0;
@@ -407,7 +410,7 @@ done:
 static enum kd_status check_shape(const struct kd_matter_grid *g, const char *name, const struct kd_matter_array *a,
                                   struct kd_error *error)
 {
-    const size_t lead = g->frames > 1; /* a leading axis of frames */
+    const size_t lead = g->frames > 1; /* 1 if arrays have a leading axis of frames */
     const bool flat = a->dimensions == 2 + lead && g->layers == 1,
                round = a->dimensions == 3 + lead && a->shape[2 + lead] == g->layers;
     char what[200], frames[20] = "", layers[20] = "";
@@ -480,7 +483,7 @@ static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struc
 }
 
 /* Gets the temperature of an empty node, which has none of its own: the mean of its non-empty neighbours.
- * Interpolation then gives matter its own temperature up to the edge. */
+ * Matter at an edge then keeps its own temperature when nodes are interpolated. */
 static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i)
 {
     const size_t layers = g->layers, row = row_of(g, i), column = i / layers % g->columns, layer = i % layers,

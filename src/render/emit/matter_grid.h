@@ -8,8 +8,8 @@
  *                 angle for each column, or, with the shape (rows, columns), for each node. phi covers a turn or 1/k
  *                 of a turn with a whole k, and may be missing
  *   time          optional: the times of the frames of a series, in even steps. Each array below then has a leading
- *                 axis of frames. The header's "time" names the slices on which the frames are: those of constant
- *                 "boyer-lindquist" or "kerr-schild" time; if it is missing, those of its azimuth
+ *                 axis of frames. The header's "time" names the time that is constant in a frame, "boyer-lindquist" or
+ *                 "kerr-schild"; if it is missing, it is the time that "azimuth" names
  *   density temperature u_con_r u_con_theta u_cov_phi b_con_r b_con_theta b_cov_phi
  *                 arrays of the shape (rows, columns) or (rows, columns, layers)
  *   u_con_t       optional; if present, the velocity must be a unit vector
@@ -28,19 +28,20 @@
 #include <stdint.h>
 
 enum {
-    KD_MATTER_SIDE = 4096,      /* limit for rows, columns and layers */
-    KD_MATTER_NODES = 1 << 25,  /* limit for nodes of all frames: 512 x 256 x 256 */
-    KD_MATTER_FRAMES = 1024,    /* limit for frames */
-    KD_MATTER_WHOLE = 1 << 21,  /* largest number of nodes of a grid that is not packed */
-    KD_MATTER_FLOATS = 8,       /* floats of a node; a packed node has half as many words */
-    KD_MATTER_ANGLES = 1 << 21, /* limit for the angles theta, if each node of a row and column has its own */
-    KD_MATTER_PLACES = 1 << 20  /* limit for the cells of `places`, of four floats each */
+    KD_MATTER_SIDE = 4096,     /* limit for rows, columns and layers */
+    KD_MATTER_NODES = 1 << 25, /* limit for nodes of all frames: 512 x 256 x 256 */
+    KD_MATTER_FRAMES = 1024,   /* limit for frames */
+    KD_MATTER_WHOLE = 1 << 21, /* largest number of nodes of a grid that is not packed */
+    KD_MATTER_FLOATS = 8,      /* floats of a node; a packed node has half as many words */
+    /* limit for the number of angles theta, if each pair of row and column has an angle of its own */
+    KD_MATTER_ANGLES = 1 << 21,
+    KD_MATTER_PLACES = 1 << 20 /* limit for the cells of `places`, of four floats each */
 };
 
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
     uint32_t frames;                /* frames in time; 1: the grid has no times */
-    double time[2];                 /* of the first and the last frame, M */
+    double time[2];                 /* times of the first and the last frame, M */
     bool late;                      /* the frames are slices of constant ingoing Kerr-Schild time */
     KD_HOLE_MEMBERS
     double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns
@@ -67,12 +68,14 @@ struct kd_matter_grid {
     uint32_t steps, place_rows;
 };
 
-/* half that stands for the largest component of the field, so that smaller components also keep their 11 bits */
+/* half-precision number that stands for the largest component of the field, so that smaller components also keep their
+ * 11 bits */
 #define KD_MATTER_FIELD 16384.0
 
 /* True if bytes begin as an NPZ file does. */
 bool kd_matter_grid_is(const void *data, size_t size);
-/* Reads and checks a whole file. KD_EINVAL: the message says what is wrong and what is valid. KD_ENOMEM. */
+/* Reads and checks a whole file. Returns KD_ENOMEM, or KD_EINVAL with a message that says what is wrong and what is
+ * valid. */
 enum kd_status kd_matter_grid_read(const void *data, size_t size, struct kd_matter_grid *out, struct kd_error *error);
 /* Like kd_matter_grid_read, but returns only the numbers of nodes in r, theta and phi, the frames and the hole. */
 enum kd_status kd_matter_grid_look(const void *data, size_t size, struct kd_asset_grid *out, struct kd_error *error);

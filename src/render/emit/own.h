@@ -32,8 +32,8 @@ struct kd_emitter_buffers {
     void (*buffers)(const void *own,
                     /* sets the emitter's own entries, indexed by KD_OWN_... (emission.h) */
                     struct kd_vk_buffer *out[KD_OWN_COUNT]);
-    void (*forget)(void *own); /* called if work was given up, so that recorded commands may not have run: the
-                                * contents are then unknown */
+    void (*forget)(void *own); /* called if work was given up: recorded commands may not have run, so the contents of
+                                  the buffers are unknown */
     void (*finish)(void *own, struct kd_vk *vk);
     /* Starts slow work of the host on a thread. `tell` and `prepare` wait for it. NULL: there is no such work. */
     void (*begin)(struct kd_renderer *renderer, const struct kd_scene *scene);
@@ -43,7 +43,8 @@ struct kd_emitter_buffers {
                            char *credit, size_t size, struct kd_error *error);
 };
 
-/* Services of the renderer for `prepare`. *buffer, NULL at first, is replaced if it has fewer than `bytes` bytes. */
+/* Services of the renderer for `prepare`. kd_emitter_buffers_at_least replaces *buffer, which is NULL at first, if it
+ * has fewer than `bytes` bytes. */
 enum kd_status kd_emitter_buffers_at_least(const struct kd_emitter_buffers_work *work, struct kd_vk_buffer **buffer,
                                            uint64_t bytes, enum kd_vk_memory memory, const char *name,
                                            struct kd_error *error);

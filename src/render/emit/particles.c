@@ -12,7 +12,8 @@
 #include <math.h>
 #include <stdio.h>
 
-#define PER_CELL 5.0 /* particles in each cell; the density then scatters by a third, in spots some pixels wide */
+/* mean number of particles in a cell; with it the density scatters by a third, in spots some pixels wide */
+#define PER_CELL 5.0
 
 static double inner(const struct kd_scene *scene)
 {
@@ -48,10 +49,11 @@ static double density(const struct kd_scene *scene, double r)
     return o.s == 0 ? 1 / all : o.s * exp(o.s * log(r / o.low)) / expm1(o.s * all);
 }
 
-/* Each parcel of falling gas holds one particle. There are three times as many parcels round the ISCO as from start
- * to end, so that half-way down a parcel is about as wide as it is long. Light with a longer delay shows parcels
- * that have already fallen in; light from the near side of the disk shows parcels that have not started yet. The
- * constants are the longest such times in M. The delay grows by a turn for every two orders. */
+/* Each cell of the plunge's grid is a parcel of falling gas that holds one particle on average. The grid has three
+ * times as many columns (parcels round the ISCO) as rows (parcels from start to end), so that half-way down a parcel is
+ * about as wide as it is long. Slow light needs further rows: light with a longer delay shows parcels that have already
+ * fallen in, and light from the near side of the disk shows parcels that have not started yet. The constants are the
+ * longest such times in M. LATE grows with the order, because light takes half a turn longer for each order. */
 #define EARLY 20.0
 #define LATE 50.0
 #define LATE_PER_ORDER 25.0
@@ -76,8 +78,8 @@ static void plunge_grid(struct kd_particle_grid *g, const struct kd_scene *scene
 }
 
 /* Number of guiding radii. Each row of the grid has at least five radii, and each radius at least one particle. The
- * radii are spread so evenly that a node gets its expected number within 1 %. That is the Poisson error of a row,
- * which has at most 10 000 particles. The row with the fewest radii is at one of the edges. */
+ * radii are spread so evenly that a node gets its expected number of particles within 1 %, which is the Poisson error
+ * of a row of 10 000 particles, the most that a row has. The row with the fewest radii is at one of the edges. */
 static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene *scene)
 {
     double all = log(scene->disk.outer / inner(scene));
@@ -174,7 +176,7 @@ struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_
     };
 }
 
-/* The fraction of a turn that remains of a phase, in units of 2^-32 turns. */
+/* The phase rate t modulo one turn, in units of 2^-32 turns. */
 static uint32_t turns(double rate, double t)
 {
     double phase = rate * t / (2 * M_PI);

@@ -63,9 +63,9 @@ struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_
 struct kd_particle_swing { double radial, radial_phase, vertical, vertical_phase; };
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle);
 
-/* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has such gas. It is the optical depth of
- * the gas's surface density in its own frame, divided by that of the disk just outside the ISCO. A particle counts the
- * same inside and outside. */
+/* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has such gas. The optical depth follows
+ * from the surface density of the gas in its own frame, divided by that of the disk just outside the ISCO: a particle
+ * has the same opacity inside and outside the ISCO. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
 /* The time before scene->top.time for which the grid is computed: about the light delay of a near camera, so that the

@@ -96,14 +96,14 @@ static uint64_t node_bytes(const struct kd_scene *scene)
     return KD_MATTER_FLOATS * sizeof(float) / (is_packed(scene) ? 2 : 1);
 }
 
-/* Host memory: the nodes before they are packed, and one array of the file. If they are not packed, also the file's
- * arrays and the upload. */
 static uint64_t device_bytes(const struct kd_scene *scene)
 {
     return has_no_grid(scene) ? 4 * KD_MATTER_FLOATS * sizeof(float)
            : is_grid(scene)   ? nodes_of(scene) * node_bytes(scene) + KD_MATTER_PLACES * 4 * sizeof(float)
                               : 0;
 }
+/* Host memory: the nodes before they are packed, and one array of the file. If the nodes stay unpacked, also the
+ * file's arrays and the upload. */
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     return is_grid(scene) && *scene->volume.grid
@@ -111,18 +111,18 @@ static uint64_t making_bytes(const struct kd_scene *scene)
                                                      : 2 * KD_MATTER_FLOATS * sizeof(float) + 3 * sizeof(double)) +
                      (uint64_t)KD_MATTER_PLACES * 8 * sizeof(float)
                : 0;
-} /* the grid's numbers, as they were read and as they were uploaded */
+}
 
-/* The picture depends on the azimuth unless the grid is axisymmetric, which the scene does not tell. */
+/* A grid counts as dependent on the azimuth, because the scene does not say whether the grid is axisymmetric. */
 static unsigned varies(const struct kd_scene *scene)
 {
     return (has_grid(scene) ? KD_MOVES_WITH_AZIMUTH : 0) | (is_series(scene) ? KD_MOVES_WITH_TIME : 0);
 }
 
-/* The times that the light of a picture needs, on the grid's clock. In slow light the latest is that of the outer edge
- * before the hole. The earliest is that of the outer edge behind it, for an image of order 2: light turns round the
- * hole by pi more for each order, which takes pi b_c, b_c = 3 sqrt 3 M (J.-P. Luminet 1979, A&A 75, 228). Light of the
- * horizon is older still. */
+/* The range of times, on the grid's clock, that a picture shows. In slow light, the latest light comes from the outer
+ * edge in front of the hole. The earliest comes from the outer edge behind the hole, in an image of order 2: light
+ * turns round the hole by pi more for each order, which takes pi b_c, b_c = 3 sqrt 3 M (J.-P. Luminet 1979, A&A 75,
+ * 228). Light from near the horizon is older still, and is not included. */
 #define ORDERS_M (2 * M_PI * 5.196152422706632)
 static void needs_times(const struct kd_scene *scene, double out[2])
 {
@@ -167,7 +167,7 @@ static void fill_gold(struct kd_plasma_block *out, const struct kd_volume *v, do
     out->gold_momentum = (float)v->gold_momentum;
 }
 
-/* B^2 = 2 mu0 (magnetisation) n m_p c^2, in gauss^2 and cm^-3; mu0 = 1/(epsilon0 c^2). */
+/* B^2 = 2 mu0 (magnetisation) n m_p c^2, with B in gauss and n in cm^-3; mu0 = 1/(epsilon0 c^2). */
 static void fill_electrons(struct kd_plasma_block *out, const struct kd_volume *v)
 {
     const double theta = KD_K_J_K / (KD_ELECTRON_KG * KD_C_M_S * KD_C_M_S);

@@ -1,9 +1,10 @@
-/* The particles that fall from the ISCO. All follow one curve (physics/orbit/plunge.h), again and again. The curve
- * takes infinite time at both ends, so they start after 1/32 of the way between ISCO and horizon, and end when 1/64 of
- * the way is left. At the start gas falls at 1e-3 c without spin and at 7e-4 c for a = 0.9. That is about the drift
- * alpha (h/r)^2 v_phi of a disk of alpha = 0.1 and h/r = 0.1 (Shakura & Sunyaev 1973). A particle orbits the hole 3
- * times (a = 0), 7 times (0.9) or 38 times (0.998) before its end; W. J. Potter 2021, arXiv:2104.09951, finds 4 to 17
- * times for turbulent gas. Light that escapes from the end has g < 0.02 and less than 1e-6 of its brightness.
+/* The particles that fall from the ISCO. All follow one curve (physics/orbit/plunge.h), again and again. A particle
+ * would take infinite time at both ends of the curve. So particles start after 1/32 of the way from the ISCO to the
+ * horizon, and end when 1/64 of the way is left. At the start gas falls at 1e-3 c without spin and at 7e-4 c for a =
+ * 0.9. This speed is about the drift alpha (h/r)^2 v_phi of a disk of alpha = 0.1 and h/r = 0.1 (Shakura & Sunyaev
+ * 1973). A particle orbits the hole 3 times (a = 0), 7 times (0.9) or 38 times (0.998) before its end; W. J. Potter
+ * 2021, arXiv:2104.09951, finds 4 to 17 times for turbulent gas. Light that escapes from the end has g < 0.02 and less
+ * than 1e-6 of its brightness.
  *
  * A steady stream is uniform in time, so a particle's first coordinate is its phase, the fraction of the curve's
  * time that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel

@@ -33,7 +33,7 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     out->polarization.fraction = (float)(scene->polarization.order * whole);
 }
 
-/* The table is over the square root of the cosine, in which the fraction is smooth. */
+/* The argument of the table is the square root of the cosine, because the fraction is a smooth function of it. */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     double mu[KD_SCATTERING_ROWS + 1];

@@ -16,7 +16,7 @@ static bool present(const struct kd_scene *scene)
 }
 
 /* True if the rings still change with time. Beyond a = 0.99 the fit decays up to a fifth too fast. So a change of a
- * third of a step may remain when the result becomes false. */
+ * third of an 8-bit step may remain when the result becomes false. */
 static unsigned varies(const struct kd_scene *scene)
 {
     double since = scene->top.time - scene->style.ringdown_time;

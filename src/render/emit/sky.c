@@ -55,13 +55,13 @@ static uint64_t device_bytes(const struct kd_scene *scene)
 {
     const uint64_t cells = KD_FACE_TABLE(KD_FACE_FINE) + KD_FACE_TABLE(KD_FACE_COARSE),
                    places = 6ull * kd_stars_most(scene);
-    const uint32_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT; /* at most */
+    const uint32_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT; /* upper limit */
     return (is_spread(scene) ? 4ull * kd_panorama_words(2 * rows, rows) : 0) +
            (has_stars(scene) ? 4 * (5 * places + cells) : 0);
 }
 
-/* Host memory for the panorama's light before it is packed, and earlier for all pixels of the picture. The scene
- * does not contain their number. */
+/* Host memory for the panorama's light before it is packed. For a picture, also memory for all its pixels; the scene
+ * does not contain their number, so the largest permitted number is used. */
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     const uint64_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT, most = KD_PANORAMA_MOST;

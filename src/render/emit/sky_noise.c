@@ -24,7 +24,7 @@ static struct kd_null_path path_of(const struct kd_camera_exact *c, const struct
 
 static bool sees_the_sky(const struct kd_null_path *p) { return p->status == KD_NULL_OK && p->fate == KD_NULL_ESCAPED; }
 
-/* True if two rays end at unrelated places. Rays with different fates do. */
+/* True if two rays end at unrelated places. Rays with different fates always do. */
 static bool elsewhere(const struct kd_null_path *a, const struct kd_null_path *b)
 {
     if (!sees_the_sky(b))
@@ -36,7 +36,7 @@ static bool elsewhere(const struct kd_null_path *a, const struct kd_null_path *b
 bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision)
 {
     double r = scene->camera.r, rounding = precision == KD_PRECISION_F32 ? FLT_EPSILON / 2 : DBL_EPSILON / 2;
-    /* To a falling observer the sky looks as large as from further out. */
+    /* A falling observer sees no narrow cone: to it the sky looks as large as from further out. */
     if (!(r < KD_SKY_NEAR * kd_scene_hole(scene)->outer) || scene->camera.observer == KD_OBSERVER_INFALL)
         return false;
     const struct kd_scene whole = kd_scene_whole(scene);

@@ -7,10 +7,10 @@
 #include "render/accuracy/engine.h"
 #include "scene/scene.h"
 
-/* Traces some hundred pixels of the picture in closed form. Returns true if two rays end more than KD_SKY_STEP apart
- * for most pixels that see the sky: the ray and the next ray, or the ray and the same ray with labels rounded to the
- * lens map's precision. Returns false at infinity and beyond KD_SKY_NEAR horizon radii, where this happens only next
- * to the critical curve. Takes a fraction of a millisecond. */
+/* Traces some hundred pixels of the picture in closed form. Compares each ray with two others: the next pixel's ray,
+ * and the same ray with labels rounded to the lens map's precision. Returns true if, for most pixels that see the sky,
+ * one of these ends more than KD_SKY_STEP away on the sky. Returns false for a camera at infinity or beyond KD_SKY_NEAR
+ * horizon radii, where such jumps occur only next to the critical curve. Takes a fraction of a millisecond. */
 #define KD_SKY_STEP 0.1 /* radians: the drawn grid has lines about every 15 degrees */
 #define KD_SKY_NEAR 1.5
 bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision);

@@ -1,4 +1,4 @@
-/* in sizes of a spot: beyond this distance, less than 1e-9 of the peak is left */
+/* Hot spots as an emitter: shaders/emit/spots.glsl. */
 #include "render/emit/emitter.h"
 
 #include "physics/spacetime/kerr.h"
@@ -10,7 +10,7 @@
 
 _Static_assert(KD_SPOT_MAX == KD_SPOTS, "those of a scene");
 
-/* sizes of a spot: beyond, less than 1e-9 of the peak is left */
+/* largest distance at which a spot is seen, in sizes of the spot: beyond it, less than 1e-9 of the peak is left */
 #define REACH 6.44
 
 static bool present(const struct kd_scene *scene)

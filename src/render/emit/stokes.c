@@ -1,5 +1,5 @@
 /* Polarisation of light from a volume at a radio frequency, and its transfer along the ray:
- * shaders/emit/stokes.glsl. It emits nothing itself. */
+ * shaders/emit/stokes.glsl. This emitter adds no light of its own. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/synchrotron.h"
@@ -39,8 +39,8 @@ static void fill_kappa(struct kd_stokes_block *out, double kappa)
 
 static void reach(const struct kd_scene *scene, double radii[2]) { (void)scene, radii[0] = INFINITY, radii[1] = 0; }
 
-/* Jones & O'Dell 1977, for electrons of gamma^-p; (p - 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)) is the fraction of
- * them at gamma = 1. */
+/* Jones & O'Dell 1977, for electrons whose number falls as gamma^-p. The normalised distribution is gamma^-p times (p -
+ * 1)/(gamma_min^(1 - p) - gamma_max^(1 - p)). */
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_volume *v = &scene->volume;

@@ -16,8 +16,8 @@ static struct kd_scene alone(const struct kd_scene *scene)
     return s;
 }
 
-/* A pixel at the critical curve, which needs the kernels of any other pixel and those of its denser rays. The first
- * pixel, if the picture has none at the curve. KD_ENOMEM. */
+/* Finds a pixel at the critical curve, because such a pixel needs the kernels of any other pixel and those of its
+ * denser rays. If the picture has no pixel at the curve, takes the first pixel. The only error is KD_ENOMEM. */
 static enum kd_status pixel_at_curve(const struct kd_scene *scene, struct kd_pixel *out, struct kd_error *error)
 {
     struct kd_critical_pixels list = { 0 };
@@ -33,7 +33,7 @@ struct kd_compilation *kd_explain_ahead(struct kd_renderer *renderer, const stru
     struct kd_capacity capacity;
     struct kd_pixel at;
     struct kd_plan plan;
-    struct kd_error ignored; /* it is reported to the request that meets it */
+    struct kd_error ignored; /* an error of a kernel is reported to the request that needs the kernel */
     kd_renderer_capacity(renderer, &capacity);
     if (pixel_at_curve(&s, &at, &ignored) || kd_plan_make(&s, &capacity, &plan, &ignored))
         return NULL;

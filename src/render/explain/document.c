@@ -325,8 +325,8 @@ static void put_accuracy(struct kd_json *json, const struct kd_picture *picture,
     kd_json_end(json);
 }
 
-/* Writes one of the rays whose mean is the pixel's light. It has the members of the middle ray, except those for
- * drawing. */
+/* Writes one of the rays whose mean is the pixel's light. The object has the members of the middle ray, except those
+ * for drawing. */
 static void put_ray(struct kd_json *json, const struct kd_picture *picture, const struct kd_explained *x)
 {
     kd_json_object(json, NULL);

@@ -27,10 +27,10 @@ struct kd_explained {
     struct kd_ray_end end;
     struct kd_ray_path_frame frame;
     struct kd_ray_path path; /* path of the middle ray; for other rays it has no places */
-    double picture_error;    /* largest relative error in 1/r of the picture's crossings; 1: the picture has another
-                              * number of them */
-    double shown[3];         /* displayed value of the pixel, 0 to 1 */
-    char why[240];           /* where the ray ends and why, one sentence */
+    /* largest relative error in 1/r of the picture's crossings; 1: the picture has another number of crossings */
+    double picture_error;
+    double shown[3]; /* displayed value of the pixel, 0 to 1 */
+    char why[240];   /* one sentence: where the ray ends, and why */
 };
 
 /* kd_explain explains the middle ray. kd_explain_each explains one of the rays whose mean is the pixel's light,
@@ -66,19 +66,20 @@ struct kd_gas_velocity kd_explained_velocity(const struct kd_explained *explaine
 /* Boyer-Lindquist azimuth in the hole's own frame, in (-pi, pi]. */
 double kd_explained_azimuth(const struct kd_explained *explained, double phi);
 
-/* Writes the explanation as a table in plain text. KD_EINVAL as in kd_explain. */
+/* Writes the explanation as a table in plain text. Returns KD_EINVAL as in kd_explain. */
 enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffer *out, struct kd_error *error);
 
 /* The document of POST /v1/pixel; not among kd_formats, because it is about one pixel. */
 extern const struct kd_format kd_format_pixel;
-/* Sets the pixel of a plan from "X,Y", in pixels from the picture's upper left corner. KD_EINVAL if it is not a
+/* Sets the pixel of a plan from "X,Y", in pixels from the picture's upper left corner. Returns KD_EINVAL if it is not a
  * place in the picture. */
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error);
 /* Reduces the scene and its plan to the plan's pixel with a margin, if nothing of the pixel depends on the rest of the
- * picture (render/plan/tile.h): a numeric exposure, no bloom, no beam. Otherwise leaves both unchanged. */
+ * picture (render/plan/tile.h), that is, if the exposure is a number and there is no bloom and no beam. Otherwise
+ * leaves scene and plan unchanged. */
 enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
                                  struct kd_error *error);
-/* Requests additional output by a word. The only word is "steps", for the engine's steps along the middle ray.
+/* Requests additional output by a word. The only word is "steps", for the engine's steps along the middle ray. Returns
  * KD_EINVAL for any other word. */
 enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct kd_error *error);
 

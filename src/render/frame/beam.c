@@ -159,8 +159,8 @@ done:
     return status;
 }
 
-/* Sums rows of cells to the grid. There is one row of cells for each row of pixels. The grid's cell i begins (i - 1)
- * cells below the upper edge of the picture. */
+/* Sums the rows of cells to rows of the grid. There is one row of cells for each row of pixels. The grid's cell i
+ * begins (i - 1) cells below the upper edge of the picture. */
 static enum kd_status down(struct kd_frame_job *j, struct kd_vk_binding from, struct kd_vk_binding to)
 {
     const struct kd_beam_grid *b = &j->plan->picture.beam;

@@ -1,6 +1,6 @@
-/* Motion blur: averages the light of several pictures, at times while a shutter is open. The host averages the
- * linear light of each pixel in double precision, before exposure, bloom and tone curve. Only the thread that owns
- * the renderer. */
+/* Motion blur: averages the light of several pictures, at several times while a shutter is open. The host averages the
+ * linear light of each pixel in double precision, before exposure, bloom and tone curve. Only the thread that owns the
+ * renderer. */
 #ifndef KD_RENDER_FRAME_BLUR_H
 #define KD_RENDER_FRAME_BLUR_H
 

@@ -3,7 +3,7 @@
  * A driver compiles a kernel when its pipeline is created, or at its first dispatch on the device's queue (lavapipe:
  * half a second to some seconds). So pipelines are created while the device works. For a driver of the second kind,
  * the work that needs the kernels is also run on a second device that computes nothing (kd_vk_params.compiles_only).
- * That fills the driver's cache on disk, from which the first device then reads. */
+ * This run fills the driver's cache on disk, from which the first device then reads. */
 #ifndef KD_RENDER_FRAME_COMPILATION_H
 #define KD_RENDER_FRAME_COMPILATION_H
 
@@ -21,15 +21,15 @@ struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernel
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
                                             const struct kd_plan *plan);
 /* Compiles the kernels. Any thread; the renderer must not be closed or reopened meanwhile. An error of a kernel is
- * reported by the render that needs the kernel. progress returns false to stop soon. KD_EDEVICE: the second device
- * hangs, as in kd_renderer_hangs. */
+ * reported by the render that needs the kernel. progress returns false to stop soon. Returns KD_EDEVICE if the second
+ * device hangs, as in kd_renderer_hangs. */
 enum kd_status kd_compilation_run(struct kd_compilation *compilation, kd_progress_fn progress, void *user,
                                   struct kd_error *error);
 /* Adds the kernels to the renderer's cache, and frees the compilation. Only the thread that owns the device. */
 void kd_compilation_end(struct kd_compilation *compilation);
 
 /* Has missing kernels compiled through kd_renderer_params.lacks. Called during a picture, while nothing is recorded.
- * KD_ECANCELLED: the picture must start again. */
+ * After KD_ECANCELLED the picture must start again. */
 struct kd_frame_job;
 enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_fn ask, const void *user);
 

@@ -20,13 +20,13 @@ struct kd_frame_job {
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     const struct kd_light_sum *others; /* pictures with which the light is averaged; NULL: none */
-    /* light of the sampled pixels, as in the picture and traced more finely; NULL: none */
+    /* light of the sampled pixels, traced once as in the picture and once more finely; NULL: none */
     struct kd_vk_buffer *marched;
     struct kd_lens_map *lens;
     struct kd_star_key star_key;   /* key of the light of stars in this frame */
     bool stars_kept;               /* true if the cached light of stars is valid */
     uint64_t undecided;            /* number of rays of the lens map whose tracing was given up */
-    uint64_t traced, interpolated; /* as in kd_accuracy_report */
+    uint64_t traced, interpolated; /* same meaning as in kd_accuracy_report */
     double listed_ms, audit_ms; /* time on the host in ms: listed_ms for tracing listed rays, audit_ms for the audit */
     double kernels_ms;          /* time on the host for making missing kernels before they first run */
     kd_progress_fn progress;
@@ -36,11 +36,12 @@ struct kd_frame_job {
     /* refine_rows: rows that stand for refinement in the progress and are not reported yet; refine_rays: number of
      * rays that refinement is expected to trace */
     double refine_rows, refine_rays;
-    uint32_t lit;                   /* number of rows of pixels, from the top, whose light is complete */
-    bool looking;                   /* a preview is being made */
-    uint8_t *kinds;                 /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
-    bool teaches;                   /* true if the job's times count as measurements of the passes' costs */
-    struct kd_cpu_pressure waiting; /* time that the job's threads waited for a core; it is subtracted */
+    uint32_t lit;   /* number of rows of pixels, from the top, whose light is complete */
+    bool looking;   /* a preview is being made */
+    uint8_t *kinds; /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
+    bool teaches;   /* true if the job's times count as measurements of the passes' costs */
+    struct kd_cpu_pressure
+        waiting; /* time that the job's threads waited for a core; it is subtracted from measured times */
     struct kd_frame *frame;
     struct kd_error *error;
 };
@@ -121,11 +122,12 @@ struct kd_footprint_area {
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
 /* Like the function above, for a sampled map whose rows from `traced` on have just been sampled. row0: the picture's
- * row of rays that is the buffer's first. The rays are those traced singly, and earlier rays that are marked as
- * incomplete. */
+ * row of rays that is the first row of the buffer. Footprints are made for rays that were traced singly, and for
+ * earlier rays that are marked as incomplete. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
-/* The kernel of footprints. lattice: of listed pixels; NULL: the grid. *out is NULL if no light needs footprints. */
+/* The kernel of footprints. lattice: that of the listed pixels; NULL: rays of the grid. *out is NULL if no light needs
+ * footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
 /* Spreads the light of stars over the pixels of a band. The stars are those that the band's rays see; if the whole
@@ -152,8 +154,8 @@ enum kd_status kd_frame_probe_pixel(struct kd_frame_job *job);
 enum kd_status kd_frame_probe_ask(struct kd_frame_job *job);
 
 /* kd_frame_sample_march traces rays through volumes again for a sample of this band's pixels, both as in the picture
- * and more finely. The other function is called after all bands and writes the differences into the frame's
- * accuracy. Both do nothing without volumes. */
+ * and more finely. The second function is called after all bands and writes the differences into the frame's accuracy.
+ * Both functions do nothing if the scene has no volumes. */
 enum kd_status kd_frame_sample_march(struct kd_frame_job *job, uint32_t band);
 enum kd_status kd_frame_march_error(struct kd_frame_job *job);
 
@@ -192,7 +194,7 @@ enum kd_status kd_frame_post(struct kd_frame_job *job);
 enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out); /* the kernel */
 /* Runs the passes from light to pixels, in order. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
-/* kd_frame_add_layers allocates the layers of a plan other than the picture. The other function copies them to the
+/* kd_frame_add_layers allocates the layers of a plan other than the picture. The second function copies them to the
  * host, as far as light is complete. A single requested layer replaces the picture, in false colour. */
 enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_picture *picture,
                                    struct kd_error *error);

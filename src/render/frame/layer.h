@@ -26,7 +26,7 @@ static inline size_t kd_layer_pixel_bytes(const struct kd_layer *layer)
 }
 
 struct kd_frame;
-/* Adds a layer of the frame's size; its data is not set. KD_ENOMEM. */
+/* Adds a layer of the frame's size; its data is not set. The only error is KD_ENOMEM. */
 enum kd_status kd_frame_add_layer(struct kd_frame *frame, const char *name, uint32_t channels, enum kd_layer_type type,
                                   struct kd_error *error);
 const struct kd_layer *kd_frame_layer(const struct kd_frame *frame,

@@ -30,9 +30,9 @@ static double timing(const struct kd_frame *frame, const char *pass)
 }
 
 /* True if the device is the host's processor, which other programs slow down. Costs are stored between starts and
- * used for planning. After an hour of load, pictures must not look too expensive on a machine that is idle again, so
- * the time that threads waited for a core is subtracted. It takes 0.1 to 0.3 ms to examine all threads; therefore
- * only one short frame in eight is measured. */
+ * used for planning. Costs that were measured under load must not make pictures look too expensive on a machine that is
+ * idle again. So the time that threads waited for a core is subtracted. It takes 0.1 to 0.3 ms to examine all threads;
+ * therefore only one short frame in eight is measured. */
 static bool on_the_host(const struct kd_renderer *r) { return kd_vk_info(r->vk)->type == KD_VK_CPU; }
 
 void kd_frame_learn_begin(struct kd_frame_job *job)

@@ -16,8 +16,8 @@
 
 static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
 
-/* Number of rows of pixels of a band, from `row` on, that one submission processes. If a slice of a sampled map
- * reaches the end of a block, it ends there, so that no block is traced twice. */
+/* Number of rows of pixels of a band, from `row` on, that one submission processes. A slice of a sampled map ends at
+ * the end of a block, so that no block is traced twice. */
 static uint32_t rows_of_slice(const struct kd_frame_job *j, uint32_t band, uint32_t row, double ns_per_row, bool maps)
 {
     const struct kd_plan *p = j->plan;
@@ -190,7 +190,7 @@ static enum kd_status record(struct kd_frame_job *j, const struct slice *s, stru
 
 enum kd_status kd_frame_list_rays(struct kd_frame_job *j, const struct kd_lens_rows *rows)
 {
-    /* waits for the march, which is slow, so that its time does not count as time for these rays */
+    /* waits for the march, which is slow, so that the time of the march does not count as time for these rays */
     enum kd_status status = j->plan->light.march.steps ? kd_vk_wait(j->r->vk, 0, j->error) : KD_OK;
     double start = kd_clock_ms();
     if (!status)
@@ -384,8 +384,8 @@ static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
     return kd_frame_follow_lost(j, &d, &push, &on_grid, turns);
 }
 
-/* Lights rows whose map is recorded or made, and reports their progress. A slice of a sampled map has at least the
- * rows of a block, whose light may take several submissions. map_ns and light_ns: for each row of pixels. */
+/* Lights rows whose map is recorded or made, and reports their progress. A slice of a sampled map has at least the rows
+ * of a block, so its light may take several submissions. map_ns and light_ns: times of a row of pixels. */
 static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *whole, double map_ns, double light_ns)
 {
     struct slice part = *whole;
@@ -393,7 +393,7 @@ static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *who
     enum kd_status status;
     do {
         const uint32_t most = left ? kd_frame_slice(j, light_ns, left) : 1, parts = (left + most - 1) / most;
-        part.count = parts ? (left + parts - 1) / parts : 0; /* of equal size */
+        part.count = parts ? (left + parts - 1) / parts : 0; /* the parts have equal sizes */
         j->r->slice_pace.expected_ms = 1e-6 * (light_ns * part.count + (left == whole->count ? map_ns * left : 0));
         KD_TRY(light_slice(j, &part));
         part.first += part.count;

@@ -9,9 +9,10 @@
 
 /* FIRST, CLOSE: pixels along a side of the first pictures and of the later ones; MOST: largest number of pictures */
 enum { FIRST = 48, CLOSE = 128, MOST = 60 };
-/* relative difference between the fluxes of a picture of 48 pixels and one of 128, an upper bound */
+/* upper bound of the relative difference between the fluxes of a picture of 48 pixels and one of 128 */
 #define NEAR 1e-3
-#define HELD 5e-5 /* relative error that may remain; a flux is a sum of floats, accurate to 1e-6 */
+/* relative error of the flux at which the search ends; a sum of floats is accurate to 1e-6 */
+#define HELD 5e-5
 /* First estimate of d ln(flux)/d ln(scale). Light is proportional to density times field, and the field grows at
  * least as the square root of the density, so the slope is at least 1.5. */
 #define THIN 2.0
@@ -142,8 +143,8 @@ done:
     return status;
 }
 
-/* Reduces the scene to what the flux depends on. Of a series, the flux is that of its middle, so that one density holds
- * at all times. */
+/* Reduces the scene to the parts that determine the flux. For a series, the time is set to its middle, so that one
+ * density serves all times. */
 static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;

@@ -49,8 +49,8 @@ static void draw_scales(struct kd_frame_job *j)
         kd_sky_scale_draw(&canvas, &(struct kd_sky_scale) { width / frame->width, j->scene->style.beam_uas });
 }
 
-/* The conversion of light to pixels of 8 or 16 bits, with or without dither and bloom. bare: the completed light
- * without beam and palette; false: the light as requested. */
+/* The conversion of light to pixels of 8 or 16 bits, with or without dither and bloom. bare: true for the completed
+ * light without beam and palette, false for the light as requested. */
 struct look {
     bool wide, dither, bare;
     const struct kd_bloom *bloom;

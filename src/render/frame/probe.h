@@ -25,12 +25,12 @@ struct kd_probed_glow {
 /* A place where something may emit or absorb light. */
 struct kd_probed_place {
     uint32_t order;                 /* image order of the crossing */
-    float w, phi, slope, footprint; /* from the lens map; 0 if the map does not hold the quantity */
-    /* Properties of gas at the place, also if there is no gas. g: redshift factor; temperature: in K; angle: between
-     * light and normal in the frame of the gas, in radians */
+    float w, phi, slope, footprint; /* values of the lens map; 0 if the map does not hold the quantity */
+    /* Properties that gas at the place has or would have. g: redshift factor; temperature: in K; angle: between light
+     * and normal in the frame of the gas, in radians */
     float g, temperature, angle;
     float through;  /* transmission of all matter in front of the place */
-    bool polarized; /* whether the light is polarised; if so, the next members are Q/I and U/I */
+    bool polarized; /* the light is polarised, and the next members are Q/I and U/I */
     float stokes[2];
     struct kd_probed_glow glows[KD_PLAN_EMITTERS];
     size_t n_glows;
@@ -75,7 +75,7 @@ struct kd_probed_ray {
     uint32_t steps, samples; /* number of integration steps of the march, and number of its samples */
     struct kd_probed_met met;
     size_t n_places, n_stretches, n_volumes, lost; /* lost: number of records that did not fit */
-    bool transfers; /* whether volumes transfer polarised light; if so, `stokes` is Stokes Q, U and V as they arrive */
+    bool transfers; /* volumes transfer polarised light, and `stokes` is Stokes Q, U and V as they arrive */
     float stokes[3];
     bool given_up; /* the engine gave the ray up, and the picture shows magenta */
     bool ended;    /* true if an emitter may shine at the ray's end, which the next three members describe */

@@ -86,7 +86,8 @@ static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, co
 }
 
 /* Gives the chosen pixels their rays. *left: number of rays that may still be traced. Pixels at the critical curve get
- * at most half of them; if the rays do not suffice, the pixels with the largest scores get theirs. */
+ * at most half of these rays. If there are not enough rays for all chosen pixels, only the pixels with the largest
+ * scores get more rays. */
 static enum kd_status one_round(struct kd_frame_job *j, const struct kd_choice *c, struct ways *by, uint64_t *left)
 {
     uint8_t *marks = malloc(c->list.n);
@@ -143,8 +144,8 @@ done:
     return status;
 }
 
-/* For a device that only compiles and so would choose no pixel: refines one pixel by each of these ways, to compile
- * their kernels. */
+/* For a device that only compiles and so would choose no pixel: refines one pixel with each source of rays, to compile
+ * the kernels. */
 static enum kd_status rehearse(struct kd_frame_job *j)
 {
     struct kd_pixel pixel = { 0, 0 };

@@ -65,8 +65,8 @@ static bool tell_lack(struct kd_frame_job *j, void *what) { return j->r->lacks(j
 
 enum kd_status kd_frame_await_kernels(struct kd_frame_job *j, kd_kernels_ask_fn ask, const void *user)
 {
-    /* tries, because kernels of other pictures may evict this picture's meanwhile; after the last one the kernels
-     * are made here */
+    /* number of attempts: while kernels are compiled elsewhere, other pictures may evict this picture's kernels. After
+     * the last attempt the kernels are made here */
     enum { TRIES = 4 };
     struct kd_compilation *c;
     enum kd_status status;

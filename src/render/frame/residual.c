@@ -2,8 +2,8 @@
  * pass, because it overwrites the light of the sample.
  *
  * All kinds of pixels have the same sample size, even a kind with few pixels, and are weighted by their number. At the
- * critical curve the reference may have more than 64 rays; pixels that already have this number of rays count as exact.
- * */
+ * critical curve the reference may have more than 64 rays; pixels that already have this number of rays count as
+ * exact. */
 #include "render/frame/residual.h"
 
 #include "render/frame/lens.h"
@@ -75,8 +75,8 @@ static int by_size(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Chooses some of n pixels, in order. The chosen indices are those of a lattice whose step is the golden ratio,
- * which coincides with no regular grid. */
+/* Chooses some of n pixels, in order. The chosen indices form a lattice with the golden ratio as its step. Such a
+ * lattice coincides with no regular grid. */
 static size_t chosen(uint64_t n, uint64_t at[OF_EACH])
 {
     const size_t k = n < OF_EACH ? (size_t)n : OF_EACH;

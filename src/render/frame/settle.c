@@ -101,7 +101,8 @@ static void label(const struct kd_frame_job *j, struct open_rays *open, const st
     }
 }
 
-/* Settles the undecided rays. found: their number; the list lacks those beyond its capacity. */
+/* Settles the undecided rays. found: the number of undecided rays; rays beyond the list's capacity are counted but not
+ * listed. */
 static enum kd_status settle(struct kd_frame_job *j, const struct kd_frame_part *part, uint32_t band, uint32_t found)
 {
     const struct kd_plan *p = j->plan;

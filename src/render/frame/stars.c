@@ -10,8 +10,8 @@
 #include <string.h>
 
 #define LIST_GROUPS 128 /* workgroups of kernels whose invocations share a list; with 8192 an H200 is no faster */
-/* The same number for each core of a CPU. There a group costs 15 us even if the list is done, and a rim has several
- * grids. */
+/* The number of such workgroups for each core, if the device is a CPU. There a group costs 15 us even if its list is
+ * already done, and a rim has several grids. */
 #define LIST_GROUPS_CORE 4
 #define RIM_TILE KD_RIM_TILE_RAYS /* rays along a side of a small tile of the picture, and of a tile of the rim */
 #define SPILL 2u                  /* rows by which an image may extend into the next band */
@@ -28,7 +28,7 @@ struct part {
  * rim. */
 enum rays { NO_RIM, BESIDE_RIM, OF_RIM };
 
-/* True if the rim is searched. A search for bright images leaves it out. */
+/* True if the rim is searched. A search for bright images leaves the rim out. */
 static bool has_rim(const struct kd_frame_job *j) { return j->lens->rim.there && !j->plan->light.bright; }
 
 static enum rays rays_of(const struct kd_frame_job *j, const struct part *part)
@@ -53,7 +53,7 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* True if texels are read. In software that takes a third of the time. */
+/* True if the kernels read texels. A software device then takes a third of the time. */
 static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
 {
     return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);

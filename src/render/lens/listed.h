@@ -24,8 +24,8 @@ enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scen
 
 struct kd_camera_label;
 /* Fills plan->lens.planes planes of n numbers each, except footprints, by tracing rays in double on the host: in
- * closed form, or by steps for an observer inside the horizon. *undecided grows by the number of rays that are on
- * the critical curve to the last digit, so that even double precision does not decide their fate. */
+ * closed form, or by steps for an observer inside the horizon. *undecided grows by the number of rays that are on the
+ * critical curve to the last digit: even double precision does not decide their fate. */
 enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan *plan,
                              const struct kd_camera_label *labels, size_t n, float *planes, uint64_t *undecided,
                              struct kd_error *error);

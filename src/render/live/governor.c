@@ -21,11 +21,12 @@ static const double RETRY_MS = 3000;
 static const double SETTLE_MS = 50; /* reaction time: from a frame to the user's next change */
 /* HOLD_MS: longest pause within a drag; HOLD_MAX_MS: its upper limit */
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
-/* time for which no lens map counts as cached; doubled each time */
+/* time for which lens maps are assumed not to be cached; doubled at each repetition */
 static const double BLIND_MS = 2000;
 /* narrowest width, as a fraction of the requested width, whatever kd_governor_least says */
 static const double NARROWEST = 0.25;
-/* frames of the requested width are tried again when they would take less than this fraction of the patience */
+/* frames of the requested width are tried again when they are estimated to take less than this fraction of
+ * max_frame_ms */
 static const double PATIENT_AGAIN = 0.6;
 enum {
     MOVING_AUDIT = 4, /* frames that will be refined audit one in this many rays */
@@ -81,7 +82,7 @@ static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint3
 }
 
 /* Mean over the middle half of the window, sorted by total time, so that spikes and empty frames do not affect it.
- * If two kinds of frames alternate, the mean lies between them, whereas a median would be one of the two. */
+ * If two kinds of frames alternate, this mean lies between their costs; a median would be one of the two costs. */
 static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
 {
     const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
@@ -113,8 +114,8 @@ static double room(const struct kd_governor *g, const struct kd_frame_cost *cost
     return fmax(all - cost->fixed_ms, fmax(LEAST_ROOM * all, LEAST_SHARE * cost->fixed_ms));
 }
 
-/* Predicts the varying time of a frame on another rung. Time that belongs neither to rays nor to pixels either stays or
- * grows with the pixels. */
+/* Predicts the varying time of a frame on another rung. Time that belongs neither to rays nor to pixels may stay
+ * constant, or may grow with the pixels. */
 static double predict(const struct kd_frame_cost *cost, const struct kd_rung *from, const struct kd_rung *to,
                       bool rest_stays)
 {
@@ -187,7 +188,8 @@ static bool far_over(const struct kd_governor *g, const struct kd_pace *pace)
     return pace->count > 1;
 }
 
-/* True if frames that reuse a lens map may take this rung: the rung's map must first be traced within the limit. */
+/* True if frames that reuse a lens map may take this rung: tracing the rung's map must not take longer than the
+ * limit. */
 static bool traceable(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_rung *rung, double limit)
 {
     return pace != &g->paces[0] || g->traced_on.rays == 0 || predict(&g->traced, &g->traced_on, rung, true) <= limit;
@@ -218,9 +220,9 @@ static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pa
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
-/* Estimates the fraction of the rays' time on this rung that does not depend on size. The estimate is the line through
- * the time at another size a moment ago and the time now. A falling line means only that the machine's load has
- * changed. */
+/* Estimates the fraction of the rays' time on this rung that does not depend on size. The estimate is a straight line
+ * through two measured times: one at another size a moment ago, and the present one. If the smaller size took longer,
+ * only the machine's load has changed. */
 static void learn(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
     const struct kd_rung *here = &g->ladder.rungs[pace->rung], *other = &pace->other;
@@ -233,7 +235,8 @@ static void learn(const struct kd_governor *g, struct kd_pace *pace, const struc
     pace->other.rays = 0;
 }
 
-/* True if one rung up is in time if a given fraction of the rays' time does not depend on size. */
+/* True if a frame one rung up would be in time, assuming that a given fraction of the rays' time is independent of
+ * size. */
 static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace, const struct kd_frame_cost *cost,
                          double part)
 {
@@ -246,8 +249,8 @@ static bool may_climb_if(const struct kd_governor *g, const struct kd_pace *pace
            traceable(g, pace, to, CLIMB_BELOW * g->share * g->params.stall_ms);
 }
 
-/* Climbs as far as is safe. If no rung is safe, climbs one rung on a more favourable assumption; a rung that then
- * turns out too slow is left again, and is not tried again soon. */
+/* Climbs as far as is safe. If no rung is safe, climbs one rung on a more favourable assumption. If that rung turns out
+ * to be too slow, the pace leaves it and does not try it again soon. */
 static void climb(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost, double now)
 {
     uint32_t ceiling = ceiling_of(g, pace, now), to = known_good(g, pace);
@@ -520,8 +523,9 @@ struct kd_frame_decision kd_governor_decide(const struct kd_governor *g, double 
     return decision;
 }
 
-/* Counts lens maps that should have been cached. One may be missing after a change of rung. If no map is cached, for
- * example because maps do not fit in memory, each frame must trace, even if only time advances. */
+/* Counts lens maps that were traced although they should have been cached. After a change of rung one may be missing.
+ * If maps are never cached, for example because they do not fit in memory, each frame traces, even if only time
+ * advances. */
 static void miss(struct kd_governor *g, double now)
 {
     if (++g->missed < MISSES)

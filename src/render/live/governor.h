@@ -29,42 +29,44 @@
  *   the hole has moved recently.
  * - A pace moves down if its cost exceeds the budget by a tenth. It does so at once if four frames in a row, or the
  *   first two on a rung, exceed it by half, judged by the cheapest of them. Otherwise the mean over the middle half of
- *   the last 8 to 32 frames decides, which single spikes do not affect. It moves as far as needed if everything except
- *   the fixed part shrank with the picture.
+ *   the last 8 to 32 frames decides, which single spikes do not affect. It moves down as far as needed, on the
+ *   assumption that everything except the fixed part shrinks with the picture.
  * - A rung that was left because it was too slow becomes the ceiling: the pace does not climb to it or above it. The
- *   ceiling is lifted after 3 s. That time doubles with each climb that failed, so that in N hours only log N climbs
- *   are lost to a machine that looks faster than it is.
- * - A pace moves up as far as the cost stays below 80 % of the budget if everything except the fixed part grows. It
- *   moves up by one rung if only the parts known to depend on size grow, or if the cost of rays follows the line
- *   through measurements at two sizes: rays next to the critical curve and the star search take the same time at any
- *   size. It does not move up within a second of the last change of rung.
- * - A pace that has been on one rung only, as in a session that began low, tries the next one up once, if that is in
- *   time with the whole cost of rays unchanged: one frame at that size shows how the cost depends on it.
+ *   ceiling is lifted after 3 s. That time doubles with each climb that failed. So on a machine that looks faster than
+ *   it is, only about log N climbs fail in N hours.
+ * - A pace moves up as far as the cost stays below 80 % of the budget, on the assumption that everything except the
+ *   fixed part grows with the picture. It moves up by one rung if only the parts known to depend on size grow, or if
+ *   the cost of rays follows the line through measurements at two sizes: rays next to the critical curve and the star
+ *   search take the same time at any size. It does not move up within a second of the last change of rung.
+ * - A pace that has been on one rung only, as in a session that began low, tries the next rung up once. It does so if
+ *   that rung would be in time with the whole cost of rays unchanged: one frame at that size shows how the cost
+ *   depends on it.
  * - After each change of rung averages start again. Ceilings start again when the scene changes its kind, such as
  *   particles for a smooth disk.
  * - Frames that reuse a lens map take no rung whose map would take longer than stall_ms to trace. That matters when a
  *   drag ends and time goes on.
  *
  * While the lens changes, frames on any rung but the first have an image.critical_factor of at most 2. There are then
- * fewer rays next to the critical curve, whose number is proportional to the picture's width, and the cost is nearly
- * proportional to the picture's size. Frames in which only time advances keep all of these rays, even if no lens map is
- * cached and each frame traces: the ring stands still, and four rays a pixel would show as dots.
+ * fewer rays next to the critical curve. The number of these rays is proportional to the picture's width, so with few
+ * of them the cost of a frame is nearly proportional to the picture's size. Frames in which only time advances keep all
+ * of these rays, even if no lens map is cached and each frame traces: the ring stands still, and four rays a pixel
+ * would show as dots.
  *
  * If other sessions move too, kd_governor_share sets the fraction of the device's time for this one. Its target is then
  * that fraction of the time between frames. The time between frames grows as the inverse square root of the fraction,
- * up to sparse_ms, so that frame rate and picture are reduced alike, and beyond that only the picture. A single session
- * has 33 ms; each of two has 23 ms every 47 ms, each of eight 7.5 ms every 60 ms. The costs compared with the target do
- * not include waiting for other sessions. A ceiling set with a smaller fraction is ignored, and a rung that was left
- * because other sessions began is taken again as soon as they stop.
+ * up to sparse_ms. Frame rate and picture are thus reduced alike until that limit is reached, and after that only the
+ * picture. A single session has 33 ms; each of two has 23 ms every 47 ms, each of eight 7.5 ms every 60 ms. The costs
+ * compared with the target do not include waiting for other sessions. A ceiling set with a smaller fraction is ignored,
+ * and a rung that was left because other sessions began is taken again as soon as they stop.
  *
  * If only the ringdown of a hole changes the picture, nothing moves: frames keep the requested size however long they
  * take, and only reduce the rays a pixel. A change of the scene's motion alone does not change the picture: it is
  * rendered once more, as at rest.
  *
  * After rest_ms without a change, one frame is rendered for each step of the ladder upwards, except steps below the
- * quality that is shown. Then nothing is rendered until the next change. On a shared device a frame may itself wait for
- * rest_ms, so the rest is counted from when it was shown, and a client that waited longer for a frame has 50 ms for its
- * next change. A scene whose time advances with each frame does not rest. */
+ * quality that is shown. Then nothing is rendered until the next change. On a shared device a frame itself may wait for
+ * rest_ms. So rest_ms is counted from the time when the frame was shown; a client that waited longer for a frame has 50
+ * ms for its next change. A scene whose time advances with each frame does not rest. */
 #ifndef KD_RENDER_LIVE_GOVERNOR_H
 #define KD_RENDER_LIVE_GOVERNOR_H
 
@@ -77,7 +79,7 @@
 struct kd_governor_params {
     double target_ms; /* limit for a frame while the scene changes; above 0 */
     double rest_ms;   /* time without a change after which the picture is refined */
-    /* limit for tracing once the lens map that frames will reuse; multiplied by the session's share */
+    /* limit of the time for tracing a lens map that later frames will reuse; it is multiplied by the session's share */
     double stall_ms;
     double sparse_ms; /* largest time between frames on a shared device; ignored if below the target */
     struct kd_ladder_bounds bounds;
@@ -94,14 +96,15 @@ struct kd_frame_cost {
     double rays_ms;   /* passes over rays: trace, transfer */
     double pixels_ms; /* passes over pixels: expose, post, readback, encode */
     double total_ms;
-    bool lens_reused; /* as in kd_frame */
+    bool lens_reused; /* same meaning as in kd_frame */
 };
 
 struct kd_frame_decision {
     /* quality of the frame to render now; if nothing is to be rendered, quality of the picture shown */
     struct kd_quality quality;
-    double wait_ms; /* 0: render now. Otherwise there is nothing to render for this long; INFINITY: the session rests */
-    bool refining;  /* the scene rests, and this frame is a step upwards */
+    /* 0: render now. Otherwise the time for which there is nothing to render; INFINITY: the session rests */
+    double wait_ms;
+    bool refining; /* the scene rests, and this frame is a step upwards */
     /* 1 or 4: one in this many of the sampled rays is audited. The audit runs on one core and takes a third of a
      * small frame */
     uint32_t audit;
@@ -122,13 +125,14 @@ struct kd_pace {
     double changed_at, failed_at, retry_ms;
     /* widest: largest target since the last change; failed_target: target when failed_at was set */
     double widest, failed_target;
-    bool climbed;         /* the last change was upwards */
-    uint32_t held;        /* a rung that was left because other sessions began */
-    double held_target;   /* the target at which frames of that rung were in time; 0: there is no such rung */
-    struct kd_rung other; /* the rung before; rays 0: it is unknown or was already used */
-    double other_ms;      /* time that the rays of frames took on that rung */
-    double stays;         /* estimated fraction of the rays' time that does not depend on size */
-    bool tried;           /* the fraction `stays` is measured, so no trial of another rung is needed */
+    bool climbed;       /* the last change was upwards */
+    uint32_t held;      /* a rung that was left because other sessions began */
+    double held_target; /* the target at which frames of that rung were in time; 0: there is no such rung */
+    /* the rung before the present one; rays 0: it is unknown, or was used for an estimate already */
+    struct kd_rung other;
+    double other_ms; /* time that the rays of frames took on that rung */
+    double stays;    /* estimated fraction of the rays' time that does not depend on size */
+    bool tried;      /* the fraction `stays` is measured, so no trial of another rung is needed */
 };
 
 /* All members are private. */
@@ -145,10 +149,10 @@ struct kd_governor {
     double changed_at, lens_at, hold_ms;
     struct kd_frame_cost traced; /* latest average of frames that trace */
     struct kd_rung traced_on;    /* the rung of these frames; rays 0: no frame yet */
-    /* blind_until: until this time lens maps are assumed not to be cached, whatever changes */
+    /* blind_until: until this time lens maps are assumed not to be cached, even if only time advances */
     double blind_until, blind_ms;
     uint32_t missed;           /* successive frames that traced although the lens was unchanged */
-    bool rings;                /* only brightness changes, nothing moves */
+    bool rings;                /* only the brightness changes; nothing moves */
     double least, patience_ms; /* arguments of kd_governor_least */
     /* gave_way: frames may be narrower than `least`, because a pace was too slow; slow: index of this pace */
     bool gave_way, slow;
@@ -181,8 +185,8 @@ void kd_governor_least(struct kd_governor *governor, double scale, double patien
 /* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: the lens
  * map has changed, which means that lens_key differs between the plans of the two requested scenes; true for a
  * session's first scene. A change of image.* or accuracy.* makes a new ladder, and starts on the rung that old
- * averages suggest. A change of the scene's kind, or of the cost of what it emits by more than a factor of two since
- * averages started, starts averages and waits again. */
+ * averages suggest. Averages and waits start again if the scene changes its kind, or if the cost of its emitters has
+ * changed by more than a factor of two since the averages started. */
 void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *shown, bool lens);
 
 /* Sets the expected cost of a frame at the requested quality, for example from its plan. The cost chooses the first

@@ -15,10 +15,10 @@ struct kd_quality {
     int32_t samples;        /* rays along each side of a pixel */
     int32_t orders;         /* recorded crossings a ray */
     int32_t critical;       /* limit for image.critical_factor; 0: as requested */
-    /* enum kd_profile in place of all of accuracy.* except engine; -1: accuracy.* as requested */
+    /* enum kd_profile, which replaces all of accuracy.* except the engine; -1: accuracy.* stays as requested */
     int32_t profile;
     bool sketch; /* volumes are marched more coarsely than with any profile: render/plan/march.h */
-    bool bright; /* only bright images of stars: plan.bright of render/plan/plan.h */
+    bool bright; /* only the bright images of stars are shown: plan.bright of render/plan/plan.h */
     bool final;  /* everything is as requested */
 };
 

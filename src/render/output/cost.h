@@ -19,20 +19,20 @@ struct kd_cost {
     struct kd_cube_shape shape;        /* shape that all scenes of a cube have */
 };
 
-/* Adds a frame. sweep: the sweep that the frames' scenes belong to; NULL: none. KD_ENOMEM; KD_EINVAL if the scenes of a
- * cube differ in shape. */
+/* Adds a frame. sweep: the sweep that the frames' scenes belong to; NULL: none. Returns KD_ENOMEM, or KD_EINVAL if the
+ * scenes of a cube differ in shape. */
 enum kd_status kd_cost_add(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
                            const struct kd_scene *scene, const struct kd_plan *plan, struct kd_error *error);
-/* Call after the last frame. KD_ENOMEM. */
+/* Call after the last frame. The only error is KD_ENOMEM. */
 enum kd_status kd_cost_end(struct kd_cost *cost, struct kd_error *error);
 void kd_cost_finish(struct kd_cost *cost);
 
 /* Plans further scenes of a sweep until until_ms (kd_clock_ms), at least one; after the last scene it calls
- * kd_cost_end. An error is that of the first scene that is invalid or does not fit the device; it gives the scene's
- * number, at /axes. series NULL: the output is not known. */
+ * kd_cost_end. On failure, *error is about the first scene that is invalid or does not fit the device; its message has
+ * the scene's number, and its pointer is /axes. series NULL: the output is not known. */
 enum kd_status kd_cost_sweep(struct kd_cost *cost, const struct kd_series *series, const struct kd_sweep *sweep,
                              const struct kd_capacity *capacity, double until_ms, struct kd_error *error);
-/* Writes the document of `kerrd plan --axis` for all scenes. KD_ENOMEM. */
+/* Writes the document of `kerrd plan --axis` for all scenes. The only error is KD_ENOMEM. */
 enum kd_status kd_cost_json(const struct kd_cost *cost, const struct kd_sweep *sweep, struct kd_buffer *out);
 
 #endif

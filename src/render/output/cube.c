@@ -10,7 +10,7 @@
 #include <string.h>
 
 #define HEAD_MOST (1u << 20) /* bytes of a header; a scene takes about 20000 */
-#define AT_ONCE 32           /* scenes, some milliseconds */
+#define AT_ONCE 32           /* scenes scanned in one call, which takes some milliseconds */
 
 _Static_assert(KD_CUBE_ACCURACY >= KD_ACCURACY_TEXT, "all of it");
 

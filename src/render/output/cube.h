@@ -1,6 +1,6 @@
 /* A cube: for each layer an array over all scenes of a sweep, made from the scenes' FITS files. Shared by cube_fits.c
- * and cube_npz.c. All files are scanned before anything is written, because checksums and sentences precede the
- * numbers.
+ * and cube_npz.c. All files are scanned before anything is written, because checksums and sentences come before the
+ * numbers in a cube.
  *
  * In FITS a layer is an image whose axes are those of the picture, for "rgb" the three colours, then the axes of the
  * sweep from the last to the first. In NumPy the array's shape is (axes of the sweep, height, width[, 3]). Internal to
@@ -45,8 +45,8 @@ struct kd_cube {
     } sentences, credits, devices;  /* each different text once: approximations, credits and devices of all scenes */
     char *rows;                     /* KD_CUBE_ROW bytes for each scene */
     uint32_t texts_sum, fluxes_sum; /* kd_fits_sum of the scenes' hashes and accuracies; kd_fits_sum of their fluxes */
-    bool flux;                      /* whether any scene has a flux; if so, the file contains fluxes */
-    uint8_t *piece;                 /* at least KD_GATHER_PIECE bytes, and room for a row of numbers */
+    bool flux;                      /* true if any scene has a flux; the file then contains fluxes */
+    uint8_t *piece;                 /* buffer of at least KD_GATHER_PIECE bytes, with room for a row of numbers */
     size_t piece_bytes;
 };
 

@@ -158,7 +158,7 @@ static enum kd_status put_flux(struct writer *w, const char *row)
     return kd_zip_append(w->zip, &flux, sizeof flux);
 }
 
-/* Writes the array of an item that is stored for each scene. size: of a text; 0: the item is the flux. */
+/* Writes the array of an item that is stored for each scene. size: bytes of a text; 0: the item is the flux. */
 static enum kd_status put_scenes(struct writer *w, const char *name, size_t from, uint32_t size)
 {
     const struct kd_npy array = array_of(w, size ? KD_NPY_BYTES : KD_NPY_F8, size);

@@ -1,6 +1,6 @@
 /* Encodes the pictures of all frames as a film with the program ffmpeg: H.264 in an MP4 file, or VP9 in a WebM file.
- * ffmpeg writes to an unlinked file, because the index of an MP4 precedes its pictures. The contents of that file are
- * produced when ffmpeg is done. */
+ * ffmpeg writes to an unlinked file, because the index of an MP4 file comes before its pictures and is written last.
+ * When ffmpeg is done, this module produces the contents of that file. */
 #include "base/clock.h"
 #include "base/program.h"
 #include "image/png.h"
@@ -36,7 +36,8 @@ struct film {
     off_t written;   /* size of the film's file when last checked */
 };
 
-/* Quality at which films look like the pictures. The first visible fault would be banding in a black sky. */
+/* Options of the codecs, with a quality at which films look like the pictures. At a lower quality, the first visible
+ * fault would be banding in a black sky. */
 static const char *const h264[] = { "-c:v", "libx264",   "-preset",    "medium", "-crf",
                                     "17",   "-movflags", "+faststart", NULL };
 static const char *const vp9[] = { "-c:v", "libvpx-vp9", "-crf", "24",        "-b:v", "0", "-row-mt",
@@ -125,7 +126,7 @@ static uint64_t bytes_of(const struct kd_gather_source *source)
 
 /* Starts ffmpeg. The scene of frame 0, as stored in its picture, goes into the film. Colours: the pictures are sRGB,
  * which players display alike if BT.709 is named; the conversion to Y'CbCr is BT.709's, in video range. Since ffmpeg 7
- * an encoder takes the colour tags of its frames (for a PNG those of sRGB), whatever the encoder's options are, so the
+ * an encoder uses the colour tags of its frames, which for a PNG are those of sRGB, and ignores its own options. So the
  * filter setparams sets the tags as well. Two pixels share a chroma sample, so odd sides are padded. */
 static enum kd_status begin(struct film *f, struct kd_error *error)
 {

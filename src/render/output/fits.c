@@ -1,6 +1,6 @@
 /* Writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array, each
  * further one an IMAGE extension of that name; "rgb" has a third axis. The primary header has the scene, the hole,
- * the observer, the accuracy, and each approximation in force; all have world coordinates. */
+ * the observer, the accuracy, and each approximation in force; all headers have world coordinates. */
 #include "render/output/format.h"
 
 #include "image/fits.h"
@@ -74,8 +74,9 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* If the file also has the layer jy_per_pixel, Stokes Q, U and V are converted to that layer's unit, as programs that
- * read them together expect. Sets *out to numbers that the caller frees, or to NULL if nothing is converted. */
+/* If the file also has the layer jy_per_pixel, Stokes Q, U and V are converted to that layer's unit, because programs
+ * that read these layers together expect the same unit. Sets *out to numbers that the caller frees, or to NULL if
+ * nothing is converted. */
 static enum kd_status in_jansky(const struct kd_picture *picture, size_t word, const struct kd_layer *layer,
                                 float **out)
 {

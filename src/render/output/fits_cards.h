@@ -7,8 +7,8 @@
 #include "render/output/wcs.h"
 #include "scene/sweep.h"
 
-#define KD_FITS_FLUX \
-    "FLUX_JY" /* card with the flux of a picture, a number; it is left out if the picture has no flux */
+/* keyword of the card with a picture's flux, a number; a picture without a flux has no such card */
+#define KD_FITS_FLUX "FLUX_JY"
 
 /* The cards of a layer's HDU. wcs: NULL if the frames have different world coordinates. */
 enum kd_status kd_fits_put_layer(struct kd_buffer *cards, const char *name, const char *unit, bool rgb,

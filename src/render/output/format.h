@@ -17,7 +17,7 @@ struct kd_picture {
     const struct kd_frame *frame;
     const struct kd_scene *scene;
     const struct kd_plan *plan;
-    const char *device; /* as kd_renderer_device_name */
+    const char *device; /* the text of kd_renderer_device_name */
     unsigned number;    /* number of the frame in a series, from 0 */
     unsigned lossy;     /* quality for a lossy format, 1 to 100; 0: KD_QUALITY */
     const char *hash;   /* hash of the scene, as kd_scene_hash; NULL or "": computed when needed */
@@ -26,8 +26,8 @@ struct kd_picture {
 enum kd_effort {
     /* for live views of many frames a second: 8 bits a channel, as fast as possible, without metadata */
     KD_EFFORT_LIVE,
-    KD_EFFORT_QUICK, /* a client waits for it */
-    KD_EFFORT_KEEP,  /* a file that is kept: smaller */
+    KD_EFFORT_QUICK, /* a file for which a client waits */
+    KD_EFFORT_KEEP,  /* a file that is stored, so that small size matters more than time */
 };
 
 /* Bits for the parts that a frame must carry for a format. */
@@ -45,8 +45,8 @@ struct kd_format {
     unsigned carries;
     bool live;  /* the format supports KD_EFFORT_LIVE */
     bool lossy; /* the format takes a quality */
-    /* Adapts a scene so that its frame contains the data that the format needs; NULL: no change is necessary. KD_EINVAL
-     * at a field if the scene has no such data. */
+    /* Adapts a scene so that its frame contains the data that the format needs; NULL: no change is necessary. Returns
+     * KD_EINVAL at a field if the scene has no such data. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
     /* Memory that `encode` takes for a picture of this size besides the frame, counted in the plan's host_bytes; NULL:
      * little. */
@@ -55,7 +55,7 @@ struct kd_format {
      * Errors: KD_ENOMEM, or KD_EINVAL and KD_ETOOBIG for what the format cannot hold. */
     enum kd_status (*encode)(const struct kd_picture *picture, enum kd_effort effort, void **memory,
                              struct kd_buffer *out, struct kd_error *error);
-    void (*forget)(void *memory); /* NULL: it keeps no state */
+    void (*forget)(void *memory); /* NULL: the format keeps no state */
     /* Reads the scene in a file of this format; *out is unchanged on error. NULL: files carry no scene. */
     enum kd_status (*scene)(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 };
@@ -67,12 +67,12 @@ KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
 
 /* Format of the scenes' files that are joined to a cube: FITS with exactly the layers that image.layers names, so
- * that all scenes have the same layers. It is not in the table. fits.c */
+ * that all scenes have the same layers. It is not in the table. Defined in fits.c. */
 extern const struct kd_format kd_format_cubed;
 
-/* The first is the default. formats.c */
+/* The first format is the default. Defined in formats.c. */
 extern const struct kd_format *const kd_formats[];
-extern const size_t kd_n_formats; /* at most KD_FORMATS_MAX */
+extern const size_t kd_n_formats; /* number of formats, at most KD_FORMATS_MAX */
 enum { KD_FORMATS_MAX = 16 };
 
 const struct kd_format *kd_format_named(const char *name); /* returns NULL if there is no such format */
@@ -80,16 +80,16 @@ const struct kd_format *kd_format_named(const char *name); /* returns NULL if th
 const struct kd_format *kd_format_of_bytes(const void *data, size_t size);
 const struct kd_format *kd_format_live(void); /* the format of live views */
 
-/* True if the format can hold the scene's picture; errors of the format as kd_format_plan. */
+/* True if the format can hold the scene's picture; if not, the error is the one that kd_format_plan would report. */
 enum kd_status kd_format_holds(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error);
 
 /* Plans a frame that carries what the format needs. Settings that neither affect the file nor are recorded in it
- * (auto exposure and layers) are removed from the scene. Errors as kd_plan_make and the format's `draws`, and
- * KD_EINVAL at /image/layers if there are more layers than the format holds. */
+ * (auto exposure and layers) are removed from the scene. Errors are those of kd_plan_make and of the format's `draws`,
+ * and KD_EINVAL at /image/layers if there are more layers than the format holds. */
 enum kd_status kd_format_plan(const struct kd_format *format, struct kd_scene *scene,
                               const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
-/* Reads the scene in a picture of any format; KD_EINVAL if there is none. */
+/* Reads the scene in a picture of any format; returns KD_EINVAL if there is none. */
 enum kd_status kd_format_scene(const void *data, size_t size, struct kd_scene *out, struct kd_error *error);
 
 /* State that an encoding thread keeps between files; initialise with { 0 }. */

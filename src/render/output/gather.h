@@ -15,7 +15,7 @@
 
 #define KD_GATHER_PIECE (256u << 10) /* approximate bytes that one call produces */
 
-/* The frames' files, all of which must exist. It must outlive the gather. */
+/* The frames' files, all of which must exist. The struct must outlive the gather. */
 struct kd_gather_source {
     void *user;
     const struct kd_sweep *sweep;  /* sweep of the frames' scenes; NULL: none, allowed for a ZIP only */
@@ -43,22 +43,22 @@ struct kd_gather_format {
     void (*close)(void *state);
 };
 
-/* "000012.png" ... for a sequence. For a sweep the names contain values, and index.json comes first, with the scene,
- * the axes and these names. */
+/* A ZIP of the frames' files. Files of a sequence are named "000000.png", "000001.png" and so on. For a sweep the names
+ * contain values, and index.json comes first, with the scene, the axes and these names. */
 extern const struct kd_gather_format kd_gather_zip;
 /* Cubes: one array for each layer over all scenes of a sweep, and one for the values of each axis (cube.h). */
 extern const struct kd_gather_format kd_gather_fits, kd_gather_npz;
-/* Films of PNG frames, all of one size, encoded by the program ffmpeg, with the scene of frame 0 as `comment`.
+/* Films of PNG frames, all of one size, encoded by the program ffmpeg, with the scene of frame 0 as `comment`. Returns
  * KD_EABSENT if there is no ffmpeg. */
 extern const struct kd_gather_format kd_gather_mp4, kd_gather_webm;
 #define KD_FILM_RATE 24u /* default, frames a second */
 #define KD_FILM_RATE_MAX 120u
 
-/* Checks whether the scenes of a sweep can form a cube: all have the same size and layers. KD_EINVAL at the axis
- * along which they differ. */
+/* Checks whether the scenes of a sweep can form a cube: all have the same size and layers. If not, returns KD_EINVAL at
+ * the axis along which they differ. */
 enum kd_status kd_cube_check(const struct kd_sweep *sweep, struct kd_error *error);
-/* Checks one scene and its plan against the shape of scene 0, which the call for scene 0 sets. This finds differences
- * that no single axis shows. KD_EINVAL at /axes, naming the scene. */
+/* The call for scene 0 sets the shape; the calls for other scenes compare their scene and plan with it. This finds
+ * differences that no single axis shows. Returns KD_EINVAL at /axes, naming the scene. */
 struct kd_cube_shape {
     unsigned width, height;
     struct kd_words layers;
@@ -73,8 +73,8 @@ struct kd_gather {
 };
 enum kd_status kd_gather_open(const struct kd_gather_format *format, const struct kd_gather_source *source,
                               struct kd_gather *out, struct kd_error *error);
-/* Appends more bytes, sometimes none. *over: everything was produced. KD_ENOMEM; KD_EIO if a frame's file has
- * changed. */
+/* Appends more bytes, sometimes none. *over: everything was produced. Errors: KD_ENOMEM, and KD_EIO if a frame's file
+ * has changed. */
 enum kd_status kd_gather_next(struct kd_gather *gather, struct kd_buffer *out, bool *over, struct kd_error *error);
 void kd_gather_close(struct kd_gather *gather); /* may be called for a gather that was never opened */
 

@@ -9,12 +9,12 @@
 #include "render/output/format.h"
 
 /* One line: "rays=921600 engine=mino-rkn6 precision=f32 steps=8 undecided=0 sampled=768 crossings=927 differ=0
- * median=1.6e-07 worst=2.0e-05"; without the last four if nothing was sampled. */
+ * median=1.6e-07 worst=2.0e-05"; the last four items are left out if nothing was sampled. */
 #define KD_ACCURACY_TEXT 384
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan_lens *lens,
                       char out[KD_ACCURACY_TEXT]);
-/* Writes the same accuracy as members of a JSON object, without rays, engine, precision and steps. median, worst: names
- * for the two errors of radii. */
+/* Writes the accuracy of kd_accuracy_text as members of a JSON object, without rays, engine, precision and steps.
+ * median, worst: names for the two errors of radii. */
 void kd_accuracy_members(struct kd_json *json, const struct kd_accuracy_report *report, const char *median,
                          const char *worst);
 
@@ -34,11 +34,11 @@ struct kd_notes {
     char hash[65];
     struct kd_buffer approximations; /* one approximation a line */
     char accuracy[KD_ACCURACY_TEXT];
-    char clock[KD_CLOCK_TEXT]; /* for a falling observer, otherwise "" */
-    char flux[KD_FLUX_TEXT];   /* at a radio frequency, otherwise "" */
-    char blur[KD_BLUR_TEXT];   /* for a mean of pictures, otherwise "" */
+    char clock[KD_CLOCK_TEXT]; /* kd_fall_clock as text; "" unless the observer falls */
+    char flux[KD_FLUX_TEXT];   /* flux as text; "" unless the picture is at a radio frequency */
+    char blur[KD_BLUR_TEXT];   /* motion blur as text; "" unless the picture is a mean */
 };
-/* Collects the metadata of a picture. KD_ENOMEM. Call kd_notes_finish in any case. */
+/* Collects the metadata of a picture. The only error is KD_ENOMEM. Call kd_notes_finish in any case. */
 enum kd_status kd_notes_of(const struct kd_picture *picture, struct kd_notes *out, struct kd_error *error);
 void kd_notes_finish(struct kd_notes *notes);
 

@@ -43,7 +43,7 @@ const char *kd_particle_column_name(enum kd_particle_column column);
 #define KD_PARTICLE_LIST_SLICE 131072u /* rows of one fill: about 20 ms of the render thread */
 
 struct kd_particle_list {
-    struct kd_scene scene; /* at the requested time */
+    struct kd_scene scene; /* the scene at the requested time */
     struct kd_particle_grid grid;
     uint32_t first, stride;
     size_t n; /* number of rows; 0 before settle means all */
@@ -53,13 +53,13 @@ struct kd_particle_list {
     struct kd_plunge plunge; /* set if `orbits`: the curve of falling particles */
 };
 
-/* KD_EINVAL at /disk/model if the scene has no particles. */
+/* Returns KD_EINVAL at /disk/model if the scene has no particles. */
 enum kd_status kd_particle_list_init(struct kd_particle_list *list, const struct kd_scene *scene,
                                      struct kd_error *error);
-/* KD_EINVAL with "/name", the value and its valid range. */
+/* Returns KD_EINVAL with "/name", the value and its valid range. */
 enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *name, const char *text,
                                     struct kd_error *error);
-/* KD_EINVAL for more rows than exist, or for more than `most` bytes (0: no limit). */
+/* Returns KD_EINVAL if more rows are requested than exist, or if they take more than `most` bytes (0: no limit). */
 enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t most, struct kd_error *error);
 
 size_t kd_particle_list_row(const struct kd_particle_list *list); /* bytes of a row */

@@ -58,7 +58,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
 {
     if (effort == KD_EFFORT_LIVE)
         return encode_live(picture->frame, memory, out, error);
-    /* For a waiting client, 10 ms less matter more than 20 % fewer bytes. For a stored file the time does not
+    /* For a waiting client, saving 10 ms matters more than saving 20 % of the bytes. For a stored file, time does not
      * matter. */
     return kd_png_of_picture(picture, effort == KD_EFFORT_QUICK ? 1 : 5, out, error);
 }

@@ -1,8 +1,8 @@
 /* kd_format_png: a PNG file that holds its scene, so that it can be rendered again. Any thread.
  *
  * Text chunks: "kerrd:scene" (canonical JSON), "kerrd:hash", "kerrd:version", "kerrd:approximations" (one a line),
- * "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software", and "Copyright" if it contains others' work.
- * No chunks with KD_EFFORT_LIVE. */
+ * "kerrd:accuracy" (as kd_accuracy_text), "kerrd:device", "Software", and "Copyright" if the picture contains others'
+ * work. With KD_EFFORT_LIVE the file has none of these chunks. */
 #ifndef KD_RENDER_OUTPUT_PNG_H
 #define KD_RENDER_OUTPUT_PNG_H
 

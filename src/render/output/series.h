@@ -1,5 +1,5 @@
-/* The result that a job makes of its frames: a file for each (pictures, or arrays of their layers), one file of all, or
- * one table with a row for each. Any thread.
+/* The result that a job makes of its frames: a file for each frame (pictures, or arrays of their layers), one file of
+ * all frames, or one table with a row for each frame. Any thread.
  *
  * A series is one C file that defines it, and its line in the table of series.c. */
 #ifndef KD_RENDER_OUTPUT_SERIES_H
@@ -7,10 +7,10 @@
 
 #include "render/output/gather.h"
 
-/* A document of the rows of all frames. */
+/* Format of a table: a document with the rows of all frames. */
 struct kd_table_format {
     const char *name, *media_type; /* "csv", "text/csv": as in kd_format */
-    const char *file;              /* name for saving it; NULL: it is displayed */
+    const char *file;              /* file name for saving the document; NULL: the document is displayed */
     /* rows: n of them, each a frame of the series; sweep: the sweep of their scenes, NULL: none. The only error is
      * KD_ENOMEM. */
     enum kd_status (*write)(const void *rows, size_t n, const struct kd_sweep *sweep, struct kd_buffer *out);
@@ -27,7 +27,7 @@ struct kd_series {
     size_t n_tables;
     /* formats for gathering files, the first is the default; ends with NULL */
     const struct kd_gather_format *const *wholes;
-    bool swept; /* only for sweeps */
+    bool swept; /* the series exists for sweeps only */
 };
 
 extern const struct kd_series *const kd_series_all[]; /* all series; the first is the default */

@@ -1,7 +1,7 @@
 /* Lists the stars in a picture and their places: kd_format_stars. This is a JSON document of the images of stars with
  * names, sorted by the light that they give to a pixel (docs/physics/sky.md). Images are searched between the rays of
  * the lens map, one a pixel, and in the rim of the shadow. The place of an image is that of the ray that ends at the
- * star; brightness is that of one image, not of the star's images together. */
+ * star. Each image has its own brightness; the images of a star are not added up. */
 #include "render/output/format.h"
 
 #include "base/json.h"
@@ -15,12 +15,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* rad: limit between the ends of neighbouring rays; near the critical curve, rays whose ends are further apart are
- * not used */
+/* limit in rad of the angle between the ends of neighbouring rays; near the critical curve, rays whose ends are further
+ * apart are not used */
 #define COARSE 0.15
-/* fraction of the rim's width: within this distance of the curve only the images from the rim count */
+/* fraction of the rim's width: nearer to the curve than this, only the images from the rim count */
 #define INNER 0.9
-#define APART 0.05 /* pixels: images of the two grids that are nearer to each other than this are the same */
+#define APART \
+    0.05 /* images of the two grids that are nearer to each other than this many pixels are the same image \
+           \ */
 
 enum { MOST = 400 }; /* largest number of images in a file; the brightest are kept */
 
@@ -72,8 +74,8 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Lists the stars that have names. The transpose of kd_sky_rotation turns their directions into the frame of the rays.
- */
+/* Lists the stars that have names. The transpose of kd_sky_rotation turns their directions into the frame of the
+  rays. */
 static void name_stars(struct list *list)
 {
     const struct kd_scene *scene = list->picture->scene;
@@ -95,9 +97,9 @@ static void name_stars(struct list *list)
     }
 }
 
-/* Solid angle in the picture of the square between four rays. It uses the stencil that measured the solid angle of
- * the sky, so that the projection cancels in the ratio of the two. NAN at infinity, where parallel rays have no
- * solid angle. */
+/* Solid angle in the picture of the square between four rays. It uses the same stencil as the measured solid angle of
+ * the sky, so that the projection cancels in the ratio of the two solid angles. NAN at infinity, where parallel rays
+ * have no solid angle. */
 static double pixel_angle(const struct kd_camera_exact *camera, const struct kd_star_stencil *by)
 {
     const double h = 1e-3, x0 = by->x, y0 = by->y;

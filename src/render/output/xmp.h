@@ -6,12 +6,12 @@
 
 #include "render/output/notes.h"
 
-/* Appends a packet. n_notes 0: only the properties of GPano are written, and nothing for other projections.
- * KD_ENOMEM. */
+/* Appends a packet. With n_notes 0, only the properties of GPano are written, and nothing if the picture is not a
+ * panorama. The only error is KD_ENOMEM. */
 enum kd_status kd_xmp_put(const struct kd_picture *picture, const struct kd_note *notes, size_t n_notes,
                           struct kd_buffer *out);
 
-/* Reads the scene in a packet that kerrd wrote; *out is unchanged on error. KD_EINVAL if there is none. */
+/* Reads the scene in a packet that kerrd wrote; *out is unchanged on error. Returns KD_EINVAL if there is none. */
 enum kd_status kd_xmp_scene(const void *xmp, size_t size, struct kd_scene *out, struct kd_error *error);
 
 #endif

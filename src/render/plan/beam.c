@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-/* pixels: a narrower beam changes nothing, because a neighbouring pixel gets less than exp(-50) of the weight of the
- * pixel itself */
+/* width in pixels: a narrower beam changes nothing, because a neighbouring pixel gets less than exp(-50) of the weight
+ * of the pixel itself */
 #define FWHM 2.3548200450309493
-/* pixels: a narrower beam gives a neighbouring pixel less than exp(-50) of the weight of the pixel itself */
+/* width in pixels: a narrower beam gives a neighbouring pixel less than exp(-50) of the weight of the pixel itself */
 #define LEAST 0.1
 #define SPLINES 0.5 /* variance of both splines, in cells */
 

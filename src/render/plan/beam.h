@@ -18,12 +18,13 @@
 
 struct kd_beam_grid {
     uint32_t cell;          /* pixels along the side of a cell; 0: no beam, or one too narrow to show */
-    uint32_t columns, rows; /* of the grid; if cells are larger than pixels, there is one more cell on each side of the
-                             * picture */
-    uint32_t height;        /* rows of the picture: each row of pixels has a row of cells before these are summed to the
-                             * grid */
-    double sigma;           /* standard deviation of the blur, in cells */
-    uint32_t reach;         /* radius of the blur, in cells: 5 sigma, beyond which lies 6e-7 of its weight */
+    uint32_t columns, rows; /* size of the grid; if cells are larger than pixels, there is one more cell on each side of
+                             * the picture */
+    /* number of rows of the picture: each row of pixels has a row of cells, before the rows of cells are summed to the
+     * grid */
+    uint32_t height;
+    double sigma;   /* standard deviation of the blur, in cells */
+    uint32_t reach; /* radius of the blur, in cells: 5 sigma, beyond which lies 6e-7 of its weight */
 };
 
 /* The grid for a valid scene's picture. */

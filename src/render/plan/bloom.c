@@ -47,7 +47,7 @@ struct kd_bloom kd_bloom_of(uint32_t width, uint32_t height, double strength, bo
     bloom.blocks_y = (height + bloom.block_y - 1) / bloom.block_y;
     bloom.blocks = reserve(&bloom, kd_bloom_blocks(&bloom));
     bloom.share = 1.0 / bloom.levels;
-    bloom.strength *=
-        (double)bloom.levels / KD_BLOOM_LEVELS; /* light that would stay within about a pixel is not spread */
+    /* light that the missing fine grids would spread, by about a pixel, is not spread */
+    bloom.strength *= (double)bloom.levels / KD_BLOOM_LEVELS;
     return bloom;
 }

@@ -25,13 +25,14 @@ struct kd_capacity {
         uint64_t class, learned; /* class: key of cost_class.h, 0: unused; learned: number of measurements when this
                                   * class was last updated */
         double ns[KD_PASS_COUNT];
-    } classes[KD_COST_CLASSES];               /* cost of an item in pictures of a class */
-    uint64_t learned;                         /* number of measurements of classes so far */
-    bool measured;                            /* false: the figures are defaults for this type of device */
-    bool float64;                             /* true if the device has double precision */
-    unsigned cores;                           /* cores of the host, on which the closed form in double runs */
-    const struct kd_accuracy_table *accuracy; /* the device's or a built-in one; valid as long as the renderer */
-    bool accuracy_measured;                   /* false: built in */
+    } classes[KD_COST_CLASSES]; /* cost of an item in pictures of a class */
+    uint64_t learned;           /* number of measurements of classes so far */
+    bool measured;              /* false: the figures are defaults for this type of device */
+    bool float64;               /* true if the device has double precision */
+    unsigned cores;             /* cores of the host, on which the closed form in double runs */
+    /* the device's table, or the built-in one; valid as long as the renderer */
+    const struct kd_accuracy_table *accuracy;
+    bool accuracy_measured; /* false: built in */
 };
 
 #endif

@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 struct kd_plan_pass {
-    const char *name, *kernel; /* as in pass.h */
+    const char *name, *kernel; /* same meaning as in pass.h */
     uint64_t invocations;
     double estimate_ms;
     enum kd_figure_id figure; /* the performance figure that the pass's measured time updates; KD_NS_NONE: none */

@@ -23,7 +23,7 @@ struct kd_layer_kind {
     const char *name;
     const char *unit; /* "": dimensionless */
     enum kd_layer_of { KD_OF_PICTURE, KD_OF_LIGHT, KD_OF_CROSSING, KD_OF_RAY } of;
-    uint32_t needs; /* KD_LENS_... quantities of the lens map that it reads */
+    uint32_t needs; /* KD_LENS_... quantities of the lens map that the layer reads */
     enum kd_colour_map map;
     /* the scale of its colours; an end that is NAN is replaced by the picture's least or largest value */
     struct kd_map_scale scale;

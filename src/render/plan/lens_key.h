@@ -5,7 +5,7 @@
 
 #include "render/plan/plan.h"
 
-/* Sets plan->lens.key; the rest of the plan must be set. KD_ENOMEM. */
+/* Sets plan->lens.key; the rest of the plan must be set. The only error is KD_ENOMEM. */
 enum kd_status kd_plan_lens_key(struct kd_plan *plan, const struct kd_scene *scene);
 
 #endif

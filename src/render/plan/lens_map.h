@@ -13,7 +13,8 @@
 struct kd_plan_lens {
     uint32_t side; /* rays along each side of a pixel */
     uint64_t rays; /* rays of the grid */
-    /* rays of each pixel at the critical curve (view/critical_pixels.h); 0: as any other pixel */
+    /* number of rays of each pixel at the critical curve (view/critical_pixels.h); 0: the same number as for any other
+     * pixel */
     uint32_t critical;
     uint32_t critical_dense;  /* rays of each such pixel after refinement (frame/refine.c); 0: no refinement there */
     uint64_t critical_pixels; /* number of pixels at the critical curve */
@@ -42,7 +43,8 @@ struct kd_plan_lens {
 
 #define KD_AUDIT_RAYS 768 /* largest number of audited rays, on a grid of 16 x 48 */
 
-/* Number of buffers for the lens map of the pixels at the critical curve. kd_plan_critical_bytes: bytes of one. */
+/* Number of buffers for the lens map of the pixels at the critical curve. kd_plan_critical_bytes: bytes of one
+ * buffer. */
 static inline uint32_t kd_plan_critical_parts(const struct kd_plan_lens *lens)
 {
     return lens->critical ? (uint32_t)((lens->critical_pixels + lens->critical_part - 1) / lens->critical_part) : 0;
@@ -59,7 +61,7 @@ static inline uint64_t kd_plan_critical_bytes(const struct kd_plan_lens *lens)
 #define KD_PLAN_SAMPLED (4 * KD_PLAN_SAMPLED_OF_EACH * KD_PLAN_TRUTH_SIDE * KD_PLAN_TRUTH_SIDE)
 #define KD_PLAN_ROUNDS 6                            /* rounds of choosing pixels, at most */
 #define KD_PLAN_REFINING_LOOKS (1 + KD_PLAN_ROUNDS) /* number of times that the displayed picture is examined */
-#define KD_PLAN_LISTED_BYTES (15u << 20)            /* so that the rays fit in 65535 workgroups */
+#define KD_PLAN_LISTED_BYTES (15u << 20)            /* chosen so that the listed rays fit in 65535 workgroups */
 
 /* Pixels, with `rays` rays each, whose lens map fits the buffer of listed pixels. */
 static inline uint64_t kd_plan_listed_most(const struct kd_plan_lens *lens, uint32_t rays)
@@ -89,10 +91,10 @@ static inline uint64_t kd_plan_rays(const struct kd_plan_lens *lens)
     return lens->rays + lens->critical * lens->critical_pixels;
 }
 
-/* If the map is interpolated, the number of traced rays is this many times the square root of the number of the
- * grid's rays. The traced rays lie along edges of orders and fates, and between these edges at nodes, of which
- * there are fewer per ray the denser the rays are. Measured on four presets, one of them from 320 x 180 to 4K
- * (docs/accuracy.md): 117 to 154. */
+/* If the map is interpolated, the number of traced rays is KD_PLAN_FOLLOWED times the square root of the number of the
+ * grid's rays. The traced rays lie along edges of orders and fates. Between these edges they lie at nodes; the denser
+ * the rays of the picture, the smaller the fraction of them that are nodes. Measurements on four presets, one of them
+ * from 320 x 180 to 4K, gave factors of 117 to 154 (docs/accuracy.md). */
 #define KD_PLAN_FOLLOWED 130
 static inline uint64_t kd_plan_followed(const struct kd_plan_lens *lens)
 {

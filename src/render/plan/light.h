@@ -30,11 +30,11 @@ struct kd_plan_light {
     bool reuse_normalisation;
     struct {
         uint32_t width, height;
-    } shape; /* shape of the picture for which that density is found. 0: this picture's own shape, whose aspect ratio is
-                rounded to whole pixels */
+    } shape; /* shape of the picture for which the density of a requested flux is found. 0: this picture's own shape,
+                whose aspect ratio is rounded to whole pixels */
 };
 
-/* True if every ray that escapes meets light, such as that of a grid or of the Milky Way (KD_TRAIT_SPREAD), and not
+/* True if the sky has light in every direction, such as that of a grid or of the Milky Way (KD_TRAIT_SPREAD), and not
  * only points of light such as stars. */
 bool kd_plan_is_spread(const struct kd_plan_light *light);
 

@@ -10,7 +10,7 @@
 enum { LEAST = 2, BALANCED = 4, MOST = 64, SKETCH = 2 };
 
 #define UNSEEN 0.05 /* octaves of less than this amplitude contribute less than 1e-4 to the light */
-/* like UNSEEN, for a sketch: it also leaves out octaves that a ray's footprint mostly averages out */
+/* the same for a sketch, which also leaves out octaves that a ray's footprint mostly averages out */
 #define SKETCH_UNSEEN 0.15
 
 static bool is_stirred(const struct kd_scene *scene)
@@ -25,24 +25,24 @@ static double error_of(const struct kd_scene *scene)
     return isfinite(a->tolerance) ? a->tolerance : (is_stirred(scene) ? stirred : errors)[a->profile];
 }
 
-#define PIXEL \
-    0.36 /* distance of rays in M, divided by disk.gas.scale, below which more of the fine noise is resolved as \
-          * the rays get closer */
+/* when rays are closer than this, in M divided by disk.gas.scale, they resolve more of the fine noise */
+#define PIXEL 0.36
 #define CLOSER 0.08 /* change of the exponent in fine_of each time the distance halves */
 #define CLOSEST 3   /* number of halvings after which all octaves are resolved */
 
-/* The number of times that the distance of rays must be halved, starting from a picture 320 wide of the preset
- * thick-disk. */
+/* How many times PIXEL must be halved to give the distance between the rays of this picture; 0 if that distance is
+ * larger. PIXEL is the distance in a picture, 320 pixels wide, of the preset thick-disk. */
 static double closeness(const struct kd_scene *scene)
 {
     const double distance = isfinite(scene->camera.r) ? scene->camera.r : 1, side = fmax(scene->image.samples, 1);
     return fmin(fmax(log2(PIXEL * scene->gas.scale * side / (kd_camera_pixel(scene) * distance)), 0), CLOSEST);
 }
 
-/* Measured in the preset thick-disk at 320 x 180 against 16 times as many stretches: nine of ten rays are within 8e-3
- * at four quarters, 1.6e-3 at eight and 5e-4 at twelve, because noise is smooth to the second derivative only. Closer
- * rays resolve noise that is much finer than stretches, and the error falls more slowly. At nine quarters it is 8e-4 at
- * 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x 720; at three quarters it is 1.3e-2, 1.5e-2 and 1.8e-2. */
+/* Errors measured in the preset thick-disk at 320 x 180, against 16 times as many stretches: in nine of ten rays, the
+ * relative error of light is at most 8e-3 for fine = 4, 1.6e-3 for fine = 8 and 5e-4 for fine = 12. It falls no faster,
+ * because noise is smooth to the second derivative only. Closer rays resolve noise that is much finer than stretches,
+ * and then the error falls more slowly. For fine = 9 it is 8e-4 at 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x
+ * 720; for fine = 3 it is 1.3e-2, 1.5e-2 and 1.8e-2 at these sizes. */
 static uint32_t fine_of(double error, const struct kd_scene *scene)
 {
     double fine = BALANCED * sqrt(sqrt(1e-4 / error));
@@ -59,9 +59,9 @@ static uint32_t steps_of(double error, const struct kd_setting *rays)
     return mino && rays->steps > least ? rays->steps : least;
 }
 
-/* Cost of a ray through matter at a radio frequency, relative to a ray through a uniform volume. Measured in core
- * seconds of pictures of two sizes by lavapipe, for test 3 of Gold et al., ipole's flow, the torus, and a grid of the
- * torus with 192 x 96 nodes. */
+/* Cost of a ray through matter at a radio frequency, relative to a ray through a uniform volume. Measured with
+ * lavapipe, in core seconds of pictures of two sizes. The scenes were test 3 of Gold et al., ipole's flow, the torus,
+ * and a grid of the torus with 192 x 96 nodes. */
 static double of_matter(const struct kd_scene *scene)
 {
     static const double of[] = { [KD_VOLUME_NONE] = 1,   [KD_VOLUME_UNIFORM] = 1, [KD_VOLUME_GOLD] = 1.7,

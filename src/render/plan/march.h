@@ -18,21 +18,21 @@ struct kd_march {
     uint32_t steps; /* steps per half period, at least 8; 0: the scene has no volumes */
     double weight;  /* cost of a ray, relative to one through a smooth volume at the balanced profile */
     /* resolution, 2 to 64: a stretch is at most 4/fine grains long (grain: the length that an emitter reports). Where
-     * light is smooth, the error falls at least as the fourth power of this */
+     * light is smooth, the error falls at least as the fourth power of `fine` */
     uint32_t fine;
-    /* a ray ends where less than this fraction of the light from behind is transmitted: a tenth of the target for
-     * the error */
+    /* a ray ends where less than this fraction of the light from behind is transmitted. The fraction is a tenth of the
+     * target for the error */
     double opaque;
     /* octaves of noise are left out whose amplitude, reduced by the local gas and the ray's footprint, is less than
      * this fraction of the first octave's */
     double unseen;
-    bool sketched; /* the march is coarser than with any profile: kd_march_sketch */
+    bool sketched; /* the march is a sketch, coarser than with any profile (kd_march_sketch) */
     struct kd_march_sample
         sample; /* pixels whose rays are followed twice more, to measure the error (frame/march_error.c) */
 };
 /* the target of a sketch for the error, without the error due to the octaves that it leaves out */
 #define KD_MARCH_SKETCHED 0.05
-#define KD_MARCH_HOLDS 5e-5  /* an error that is met even in turbulence; smaller tolerances are refused */
+#define KD_MARCH_HOLDS 5e-5  /* the smallest tolerance that can be requested; this error is met even in turbulence */
 #define KD_MARCH_SAMPLED 256 /* pixels of the sample, at most */
 #define KD_MARCH_FINER 2     /* factor by which the reference for measuring the error has more steps and stretches */
 #define KD_MARCH_DARK 1e-3   /* fraction of the brightest ray: errors of darker rays are relative to this */

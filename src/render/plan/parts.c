@@ -47,8 +47,8 @@ static enum kd_status make_pair(const struct kd_scene *scene, const struct kd_ne
     KD_TRY(kd_plan_make_for(&left, needs, capacity, &plan, error));
     KD_TRY(kd_plan_make_for(&right, needs, capacity, &next, error));
     add(&plan, &next);
-    plan.cost.host_bytes =
-        2 * (plan.cost.host_bytes + next.cost.host_bytes); /* for each picture alone, and for both side by side */
+    plan.cost.host_bytes = 2 * (plan.cost.host_bytes +
+                                next.cost.host_bytes); /* memory for each picture alone, and for both side by side */
     plan.picture.eyes = 2;
     kd_plan_say(&plan, scene);
     KD_TRY(name_lens(&plan, scene, error));
@@ -129,8 +129,8 @@ static enum kd_status refuse_strips(struct kd_error *error, const struct kd_erro
     return kd_error_set(error, KD_ETOOBIG, "%.250s; strips might fit, but %.200s", whole.message, why->message);
 }
 
-/* Uses as few strips as fit. If the scene needs something that no tile can have, the picture is too large: `error` is
- * left unchanged. */
+/* Uses as few strips as fit. If the scene needs something that no tile can have, strips are not possible; `error`
+ * already says that the picture is too large. */
 static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                   const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)
 {

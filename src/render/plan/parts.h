@@ -6,7 +6,7 @@
 
 #include "render/plan/plan.h"
 
-/* The plan of a picture or tile that is made in one piece. Errors as kd_plan_make. */
+/* The plan of a picture or tile that is made in one piece. Errors are those of kd_plan_make. */
 enum kd_status kd_plan_one(const struct kd_scene *scene, const struct kd_needs *needs,
                            const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 

@@ -39,8 +39,9 @@ static struct kd_pass_cost trace(const struct kd_plan *plan, const struct kd_cap
                                    ns_listed(by, c), KD_NS_NONE };
 }
 
-/* The number of pixels that need more rays depends on the content: turbulent gas takes fifteen times as long as a
- * smooth disk. So the figure is measured on earlier pictures. The time of light through volumes is added. */
+/* The number of pixels that need more rays depends on the content: refinement of turbulent gas takes fifteen times as
+ * long as that of a smooth disk. So the figure is measured on earlier pictures. If there are volumes, the time of their
+ * light is added. */
 static struct kd_pass_cost refine(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double ns = c->ns[KD_NS_RAY_REFINED];

@@ -45,7 +45,7 @@ static void add_stokes(struct sums *s, const float *part)
 
 static struct kd_light centred(const struct kd_camera_exact *c, double side, double area, const struct sums *s)
 {
-    double x = s->x * side, y = s->y * side, w = s->weight; /* in units of the distance between rays */
+    double x = s->x * side, y = s->y * side, w = s->weight; /* the centroid in units of the distance between rays */
     double k0 = c->c0x * w + c->cxx * x + c->cyx * y, k1 = c->c0y * w + c->cxy * x + c->cyy * y;
     if (!(w > 0))
         return (struct kd_light) { .x = NAN, .y = NAN };

@@ -1,5 +1,5 @@
-/* Photometry: flux and centroid of a picture, from linear radiance. Both are independent of the exposure. They
- * depend on the resolution only because light between the rays is missed.
+/* Photometry: flux and centroid of a picture, from linear radiance. Flux and centroid are independent of the exposure.
+ * They depend on the resolution only because rays miss the light between them.
  *
  * The flux is the sum over the pixels of luminance times solid angle. At infinity solid angle is the area in the
  * image plane, so the unit of the flux is M^2 times the unit of brightness (the disk's maximum); divided by D^2 it

@@ -34,10 +34,10 @@ struct kd_plan_picture {
     size_t n_layers;
     struct kd_beam_grid beam; /* the telescope's beam with which light is convolved */
     struct kd_bloom bloom;    /* glare of the lens */
-    /* The remaining settings come from the caller and not from the scene. These two are for showing successive
-     * frames. If style.exposure is "auto", the exposure moves by the fraction exposure_share from exposure_from
-     * towards the picture's own exposure. With exposure_share 0, which kd_plan_make sets, the picture has its own
-     * exposure. */
+    /* The remaining settings come from the caller and not from the scene. exposure_from and exposure_share are for
+     * showing successive frames. If style.exposure is "auto", the exposure moves by the fraction exposure_share from
+     * exposure_from towards the picture's own exposure. With exposure_share 0, which kd_plan_make sets, the picture has
+     * its own exposure. */
     double exposure_from, exposure_share;
     struct {
         unsigned samples;

@@ -238,9 +238,10 @@ static enum kd_status may_list(const struct kd_scene *scene, const struct kd_set
                           ergosphere(scene));
 }
 
-/* Settings for a ring. Its rays pass the critical curve at 1e-10, which neither 32 bits nor few steps resolve.
- * Unless an engine or steps are named, the closed form is used, because it needs no device and meets each tolerance
- * that a picture may request. The table's rows do not apply, because they were measured on other rays. */
+/* Settings for a ring. Its rays pass the critical curve at relative distances down to 1e-10, which neither 32 bits nor
+ * few steps resolve. Unless an engine or steps are named, the closed form is used, because it needs no device and meets
+ * each tolerance that a picture may request. The table's rows do not apply, because they were measured on other
+ * rays. */
 static enum kd_status ring(struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
     if (asked_accuracy->precision == KD_PRECISION_F32)
@@ -264,9 +265,9 @@ static double beyond_orbits(const struct kd_scene *scene)
 
 static bool within_horizon(const struct kd_scene *scene) { return scene->camera.r <= kd_scene_hole(scene)->outer; }
 
-/* Settings for an observer inside the horizon, where only lens_map.comp traces light. Near the centre, w'' = 3K w^2
- * is faster by sqrt(6w) than at w = 1/2, for which the number of steps per half turn was chosen. So more steps are
- * needed there. */
+/* Settings for an observer inside the horizon, where only lens_map.comp traces light. The number of steps per half turn
+ * was chosen for w = 1/2. Near the centre, where w'' = 3K w^2, the motion is faster by sqrt(6w), so more steps are
+ * needed. */
 static enum kd_status from_within(struct kd_plan *plan, const struct kd_scene *scene,
                                   const struct kd_accuracy_request *asked_accuracy, struct kd_error *error)
 {
@@ -395,9 +396,8 @@ static enum kd_status outline(const struct kd_scene *scene, const struct kd_need
     plan.lens.ends = kd_emit_at_ends(scene) && kd_plan_holds(&plan.lens, KD_LENS_SKY);
     plan.picture.n_layers = kd_layers_of(scene, plan.picture.layers, &plan.picture.rgb);
     plan.picture.n_layers = needs->no_image ? 0 : plan.picture.n_layers;
-    if (plan.light.bright && !plan.picture.n_layers &&
-        !kd_plan_is_spread(
-            &plan.light)) /* the search for bright images computes its own differences, so these need no footprints */
+    /* the search for bright images computes its own differences, so it needs no footprints */
+    if (plan.light.bright && !plan.picture.n_layers && !kd_plan_is_spread(&plan.light))
         plan.lens.quantities &= ~(uint32_t)KD_LENS_SKY_FOOTPRINT;
     plan.picture.radiance = needs->radiance && plan.picture.rgb && !needs->no_image;
     if (!needs->no_image && !kd_plan_is_map(&plan.picture))

@@ -36,15 +36,17 @@ enum kd_status kd_plan_make(const struct kd_scene *scene, const struct kd_capaci
  * milliseconds for large pictures. With that list kd_plan_make may still return KD_ETOOBIG. */
 enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capacity *capacity, struct kd_error *error);
 
-/* A key for scenes that share a lens map, without a plan: scenes with equal keys share one on any device. Scenes
- * with different keys may still share one, if two ways to request an accuracy have the same result. KD_ENOMEM. */
+/* A key for scenes that share a lens map, without a plan: scenes with equal keys share a lens map on any device. Scenes
+ * with different keys may also share one, if two ways to request an accuracy have the same result. The only error is
+ * KD_ENOMEM. */
 enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out);
 
 /* The largest number of rays that one dispatch may leave undecided, for the host to trace again in double
  * (frame/settle.c). It is at most KD_GIVEN_MOST, so that the list of these rays is no larger than a band of the
  * lens map. */
 uint64_t kd_plan_open_most(const struct kd_plan *plan);
-/* Checks that there is memory for a finished plan, and for `more` bytes on the host. KD_ETOOBIG with the limit. */
+/* Checks that there is memory for a finished plan, and for `more` bytes on the host. If there is not, returns
+ * KD_ETOOBIG; the message states the limit. */
 enum kd_status kd_plan_has_room(const struct kd_plan *plan, uint64_t more, const struct kd_capacity *capacity,
                                 struct kd_error *error);
 
@@ -56,8 +58,8 @@ static inline double kd_plan_map_ns(const struct kd_plan *plan)
                : plan->cost.trace_ns;
 }
 
-/* Number of rays in a list behind the light of a band, and bytes of the list. It holds the rays that the march could
- * not complete, and the state of rays that continue (interface.h, KD_LOST_...). */
+/* Number of rays in a list behind the light of a band, and bytes of the list. The list holds the rays that the march
+ * could not complete, and the state of rays that continue (interface.h, KD_LOST_...). */
 static inline uint32_t kd_plan_lost_most(const struct kd_plan *plan)
 {
     return plan->light.march.steps ? plan->picture.width * plan->picture.band_rows : 0;
@@ -68,7 +70,7 @@ static inline uint64_t kd_plan_lost_bytes(uint64_t most) { return most ? 4 * (KD
  * and rays, for one slice of KD_PLAN_STAR_RAYS rays or one row (frame/stars.c). A slice takes about 20 ms, and its
  * pairs fit. */
 #define KD_PLAN_PAIRS (1u << 18)
-#define KD_PLAN_BRIGHT 8 /* searching only bright images is about this many times as fast as searching all */
+#define KD_PLAN_BRIGHT 8 /* a search for bright images alone is about this many times as fast as one for all images */
 #define KD_PLAN_STAR_RAYS (1u << 17)
 static inline uint64_t kd_plan_pair_bytes(void) { return 8ull * (KD_PLAN_PAIRS + 1); }
 static inline uint32_t kd_plan_star_slice(const struct kd_plan *plan)

@@ -12,11 +12,11 @@
 #define KD_PLAN_MAX_APPROXIMATIONS 144 /* a test compares it with the number of approximations */
 
 struct kd_plan_report {
-    bool measured, accuracy_measured; /* as in the capacity */
+    bool measured, accuracy_measured; /* same meaning as in kd_capacity */
     struct kd_approximation approximations[KD_PLAN_MAX_APPROXIMATIONS];
     size_t n_approximations;
-    /* Set by the caller: the light of the middle ray of this pixel is described (frame/probe.h); with `steps` also the
-     * engine's steps. */
+    /* The caller sets `on` to have the light of the middle ray of this pixel described (frame/probe.h), and `steps` to
+     * have the engine's steps recorded as well. */
     struct {
         bool on, steps;
         uint32_t x, y;

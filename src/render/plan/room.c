@@ -10,8 +10,8 @@
 #include "render/view/layout.h"
 #include "render/view/rim_grid.h"
 
-/* Limits of the device: those of the capacity if they are known, otherwise those that Vulkan 1.2 guarantees
- * (maxComputeWorkGroupCount, maxMemoryAllocationSize). */
+/* The functions below return limits of the device: the capacity's if they are known, otherwise what Vulkan 1.2
+ * guarantees (maxComputeWorkGroupCount, maxMemoryAllocationSize). */
 static uint64_t groups_x(const struct kd_capacity *c) { return c->max_groups_x ? c->max_groups_x : 65535; }
 static uint64_t groups_y(const struct kd_capacity *c) { return c->max_groups_y ? c->max_groups_y : 65535; }
 static uint64_t buffer_bytes(const struct kd_capacity *c)
@@ -147,9 +147,9 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
     struct kd_critical_pixels list;
     const uint64_t side = least(plan->lens.side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
+    /* with one order and no ends, nothing is planned: no part of the direct image is thinner than a pixel */
     if (plan->lens.ring || side <= plan->lens.side ||
-        !(plan->lens.orders > 1 || plan->lens.ends ||
-          plan->light.march.steps)) /* not planned, because no part of the direct image is thinner than a pixel */
+        !(plan->lens.orders > 1 || plan->lens.ends || plan->light.march.steps))
         return KD_OK;
     enum kd_status status = kd_critical_cache(scene, &list, error);
     uint64_t n = list.n, most = (buffer_bytes(c) - 64) / (4 * (plan->lens.planes * side * side + 2));

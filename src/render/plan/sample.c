@@ -7,11 +7,12 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Along the side of a block. EVEN: number of even places; LAST: number of cells of the last level. */
+/* Numbers along the side of a block. EVEN: number of even places; LAST: number of cells of the last level. */
 enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
-/* all of these rays may be undecided; one dispatch then has 16384 workgroups, a quarter of what any device allows */
+/* rays sampled at once: all of them may be undecided, and one dispatch then has 16384 workgroups, a quarter of what any
+ * device allows */
 #define RAYS_AT_ONCE KD_GIVEN_MOST
 
 /* Bytes that every device can bind as one storage buffer (Vulkan 1.2, 42.1: maxStorageBufferRange). */
@@ -60,7 +61,7 @@ void kd_sample_fit(struct kd_plan *plan, uint64_t bytes)
 {
     const uint64_t row = (uint64_t)plan->picture.width * plan->lens.side * plan->lens.side,
                    rows = RAYS_AT_ONCE / row > 1 ? RAYS_AT_ONCE / row : 1;
-    /* as many rows as the bits of a place can number */
+    /* the bits of a place can number this many rows */
     const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->lens.side;
     plan->lens.sample_rows = (uint32_t)least_of(least_of(rows, held), plan->picture.band_rows);
     while (plan->lens.sample_rows > 1 && !fits(plan, plan->lens.sample_rows, bytes))

@@ -19,8 +19,8 @@ struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, 
                                      uint32_t rows);
 
 /* Sets plan->lens.sample_rows such that no buffer exceeds `bytes`, the limit of a binding. If a picture is so wide that
- * some device could not bind one row of pixels, every ray is traced on all devices, so that its bytes are the same
- * everywhere. plan->picture.band_rows must be set. */
+ * some device could not bind one row of pixels, every ray is traced on all devices. The bytes of the picture are thus
+ * the same on every device. plan->picture.band_rows must be set. */
 void kd_sample_fit(struct kd_plan *plan, uint64_t bytes);
 /* Bytes of all three buffers for sample_rows; 0 if every ray is traced. */
 uint64_t kd_sample_bytes(const struct kd_plan *plan);

@@ -1,7 +1,7 @@
-/* A tile of a picture (image.tile) is identical to that part of the whole picture, byte by byte. It is rendered with a
- * margin of surrounding pixels, as far as the picture has them, because light at the tile's edges depends on rays
- * beyond the edges. Then the margin is cut off. A tile cannot use anything that depends on all pixels at once: exposure
- * "auto", bloom, a beam, and rays chosen by the displayed picture. Pure; any thread. */
+/* A tile (image.tile) is a part of a picture. It is identical, byte by byte, to the same part of the whole picture. It
+ * is rendered with a margin of surrounding pixels, as far as the picture has them, because light at the tile's edges
+ * depends on rays beyond the edges. Then the margin is cut off. A tile cannot use anything that depends on all pixels
+ * at once: exposure "auto", bloom, a beam, and rays chosen by the displayed picture. Pure; any thread. */
 #ifndef KD_RENDER_PLAN_TILE_H
 #define KD_RENDER_PLAN_TILE_H
 
@@ -16,7 +16,8 @@ enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs
 /* The scene whose tile includes the margin; *cut, unless NULL: place of the original tile in it. */
 struct kd_scene kd_tile_with_margin(const struct kd_scene *scene, struct kd_window *cut);
 
-/* Strip i of n of a scene's window, in rows from the top; and the number of strips that are not empty. */
+/* kd_tile_strip: strip i of n of a scene's window, counted from the top. kd_tile_strips: number of these strips that
+ * are not empty. */
 struct kd_scene kd_tile_strip(const struct kd_scene *scene, uint32_t n, uint32_t i);
 uint32_t kd_tile_strips(const struct kd_scene *scene, uint32_t n);
 

@@ -30,7 +30,8 @@ struct kd_rays_answer {
     /* Members used with a tolerance. followed_again: number of rays that were traced again to meet it; beyond:
      * number of rays that exceed it nevertheless, including undecided rays. */
     size_t followed_again, beyond;
-    double worst_error, median_error; /* over the rays that have an error; NaN if no ray has an error */
+    /* largest and median error of the rays that have an error; NaN if no ray has one */
+    double worst_error, median_error;
 };
 
 /* Allocates room for n rays; takes ownership of alpha_beta, also on failure. */

@@ -11,7 +11,8 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-#define SLICE 1024 /* rays in a slice, which takes some milliseconds; less work is not worth another thread */
+/* number of rays in a slice, which takes some milliseconds; another thread is not worth while for less work */
+#define SLICE 1024
 #define THREADS_MAX 16
 
 _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");

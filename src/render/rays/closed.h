@@ -6,8 +6,8 @@
 #include "render/rays/rays.h"
 
 /* kd_rays_trace for KD_ENGINE_CLOSED, with checked params. Long lists are divided among the cores; progress is
- * called on the calling thread. With errors = false no errors (NaN) and no g are computed, which takes a third of
- * the time. */
+ * called on the calling thread. With errors = false, errors are NaN and no g is computed; this takes a third of the
+ * time. */
 enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays, bool errors,
                               struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
                               void *user, struct kd_error *error);
@@ -16,8 +16,8 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
 void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                       struct kd_ray_crossing *crossings, const struct kd_ray_end *ends);
 
-/* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane, for the radius r that any engine has
- * found. outward: as in kd_ray_labels. */
+/* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane, where r is the crossing's radius as
+ * some engine has found it. outward: as in kd_ray_labels. */
 double kd_rays_slope(const struct kd_rays_params *params, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r);
 

@@ -36,7 +36,7 @@ struct work {
     double least;
     struct set { struct kd_vk_buffer *rays, *ends, *host; } sets[2]; /* buffers that successive parts use alternately */
     struct kd_vk_buffer *told;                                       /* buffer for the records of trace.glsl, or NULL */
-    uint32_t steps;                                                  /* per half period */
+    uint32_t steps;                                                  /* number of steps per half period */
     const struct kd_vk_pipeline *pipeline;
     struct kd_error *error;
 };
@@ -73,9 +73,10 @@ static double get(const struct work *w, const void *at, size_t i)
     return w->wide ? ((const double *)at)[i] : (double)((const float *)at)[i];
 }
 
-/* Radius from which a Cartesian ray from infinity starts. A larger radius would lose digits of b, and in Tao's
- * method also phase. A smaller one would give smaller errors (from 100 M single precision has a sixth of the error),
- * but only because Mino time (start.c) would then trace more of the ray, and this engine less. */
+/* Radius from which a Cartesian ray from infinity starts. A larger radius would lose digits of b, and in Tao's method
+ * also phase. A smaller radius would give smaller errors (from 100 M, single precision has a sixth of the error). But
+ * the errors would be smaller only because start.c would then trace more of the ray in Mino time, and this engine less
+ * of it. */
 #define FAR 1e3
 /* The radius at which a ray counts as escaped: there its momentum has reached its limit within M b/r^2. Further out the
  * direction in single precision does not become more accurate, and the copies of Tao's method diverge. */
@@ -285,9 +286,10 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
     return status;
 }
 
-/* Number of rays of the next slice, after one of m rays that took `ms`. least_ms: time of the smallest slices. If even
- * one ray takes longer than TARGET_MS, a GPU takes the same time for several rays. Then slices are doubled while their
- * time stays near least_ms, and may take up to 1.5 times least_ms. */
+/* Number of rays of the next slice, after one of m rays that took `ms`. least_ms: time of the smallest slices so far.
+ * On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a slice is
+ * doubled while its time is within 1.25 times least_ms, and may otherwise take 1.5 times least_ms if that exceeds
+ * TARGET_MS. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
     double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms),

@@ -8,9 +8,9 @@
 
 #define AT(member) offsetof(struct kd_rays_request, member)
 
-/* The least radius of an observer in the schema: a horizon is above 1 M whatever the spin, 1 + sqrt(1 - a^2), Bardeen,
- * Press & Teukolsky 1972. check.c knows the horizon of the given spin, and the steps that an engine takes. "auto" is
- * stored as -1, and a motion that is not given as 0. */
+/* In the schema an observer must be further out than 1 M, because the horizon, at 1 + sqrt(1 - a^2), is further out
+ * than that for any spin (Bardeen, Press & Teukolsky 1972). check.c checks the radius against the horizon of the given
+ * spin, and the steps against the engine. "auto" is stored as -1, and a motion that is not given as 0. */
 static const struct kd_row fields[] = {
     { .name = "spin",
       .kind = KD_KIND_REAL,

@@ -6,9 +6,9 @@
 #include "render/rays/request.h"
 #include "document/document.h"
 
-extern const struct kd_document kd_rays_document; /* of struct kd_rays_request */
+extern const struct kd_document kd_rays_document; /* fields of struct kd_rays_request */
 
-/* Checks a value against the bounds of the field of this name; KD_EINVAL with the valid range. */
+/* Checks a value against the bounds of the field of this name; returns KD_EINVAL with the valid range. */
 enum kd_status kd_rays_field_check(const char *name, double value, struct kd_error *error);
 
 #endif

@@ -6,11 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SLICE ((size_t)16384) /* rays that are traced again together; they take a tenth of a second */
+#define SLICE ((size_t)16384) /* number of rays that are traced again together, which takes a tenth of a second */
 /* The least number of rays for which the device is used again: the closed form traces fewer rays in less time than it
  * takes to compile a kernel. */
 #define WORTH_A_KERNEL 8192
-#define MORE_STEPS 4 /* factor by which the steps grow: at order 6 the error then falls by a factor of 4096 */
+/* factor by which the number of steps grows: at order 6 the error then falls by a factor of 4096 */
+#define MORE_STEPS 4
 
 /* The rays of one slice that are traced again. */
 struct batch {
@@ -104,7 +105,7 @@ static size_t beyond(const struct kd_ray_end *ends, size_t n, double tolerance)
 static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_rays_params *params,
                             struct kd_rays_params *out)
 {
-    enum { FINEST = 128 }; /* with more steps rounding dominates */
+    enum { FINEST = 128 }; /* largest number of steps: with more, rounding errors dominate */
     uint32_t steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
     bool mino = params->engine == KD_ENGINE_MINO_RKN6;
     if (!kd_vk_info(renderer->vk)->float64 ||

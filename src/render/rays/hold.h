@@ -14,8 +14,8 @@ enum kd_status kd_rays_hold(struct kd_renderer *renderer, const struct kd_rays_p
 /* Requests the kernel that kd_rays_hold may need for n rays. */
 enum kd_status kd_rays_hold_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, size_t n);
 
-/* True if a ray is decided and within the tolerance by its own error estimate. A ray without an error estimate
- * counts as within the tolerance, because it has no number that could be wrong. */
+/* True if a ray is decided and within the tolerance by its own error estimate. A ray without an error estimate counts
+ * as within the tolerance, because nothing about it could be wrong. */
 static inline bool kd_rays_held(const struct kd_ray_end *end, double tolerance)
 {
     return end->fate != KD_RAY_UNDECIDED && !(end->error > tolerance);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NUMBER_MAX 60 /* characters, the limit for numbers anywhere in a document */
+#define NUMBER_MAX 60 /* largest number of characters of a number, as anywhere in a document */
 
 enum kd_status kd_rays_list_add(struct kd_rays_list *list, double alpha, double beta, struct kd_error *error)
 {
@@ -40,7 +40,7 @@ static size_t skip_string(const char *text, size_t at, size_t length)
     return at < length ? at + 1 : length;
 }
 
-/* Finds the array. Reports no errors; the parser of the rest of the document does that. */
+/* Finds the array. Errors are not reported here, but by the parser of the rest of the document. */
 bool kd_rays_list_find(const char *text, size_t length, size_t *start)
 {
     int depth = 0;

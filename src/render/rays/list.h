@@ -14,11 +14,11 @@ struct kd_rays_list {
 
 enum kd_status kd_rays_list_add(struct kd_rays_list *list, double alpha, double beta, struct kd_error *error);
 
-/* Finds the value of the first member "rays" of the outermost object; false unless it is an array. */
+/* Finds the value of the first member "rays" of the outermost object; returns false unless that value is an array. */
 bool kd_rays_list_find(const char *text, size_t length, size_t *start);
 
-/* Appends the array that begins at text[*at], and moves *at past it. text[length] must be NUL. KD_EINVAL with a pointer
- * if a ray is not two finite numbers; KD_EINVAL without a pointer if the text is not JSON. */
+/* Appends the array that begins at text[*at], and moves *at past it. text[length] must be NUL. Returns KD_EINVAL: with
+ * a pointer if a ray is not two finite numbers, without one if the text is not JSON. */
 enum kd_status kd_rays_list_read(struct kd_rays_list *list, const char *text, size_t length, size_t *at,
                                  struct kd_error *error);
 

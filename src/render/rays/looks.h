@@ -5,8 +5,8 @@
 
 #include "render/rays/rays.h"
 
-/* KD_EINVAL if this observer cannot exist here, or parameters of another kind of observer are set. params->observer
- * must be set. */
+/* Returns KD_EINVAL if this observer cannot exist at its place, or if parameters of another kind of observer are set.
+ * params->observer must be set. */
 enum kd_status kd_rays_looks_check(const struct kd_rays_params *params, struct kd_error *error);
 
 /* Labels of n directions, [yaw, pitch] in degrees as camera.yaw_deg and camera.pitch_deg. energy: at infinity, in

@@ -46,10 +46,10 @@ static double error_of(const struct kd_ray_crossing *found, const struct kd_ray_
                                                                                 * of a captured ray without crossings */
 }
 
-#define SLICE ((size_t)16384) /* rays; they take a tenth of a second */
+#define SLICE ((size_t)16384) /* rays compared at once, which takes a tenth of a second */
 
 /* The Kerr-Schild engines have no error estimate. They exist for comparison, so their rays are compared with the
- * closed form, which takes less time than they do. */
+ * closed form, which takes less time than these engines. */
 static enum kd_status compare(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                               const struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
                               void *user, struct kd_error *error)

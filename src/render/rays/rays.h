@@ -30,8 +30,9 @@ struct kd_rays_params {
     double inclination_deg; /* 0 to 180 */
     uint32_t orders;        /* number of requested crossings, 1 to KD_RAYS_MAX_ORDERS */
     enum kd_engine engine;
-    enum kd_precision precision; /* closed: F64 only */
-    uint32_t steps;              /* per half period, a multiple of 4; 0: the engine's default; closed form: 0 */
+    enum kd_precision precision; /* the closed form has F64 only */
+    /* steps per half period, a multiple of 4; 0: the engine's default. Always 0 for the closed form */
+    uint32_t steps;
     /* > 0: rays whose own error exceeds this are traced again more finely; 0: no ray is traced again */
     double tolerance;
     double holds; /* the tolerance that the setting meets according to the table, for the answer; 0: no tolerance was
@@ -78,15 +79,16 @@ bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
 
 /* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set.
  * With a tolerance, each ray that is undecided or exceeds it by its own error estimate is traced again with more steps
- * in double precision, then in closed form. A ray that still exceeds it is beyond double precision.
+ * in double precision, then in closed form. If a ray still exceeds the tolerance then, double precision cannot meet it.
  * rays: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n. renderer
- * may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. KD_EINVAL
- * with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the precision. */
+ * may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. Returns
+ * KD_EINVAL with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the
+ * precision. */
 enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *rays,
                              size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
                              kd_progress_fn progress, void *user, struct kd_error *error);
 
-/* Requests the kernels needed for n rays, for kd_kernels_note. Only the thread that has the renderer. */
+/* Requests the kernels needed for n rays, for kd_kernels_note. Only the thread that owns the renderer may call this. */
 enum kd_status kd_rays_ask_kernels(struct kd_renderer *renderer, const struct kd_rays_params *params, size_t n);
 
 /* kd_rays_trace for labels that are known to be valid. */

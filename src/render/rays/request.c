@@ -83,7 +83,7 @@ static enum kd_status read_rest(struct document *d, const char *text, const char
     struct kd_number_locale locale = kd_number_locale_enter();
     errno = 0;
     cJSON *root = cJSON_ParseWithLengthOpts(rest, length + 1, &end, 0);
-    bool starved = !root && errno == ENOMEM; /* as in document/tree.c */
+    bool starved = !root && errno == ENOMEM; /* cJSON reports lack of memory by errno only, as in document/tree.c */
     kd_number_locale_leave(locale);
     if (starved)
         return kd_error_set(d->error, KD_ENOMEM, "out of memory for a document of %zu bytes", length);

@@ -25,11 +25,11 @@ void kd_rays_request_init(struct kd_rays_request *request);
 void kd_rays_request_finish(struct kd_rays_request *request);
 
 /* Merges a document into a request that has no rays yet. text[length] must be NUL. Checks types; ranges are checked
- * by kd_rays_request_check. KD_EINVAL without a pointer if it is not a JSON document. Time is linear in length;
+ * by kd_rays_request_check. Returns KD_EINVAL without a pointer if it is not a JSON document. Time is linear in length;
  * memory is 32 bytes a ray besides the text. */
 enum kd_status kd_rays_request_json(struct kd_rays_request *request, const char *text, size_t length,
                                     struct kd_error *error);
-/* Takes rays from an NPY file. KD_EINVAL at "/rays" if the array has another shape or type than it must have. */
+/* Takes rays from an NPY file. Returns KD_EINVAL at "/rays" if the array's shape or type is wrong. */
 enum kd_status kd_rays_request_npy(struct kd_rays_request *request, const void *data, size_t size,
                                    struct kd_error *error);
 bool kd_rays_request_is_npy(const void *data, size_t size);

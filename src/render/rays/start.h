@@ -1,6 +1,6 @@
 /* The start of a listed ray in Cartesian ingoing Kerr-Schild coordinates of the mirrored spacetime (t, phi) -> (-t,
- * -phi). There a ray traced backwards is a photon that moves away from the observer. Double precision, pure, any
- * thread. */
+ * -phi). In the mirrored spacetime, a ray traced backwards is a photon that moves away from the observer. Double
+ * precision, pure, any thread. */
 #ifndef KD_RENDER_RAYS_START_H
 #define KD_RENDER_RAYS_START_H
 

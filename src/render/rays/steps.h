@@ -8,10 +8,10 @@
 #include <stdlib.h>
 
 enum kd_rays_stage {
-    KD_STAGE_START,    /* at the observer, or at the place where a Cartesian ray starts */
+    KD_STAGE_START,    /* the state at the observer, or at the place where a Cartesian ray starts */
     KD_STAGE_STEP,     /* a step towards the crossing of that order; discarded if there is no such crossing */
     KD_STAGE_CROSSING, /* the crossing of that order; not a step */
-    KD_STAGE_END,      /* after the last crossing, to infinity or the horizon */
+    KD_STAGE_END,      /* a step after the last crossing, towards infinity or the horizon */
 };
 
 /* One record. Members that a stage or an engine does not have are NaN. Azimuths are as in render/rays/rays.h; in
@@ -19,8 +19,9 @@ enum kd_rays_stage {
  * the device's own numbers and constants. They would be 0 without the errors of steps and rounding. */
 struct kd_rays_step {
     enum kd_rays_stage stage;
-    unsigned order, number;        /* order: order of the next crossing; number: number of the step */
-    double time;                   /* Mino time since the observer; Kerr-Schild engines: their s, d(lambda) = r ds */
+    unsigned order, number; /* order: order of the next crossing; number: number of the step */
+    /* Mino time since the observer; for Kerr-Schild engines their parameter s, with d(lambda) = r ds */
+    double time;
     double r, phi, delay;          /* delay: of a crossing only */
     double w, dw, u, du, n_x, n_y; /* Mino: M/r, cos(theta), their rates, the direction in the plane; u = n_z */
     double x, y, z, p_x, p_y, p_z; /* Kerr-Schild: position and momentum of the mirrored ray */

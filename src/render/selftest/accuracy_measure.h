@@ -12,7 +12,8 @@ struct kd_accuracy_params {
     const char *command; /* the command that requested it, stored with the table; NULL: none */
 };
 
-/* KD_ECANCELLED if progress returns false. Rows that the device cannot compute are left out; out->skipped says why. */
+/* Returns KD_ECANCELLED if progress returns false. Rows that the device cannot compute are left out; out->skipped says
+ * why. */
 enum kd_status kd_accuracy_measure(struct kd_renderer *renderer, const struct kd_accuracy_params *params,
                                    kd_progress_fn progress, void *user, struct kd_accuracy_table *out,
                                    struct kd_error *error);

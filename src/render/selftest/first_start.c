@@ -26,9 +26,9 @@ static void restore(struct kd_renderer *r, const struct kd_capacity *capacity)
     pthread_mutex_unlock(&r->lock);
 }
 
-/* Measures the cost of a ray and a pixel, which replaces the guess for this type of device. It is the least over
- * several small pictures, because a driver may compile a kernel at its first run, and a busy machine slows any of
- * them. */
+/* Measures the cost of a ray and a pixel, which replaces the guess for this type of device. The cost is the least of
+ * several small pictures: a driver may compile a kernel when it first runs, and a busy machine may slow any of the
+ * pictures. */
 static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -51,8 +51,9 @@ static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
         kd_frame_finish(&frame);
     }
     r->probing = false;
-    for (int i = 0; i < KD_FIGURE_COUNT; i++) /* costs that are not measured here: those of particles, and without
-                                               * timestamps all of them */
+    /* costs that are not measured here keep their value: those of particles, and all costs if the device has no
+     * timestamps */
+    for (int i = 0; i < KD_FIGURE_COUNT; i++)
         c->ns[i] = isfinite(c->ns[i]) ? c->ns[i] : guess.ns[i];
     return status;
 }

@@ -54,7 +54,7 @@ done:
     return status;
 }
 
-/* Compares g^4 F/F_max. A file's 16 bits round a luminance of 0.2; the relative error is 0.9 (1/2)/65535 over 0.2,
+/* Compares g^4 F/F_max. A file rounds a luminance of 0.2 to 16 bits, with a relative error of 0.9 (1/2)/65535 / 0.2 =
  * 3.4e-5. The tables from which T is interpolated have errors of 1e-6, so T^4 has four times that. Roundoff is
  * multiplied by the gain of r for F and by four times that of g. */
 static enum kd_status brightness(const struct kd_selftest *test)
@@ -102,8 +102,8 @@ done:
     return status;
 }
 
-/* Errors are in steps of 1/65535: half a step of rounding, plus the errors of the kernel's polynomial for the power
- * (5.4e-7) and of Vulkan's square roots (three units in the last place), together a fifteenth of a step. */
+/* Errors are in steps of 1/65535: rounding adds half a step. The kernel's polynomial for the power (5.4e-7) and
+ * Vulkan's square roots (three units in the last place) together add a fifteenth of a step. */
 static enum kd_status greys(const struct kd_selftest *test, bool film, struct kd_vk_buffer *radiance,
                             struct kd_vk_buffer *words)
 {

@@ -84,7 +84,7 @@ static enum kd_status mercury(const struct kd_selftest *test)
     return kd_selftest_end(test, &row);
 }
 
-/* The relative error that physics/disk/thin_disk.h states: 1e-11 and 4e-14/(r - r_isco)^2. */
+/* The bound is the relative error that physics/disk/thin_disk.h states: 1e-11 + 4e-14/(r - r_isco)^2. */
 static enum kd_status flux(const struct kd_selftest *test)
 {
     struct kd_selftest_row row;

@@ -22,7 +22,7 @@ enum kd_status kd_selftest_maps(const struct kd_selftest *test);   /* the lens m
 enum kd_status kd_selftest_light(const struct kd_selftest *test);  /* brightness and encoding */
 enum kd_status kd_selftest_same(const struct kd_selftest *test);   /* repeated pictures, and pictures in pieces */
 
-/* Bounds allow for this many operations, each with an error of a unit roundoff, for each number: rays.c. */
+/* For each number, bounds allow for this many operations with an error of one unit roundoff each (rays.c). */
 #define KD_SELFTEST_OPERATIONS 64
 
 #endif

@@ -16,7 +16,7 @@
 struct engine {
     enum kd_engine engine;
     enum kd_precision precision;
-    uint32_t steps; /* per half period */
+    uint32_t steps; /* number of steps per half period */
 };
 static const struct engine engines[] = {
     { KD_ENGINE_CLOSED, KD_PRECISION_F64, 0 },
@@ -64,8 +64,9 @@ static const char *const quantities[QUANTITIES] = { "r (relative)", "phi (rad)",
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Compares with known numbers. Each bound is a unit of error times the size of the terms summed and the gain. phi is a
- * sum over half turns. delay is a sum of terms that are as large as the radius, or about 10 M near the hole. */
+/* Compares with known numbers. Each bound is a unit of error, multiplied by the size of the summed terms plus the gain.
+ * phi is a sum over half turns. delay is a sum of terms that are as large as the radius, or about 10 M near the
+ * hole. */
 static void judge(const struct kd_selftest_ray *ray, const struct engine *e, const struct kd_ray_crossing *crossings,
                   const struct kd_ray_end *end, struct kd_selftest_row rows[QUANTITIES])
 {

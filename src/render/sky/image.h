@@ -2,13 +2,14 @@
  *
  * The file has 8 or 16 bits a channel, is taken as sRGB whatever it declares, and has the axes of panorama.h. The
  * picture is resampled by area averages. Its rows become the power of two nearest to their number, at most
- * KD_SKY_IMAGE_ROWS: what a device can bind at once, 5.3 minutes of arc a texel. White becomes 1. */
+ * KD_SKY_IMAGE_ROWS, because a device cannot bind more at once. A texel then covers 5.3 minutes of arc. White becomes
+ * 1. */
 #ifndef KD_RENDER_SKY_IMAGE_H
 #define KD_RENDER_SKY_IMAGE_H
 
 #include "render/sky/panorama.h"
 
-/* credit: the file's text "Copyright", or else "Author"; "" if it has neither. Errors name the field sky.image.
+/* credit: the file's text "Copyright", or else "Author"; "" if it has neither. Errors name the field sky.image. Returns
  * KD_EINVAL if the bytes are not a valid PNG file, twice as wide as high, of KD_PANORAMA_LEAST to KD_PANORAMA_MOST
  * rows; KD_ENOMEM. Needs memory for all pixels of the file, and 12 bytes a texel; 6500 x 3250 pixels take a second. */
 #define KD_SKY_CREDIT 400

@@ -1,10 +1,10 @@
 /* The procedural Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, from noise with a seed.
  *
- * The profiles are fits by eye to photographs. The dust absorbs 1.35 times as much of blue light as of green, and
- * 0.72 times as much of red (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as the
- * real one: some 21 magnitudes per square arcsecond at its brightest place, and a tenth as bright 30 degrees from
- * there (C. Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture correspond to nothing in the
- * real sky. */
+ * The profiles are fits by eye to photographs. The optical depth of the dust for blue light is 1.35 times that for
+ * green light, and for red light 0.72 times (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as
+ * bright as the real one: some 21 magnitudes per square arcsecond at its brightest place, and a tenth as bright 30
+ * degrees from there (C. Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture correspond to
+ * nothing in the real sky. */
 #include "render/sky/panorama.h"
 
 #include "base/random.h"

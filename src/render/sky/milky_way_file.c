@@ -43,8 +43,8 @@ static struct head head_of(int32_t seed, const uint32_t *words)
     return head;
 }
 
-/* True if this program would compute the same picture. Another version of it or of its mathematics library may compute
- * another. */
+/* True if this program would compute the same picture. Another version of the program or of its mathematics library may
+ * compute another picture. */
 static bool is_ours(int32_t seed, const uint32_t *words)
 {
     static const uint32_t rows[] = {

@@ -2,9 +2,10 @@
  * middle, l growing to the left, and the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG magnitudes a
  * square arcsecond. Pure; any thread.
  *
- * It is stored as mips: level k has 1/4^k of the texels, each the mean of four of the level before, down to two
- * rows. Texels are words with a shared exponent (Khronos, EXT_texture_shared_exponent): nine bits a channel. Sides
- * are powers of two, so that level k begins at (4 - 4^(1 - k))/3 of level 0. */
+ * It is stored as mips: level k has 1/4^k of the texels of level 0, and each texel is the mean of four texels of the
+ * level before. The last level has two rows. Texels are words with a shared exponent (Khronos,
+ * EXT_texture_shared_exponent): nine bits a channel. Sides are powers of two, so that level k begins at (4 - 4^(1 -
+ * k))/3 of level 0. */
 #ifndef KD_RENDER_SKY_PANORAMA_H
 #define KD_RENDER_SKY_PANORAMA_H
 
@@ -33,13 +34,13 @@ static inline size_t kd_panorama_words(uint32_t width, uint32_t height)
         sum += (size_t)width * height;
     return sum;
 }
-/* Makes all levels. The picture's texels are averaged in place. KD_ENOMEM. */
+/* Makes all levels. The picture's texels are averaged in place. The only error is KD_ENOMEM. */
 enum kd_status kd_panorama_fill(struct kd_sky_picture *picture, uint32_t *words, struct kd_error *error);
 
 uint32_t kd_panorama_pack(const float rgb[3]);
 void kd_panorama_unpack(uint32_t word, float rgb[3]);
 
-/* The procedural Milky Way (milky_way.c) of sky.seed. KD_ENOMEM. Takes some tenths of a second. */
+/* The procedural Milky Way (milky_way.c) of sky.seed. The only error is KD_ENOMEM. Takes some tenths of a second. */
 enum { KD_MILKY_WAY_WIDTH = 2048, KD_MILKY_WAY_HEIGHT = 1024 };
 enum kd_status kd_milky_way(int32_t seed, struct kd_sky_picture *out, struct kd_error *error);
 /* Computes only some of the Milky Way's rows, one after the other into texels. They are identical, bit by bit, to the

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define SLACK 0.05 /* rays: images this far outside a grid's part are also examined */
-#define BESIDE 4.0 /* pixels: images this far outside the picture are also examined */
+#define SLACK 0.05 /* images up to this many rays outside a grid's part are examined as well */
+#define BESIDE 4.0 /* images up to this many pixels outside the picture are examined as well */
 
 /* The rays of one grid's part and their neighbours, as a map that begins at the grid's `column` and `row`. */
 struct rim_map {

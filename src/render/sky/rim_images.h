@@ -6,11 +6,11 @@
 #include "render/sky/star_images.h"
 #include "render/view/rim_grid.h"
 
-#define KD_RIM_COARSE 1.0 /* rad: largest side of the triangles in which images are searched */
+#define KD_RIM_COARSE 1.0 /* largest side in rad of the triangles in which images are searched for */
 
 /* Reports each image in the rim, if the scene has a rim: the image's place among the pixels' rays (one a pixel), and
- * how the map transforms the square of four of those rays. stars: unit vectors in the frame of the lens map; most: as
- * in kd_sky_map. KD_ENOMEM; another status is that of `found`, which ended the search. */
+ * how the map transforms a square of four such rays. stars: unit vectors in the frame of the lens map; most: as in
+ * kd_sky_map. Returns KD_ENOMEM, or the status by which `found` ended the search. */
 enum kd_status kd_rim_images(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_vec *stars,
                              const double *most, size_t n,
                              enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user,

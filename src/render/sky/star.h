@@ -18,15 +18,15 @@
 
 struct kd_star {
     float x, y, z;
-    float flux;   /* sr, as above */
+    float flux;   /* flux in sr, in the unit described above */
     float kelvin; /* temperature of the black body that has the star's colour, K */
 };
 struct kd_stars {
     struct kd_star *at; /* the brightest first */
     size_t n;
 };
-/* Makes the stars of sky.model that are at least as bright as sky.limit_mag; no stars for other models. KD_ENOMEM.
- * About 30 ms. */
+/* Makes the stars of sky.model that are at least as bright as sky.limit_mag; no stars for other models. The only error
+ * is KD_ENOMEM. About 30 ms. */
 enum kd_status kd_stars_make(const struct kd_scene *scene, struct kd_stars *out, struct kd_error *error);
 void kd_stars_finish(struct kd_stars *stars);
 /* An upper bound on the number of stars that kd_stars_make returns. */

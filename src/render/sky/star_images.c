@@ -5,15 +5,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* in ray spacings: roots of a star that are nearer to each other than this are one image, unless only one of them is
+/* roots of a star that are nearer to each other than this, in ray spacings, are one image, unless only one of them is
  * mirrored */
 #define SAME 1e-3
-#define FOLDED 0.2 /* rad: size of the largest cells in which folds are searched */
-#define REACH \
-    0.5 /* fraction of a cell's size: where the map folds, stars this near to a corner or the middle of the cell are \
-         * searched for */
-#define BESIDE 0.35 /* rays: distance from the fold at which the search starts, on both sides */
-#define MARGIN 3.0  /* except at folds, an image is at most this many times as bright as its triangle indicates */
+#define FOLDED 0.2 /* size in rad of the largest cells in which folds are searched for */
+/* fraction of a cell's size: where the map folds, stars this near to a corner or the middle of the cell are searched
+ * for */
+#define REACH 0.5
+#define BESIDE 0.35 /* distance from the fold, in rays, at which the search starts on both sides */
+/* except at folds, an image is at most this many times as bright as an estimate from its triangle */
+#define MARGIN 3.0
 
 struct listed {
     struct kd_vec n;
@@ -85,10 +86,10 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
     return s->found(s->user, &image);
 }
 
-/* Corners of a triangle, clockwise as the picture is seen. The first has the right angle, the second is along `across`,
- * the third along `down`, +1 or -1. A star s = w0 a + w1 b + w2 c is inside if all w are positive (Cramer's rule). The
- * volume of a, b, c is twice the solid angle of the triangle, which is the solid angle of a pixel, since a pixel has
- * two triangles. */
+/* Corners of a triangle, clockwise as the picture is seen. The right angle is at the first corner; the second lies from
+ * it along `across`, the third along `down`, each +1 or -1. A star s = w0 a + w1 b + w2 c is inside if all w are
+ * positive (Cramer's rule). The volume of a, b, c is twice the solid angle of the triangle, which is the solid angle of
+ * a pixel, since a pixel has two triangles. */
 struct corner {
     double x, y;
     struct kd_vec n;
@@ -178,8 +179,8 @@ done:
 /* Four rows of rays; the cells are between the middle two. NULL: the row does not exist. */
 struct rows { const struct kd_vec *of[4]; };
 
-/* The difference between the rays on both sides of a ray, two steps apart. If one of them is missing, twice the
- * difference between the ray and the other one. */
+/* The difference between the two neighbours of a ray, which are two steps apart. If one neighbour is missing: twice the
+ * difference between the ray and the other neighbour. */
 static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
 {
     const bool has_before = before && isfinite(before->x), has_after = after && isfinite(after->x);

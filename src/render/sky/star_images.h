@@ -37,8 +37,9 @@ struct kd_sky_map {
     bool (*exact)(const void *of, double x, double y,
                   struct kd_vec *out); /* direction from which any single ray comes; false: unknown. NULL: no ray can be
                                         * followed */
-    /* The linearised map at a place between rays, except `area`, accurate to 1e-3 of a ray. Thanks to it, exact rays
-     * need not be traced where there is no image. False: unknown. NULL: unknown everywhere. */
+    /* The linearised map at a place between rays, except `area`, accurate to 1e-3 of a ray. With this map, exact rays
+     * need not be traced where there is no image. Returns false if the map is unknown at the place. A NULL pointer
+     * means that it is unknown everywhere. */
     bool (*between)(const void *of, double x, double y, struct kd_sky_tangent *out);
     bool (*wanted)(const void *of, double x,
                    double y); /* true if an image near this place must be reported, to 0.01 rays; NULL: always */
@@ -49,17 +50,17 @@ struct kd_sky_map {
 struct kd_star_stencil { double x, y, across, down; };
 
 struct kd_star_image {
-    size_t star;               /* index in the list */
-    double x, y;               /* the image's place among the rays */
-    double solid_angle;        /* sr: solid angle of the part of the sky to which the map takes the square of four rays
-                                * about the place */
-    struct kd_star_stencil by; /* how solid_angle was measured */
+    size_t star; /* index in the list */
+    double x, y; /* the image's place among the rays */
+    /* solid angle in sr of the part of the sky to which the map takes the square of four rays about the place */
+    double solid_angle;
+    struct kd_star_stencil by;         /* how solid_angle was measured */
     double x_by_azimuth, y_by_azimuth; /* change of the place per radian of the observer's azimuth */
     bool mirrored;                     /* true if left and right are exchanged in the image */
 };
 
-/* Reports each image of n stars (unit vectors in the frame of the map) once, row by row. KD_ENOMEM; another status
- * is that of `found`, which ended the search. */
+/* Reports each image of n stars (unit vectors in the frame of the map) once, row by row. Returns KD_ENOMEM, or the
+ * status by which `found` ended the search. */
 enum kd_status kd_star_images(const struct kd_sky_map *map, const struct kd_vec *stars, size_t n,
                               enum kd_status (*found)(void *user, const struct kd_star_image *image), void *user);
 

@@ -11,7 +11,7 @@
 #define KD_STAR_NAME 40 /* bytes of UTF-8, with the terminating 0 */
 
 struct kd_star_name {
-    size_t place;                   /* in the catalogue: kd_catalogue_star */
+    size_t place;                   /* index of the star in the catalogue: kd_catalogue_star */
     char name[KD_STAR_NAME];        /* "Vega"; "" if the star has no proper name */
     char designation[KD_STAR_NAME]; /* "α Lyr", by J. Bayer or J. Flamsteed; "" if the star has none */
 };

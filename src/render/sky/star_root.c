@@ -1,15 +1,16 @@
 #include "render/sky/star_root.h"
 
-#define NUDGE 1e-3   /* rays: step of the differences for the derivative */
-#define EXACT 1e-7   /* rays: convergence; the next step would be 1e-10 */
-#define BETWEEN 1e-4 /* rays: convergence on the interpolated map, which is not more accurate than this */
-#define STEADY 0.02  /* rays: after a shorter step than this the derivative is not computed again */
+#define NUDGE 1e-3 /* step, in rays, of the differences for the derivative */
+/* the iteration has converged after a step shorter than this, in rays; the next step would be 1e-10 */
+#define EXACT 1e-7
+#define BETWEEN 1e-4 /* the same for the interpolated map, which is not more accurate than this */
+#define STEADY 0.02  /* after a step shorter than this, in rays, the derivative is not computed again */
 /* The derivative is kept only if the step is also shorter by this factor than the step before. The next step then
  * shrinks by the same factor. */
 #define SHRINKS 0.1
-#define DOUBTFUL \
-    1e-3 /* rad: next to a fold, a star may have an image if the interpolated map comes this near to it; the image is \
-          * then searched */
+/* angle in rad: next to a fold, a star may have an image if the interpolated map comes this near to the star; such an
+ * image is searched for */
+#define DOUBTFUL 1e-3
 #define STEPS 30
 
 void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, double *dx, double *dy)

@@ -262,8 +262,8 @@ void kd_camera_label_towards(const struct kd_camera_exact *c, const double k[3],
                        c->dw_t - (c->dw_r * k[0] + c->dw_theta * k[1] + c->dw_phi * k[2]) * n < 0, out);
 }
 
-/* Labels cannot express E = 0. So |E| is made at least 1e-12 of the energy that the observer measures, which changes
- * a ray by 1e-12. */
+/* Labels cannot express E = 0. So |E| is made at least 1e-12 of the energy that the observer measures; this changes a
+ * ray by a relative 1e-12. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out)
 {
     double e = fabs(energy) < 1e-12 ? copysign(1e-12, energy) : energy;

@@ -126,8 +126,9 @@ static void draw(struct work *w, double half, double from, struct spot a, double
     struct spot m = project(w, middle, half);
     bool whole = a.seen && m.seen && b.seen;
     if (depth == DEEPEST && whole && hypot(b.x - a.x, b.y - a.y) > 0.5 * w->whole)
-        return; /* not drawn, because the curve jumps here: from one edge of a sphere to the other, or across the
-                 * part behind a dome */
+        /* nothing is drawn, because the curve jumps here: from one edge of a sphere's picture to the other, or across
+         * the part behind a dome */
+        return;
     if (whole && (depth == DEEPEST || (fabs(m.x - 0.5 * (a.x + b.x)) < straight &&
                                        fabs(m.y - 0.5 * (a.y + b.y)) < straight && hypot(b.x - a.x, b.y - a.y) < 24))) {
         mark(w, a, m);

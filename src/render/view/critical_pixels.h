@@ -23,7 +23,7 @@ struct kd_critical_pixels {
     size_t n;
 };
 
-/* Lists the pixels of a valid scene whose projection is plane or pinhole. KD_ENOMEM. */
+/* Lists the pixels of a valid scene whose projection is plane or pinhole. The only error is KD_ENOMEM. */
 enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_critical_pixels *out,
                                      struct kd_error *error);
 uint64_t kd_critical_pixels_made(void); /* number of lists that this process has made so far, for tests */
@@ -38,8 +38,8 @@ struct kd_scene kd_critical_camera(const struct kd_scene *scene, uint32_t rays);
 
 /* The rays of a pixel form a lattice of K rays: ray k is in column k and row (generator k + shift) mod K of a K x K
  * grid. No two rays share a row or a column, so rays have different distances from the curve whatever its direction.
- * Among such lattices it is the one whose nearest points are furthest apart, and it is symmetric about the pixel's
- * centre. place.glsl computes the same. */
+ * Among all lattices of this kind, this one has the largest distance between nearest points. It is symmetric about the
+ * pixel's centre. place.glsl computes the same. */
 struct kd_critical_lattice { uint32_t rays, generator, shift; };
 struct kd_critical_lattice kd_critical_lattice(uint32_t rays); /* 1 to 256 */
 

@@ -12,10 +12,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The least size of a value that is not 0. It must not become 0 as a float on the device, because it decides whether
- * a ray lies in the plane or on the axis. Where the device flushes denormals, products and quotients with other
- * values must not become denormal either. An observer may be 2.5e-16 from the plane: there a label of 1e-20 would
- * move the node by 1e-5, and 1e-22 moves it by 1e-7; a third of 1e-22, times 2.5e-16, would be denormal. */
+/* The least size of a value that is not 0. Such a value must not become 0 as a float on the device, because it decides
+ * whether a ray lies in the plane or on the axis. Where the device flushes denormals, products and quotients with other
+ * values must not become denormal either. An observer may be 2.5e-16 from the plane: there a label of 1e-20 would move
+ * the node by 1e-5, and 1e-22 moves it by 1e-7; a third of 1e-22, times 2.5e-16, would be denormal. */
 #define KD_LEAST_FLOAT 1e-22
 static inline double kd_lifted(double x)
 {
@@ -42,8 +42,9 @@ struct kd_beam_blur_push { KD_BEAM_BLUR_FIELDS_(F, U) };
 #undef F
 #undef U
 
-/* Sizes for post.comp: the workgroups for a number of pixels; the bytes of radiance that these read, in blocks of four
- * pixels; the bytes of packed pixels that they write, a multiple of a workgroup's. */
+/* Sizes for post.comp: the number of workgroups for a number of pixels; the bytes of radiance that these workgroups
+ * read, in blocks of four pixels; the bytes of packed pixels that they write, a multiple of what one workgroup
+ * writes. */
 static inline uint32_t kd_post_groups(uint64_t pixels)
 {
     const uint64_t each = KD_GROUP_SIZE * KD_POST_PIXELS;

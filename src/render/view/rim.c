@@ -18,8 +18,8 @@ static void scale(double a[3], double by)
 /* fraction of half the curve: within this distance of the curve's ends, `up` loses digits, and the curve is replaced by
  * a parabola */
 #define ENDS 3e-4
-/* Fraction of ENDS: no point is nearer to an end than this, because light there stays in the observer's plane, for
- * which null_bend.h is not made. */
+/* No point is nearer to an end of the curve than this fraction of ENDS. Light that arrives at an end stays in the
+ * observer's plane, which null_bend.h does not cover. */
 #define MIDST 1e-9
 
 /* A point of the upper half of the curve, along = 0 to 1. Near both ends all components are even functions of the
@@ -132,7 +132,8 @@ static double winding(const struct kd_critical *curve)
         const struct kd_critical_point p = kd_critical_round(curve, (double)i / PLACES);
         const struct kd_shell_exponents e = kd_shell_exponents(&p.orbit);
         const double turned = M_PI / e.gamma,
-                     dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma; /* without the jump of delta by pi */
+                     /* delta jumps by pi; the jump is subtracted */
+            dragged = (e.delta - copysign(M_PI, e.delta)) / e.gamma;
         if (i)
             apart = fmax(apart, (fabs(turned - turn) + fabs(dragged - drag)) * (2.0 * PLACES / KD_RIM_ANGLES));
         turn = turned, drag = dragged;

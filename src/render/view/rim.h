@@ -1,7 +1,8 @@
 /* Layout of the rim of the shadow, where images of stars are searched with extra rays. Next to the critical curve
- * neighbouring rays of a picture end too far apart for a search. The extra rays are spaced by the angle round the curve
- * and by the logarithm of the distance to it, in which every image order of the sky has the same width
- * (docs/physics/sky.md). rim_grid.h chooses the rays. Double precision; pure, any thread. The scene must be valid.
+ * neighbouring rays of a picture end too far apart for a search. The extra rays are evenly spaced in the angle round
+ * the curve and in the logarithm of the distance to it. On this logarithmic scale every image order of the sky has the
+ * same width (docs/physics/sky.md). rim_grid.h chooses the rays. Double precision; pure, any thread. The scene must be
+ * valid.
  *
  * The rim lies on a plane. For an observer at infinity this is the plane of (alpha, beta) about the curve's middle. For
  * other observers it is the tangent plane of the sphere of directions at the curve's middle, with tangents of angles as
@@ -9,8 +10,8 @@
  * from the middle is 1 + off times that of the curve's point.
  *
  * The innermost rays are KD_RIM_LEAST from the curve. They are nearer if the brightest star could still be seen there,
- * down to KD_RIM_NEAREST. An image at `off` of a star of flux F has at least the radiance F off (radius/pixel)^2, and
- * not much more unless the star is next to a caustic. */
+ * down to KD_RIM_NEAREST. An image at the relative distance `off`, of a star of flux F, has at least the radiance F off
+ * (radius/pixel)^2. It is not much brighter unless the star is next to a caustic. */
 #ifndef KD_RENDER_VIEW_RIM_H
 #define KD_RENDER_VIEW_RIM_H
 

@@ -12,13 +12,13 @@
  * logarithm of the relative distance from it (rim.h). */
 enum { ROUND = 64, ACROSS = 20 };
 
-#define OVERHEAD 1000.0 /* rays: the fixed cost of a grid */
+#define OVERHEAD 1000.0 /* fixed cost of a grid, as a number of rays */
 #define LONGEST_L 0.5   /* largest step of l from row to row */
 #define NUDGE 1e-4
-#define SLOW 0.6   /* rad: a rim whose `winds` is less is measured in every second cell only */
+#define SLOW 0.6   /* a rim whose `winds` is less than this, in rad, is measured in every second cell only */
 #define BESIDE 0.2 /* fraction of a cell's size in the picture by which it may extend beyond its corners */
-#define FEW 6.0    /* rad: the grids of a rim whose `winds` is less never exceed the limit of rays */
-#define SPREAD 4.0 /* pixels: an image this far outside the picture may light some of it */
+#define FEW 6.0    /* the grids of a rim whose `winds` is less than this, in rad, never exceed the limit of rays */
+#define SPREAD 4.0 /* an image up to this many pixels outside the picture may light some of it */
 
 /* by_u, by_l: shift of the sky per unit of u and of l. most_u, most_l: the largest of these shifts in this cell and
  * half way to its neighbours. shown: solid angle of the sky that a pixel shows, sr. */
@@ -128,8 +128,8 @@ static void set_most(struct layout *o, int i, int j)
     }
 }
 
-/* True if any of these cells, or a neighbour of one, is in the picture. Neighbours count because they enter the means
- * of choose_cells. */
+/* True if any of these cells, or a neighbour of one, is in the picture. Neighbours count because choose_cells takes
+ * means over neighbours. */
 static bool is_near_picture(const struct layout *o, int i, int j, int apart)
 {
     for (int u = i - 1; u <= i + apart; u++)
@@ -286,7 +286,7 @@ static void divide(const struct layout *o, struct part p)
         return;
     }
     const struct kd_rim_grid g = grid_of(o, &p);
-    /* a part over the limit counts as too many rays */
+    /* a part whose grid exceeds the limit counts as more rays than are permitted */
     o->out->rays += kd_rim_grid_rays(&g) <= KD_RIM_GRID_RAYS ? kd_rim_grid_rays(&g) : KD_RIM_RAYS + 1;
     if (o->out->n < KD_RIM_GRIDS)
         o->out->of[o->out->n] = g;

@@ -16,11 +16,12 @@
 #define KD_RIM_STEP_MOST 0.3 /* step for pictures in which KD_RIM_STEP would take more than KD_RIM_RAYS */
 /* limit of rays in all grids together; if even KD_RIM_STEP_MOST exceeds it, only brighter images are searched */
 #define KD_RIM_RAYS (1u << 19)
-#define KD_RIM_GRIDS 192            /* at most */
+#define KD_RIM_GRIDS 192            /* largest number of grids */
 #define KD_RIM_GRID_RAYS (1u << 16) /* limit of rays of one grid */
 #define KD_RIM_TILE_RAYS 3          /* side of a tile of the star search on a grid */
 #define KD_RIM_HALO 3               /* extra rays on each side of the part */
-#define KD_RIM_REACH 0.601          /* steps from a ray to the images that it finds (star_images.comp, share) */
+/* largest distance, in steps, from a ray to an image that it finds (star_images.comp, share) */
+#define KD_RIM_REACH 0.601
 #define KD_RIM_SHARED_U 0.5
 #define KD_RIM_SHARED_L 0.05
 
@@ -43,19 +44,21 @@ struct kd_rim_grids {
     uint32_t n, rays;
     uint32_t numbers; /* size of the buffer, in numbers */
     double step;      /* rad */
-    double faintest;  /* sr: the largest solid angle that a pixel of the grids shows, on an average about a place */
+    /* largest solid angle of the sky, in sr, that a pixel of the grids shows, averaged around a place */
+    double faintest;
     struct kd_rim_grid of[KD_RIM_GRIDS];
 };
 
 /* Makes the grids; n is 0 if there is no rim or no part of it is seen. 3 to 15 ms. */
 void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *out);
 
-/* Keeps the grids whose images may light pixels of the scene's tile, and drops the others. Of those that it keeps, only
- * the columns and rows are searched whose images may light the tile. Its light stays the same to the bit. */
+/* Keeps the grids whose images may light pixels of the scene's tile, and drops the others. In the grids that remain,
+ * only those columns and rows are searched whose images may light the tile. The tile's light stays the same to the
+ * bit. */
 void kd_rim_grids_keep(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *grids);
 
-/* True if even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a fast
- * hole, and no time for others. */
+/* True if even KD_RIM_STEP_MOST takes too many rays, so that fainter images are left out. Takes about 5 ms for a hole
+ * that spins fast, and no time for any other. */
 bool kd_rim_is_thinned(const struct kd_scene *scene, const struct kd_rim *rim);
 
 /* Largest solid angle of the sky, sr, that a pixel may show with Sirius still visible; with some margin, since the

@@ -12,8 +12,9 @@ enum {
     LEAST = 9, /* least number of intervals along a side of a grid */
     MOST = 96,
     ASIDE = 4, /* lines across the grid on which a number of intervals is tried */
-    SHARED = 4 /* up to this number of grids, all threads work on one grid at a time; with more grids, each thread
-                * takes whole grids */
+    /* if there are at most this many grids, all threads work on one grid at a time; if there are more, each thread
+     * takes whole grids */
+    SHARED = 4
 };
 
 /* A ray has four angles: turn, drag, t_theta, t_phi. */
@@ -98,7 +99,7 @@ static struct side side_of(const struct kd_rim_grid *g, bool along_u)
                    : (struct side) { g->l, g->l - (g->rows - 1) * g->dl, 0 };
 }
 
-/* Follows the ray at `place` along one side and at `line` along the other. */
+/* Follows the ray at u = place and l = line if along_u, else at l = place and u = line. */
 static bool follow_on(const struct follower *f, bool along_u, double place, double line, struct angles *out)
 {
     return along_u ? follow(f, place, line, out) : follow(f, line, place, out);

@@ -15,7 +15,8 @@
 
 /* Writes a rim's buffer as rim_grid.h describes it: edges; for each grid the directions from which rays come, unit
  * vectors in the hole's frame as in the lens map (x of all rays row by row, then y, then z); and the tables. About
- * 0.2 us a ray. KD_ENOMEM; KD_EINVAL if a ray of the rim does not escape, which kd_rim_of rules out. */
+ * 0.2 us a ray. Returns KD_ENOMEM, or KD_EINVAL if a ray of the rim does not escape, which cannot happen after
+ * kd_rim_of. */
 enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_rim_grids *grids,
                           float *out, struct kd_error *error);
 

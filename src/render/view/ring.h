@@ -1,6 +1,6 @@
 /* The ring projection. Across the picture runs the angle round the critical curve; upwards runs the distance to the
- * curve as a signed logarithm. Every image order then has the same width. Double precision; pure, any thread. The scene
- * must be valid and project a ring.
+ * curve as a signed logarithm. On this scale every image order has the same width. Double precision; pure, any thread.
+ * The scene must be valid and project a ring.
  *
  * Across, left to right: one turn about the curve's centre, with camera.roll_deg in the middle; angle 0 is where alpha
  * > 0 (physics/null/critical.h). Upper half: outside the curve, from d = 10^ring_decades_max at the top to

@@ -31,7 +31,7 @@ struct job {
     bool malformed;
     enum { NEW, RENDERS, SUMS } stage;
     struct kd_integral_run run;
-    struct kd_render_job picture; /* in the render queue while the job is in the stage RENDERS */
+    struct kd_render_job picture; /* the job is in the render queue while its stage is RENDERS */
     struct kd_buffer text;
     double planned_ms; /* planned time of the pictures up to the present one */
     /* the first picture of each size, as begin() has planned it */
@@ -98,8 +98,8 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     KD_TRY(kd_integral_check_format(&job->request, job->format, error));
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->scheduled.client, bytes, &task->held, &task->quota, error));
-    /* An integral without pictures is computed in one slice, which pauses for others (base/pause.h). Most take some
-     * hundredths of a second; lines and echoes of a corona off the axis take up to some seconds. */
+    /* An integral without pictures is computed in one slice, which pauses when other work waits (base/pause.h). Most
+     * take some hundredths of a second; lines and echoes of a corona off the axis take up to some seconds. */
     KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
 done:
     return status;

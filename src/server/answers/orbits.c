@@ -44,7 +44,7 @@ struct kd_orbits_job {
     size_t taken;
     enum kd_status status;
     struct kd_error error;
-    bool malformed, quota; /* malformed: not JSON; quota: KD_EBUSY is due to the client's share */
+    bool malformed, quota; /* malformed: the body is not JSON; quota: KD_EBUSY is due to the client's share */
 };
 
 static void unref(struct kd_orbits_job *job)

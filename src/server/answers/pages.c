@@ -15,7 +15,7 @@ static const struct kd_served *find(const char *name)
 }
 
 /* True if a file is sent with a Content-Security-Policy. Browsers apply the policy to documents only (HTML, SVG).
- * Scripts and styles are sent without it, which saves as many bytes as the largest file has. */
+ * Scripts and styles are sent without it, to save bytes. */
 static bool document(const struct kd_served *file)
 {
     return strncmp(file->type, "text/javascript", strlen("text/javascript")) &&

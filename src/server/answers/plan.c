@@ -1,5 +1,5 @@
-/* POST /v1/plan: cost of rendering a scene, or of all scenes of a sweep. The body of a sweep is that of a job with
- * axes; workers plan its scenes in slices. */
+/* POST /v1/plan: cost of rendering a scene, or of all scenes of a sweep. For a sweep, the body is the same as for a job
+ * with axes, and workers plan the scenes in slices. */
 #include "render/output/cost.h"
 #include "document/scan.h"
 #include "server/asset/store.h"

@@ -25,7 +25,7 @@ struct kd_rays_job {
     size_t traced, turn; /* numbers of rays on the device: finished, and in the next call */
 };
 
-/* Makes a job. Set `request` and `npy`, then submit it. Returns NULL with *refused if it is not admitted. */
+/* Makes a job. Set `request` and `npy`, then submit it. If the job is not admitted, sets *refused and returns NULL. */
 struct kd_rays_job *kd_rays_job_begin(struct kd_request *request, enum MHD_Result *refused);
 
 #endif

@@ -233,8 +233,8 @@ done:
 }
 
 /* Adds the address to share. Also adds the address for frames, if there are origins that may embed it. If the server
- * has access tokens but no key for shared scenes, the address to share is that of the page, because the page asks
- * for a token. */
+ * has access tokens but no key for shared scenes, the address to share is the page's address, because the page asks for
+ * a token. */
 static enum kd_status add_addresses(const struct kd_request *request, const struct kd_shared *shared,
                                     struct kd_json *json)
 {

@@ -9,8 +9,9 @@
 /* Texts in UTF-8, each followed by NUL. They contain nothing but kerrd's own strings and numbers. */
 struct kd_shared {
     struct kd_buffer link, code; /* link: of the left picture (scene/link.h); code: of both (image/text_code.h) */
-    /* for two pictures side by side, otherwise "": what differs on the right, "pair.spacetime.spin=0.998"; the code and
-     * the absolute address of the right picture alone, "" if it is not rendered */
+    /* Set for two pictures side by side, otherwise "". pair: what differs on the right, such as
+     * "pair.spacetime.spin=0.998"; other: the code of the right picture alone; other_picture: its absolute address, or
+     * "" if it is not rendered */
     struct kd_buffer pair, other, other_picture;
     struct kd_buffer title, about; /* title: such as "Gargantua"; about: one or two sentences */
     /* absolute addresses, signed if the request came by a signed link; home: of the page, without a slash at its end;

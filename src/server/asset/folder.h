@@ -16,7 +16,7 @@ enum kd_status kd_asset_folder_load(int folder,
                                                   struct kd_buffer *bytes),
                                     void *user, struct kd_error *error);
 
-/* Writes the bytes, then the record. KD_EFULL: the disk is full. */
+/* Writes the bytes, then the record. Returns KD_EFULL if the disk is full. */
 enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *about, struct kd_error *error);
 void kd_asset_folder_remove(int folder, const char *hash);
 

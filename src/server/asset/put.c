@@ -16,7 +16,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { STRETCH = 1 << 20 }; /* bytes hashed between two checks of the clock: some 3 ms */
+enum { STRETCH = 1 << 20 }; /* bytes hashed between two checks of the clock; hashing them takes some 3 ms */
 
 struct kd_asset_putting {
     struct kd_asset_store *store;

@@ -154,7 +154,7 @@ struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *h
 
 void kd_asset_leave(struct kd_asset_store *store, struct kd_asset *asset)
 {
-    if (store->folder >= 0) /* deleted here, so that this is done before the same bytes can be stored again */
+    if (store->folder >= 0) /* the files are deleted here, before the same bytes can be stored again */
         kd_asset_folder_remove(store->folder, asset->about.hash);
     pthread_mutex_lock(&store->lock);
     kd_asset_take_out(store, asset);

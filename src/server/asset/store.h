@@ -18,7 +18,7 @@ struct kd_asset_store;
 struct kd_asset;
 
 #define KD_ASSET_BYTES ((size_t)32 << 20)   /* largest size of one asset */
-#define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* most pixels of one picture */
+#define KD_ASSET_PIXELS ((uint64_t)1 << 28) /* largest number of pixels of one picture */
 
 struct kd_asset_limits {
     /* most: largest number of assets; client_most: the same for one client */
@@ -47,9 +47,9 @@ const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store 
  *     status = kd_asset_put_go_on(&put, until_ms, &how, &error) repeat until it is over or fails
  *     kd_asset_put_finish(&put)                                  may be called at any time
  *
- * put.asset: a reference for the caller; put.created: the bytes were not stored before. KD_EINVAL: unsupported
- * content. KD_EBUSY with put.quota: the client's share is used up. KD_EFULL: the disk is full, or, if put.full is
- * set, the store. */
+ * put.asset: a reference for the caller; put.created: the bytes were not stored before. KD_EINVAL: the content is not
+ * supported. KD_EBUSY with put.quota: the client's share is used up. KD_EFULL: the disk is full or, if put.full is
+ * set, the store is full. */
 struct kd_asset_put {
     struct kd_asset *asset;
     bool created, quota, full;

@@ -20,7 +20,7 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#define FILE_MOST ((size_t)64 << 10) /* bytes of a token file */
+#define FILE_MOST ((size_t)64 << 10) /* largest size of a token file, in bytes */
 #define BLANK " \t\r"
 #define LETTERS "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
 /* the characters of RFC 6750 tokens that need no escape in an address or a cookie */
@@ -29,8 +29,8 @@
 struct entry {
     struct kd_visitor visitor;
     uint8_t hash[SHA256_DIGEST_SIZE]; /* hash of the token or key, which itself is not stored */
-    struct hmac_sha256_ctx key;       /* of a key: the HMAC state that already contains the key; each signature
-                                       * starts from a copy of it */
+    struct hmac_sha256_ctx key;       /* for an entry that is a key: the HMAC state that already contains the key; each
+                                       * signature starts from a copy of it */
 };
 
 struct kd_access {
@@ -95,7 +95,8 @@ static bool parse_role(const char *text, enum kd_role *out)
     return false;
 }
 
-/* Returns the fault of a line, as the end of a sentence and without the token; NULL if there is none. */
+/* Returns what is wrong with a line, worded as the end of a sentence, or NULL if the line is valid. The text does not
+ * contain the token. */
 static const char *fault_of(const struct kd_access *access, const char *name, const char *role, const char *token,
                             const char *more, struct entry *entry)
 {
@@ -230,8 +231,8 @@ static struct brought brought_by(struct kd_request *request)
 }
 
 /* Returns the visitor of a request, or NULL. A token in the page's address or in our own header is the only one
- * checked. Authorization may instead hold the token of a session, so the cookies are checked if it has no access
- * token. */
+ * checked. Authorization may instead hold the token of a session, so the cookies are checked if Authorization holds no
+ * access token. */
 static const struct kd_visitor *visitor_of(struct kd_request *request, const struct brought *brought)
 {
     const struct kd_access *access = request->server->access;

@@ -31,7 +31,7 @@ double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, 
 struct kd_quota { unsigned seconds, left_s, whole_in_s; };
 struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
 /* True if waiting work of a client may run. patient: the work is in the background and may use only the upper half
- * of the bucket; the lower half is reserved for interactive requests. */
+ * of the bucket; the lower half is reserved for the client's interactive requests. */
 bool kd_allowance_may(const struct kd_allowance *all, const char *client, bool patient, double now_ms);
 
 #endif

@@ -22,8 +22,8 @@ struct kd_auth_throttle;
 struct kd_auth_throttle *kd_auth_throttle_create(void);           /* returns NULL when out of memory */
 void kd_auth_throttle_destroy(struct kd_auth_throttle *throttle); /* accepts NULL */
 
-/* Reports a right token. whose: a pointer that identifies its owner. Returns 0 if it is accepted, else the seconds
- * until this address may present a new token. */
+/* Reports a right token. whose: a pointer that identifies its owner. Returns 0 if the token is accepted, else the
+ * seconds until this address may present a new token. */
 unsigned kd_auth_throttle_right(struct kd_auth_throttle *throttle, const char *client, const void *whose,
                                 double now_ms);
 /* Reports a wrong token by its hash. Returns 0 if the client gets the ordinary refusal: the token is counted now, or

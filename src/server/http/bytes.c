@@ -68,7 +68,7 @@ enum kd_status kd_bytes_take(struct kd_bytes *b, const char *client, size_t n, s
     pthread_mutex_lock(&b->lock);
     size_t own = find_or_make(b, client)->bytes;
     const struct kd_bytes_params *p = &b->params;
-    /* a client's part of the reserve is to the whole reserve as its share is to max */
+    /* one client may use the fraction share / max of the reserve */
     double room = size <= p->small ? 1 + (double)p->reserve / (double)p->max : 1;
     *quota = (double)(own + n) > room * (double)p->share && !(p->lone && !own);
     bool fits = !*quota && ((double)(b->bytes + n) <= room * (double)p->max || (p->lone && !b->bytes));
@@ -91,7 +91,7 @@ void kd_bytes_give(struct kd_bytes *b, const char *client, size_t n)
 {
     pthread_mutex_lock(&b->lock);
     struct place *place = find(b, client);
-    /* its bytes were counted for all other clients together, because it had no place of its own */
+    /* the client had no place of its own, so its bytes were counted for all other clients together */
     if (!place || place->bytes < n)
         place = &b->places[b->params.clients];
     place->bytes -= n < place->bytes ? n : place->bytes;

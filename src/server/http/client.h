@@ -1,6 +1,6 @@
 /* Client identity, for shares and limits. With a token file, a client is the name of its token, wherever it connects
- * from. Otherwise, and for limits on connections, it is its IPv4 address, or the first 64 bits of its IPv6 address,
- * since a host controls the rest. Without tokens, everything behind one proxy is one client. */
+ * from. Without one, and for limits on connections, a client is its IPv4 address, or the first 64 bits of its IPv6
+ * address, since a host controls the rest. Without tokens, everything behind one proxy is one client. */
 #ifndef KD_SERVER_HTTP_CLIENT_H
 #define KD_SERVER_HTTP_CLIENT_H
 

@@ -11,7 +11,7 @@
 
 #include <stdbool.h>
 
-/* most open connections of the health routes' daemon; beyond that the oldest is shut down */
+/* limit of open connections of the health routes' daemon; if there are more, the oldest is shut down */
 #define KD_HEALTH_CONNECTIONS 64u
 
 struct kd_connections;
@@ -33,10 +33,10 @@ void kd_connections_destroy(struct kd_connections *all);
 
 /* Registers an accepted connection. Returns NULL when out of memory. */
 struct kd_connection *kd_connections_add(struct kd_connections *all, int socket, const char *client);
-/* Marks a connection as handed to a daemon of libmicrohttpd. health: to the daemon of the health routes; the
- * connection then leaves the count, and if too many of these are open the oldest is shut down. The caller must
- * refuse the connection if the result is KD_OVER_LIMIT (the daemon's limit is reached) or KD_OVER_SHARE (the
- * client's share is reached). */
+/* Marks a connection as handed to a daemon of libmicrohttpd. health: it was handed to the daemon of the health routes.
+ * It then no longer counts towards the limits; if too many such connections are open, the oldest is shut down. The
+ * caller must refuse the connection if the result is KD_OVER_LIMIT (the daemon's limit is reached) or KD_OVER_SHARE
+ * (the client's share is reached). */
 enum kd_handed { KD_HANDED_ON, KD_OVER_LIMIT, KD_OVER_SHARE };
 enum kd_handed kd_connections_hand_on(struct kd_connections *all, struct kd_connection *one, bool health);
 /* Finds the connection of an open socket. */
@@ -55,7 +55,7 @@ void kd_connections_stage(struct kd_connections *all, struct kd_connection *one,
                           unsigned long bytes);
 
 /* Sends a problem document to the connection of this socket and shuts down its sending side. Has no effect unless the
- * request is still arriving. Only the thread that works on the connection. */
+ * request is still arriving. Only the thread that works on the connection may call this. */
 void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_problem_type type, const char *detail);
 
 /* True if a new request of this connection must be refused because more connections are open than the limit. A

@@ -24,7 +24,7 @@ struct kd_cors {
     struct kd_buffer embedders; /* separated by blanks */
 };
 
-/* Returns the fault of an origin, as the end of a sentence; NULL if there is none. */
+/* Returns what is wrong with an origin, worded as the end of a sentence, or NULL if the origin is valid. */
 static const char *fault_of(const char *origin)
 {
     if (!strcmp(origin, "null"))

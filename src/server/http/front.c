@@ -32,7 +32,8 @@ struct guest {
 
 struct kd_front {
     struct kd_front_params params;
-    int epoll, stop, reserve;   /* reserve: a descriptor that is released when none is left; -1: it is released */
+    /* reserve: a spare descriptor, which is closed when no other descriptor is free; -1: it is closed */
+    int epoll, stop, reserve;
     struct guest *first, *last; /* list of all guests; `first` is the latest */
     pthread_t thread;
 };

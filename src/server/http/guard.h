@@ -1,6 +1,6 @@
 /* Checks a request's header before anything in it is trusted. libmicrohttpd accepts conflicting Content-Lengths,
- * Content-Length beside Transfer-Encoding, and several Hosts. Each lets a proxy and this server disagree about where a
- * request ends or whom it is for (request smuggling). */
+ * Content-Length beside Transfer-Encoding, and several Hosts. Each of these lets a proxy and this server disagree about
+ * where a request ends or which server it is for (request smuggling). */
 #ifndef KD_SERVER_HTTP_GUARD_H
 #define KD_SERVER_HTTP_GUARD_H
 

@@ -33,8 +33,8 @@ struct kd_link {
 };
 
 /* Appends the parameters "signer=...&signature=..." that turn an address into a signed link. path: below the base
- * path; decoded. The pairs of target are the address's parameters; target may be NULL. KD_EINVAL if the token file
- * has no key of this name. Any thread. */
+ * path; decoded. The pairs of target are the address's parameters; target may be NULL. Returns KD_EINVAL if the token
+ * file has no key of this name. Any thread. */
 enum kd_status kd_link_sign(const struct kd_access *access, const char *name, const char *path,
                             const struct kd_target *target, const struct kd_link_terms *terms, struct kd_buffer *out,
                             struct kd_error *error);

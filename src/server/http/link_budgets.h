@@ -17,11 +17,11 @@ void kd_link_budgets_destroy(struct kd_link_budgets *all); /* accepts NULL */
 enum kd_status kd_link_budgets_open(struct kd_link_budgets *all, const char *state, struct kd_error *error);
 
 enum kd_link_left { KD_LINK_LEFT, KD_LINK_SPENT, KD_LINK_CROWDED };
-/* True if the link has device time left. Returns KD_LINK_CROWDED if too many links with a budget are in use. Never
- * waits for the disk. */
+/* Tests whether the link has device time left. The result is KD_LINK_CROWDED if too many links with a budget are in
+ * use. Never waits for the disk. */
 enum kd_link_left kd_link_budget(struct kd_link_budgets *all, const struct kd_link *link, uint64_t now_s);
-/* Writes to the file without waiting for the disk. The data survive any end of the server, but not a crash of the
- * system. Must not run on the HTTP thread. */
+/* Adds device time that the link has used. Writes it to the file without waiting for the disk. The data survive any end
+ * of the server, but not a crash of the system. Must not run on the HTTP thread. */
 void kd_link_charge(struct kd_link_budgets *all, const struct kd_link *link, double ms, uint64_t now_s);
 
 #endif

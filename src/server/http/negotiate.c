@@ -57,7 +57,7 @@ static int weight(struct span s)
     return value <= 1000 ? value : -1;
 }
 
-/* The closeness of the match of a media range: 3 same type, 2 same type before the slash, 1 any, 0 no match. */
+/* How closely a media range matches a type: 3 same type, 2 same type before the slash, 1 any, 0 no match. */
 static int fit(struct span range, const char *type)
 {
     size_t family = strcspn(type, "/") + 1;

@@ -22,8 +22,8 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
     return response;
 }
 
-/* A text shorter than PACK_LEAST gains less than gzip's header costs. A text longer than PACK_MOST would block the
- * HTTP thread for more than some 20 ms. */
+/* For a text shorter than PACK_LEAST, compression saves less than gzip's header costs. A text longer than PACK_MOST
+ * would block the HTTP thread for more than some 20 ms. */
 enum { PACK_LEAST = 1 << 10, PACK_MOST = 1 << 20 };
 
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type)
@@ -62,7 +62,7 @@ struct MHD_Response *kd_reply_empty(const char *type)
 {
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
     /* Without this option libmicrohttpd announces chunks and sends the final chunk "0", although there is no body. A
-     * client that keeps the connection would take that for the beginning of the next answer. With the option the
+     * client that keeps the connection would take this chunk for the beginning of the next answer. With the option the
      * library closes the connection. */
     if (response)
         MHD_set_response_options(response, MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);

@@ -31,7 +31,7 @@ struct kd_request {
     /* route of the path, set also if the request is refused; NULL: no route has the path */
     const struct kd_route *matched;
     const struct kd_visitor *visitor; /* owner of the access token; NULL: the request needed none */
-    struct kd_link link;              /* the signed link by which it came */
+    struct kd_link link;              /* the signed link by which the request came */
     bool spent;                       /* Authorization holds the access token, so it cannot also hold a session's
                                        * token */
     const char *method, *rest;        /* rest: the segment of the path that the route has in braces */

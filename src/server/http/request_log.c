@@ -11,8 +11,8 @@
 #include <string.h>
 #include <sys/socket.h>
 
-/* At least this many hexadecimal digits in a row are taken for an id or a token. Whoever knows one can read or
- * change the object. */
+/* A run of at least this many hexadecimal digits is treated as an id or a token, because anyone who knows an id or a
+ * token can read or change the object. */
 #define SECRET 16
 #define SHOWN 4 /* digits of an id or token that are logged */
 

@@ -181,8 +181,8 @@ bool kd_route_is_health(const struct kd_base_path *base, const char *raw)
     return is_health(raw, strcspn(raw, "?")) || (behind && is_health(behind, strcspn(behind, "?")));
 }
 
-/* True if the bytes begin with the concatenated texts: 1 yes, 0 no, -1 more bytes are needed to decide. *end is the
- * position behind the texts. */
+/* Tests whether the bytes begin with the concatenated texts: 1 yes, 0 no, -1 more bytes are needed to decide. *end is
+ * the position behind the texts. */
 static int begins_with(const char *bytes, size_t n, const char *const texts[3], size_t *end)
 {
     *end = 0;

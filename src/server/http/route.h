@@ -64,7 +64,7 @@ extern const struct kd_taken kd_taken[KD_TAKES];
 
 /* The place where an answer's media types are listed. */
 enum kd_gives {
-    KD_GIVES_ITS_ANSWER, /* in the members `answer` and `also` */
+    KD_GIVES_ITS_ANSWER, /* listed in the members `answer` and `also` */
     KD_GIVES_PICTURE,    /* every format of a picture: render/output/format.h */
     KD_GIVES_RESULT,     /* every result of a job: job/formats.h */
 };
@@ -87,14 +87,15 @@ struct kd_route {
                       (access.h) */
     bool open;     /* needs no access token */
     bool signable; /* GET may come by a signed link instead of an access token (link.h) */
-    bool page;     /* a page for browsers: takes the access token in its address, and asks for the token if it has
-                    * none (access.h) */
-    bool once;     /* POST takes Idempotency-Key (once.h) */
-    bool parts;    /* GET may answer with a range, 206 (representation.h) */
-    bool folders;  /* the parameter at the end of the path may contain slashes */
-    bool owner;    /* POST needs the token of the object, as PATCH and DELETE always do */
-    bool brief;    /* PATCH takes Prefer: return=minimal */
-    bool changes;  /* some answers have no ETag, because unfinished objects change */
+    /* a page for browsers: takes the access token in its address, and asks for the token if the address has none
+     * (access.h) */
+    bool page;
+    bool once;          /* POST takes Idempotency-Key (once.h) */
+    bool parts;         /* GET may answer with a range, 206 (representation.h) */
+    bool folders;       /* the parameter at the end of the path may contain slashes */
+    bool owner;         /* POST needs the token of the object, as PATCH and DELETE always do */
+    bool brief;         /* PATCH takes Prefer: return=minimal */
+    bool changes;       /* some answers have no ETag, because unfinished objects change */
     unsigned status[2]; /* success statuses; { 0 }: 200. DELETE answers 204 */
     /* The handler. Called when the body is complete, and again when the work that it started is done. */
     enum MHD_Result (*handle)(struct kd_request *request);

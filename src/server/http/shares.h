@@ -2,11 +2,11 @@
  * Pure: no clock, no thread, no allocation. One thread at a time.
  *
  * The device's time is shared equally among clients. Each client's time is shared among its classes of work by weight.
- * Both use start-time fair queueing (Goyal, Vin & Cheng 1996). Work that ran is charged its time, divided by its
- * weight. The client that was charged least runs next, and within it the class that was charged least. A client or
+ * Both divisions use start-time fair queueing (Goyal, Vin & Cheng 1996). Work that ran is charged its time, divided by
+ * its weight. The client that was charged least runs next, and within it the class that was charged least. A client or
  * class that was idle is treated as if it had been charged as much as the one that is running: idle time is neither
- * saved up nor punished. So a client with little to do waits for the slice that is under way, and then for at most the
- * others' shares, however much they ask for.
+ * saved up nor punished. So a client with little to do waits for the slice that is under way, and then at most for the
+ * shares of the other clients, however much work they have.
  *
  * Among the works of one class of one client, the one that would end first if all ran side by side is next (Friedman
  * & Henderson 2003). So short work goes first, and the longest still ends no later than with equal parts.

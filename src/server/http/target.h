@@ -8,7 +8,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_TARGET_PAIRS 384 /* more than the number of fields of a scene with full lists */
+/* limit of the pairs of a query: more than the number of fields of a scene with full lists */
+#define KD_TARGET_PAIRS 384
 
 struct kd_target {
     char *text; /* buffer that the pointers below point into; owned */

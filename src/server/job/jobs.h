@@ -27,12 +27,13 @@ struct kd_jobs_params {
     struct kd_render_queue *renders;
     struct kd_scheduler *scheduler; /* scheduler whose workers move the bodies of films */
     const char *state;              /* state folder; NULL: jobs end with the server */
-    unsigned limit, stored;         /* limit: of unfinished jobs; stored: of all stored jobs */
-    unsigned client_limit;          /* limit of unfinished jobs of one client; 0: no separate limit */
-    unsigned longest_s;             /* limit of one frame's estimated time, in s */
-    double longest_job_s;           /* limit of the estimated time of all frames of a job, in s */
-    uint64_t bytes;                 /* limit of the size of all jobs' frames */
-    double keep_s;                  /* time until a finished job is deleted */
+    /* limit: largest number of unfinished jobs; stored: largest number of all stored jobs */
+    unsigned limit, stored;
+    unsigned client_limit; /* limit of unfinished jobs of one client; 0: no separate limit */
+    unsigned longest_s;    /* limit of one frame's estimated time, in s */
+    double longest_job_s;  /* limit of the estimated time of all frames of a job, in s */
+    uint64_t bytes;        /* limit of the size of all jobs' frames */
+    double keep_s;         /* time until a finished job is deleted */
 };
 /* Loads the jobs of the state folder, if there is one. params->state may be freed afterwards. */
 enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error);

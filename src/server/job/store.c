@@ -25,7 +25,8 @@
 #define TEMPORARY "kerrd-jobs-"
 
 struct kd_job_store {
-    char *parent, *name; /* of a temporary store: parent is TMPDIR, and name the folder's name in it */
+    /* set for a temporary store only: parent is TMPDIR, and name is the name of the store's folder in it */
+    char *parent, *name;
     int folder, lock;
 };
 

@@ -29,7 +29,7 @@ struct kd_job_record {
     unsigned traced;                /* number of lens maps traced */
     unsigned frames;                /* number of frames requested; 0 in records of older versions */
     const struct kd_series *series; /* kind of result */
-    struct kd_once once;            /* hashes of its Idempotency-Key and request */
+    struct kd_once once;            /* hashes of the job's Idempotency-Key and request */
     char preset[32];                /* preset over which the job's scenes are merged; "": none */
     char error[480];                /* message of a failed job */
 };
@@ -38,14 +38,15 @@ struct kd_job_store;
 enum { KD_JOB_MARK = 65 };
 
 /* Opens a store. If state is NULL it is a temporary folder in TMPDIR, which is deleted with the store. Else state is a
- * folder that no other server uses; it is created if needed. Returns KD_EIO with a message that contains its path. */
+ * folder that no other server uses; it is created if needed. Returns KD_EIO with a message that contains the folder's
+ * path. */
 enum kd_status kd_job_store_open(const char *state, struct kd_job_store **out, struct kd_error *error);
 void kd_job_store_close(struct kd_job_store *store); /* accepts NULL */
 /* Removes the temporary folders that killed servers have left in TMPDIR. */
 void kd_job_store_tidy(void);
 
-/* Calls `found` for each job. Jobs without attempts come first, and among equals the oldest. Unreadable jobs are
- * logged. The callback owns the request. */
+/* Calls `found` for each job. Jobs with fewer attempts come first; among jobs with equally many, the oldest comes
+ * first. Unreadable jobs are logged. The callback owns the request. */
 enum kd_status kd_job_store_load(struct kd_job_store *store,
                                  void (*found)(void *user, const struct kd_job_record *record,
                                                struct kd_buffer *request),
@@ -53,7 +54,7 @@ enum kd_status kd_job_store_load(struct kd_job_store *store,
 
 enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request,
                                    size_t size, struct kd_error *error);
-/* Reads a job's request. KD_EIO, KD_ENOMEM. */
+/* Reads a job's request. Errors: KD_EIO, KD_ENOMEM. */
 enum kd_status kd_job_store_request(const struct kd_job_store *store, const char *id, struct kd_buffer *out,
                                     struct kd_error *error);
 enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record,

@@ -19,7 +19,7 @@ struct member {
     const char *name;
     reader *read;
 };
-enum { MEMBERS = 8 }; /* room for those of one object */
+enum { MEMBERS = 8 }; /* largest number of members of an object */
 
 /* The name of a field in a sentence, such as question.choices.1 for /question/choices/1. */
 static void field_name(char *name, size_t size, const char *pointer)
@@ -39,7 +39,7 @@ static enum kd_status refuse(const cJSON *item, const char *pointer, const char 
     return kd_error_field(error, pointer, "%s is %s; it must be %s", name, given, must);
 }
 
-/* Reads a text of 1 to `most` characters without control characters, or of none if `empty`. */
+/* Reads a text of 1 to `most` characters without control characters, or of 0 characters if `empty`. */
 static enum kd_status read_text(const cJSON *item, const char *pointer, size_t most, bool empty, const char **out,
                                 struct kd_error *error)
 {

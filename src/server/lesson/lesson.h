@@ -13,14 +13,14 @@
 #define KD_LESSON_IDLE_S 600u   /* a lesson ends after this time without a request of its teacher */
 #define KD_LESSON_PUPILS 64u    /* limit of pupils of one lesson */
 #define KD_LESSON_PRESENT_S 20u /* a pupil counts as present for this time after a request */
-#define KD_LESSON_CHOICES 6u    /* most choices of a question; it has at least two */
+#define KD_LESSON_CHOICES 6u    /* largest number of choices of a question; the smallest is two */
 /* Limits of texts, in characters. */
 #define KD_LESSON_LINK 8000u
 #define KD_LESSON_ABOUT 1000u
 #define KD_LESSON_TEXT 600u
 #define KD_LESSON_CHOICE 200u
 #define KD_LESSON_NAME 80u
-#define KD_LESSON_LANG 35u                                /* of a language tag */
+#define KD_LESSON_LANG 35u                                /* largest length of a language tag */
 #define KD_LESSON_SIZE(characters) (4 * (characters) + 1) /* bytes of UTF-8, and NUL */
 
 struct kd_question {
@@ -87,9 +87,9 @@ enum kd_status kd_lesson_to_json(const struct kd_lesson *one, const struct kd_le
 /* A change of a lesson by its teacher. A member that is absent in the document is NULL or false. */
 struct kd_lesson_change {
     const char *session, *link, *about, *lang; /* point into the document */
-    bool asks, withdraws;                      /* asks: "question" is given; withdraws: it is null */
+    bool asks, withdraws;                      /* asks: the document has "question"; withdraws: its value is null */
     struct kd_question question;
-    bool moves, open; /* moves: "open" is given; open: its value */
+    bool moves, open; /* moves: the document has "open"; open: its value */
 };
 /* An answer of a pupil. */
 struct kd_hand {

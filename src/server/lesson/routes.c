@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BODY_MOST ((size_t)64 << 10) /* bytes; a link and a question fit */
+#define BODY_MOST ((size_t)64 << 10) /* largest size of a body in bytes, enough for a link and a question */
 #define BODY_VALUES 32               /* JSON values in a body */
 
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)

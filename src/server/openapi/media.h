@@ -37,7 +37,8 @@ static inline void kd_openapi_operation_id(char *out, size_t size, const char *m
     out[n] = 0;
 }
 
-/* Both together write a required requestBody. The media types are written between the two calls. */
+/* kd_openapi_body_begin and kd_openapi_body_end together write a required requestBody. The media types are written
+ * between the two calls. */
 static inline void kd_openapi_body_begin(struct kd_json *json)
 {
     kd_json_object(json, "requestBody");

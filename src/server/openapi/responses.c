@@ -69,7 +69,8 @@ static void add_answer(struct kd_json *json, const struct kd_route *route, unsig
 
 size_t kd_openapi_successes(const struct kd_route *route, unsigned method, unsigned out[KD_OPENAPI_SUCCESSES])
 {
-    const bool makes = route->status[1] == 201; /* created by POST; GET then answers with the first status */
+    /* POST creates an object with 201; GET then answers with the first status */
+    const bool makes = route->status[1] == 201;
     size_t n = 0;
     out[n++] = method == KD_DELETE ? 204 : makes && method == KD_POST ? 201 : route->status[0] ? route->status[0] : 200;
     if (route->status[1] && method != KD_DELETE && (!makes || method == KD_PUT))

@@ -23,7 +23,7 @@ enum kd_status kd_playground_session_read_step(const char *text, size_t length, 
 
 struct kd_playground_session_json_options {
     const struct kd_scene *scene; /* scene of the playground's picture */
-    /* whether to include the token, for the client that has just opened the session */
+    /* the token is included, because the client has just opened the session */
     bool token;
     /* bodies with greater ids are listed as "added"; UINT32_MAX: no such list */
     uint32_t before;

@@ -60,7 +60,7 @@ static struct order look(struct kd_playground_session *play, double now)
 void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p)
 {
     struct kd_playground_events *log = &play->log;
-    /* no lock is needed, because only the job that has taken the playground changes these two */
+    /* no lock is needed, because only the job that has taken the playground changes either list of events */
     if (p->events.last == log->last)
         return;
     pthread_mutex_lock(&play->all->lock);

@@ -117,8 +117,8 @@ void kd_playground_session_scene(struct kd_playground_session *play, struct kd_s
 /* Replaces the scene of the playground's picture. The scene must be resolved and valid. */
 enum kd_status kd_playground_session_set_scene(struct kd_playground_session *play, const struct kd_scene *scene,
                                                struct kd_error *error);
-/* Returns a reference to the session that renders the picture, and opens one if there is none. KD_EBUSY at a limit;
- * *quota is true if that is the limit of one client. HTTP thread. */
+/* Returns a reference to the session that renders the picture, and opens one if there is none. Returns KD_EBUSY at a
+ * limit; *quota is true if that is the limit of one client. HTTP thread. */
 enum kd_status kd_playground_session_picture(struct kd_playground_session *play, bool *quota, struct kd_session **out,
                                              struct kd_error *error);
 /* Begins a step that a client has requested. Returns false unless the session is paused and no other step is under way.

@@ -1,6 +1,6 @@
 /* Compiles kernels while others use the device. As soon as a job waits, the scheduler looks for kernels that the job
- * lacks. A thread compiles them, and the scheduler passes them to the renderer. So only the owner of the device
- * touches the renderer's kernels, or a thread that holds the lock while the device has no owner. */
+ * lacks. A thread compiles them, and the scheduler passes them to the renderer. So the renderer's kernels are used only
+ * by the owner of the device, or, while the device has no owner, by a thread that holds the lock. */
 #include "base/clock.h"
 #include "base/nice.h"
 #include "server/render/render_internal.h"

@@ -8,8 +8,9 @@
 #define SHORT_BYTES ((size_t)64 << 20) /* room beyond FRAME_BYTES for frames that are encoded quickly */
 #define BRIEF_MS 3000.0                /* estimated time of a picture that counts as brief */
 #define BRIEF_LANES 2                  /* number of lanes reserved for brief pictures; one client may use all of them */
-#define AHEAD_MS 1000.0                /* between two looks for kernels of pixels; a look takes about a millisecond */
-#define LARGE 32                       /* a picture that needs less than the memory divided by LARGE is not counted */
+/* interval between two searches for missing kernels of pixels; a search takes about a millisecond */
+#define AHEAD_MS 1000.0
+#define LARGE 32 /* a picture that needs less than the memory divided by LARGE is not counted */
 
 /* The functions below access the queue's members. They are called with the lock unless a comment says otherwise. */
 
@@ -21,7 +22,7 @@ static bool is_large(const struct kd_render_queue *queue, const struct kd_render
 }
 
 /* True if the picture fits in memory beside the large pictures in lanes. A picture that needs nearly all memory starts
- * only when no other large one runs. */
+ * only when no other large picture is in a lane. */
 static bool fits(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_capacity c;

@@ -26,7 +26,7 @@ struct kd_live_frame {
     double time;                              /* time of the scene, in M */
     double azimuth_deg;                       /* azimuth of the camera at that time */
     bool final;                               /* no refinement follows for this revision */
-    bool last;                                /* no other frame follows; such a frame is lossless only */
+    bool last;                                /* no other frame follows; the last frame is lossless only */
     struct kd_live_file files[KD_LIVE_FILES]; /* existing entries do not change */
     unsigned n_files;                         /* grows under the lock of sessions */
     struct kd_frame picture;                  /* pixels of the frame, unless it is the last */

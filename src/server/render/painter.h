@@ -1,10 +1,10 @@
 /* Renders small pictures of low priority, such as thumbnails of presets, outside the render queue. It renders one
  * picture at a time, on a thread of low priority with its own device.
  *
- * The painter has its own device so that it does not delay live frames. A software driver compiles a kernel at its
- * first use, which takes seconds, and other work on the same device would wait. The driver's threads inherit the
- * painter's priority. The device is opened for the first picture, and closed when no picture has been requested for a
- * while. If it fails, it is opened once more.
+ * The painter has its own device so that it does not delay live frames: a software driver compiles a kernel at its
+ * first use, which takes seconds, and other work on the same device would have to wait. The driver's threads inherit
+ * the painter's priority. The device is opened for the first picture, and closed when no picture has been requested for
+ * a while. If it fails, it is opened once more.
  *
  * Each picture is cached in a file of its own, in the folder where the driver caches its compiled kernels. So each
  * picture is rendered once for each version and device. */

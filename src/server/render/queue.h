@@ -63,8 +63,8 @@ struct kd_render_job {
     const struct kd_format *format; /* format of the picture's file */
     enum kd_effort effort;
     struct kd_blur blur;    /* motion blur; samples 0, the default: none */
-    unsigned number, lossy; /* see struct kd_picture */
-    char hash[65];          /* see struct kd_picture */
+    unsigned number, lossy; /* same meaning as in struct kd_picture */
+    char hash[65];          /* same meaning as in struct kd_picture */
     bool keeps;             /* the frame's layers are kept after it has been encoded */
     /* NULL: the queue renders and encodes a picture. Otherwise the queue calls this function instead when the job
      * owns the device. If the function sets `more`, it is called again at the job's next turn. */
@@ -159,8 +159,8 @@ double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd
 /* Estimated time of all work that clients wait for, excluding frames of sessions and jobs. */
 double kd_render_queue_backlog_ms(struct kd_render_queue *queue);
 
-/* True if this client may begin new work. Returns KD_EBUSY if its work has used, or is estimated to use, all its device
- * time (http/allowance.h). The error then has the time to wait. Any thread. */
+/* Tests whether this client may begin new work: KD_OK, or KD_EBUSY if the client's work has used, or is estimated to
+ * use, all of the client's device time (http/allowance.h). The error then has the time to wait. Any thread. */
 enum kd_status kd_render_queue_afford(struct kd_render_queue *queue, const char *client, struct kd_error *error);
 /* The client's quota, if there is a limit. Any thread. */
 struct kd_quota kd_render_queue_quota(struct kd_render_queue *queue, const char *client);

@@ -57,8 +57,8 @@ struct kd_render_queue {
     struct kd_shares missing;      /* fair queueing of compilations */
     /* compiling: kernels being compiled; compiled: kernels that are compiled but not yet passed to the renderer */
     struct kd_compilation *compiling, *compiled;
-    /* Kernels that no job waits for; they are compiled while no other compilation waits. compiling_ahead: they are
-     * being compiled. */
+    /* ahead: kernels that no job waits for; they are compiled while no other compilation waits. compiling_ahead: such
+     * kernels are being compiled now. */
     struct kd_compilation *ahead;
     bool compiling_ahead;
     double ahead_ms;                       /* time of the latest search for such kernels */
@@ -122,8 +122,8 @@ bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool backg
 bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
 /* called when the job leaves the queue */
 void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
-/* The kernels will be compiled as soon as no job waits for others. They replace earlier ones. NULL
- * changes nothing. */
+/* The kernels will be compiled as soon as no job waits for other kernels. They replace earlier ones. NULL changes
+ * nothing. */
 void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilation *compilation);
 /* Main function of the compiler thread; the argument is the queue. Returns when the queue is closing. */
 void *kd_render_compile_main(void *queue);
@@ -151,8 +151,8 @@ void kd_render_next(struct kd_render_queue *queue);
 void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job);
 /* Updates device_json. Called without the lock by the owner of the device. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue);
-/* Main functions of threads: kd_render_short_main runs short work, its argument is the queue; kd_render_lane_main is
- * that of a lane. They return when the queue is closing and empty. */
+/* Main functions of threads: kd_render_short_main runs short work, and its argument is the queue; kd_render_lane_main
+ * runs a lane, which is its argument. They return when the queue is closing and empty. */
 void *kd_render_short_main(void *queue);
 void *kd_render_lane_main(void *lane);
 

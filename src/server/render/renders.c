@@ -306,7 +306,7 @@ static bool admitted(struct kd_request *request, const struct kd_plan_cost *cost
     bool quota;
     enum kd_status status;
     KD_TRY(kd_render_queue_admit(server->renders, request->client, &quota, error));
-    /* The size is known only after encoding. The encoded picture is smaller than its pixels. */
+    /* The size of the answer is known only after encoding; it is less than the size of the pixels. */
     if (kd_bytes_take(server->replies, request->client, 0, cost->host_bytes, &quota))
         KD_TRY(kd_error_set(error, KD_EBUSY,
                             quota ? "too many bytes of your pictures are waiting to be read (limit for one client)"

@@ -119,7 +119,7 @@ done:
     if (left)
         kd_target_finish(left);
     free(left);
-    free(right); /* its texts are those of the left one */
+    free(right); /* only the struct is freed: its pointers lead into the text of `left` */
     return status;
 }
 

@@ -33,8 +33,8 @@ bool kd_shared_read(const char *code, struct kd_shared_scenes *scenes, struct kd
 bool kd_shared_of_request(const struct kd_request *request, struct kd_shared_scenes *scenes, struct kd_problem *problem,
                           struct kd_error *error);
 
-/* Builds the scene of a preview picture from the request's path and the width in its query. Of a pair, it is the left
- * one. */
+/* Builds the scene of a preview picture from the request's path and the width in its query. For a pair, it shows the
+ * picture on the left. */
 bool kd_shared_preview(const struct kd_request *request, struct kd_scene *scene, struct kd_problem *problem,
                        struct kd_error *error);
 

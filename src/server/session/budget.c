@@ -81,9 +81,10 @@ static double rival(const struct kd_budget_entry *entry, const struct kd_budget_
     return other != entry && same_client(entry, other) ? other->demand : 0;
 }
 
-/* Computes the max-min fair level of `whole`: the level plus what all rivals get, each at most the level, makes
- * `whole`. The iteration first assumes that all rivals demand everything. The level then only rises, because rivals
- * with a smaller demand drop out. So it ends after at most one round for each rival. */
+/* Divides `whole` between a session and its rivals by max-min fairness, and returns the session's part, the level. Each
+ * rival gets its demand, but at most the level. The iteration first assumes that all rivals demand everything. In each
+ * round the rivals whose demand is below the level drop out, and the level rises. So the iteration ends after at most
+ * one round for each rival. */
 static double fill(const struct kd_budget *budget, const struct kd_budget_entry *entry, bool clients, double whole)
 {
     for (double level = 0, next;; level = next) {

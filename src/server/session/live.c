@@ -60,8 +60,8 @@ static void describe_file(struct MHD_Response *response, const struct kd_live_fr
     MHD_add_response_header(response, "Content-Type", file->format->media_type);
 }
 
-/* Adds headers about the request: the revision that it made, and how long it waited in the server. From the latter
- * the client can compute the network's delay. */
+/* Adds headers about the request: the revision that the request made, and how long the request waited in the server.
+ * From this time the client can compute the network's delay. */
 static void tell_request(struct MHD_Response *response, const struct kd_viewer *viewer)
 {
     char number[24];

@@ -33,7 +33,7 @@ struct kd_session {
     uint64_t order;                /* order of the latest patch that had an order */
     uint64_t begun;                /* number of frames begun */
     bool moved;                    /* in the latest frame something in the scene moved by itself */
-    bool flew;                     /* in the latest frame the camera moved by itself as well */
+    bool flew;                     /* in the latest frame also the camera moved by itself */
     bool listed;
     struct kd_session_frame *rendering; /* frame that is not rendered yet */
     unsigned encoding;

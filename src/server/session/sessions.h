@@ -1,8 +1,9 @@
 /* Live sessions. A session has a scene that its owner changes, the newest frame of that scene, and viewers.
  *
- * A frame is rendered only while a viewer waits for a newer one, and only if it would differ: the scene has changed,
- * the scene moves by itself, or a finer picture is still to come. One frame is traced while the previous one is
- * encoded, and all viewers share the frames. Any thread; functions on viewers belong to the HTTP thread. */
+ * A frame is rendered only while a viewer waits for a newer one, and only if it would differ from the newest one: the
+ * scene has changed, the scene moves by itself, or a finer picture is still to come. One frame is traced while the
+ * previous one is encoded, and all viewers share the frames. Any thread; functions on viewers belong to the HTTP
+ * thread. */
 #ifndef KD_SERVER_SESSION_SESSIONS_H
 #define KD_SERVER_SESSION_SESSIONS_H
 
@@ -55,7 +56,7 @@ void kd_session_keep(struct kd_session *session, const struct kd_session_pace *p
 void kd_session_put(struct kd_session *session, const struct kd_scene *scene, const struct kd_plan *plan);
 bool kd_session_watched(struct kd_session *session);     /* true if a viewer waits or reads a stream */
 unsigned kd_session_viewers(struct kd_session *session); /* number of viewers that wait or read a stream */
-/* whether a frame has shown the latest bodies; if so, kd_session_show accepts new ones */
+/* true if a frame has shown the latest bodies; kd_session_show then accepts new ones */
 bool kd_session_hungry(struct kd_session *session);
 bool kd_session_over(struct kd_session *session); /* true if the session has ended or failed, and so publishes no
                                                    * more frames */
@@ -114,7 +115,7 @@ struct kd_viewer {
     struct kd_session *session; /* a counted reference */
     struct MHD_Connection *mhd;
     int socket;
-    uint64_t seen; /* number of the newest frame that it has taken */
+    uint64_t seen; /* number of the newest frame that the viewer has taken */
     bool any;      /* the viewer reads only the descriptions of frames, so it accepts any encoding */
     /* qualities of lossy frames that the viewer accepts, 1 to 100; 0: lossless only. `lossy` is for all frames but
      * the last, last_lossy for the last frame */

@@ -36,8 +36,8 @@ export async function settled(asked) {
     : plunge(asked, values.p);
 }
 
-// Requests an orbit. If the path needs more samples to be smooth, requests it again, because each sample takes 90
-// bytes. The first answer gives the number of turns.
+// Requests an orbit, first with the few samples that `orbit` asks for, because each sample takes 90 bytes. The answer
+// gives the number of turns. If so many turns need more samples to be smooth, requests the orbit again.
 export async function follow(orbit) {
   const { series, ...answer } = await postJson('v1/orbits', orbit),
     at = name => series.columns.indexOf(name),

@@ -10,7 +10,7 @@ const apart = (5 * Math.PI) / 180; // angle between neighbouring points as seen 
 const margin = 1.1; // factor, because the largest angle was measured on a path with other samples
 const most = 20000; // the server's limit on samples
 const patience_ms = 5000;
-const torn = 0.25; // of the window's width: points that are further apart belong to two arcs
+const torn = 0.25; // fraction of the window's width: points that are further apart belong to two arcs
 const frames = ['static', 'zamo', 'keplerian', 'retrograde', 'infall'];
 // the latest answer, for a camera that has not moved: each picture at rest asks for it
 let last = { key: '', answer: null };

@@ -112,7 +112,7 @@ function scaleBar(space) {
   ];
 }
 
-// The circles of the hole in the equatorial plane: { r, name, text }. r is that of the picture: x and y are
+// The circles of the hole in the equatorial plane: { r, name, text }. r is the radius in the picture, where x and y are
 // sqrt(r^2 + a^2) times the cosine and the sine of the azimuth.
 function circlesOf({ photon_prograde, photon_retrograde, isco }, a) {
   const circle = (r, name, text) => ({ r: Math.hypot(r, a), name, text });
@@ -240,7 +240,7 @@ export function buildPicture(root, hand) {
   let path = null,
     hole = 1,
     spin = 0,
-    circles = []; // of the hole that are large enough to be drawn
+    circles = []; // circles of the hole that are large enough to be drawn
 
   // The hole's circles; the half behind the hole is drawn before it. From below, the other half is nearer.
   const rings = (from, to) =>

@@ -10,7 +10,7 @@ import { module } from '../../base/server.js';
 import { windowSize } from '../../picture/sizes.js';
 
 const prefix = 'pair.';
-const data = prefix + 'data'; // in the link: the other side has the data of M87*
+const data = prefix + 'data'; // key in the link which says that the other side has the data of M87*
 const rest_ms = 400; // time since the last change, after which the data are compared again
 const smooth = { 'disk.gas.amplitude': 0, 'disk.emission_opacity': 0, 'style.bloom': 0 };
 // Ready pairs: values on both sides, and their labels.
@@ -50,7 +50,7 @@ const ready = [
 const comparable = ({ path, type }) =>
   ['number', 'integer', 'choice', 'switch'].includes(type) && !/^(image|motion|accuracy|time)\b/.test(path);
 
-// The other scene, as openSource uses a scene: the first one with other values.
+// The other scene, in the form that openSource needs: the first scene with other values of some fields.
 class Other {
   constructor(scene, over) {
     Object.assign(this, { scene, over, emitters: [], jumped: new Set() });

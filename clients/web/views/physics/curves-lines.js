@@ -1,6 +1,6 @@
 // The curves of a disk's X-rays: light that returns, by spin; the iron line as a sum of rings; the echo of a flash.
-// Each takes the server long or has many numbers, so that it is drawn when it comes into sight. Two of them ask another
-// route than /v1/physics; words names the quantity whose parameters describe theirs.
+// Each curve takes the server long or has many numbers, so it is drawn only when it comes into sight. Two curves use
+// another route than /v1/physics; their `words` names a quantity whose descriptions of parameters they share.
 import { axis, falloff, spin } from './axes.js';
 import { number, t } from '../../words/i18n.js';
 import { charted, physics, postJson } from '../../base/server.js';

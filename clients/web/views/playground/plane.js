@@ -20,7 +20,7 @@ const glowing = [
   [1, '#ff9d3c00'],
 ];
 const halo = { wide: 5, least: 14, most: 90 }; // round a body: in its radii, and in pixels
-const hot = { least: 1000, most: 30000, n: 117 }; // kelvin, range and number of the table of colours
+const hot = { least: 1000, most: 30000, n: 117 }; // range in kelvin, and number of entries, of the table of colours
 const style = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
 // A colour, as "#rrggbb" or "rgb(r g b)", of this opacity.

@@ -6,7 +6,7 @@ import { postJson } from '../../base/server.js';
 
 const light = 1e-5, // masses of the hole
   several = 16,
-  pairs = 1e6, // limit of the pairs of bodies in a prediction, for its time
+  pairs = 1e6, // limit of the pairs of bodies in a prediction, because each pair takes time
   clearance = 1.25,
   captured = 2.05;
 

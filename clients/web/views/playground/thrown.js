@@ -1,4 +1,4 @@
-// The fields of a body: of one to be thrown, or of an existing one. They do the same as dragging.
+// The fields of a body: of one to be thrown, or of an existing one. Setting them does the same as dragging the body.
 import { badge } from '../../controls/badge.js';
 import { el, typing } from '../../base/dom.js';
 import { helpOf, number, t } from '../../words/i18n.js';

@@ -17,8 +17,8 @@ const observation = 'm87-2017-04-05-lo', // the server has it (data/eht)
 
 const grid = Array.from({ length: steps }, (_, i) => ((i + 1) * longest_gl) / steps),
   directions = [
-    [0, 1], // to the north
-    [1, 0], // to the east
+    [0, 1], // direction to the north
+    [1, 0], // direction to the east
   ];
 
 const among = (columns, product) => columns.product.map((_, i) => i).filter(i => columns.product[i] === product);
@@ -54,7 +54,7 @@ function triangles(columns) {
     .sort((a, b) => a.length - b.length);
 }
 
-// A triangle of each of the shapes with the most data, neither the smallest nor the largest.
+// Picks the shapes of triangles with the most data. For each shape, returns a triangle of middle size.
 function shapes(all) {
   const by = {};
   for (const one of all) (by[one.corners] ??= []).push(one);
@@ -104,8 +104,8 @@ function dots(columns, rows) {
 }
 const line = (name, y) => ({ name, x: grid, y });
 
-// Returns show(what), which draws both charts; what: the parts of a request that name a scene, or null, which hides
-// them. view: the name of the view that has them.
+// Returns show(what), which draws both charts. what: the parts of a request that name a scene; null hides the charts.
+// view: the name of the view that has the charts.
 export function measurements(root, page) {
   const amplitudes = plot(),
     phases = plot(),
@@ -124,7 +124,7 @@ export function measurements(root, page) {
         ...document,
         ...map,
         observation,
-        pulse: 'point', // as in /v1/visibility
+        pulse: 'point', // same shape of a pixel as in /v1/visibility
         average_s,
         products: ['amplitude', 'closure_phase'],
         systematic: { amplitude: 0.01, closure_phase_deg: 2 },

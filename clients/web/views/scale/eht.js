@@ -38,7 +38,7 @@ function panel(hole) {
     lines = svg('svg', { class: 'sky-lines', 'aria-hidden': 'true' }),
     words = el('p', { class: 'help' }),
     side = 75, // pixels of the picture in which the ring is measured
-    // as many rays at the critical curve as where no beam hides it
+    /* this factor gives as many rays at the critical curve as a picture without a beam has */
     sharp = { 'style.beam_uas': 0, 'image.critical_factor': 4 };
   let facts = '',
     fitted = '';
@@ -188,8 +188,8 @@ function panel(hole) {
 
   return {
     node,
-    // v: values of the quantity `scale`. Draws the lines, and returns functions that load the pictures and measure the
-    // ring, and what differs from the preset, as a document.
+    // v: values of the quantity `scale`. Draws the lines. Returns { tasks, scene }: functions that load the pictures
+    // and measure the ring, and a document with the fields that differ from the preset.
     async show(spin, inclination, v) {
       const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:357:120', digits: 4 }))
           .values,

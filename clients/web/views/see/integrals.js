@@ -133,7 +133,8 @@ const kinds = {
       times: 200,
     }),
     show: ({ values, columns }, scene) => {
-      const times = columns.share.length / 2, // each for light that is redder than the gas sends it, then bluer
+      // The first half of the rows is for light that is redder than the gas emits it, the second half for bluer light.
+      const times = columns.share.length / 2,
         wide = columns.time_high[0] - columns.time_low[0],
         x = columns.time_low.slice(0, times).map(low => low + wide / 2),
         part = from => columns.share.slice(from, from + times).map(share => share / wide),

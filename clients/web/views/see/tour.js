@@ -6,7 +6,7 @@ import { startAgain } from '../../controls/presets.js';
 import { holeOf, physics } from '../../base/server.js';
 
 const flight_ms = 1400;
-const least_ms = 60; // between two steps of a flight
+const least_ms = 60; // time between two steps of a flight
 
 // Places: for the critical curve, an angle counted from the right through the top; for a ring of gas, its radius and
 // its azimuth minus the observer's, where 180 is behind the hole and at 270 the gas approaches.
