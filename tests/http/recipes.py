@@ -45,7 +45,7 @@ HANDLER = """enum MHD_Result kd_handle_tea(struct kd_request *request)
 # Recipe -> its edits: (file, text before which a text is inserted; None: the end, or a new file; the text).
 RECIPES = {
     "a parameter of orbits": [
-        ("orbit/asked.h", "    uint32_t steps;   /* per radial period */", "    uint32_t cups;\n"),
+        ("orbit/asked.h", "    uint32_t steps;", "    uint32_t cups;\n"),
         (
             "orbit/fields.c",
             '    { .name = "samples",',
