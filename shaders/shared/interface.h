@@ -44,7 +44,7 @@
     KD_HOLE_FIELDS_(F) \
     F(u) F(s)               /* cosine and sine of the observer's polar angle */ \
     F(w0)                   /* 1/r of the observer, 0 at infinity */ \
-    /* falling observer outside the horizon: its Boyer-Lindquist minus its ingoing azimuth; else 0 */ \
+    /* the observer's Boyer-Lindquist azimuth minus its ingoing azimuth, if it falls outside the horizon; else 0 */ \
     F(twist) \
     F(e_t) F(e_r) F(e_theta) F(e_phi) F(l_t) F(l_r) F(l_theta) F(l_phi) \
     F(p_t) F(p_r) F(p_theta) F(p_phi) F(dw_t) F(dw_r) F(dw_theta) F(dw_phi) \

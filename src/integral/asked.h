@@ -117,8 +117,8 @@ static inline bool kd_integral_is_searched(const struct kd_integral_request *r)
     return kd_integral_is_compared(r->what) && r->solve & ~(uint32_t)KD_ALIGN_FLUX;
 }
 
-/* Upper bound of the number of transforms of the first map. If a shift is searched, each transform counts twice,
- * because a grid of shifts takes as long. */
+/* Upper bound of the number of times that the first map is transformed. If a shift is searched for, each transform
+ * counts twice, because testing a grid of shifts takes as long as the transform. */
 static inline double kd_integral_evaluations(const struct kd_integral_request *r)
 {
     return kd_integral_is_searched(r) ? kd_align_evaluations(r->solve) * (r->solve & KD_ALIGN_SHIFT ? 2. : 1.) : 1;

@@ -74,12 +74,13 @@ static double *field_at(struct kd_integral_request *request, const struct kd_tab
     return (double *)(void *)((char *)request + axis->field->offset);
 }
 
-/* The word of `seen` that has the bit of a field, and the bit. */
+/* The word of `seen` that contains this field's bit. */
 static uint64_t *seen_of(struct kd_integral_request *request, const struct kd_row *field)
 {
     return &request->seen[(field - kd_integral_fields) / 64];
 }
 
+/* This field's bit in that word. */
 static uint64_t bit_of(const struct kd_row *field) { return UINT64_C(1) << (field - kd_integral_fields) % 64; }
 
 static const struct kd_row *field_named(const struct kd_integral_request *request, const char *name)

@@ -67,7 +67,7 @@ static void judge(int h, const struct kd_ray_crossing *crossings, const struct k
     for (int k = 0; k < RAYS; k++) {
         const struct ks_path *p = &paths[h][k], *q = &beside[h][k];
         if (p->crossings != q->crossings || p->fate != q->fate || p->fate == KS_UNDECIDED)
-            continue; /* skipped, because here the oracle itself changes its kind of ray within a millionth */
+            continue; /* a millionth beside this ray the oracle's own ray has another fate or other crossings */
         int wanted = p->crossings < ORDERS ? p->crossings : ORDERS;
         if ((int)ends[k].n_crossings != wanted)
             fail_msg("hole %d, ray %d: %u crossings, the oracle has %d", h, k, ends[k].n_crossings, wanted);

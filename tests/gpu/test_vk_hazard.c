@@ -1,5 +1,5 @@
-/* Tests of the placement of barriers, without a device: each case by hand, and then random programs compared with the
- * definition. */
+/* Tests of the placement of barriers, without a device: first cases written by hand. Then the
+ * barriers of random programs are compared with those that follow from the definition of a hazard. */
 #include "support.h"
 
 #include "vk/hazard.h"

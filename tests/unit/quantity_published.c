@@ -204,8 +204,8 @@ static void fall(void **state)
               1e-10);
     published("halfway", ASK("infall", "proper_time_to_end", "r=5", "infall_from=10"),
               0.5 * sqrt(500) * (0.5 * M_PI - 1), 1e-10);
-    /* Rain in the coordinates of Painleve and Gullstrand: ingoing light has 1 + v times the energy at infinity that
-     * rain measures, with rain's velocity v = sqrt(2/r). */
+    /* Rain in the coordinates of Painleve and Gullstrand: the energy at infinity of light that falls in is
+     * 1 + v times the energy that rain measures, with rain's velocity v = sqrt(2/r). */
     published("starlight behind rain", ASK("infall", "g_behind", "r=8"), 2.0 / 3, 1e-14);
     published("starlight behind rain at the horizon", ASK("infall", "g_behind", "r=2"), 0.5, 1e-14);
     published("starlight behind rain within", ASK("infall", "g_behind", "r=0.5"), 1.0 / 3, 1e-14);

@@ -58,7 +58,7 @@ export function drawTrack(picture, points, unit, names = [], field = null) {
   );
 }
 
-// A figure of such a drawing, with a note and its numbers.
+// Makes an empty figure for drawTrack: caption, picture, note and list of numbers.
 export function drawing(id, note) {
   const picture = svg('svg', { class: 'rosette', viewBox: '-100 -100 200 200', role: 'img', 'aria-labelledby': id }),
     list = numbers(id);

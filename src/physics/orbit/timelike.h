@@ -34,8 +34,8 @@ struct kd_orbit {
      * the equator. */
     double z, n, axis_gap; /* axis_gap is 1 - z */
     enum kd_orbit_fate fate;
-    /* The range of 1/r that the motion is confined to: between turning points, or up to 0 (infinity) and 1/r+ where
-     * there is none. */
+    /* The range of 1/r of the motion. Each end is a turning point. Without one, w_low is 0 (infinity) and w_high is
+     * 1/r+ (the horizon). */
     double w_low, w_high;
     bool turns_out, turns_in; /* true if there is a turning point at w_low, and at w_high */
     bool circular;            /* r is constant: both ends coincide; fate is PLUNGE if the orbit is unstable */

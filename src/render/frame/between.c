@@ -58,7 +58,8 @@ done:
     return status;
 }
 
-/* Marks as many pixels as fit in one buffer together with their result words. The words are copied to the host. */
+/* Marks the pixels of one part. A part has as many pixels as fit in one buffer, which also holds a result word for
+ * each. The words are copied to the host. */
 static enum kd_status mark_part(struct kd_frame_job *j, const struct kd_frame_part *part, struct kd_vk_buffer *host,
                                 uint8_t *marks)
 {

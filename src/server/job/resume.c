@@ -124,7 +124,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
         return;
     }
     wait_after_strikes(job);
-    if (*why) { /* another version may be able to parse the request, and the job waits until then */
+    if (*why) { /* this version cannot parse the request; the job waits for a version that can */
         job->due_ms = INFINITY;
         snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
         kd_log(KD_LOG_WARN, "job %.4s... waits: %s", known->id, why);
