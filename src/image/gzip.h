@@ -6,7 +6,10 @@
 
 #include <stdbool.h>
 
+/* ONCE: for one answer, quickly. KEPT: for a document that is sent many times, as short as can be. */
+enum kd_gzip { KD_GZIP_ONCE, KD_GZIP_KEPT };
+
 /* Returns false if the buffer is unchanged, because the stream would not be shorter or memory ran out. */
-bool kd_gzip(struct kd_buffer *buffer);
+bool kd_gzip(struct kd_buffer *buffer, enum kd_gzip use);
 
 #endif

@@ -148,7 +148,7 @@ class Series(Case):
         bad("time[2] is inf; it must be a number", time=(0, 1, numpy.inf))
         bad("time[1] is 1; it must be greater than the one before it, 2", time=(2, 1, 0))
         bad("time[1] is 0; it must be greater than the one before it, 0", time=(0, 0, 1))
-        bad("time[1] is 1.03; times must have equal steps, to a hundredth of a step, here 1", time=(0, 1.03, 2))
+        bad("time[1] is 1.03; with equal steps it must be 1, to a hundredth of a step", time=(0, 1.03, 2))
         bad("it must have the shape (3, 24, 16, 8) of time, r, theta and phi", of=frames[:2])
         bad('header.units.time is missing; it must be "M"', units=no_unit)
         broken = {**one, "density": one["density"].copy()}

@@ -11,18 +11,6 @@
  * DLMF 19.29.8. */
 struct pole { double u2, s, q2; };
 
-/* True if the horizons are close to each other. The difference of the integrals at both gives the azimuth with an error
- * of 1e-16/(r+ - r-), which is below 2e-15 if they are not close. */
-static bool is_close(const struct kd_hole *hole) { return hole->root < 0.03; }
-
-/* r - r5 for a horizon r5; next to close horizons r - 1 is exact. */
-static double past(const struct kd_hole *hole, double r, double r5)
-{
-    if (!is_close(hole))
-        return r - r5;
-    return r - 1 - (r5 > 1 ? hole->root : -hole->root);
-}
-
 /* The arguments of DLMF 19.29 for the path from r to the reference. */
 struct span {
     struct kd_carlson_arg arg; /* U12; U13 + U14; U13 U14                                                */
@@ -66,7 +54,7 @@ struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r
 static struct pole pole_outer(const struct kd_null_radial *q, const struct kd_null_radius *at, double r5)
 {
     const struct kd_null_roots *o = &q->roots;
-    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), e = r5 - o->r1, d5 = past(&q->motion.hole, at->r, r5);
+    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), e = r5 - o->r1, d5 = kd_hole_past(&q->motion.hole, at->r, r5);
     struct pole p;
     p.u2 = 2 * at->d1 * (at->r + o->r1) + 2 * y1 * y2 * at->pair + o->p1 * o->r21 / e;
     p.s = d5 + y2 * at->pair / y1;
@@ -90,7 +78,7 @@ static struct span span_outer(const struct kd_null_radial *q, const struct kd_nu
     s.arg.root = p * (at->d1 + at->d2) + y1 * y2 * (at->both * at->both - 2 * p);
     s.plus = pole_outer(q, at, q->r_plus);
     s.minus = pole_outer(q, at, q->r_minus);
-    if (is_close(&q->motion.hole)) {
+    if (kd_hole_is_close(&q->motion.hole)) {
         s.slope.u2 = slope_u2(q);
         s.slope.s = -1;
         s.slope.q2 = ((at->r - q->r_minus) * s.slope.u2 - s.plus.u2) / at->d1;
@@ -105,12 +93,12 @@ static struct span span_outer(const struct kd_null_radial *q, const struct kd_nu
 static struct pole pole_inner(const struct kd_null_radial *q, const struct kd_null_radius *at, double r5)
 {
     const struct kd_null_roots *o = &q->roots;
-    double e = r5 - o->r1, x1 = o->r3 - o->r1, x2 = o->r3 - o->r2, x5 = past(&q->motion.hole, o->r3, r5),
+    double e = r5 - o->r1, x1 = o->r3 - o->r1, x2 = o->r3 - o->r2, x5 = kd_hole_past(&q->motion.hole, o->r3, r5),
            steep = at->d4 / at->d3;
     struct pole p;
     p.u2 = x1 * (x2 * steep - (o->r4 - o->r1) * (r5 - o->r2) / e);
     p.s = sqrt(at->d2 / at->d1 * steep) * x5;
-    p.q2 = x5 * past(&q->motion.hole, at->r, r5) * p.u2 / (x1 * at->d1);
+    p.q2 = x5 * kd_hole_past(&q->motion.hole, at->r, r5) * p.u2 / (x1 * at->d1);
     return p;
 }
 
@@ -125,11 +113,11 @@ static struct span span_inner(const struct kd_null_radial *q, const struct kd_nu
     s.arg.root = sqrt(x1 * x2 * at->d1 * at->d2) * r43 / at->d3;
     s.plus = pole_inner(q, at, q->r_plus);
     s.minus = pole_inner(q, at, q->r_minus);
-    if (is_close(&q->motion.hole)) {
+    if (kd_hole_is_close(&q->motion.hole)) {
         s.slope.u2 = slope_u2(q);
         s.slope.s = -sqrt(at->d2 / at->d1 * steep);
         s.slope.q2 = ((o->r3 - q->r_minus) * ((at->r - q->r_minus) * s.slope.u2 - s.plus.u2) -
-                      past(&q->motion.hole, at->r, q->r_plus) * s.plus.u2) /
+                      kd_hole_past(&q->motion.hole, at->r, q->r_plus) * s.plus.u2) /
                      (x1 * at->d1);
     }
     s.far = x2 * (x1 * steep - r42);
@@ -199,8 +187,8 @@ struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *
     const struct numerators n = numerators_of(&q->motion);
     double a = q->motion.hole.a, gap = q->r_plus - q->r_minus;
     double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
-    if (is_close(&q->motion.hole)) { /* the numerators are divided by r - 1, which is the mean of both poles and a
-                                        remainder */
+    if (kd_hole_is_close(&q->motion.hole)) { /* the numerators are divided by r - 1, which is the mean of both poles and
+                                        a remainder */
         double both = between_poles(q, &s, minus), mean = 0.5 * (plus + minus);
         sum.phi = a * (2 * mean + (2 + n.twist) * both);
         if (time)
@@ -416,8 +404,8 @@ struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m,
     const struct numerators n = numerators_of(m);
     double plus = m->hole.outer, minus = m->hole.inner;
     struct kd_null_radial_sum total = { .tau = 2 * kd_carlson_rf_arg(arg) };
-    if (is_close(&m->hole)) { /* R has no root outside the horizon: the integrand is smooth */
-        const struct azimuth z = { o, r - 1, past(&m->hole, r, plus), m->hole.root, n.twist };
+    if (kd_hole_is_close(&m->hole)) { /* R has no root outside the horizon: the integrand is smooth */
+        const struct azimuth z = { o, r - 1, kd_hole_past(&m->hole, r, plus), m->hole.root, n.twist };
         total.phi = m->hole.a * kd_quadrature(azimuth_at, &z);
         return total;
     }

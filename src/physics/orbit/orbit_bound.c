@@ -20,10 +20,6 @@ static double integral_pole(struct phase at, double rest)
     return at.s == 0 ? 0 : at.s * at.s * at.s * kd_carlson_rj(at.c2, at.d2, 1, rest) / 3;
 }
 
-/* Whether the horizons are close. By the difference of the integrals at both, t and phi are off by some
- * 1e-16/(r+ - r-). */
-static bool is_close(const struct kd_hole *hole) { return hole->root < 0.03; }
-
 /* Int du/Delta from that over r - r-: the divided difference of `j_plus` below over r+ - r-. A product f g has f(r+)
  * that of g + g(r-) that of f. beyond: r2 - r+ and r2 - r-; s2: sn^2 at the end. */
 static double between_poles(const struct kd_orbit_bound *b, double u, struct phase at, const double beyond[2])
@@ -68,7 +64,7 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
     double poles_t = ((o->near * plus - flat) * j_plus - (o->near * minus - flat) * j_minus) / gap;
     double twice = 2 * o->energy, back = o->drag;
     double poles_phi = ((twice * plus - back) * j_plus - (twice * minus - back) * j_minus) / gap;
-    if (is_close(&o->hole)) { /* the numerators are divided by r - 1: the mean of both poles, and a remainder */
+    if (kd_hole_is_close(&o->hole)) { /* the numerators are divided by r - 1: the mean of both poles, and a remainder */
         double mean = 0.5 * (j_plus + j_minus), both = between_poles(b, u, at, beyond);
         poles_t = o->near * mean + (o->near - flat) * both;
         poles_phi = twice * mean + (twice - back) * both;
@@ -150,10 +146,8 @@ static void set_radial(struct kd_orbit_bound *b)
     b->k_r = b->h * (r[2] - r[3]) / deep;
     b->k1_r = o->circular ? 1 : (r[0] - r[3]) * (r[1] - r[2]) / (wide * deep);
     b->pace_r = 0.5 * sqrt(o->binding * wide * deep);
-    for (int i = 0; i < 2; i++) { /* next to close horizons r - 1 is exact */
-        double horizon = i ? o->hole.inner : o->hole.outer, root = i ? -o->hole.root : o->hole.root;
-        b->beyond[i] = is_close(&o->hole) ? r[1] - 1 - root : r[1] - horizon;
-    }
+    b->beyond[0] = kd_hole_past(&o->hole, r[1], o->hole.outer);
+    b->beyond[1] = kd_hole_past(&o->hole, r[1], o->hole.inner);
     b->h_plus = b->h * (r[2] - o->hole.outer) / b->beyond[0];
     b->h_minus = b->h * (r[2] - o->hole.inner) / b->beyond[1];
     b->unit_r = o->circular ? 1 : b->pace_r;

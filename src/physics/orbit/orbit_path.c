@@ -154,7 +154,7 @@ static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
 {
     double plus = o->hole.outer, minus = o->hole.inner, gap = plus - minus, r = 1 / w;
     double near = log(r - plus), inner = log(r - minus);
-    if (o->hole.root < 0.03) { /* the difference of the logarithms by log1p, which keeps its digits */
+    if (kd_hole_is_close(&o->hole)) { /* the difference of the logarithms by log1p, which keeps its digits */
         const double apart = log1p(gap / (r - plus)) / gap;
         *t = r + 2 * near - kd_hole_mass(&o->hole, minus) * apart;
         *phi = -o->hole.a * apart;

@@ -53,8 +53,7 @@ static const struct kd_sentence sentences[] = {
     { "flash.drawn",
       "flash: the gas of the thin disk shines at once, in proportion to the lamp's light that it receives, with a "
       "power-law spectrum and the redshift of its own orbit, and fades out as the disk does; the brightness, the "
-      "colour "
-      "and the Gaussian course in time are chosen, not computed",
+      "colour and the Gaussian course in time are chosen, not computed",
       NULL },
     { "flash.isotropic", "flash: the lit gas shines isotropically, without limb darkening", isotropic },
     { "flash.no-shift", "flash: the Doppler shift or the gravitational redshift of the gas is switched off",

@@ -24,9 +24,8 @@
 #define LATEST 1e12 /* largest time, M, as that of the scene */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
-#define FINEST \
-    1024         /* largest number of rows per factor of e in r, because a stretch of the march is two cells long \
-                   \ */
+/* largest number of rows per factor of e in r, because a stretch of the march is two cells long */
+#define FINEST 1024
 #define PARTS 64 /* largest k, if the grid covers 1/k of a turn */
 #define PLACES 4 /* cells for each column in the table of uneven columns */
 #define PLACES_LEAST 256
@@ -235,7 +234,7 @@ static enum kd_status take_times(struct kd_matter_reader *r, struct kd_error *er
             snprintf(what, sizeof what, "is %.9g; it must be greater than the one before it, %.9g", at,
                      kd_matter_array_at(&a, i - 1));
         else if (step > 0 && fabs(at - want) > STEADY * step)
-            snprintf(what, sizeof what, "is %.9g; times must have equal steps, to a hundredth of a step, here %.9g", at,
+            snprintf(what, sizeof what, "is %.9g; with equal steps it must be %.9g, to a hundredth of a step", at,
                      want);
         else
             continue;

@@ -20,9 +20,8 @@
 #define COARSE 0.15
 /* fraction of the rim's width: nearer to the curve than this, only the images from the rim count */
 #define INNER 0.9
-#define APART \
-    0.05 /* images of the two grids that are nearer to each other than this many pixels are the same image \
-           \ */
+/* distance in pixels; images of the two grids that are nearer to each other are the same image */
+#define APART 0.05
 
 enum { MOST = 400 }; /* largest number of images in a file; the brightest are kept */
 

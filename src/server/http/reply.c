@@ -30,7 +30,7 @@ struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer 
 {
     struct kd_buffer codings = kd_reply_header_list(request, "Accept-Encoding");
     bool packed = body->size >= PACK_LEAST && body->size <= PACK_MOST &&
-                  kd_accepts_coding((const char *)codings.data, "gzip") && kd_gzip(body);
+                  kd_accepts_coding((const char *)codings.data, "gzip") && kd_gzip(body, KD_GZIP_ONCE);
     kd_buffer_finish(&codings);
     struct MHD_Response *response = kd_reply_take(body, type);
     if (response)

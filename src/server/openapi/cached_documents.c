@@ -70,7 +70,7 @@ static enum kd_status finish(struct document *d, const char *type)
 {
     if (kd_buffer_append(&d->gzip, d->plain.data, d->plain.size))
         return KD_ENOMEM;
-    bool packed = kd_gzip(&d->gzip);
+    bool packed = kd_gzip(&d->gzip, KD_GZIP_KEPT);
     tag(&d->plain, d->etags[0]);
     tag(&d->gzip, d->etags[1]);
     d->served = (struct kd_served) { d->path, type, { d->etags[0], d->plain.data, d->plain.size }, { 0 } };
