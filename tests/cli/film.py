@@ -460,7 +460,7 @@ class Pictures(Case):
             pathlib.Path(folder, "film.json").write_text(json.dumps({**said, name: value}))
             self.assertIn(value, self.film("b.zip", TURN, "--state", folder, code=2))
         pathlib.Path(folder, "film.json").unlink()
-        self.assertIn("no record of their film", self.film("b.zip", TURN, "--state", folder, code=2))
+        self.assertIn("no state of a film", self.film("b.zip", TURN, "--state", folder, code=2))
         self.assertFalse(os.path.exists(self.path("b.zip")))
         self.assertIn(
             "cannot create the folder", self.film("b.zip", TURN, "--state", self.write("a file", "") + "/x", code=2)
