@@ -21,7 +21,7 @@ struct kd_colour_xyz kd_colour_blackbody(double temperature);
  * and white differs from the fourth digit on: 3.2409699, or with another D65 3.2404542.) */
 struct kd_colour_rgb kd_colour_xyz_to_srgb(struct kd_colour_xyz xyz);
 
-/* The encoding of a component of linear sRGB in [0, 1] (IEC 61966-2-1). */
+/* The sRGB transfer function: encodes a linear component in [0, 1] (IEC 61966-2-1). */
 double kd_colour_srgb_encode(double linear);
 
 /* Colour of a black body as linear sRGB of luminance 1. Outside the sRGB gamut (below about 1900 K) it is moved towards

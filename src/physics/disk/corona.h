@@ -33,8 +33,8 @@
 
 #include <stdbool.h>
 
-/* STATIC: at rest. ZAMO: with zero angular momentum. COROTATING: with the angular velocity of the disk's gas at rho, or
- * at the ISCO if rho is less. */
+/* Motion of a ring. STATIC: at rest. ZAMO: with zero angular momentum. COROTATING: with the angular velocity of the
+ * disk's gas at rho; at the ISCO's angular velocity if rho is smaller than the ISCO. */
 enum kd_corona_motion { KD_CORONA_STATIC, KD_CORONA_ZAMO, KD_CORONA_COROTATING };
 
 /* Rings from rho = inner to outer and z = height to top, each of which shines in proportion to its circumference. A
@@ -54,13 +54,14 @@ struct kd_corona_source {
 /* False if no ring can have this motion at its place: the speed would be 1 or more, or the place is within
  * KD_CORONA_LEAST times the radius of the ergosphere. */
 #define KD_CORONA_LEAST 1.05
-/* Least ratio of height to largest radius that KD_CORONA_ANGLES resolve: for a ring, and for other shapes. */
+/* The smallest ratio of height to largest radius that KD_CORONA_ANGLES directions resolve. The first value is for a
+ * ring, the second for other shapes. */
 #define KD_CORONA_FLATTEST 0.05
 #define KD_CORONA_FLATTEST_SHAPE 0.1
 bool kd_corona_source_of(const struct kd_hole *hole, double radius, double height, enum kd_corona_motion motion,
                          struct kd_corona_source *out);
 
-/* Follows a photon that leaves along -cos(delta) e_r + sin(delta) (cos(chi) e_phi - sin(chi) e_theta).
+/* Result for a photon that leaves along -cos(delta) e_r + sin(delta) (cos(chi) e_phi - sin(chi) e_theta).
  * log_tangent: ln tan(delta/2). r: radius at which the photon first meets the plane; 0 if the hole captures it,
  * INFINITY if it escapes. energy, momentum: E and L for unit energy in the source's frame. solid: solid angle in the
  * source's frame over solid angle in the frame of zero angular momentum, e^-2. delay: coordinate time to the plane. */
@@ -70,11 +71,11 @@ struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, do
 enum { KD_CORONA_RINGS = 128, KD_CORONA_ANGLES = 1024 };
 
 /* ln epsilon at nodes in r. Nodes are even in s = ln r + asinh((ln r - centre)/width), or in ln r if width is 0. error:
- * relative error, estimated from the change of epsilon when every second angle is left out. */
+ * relative error of epsilon, estimated as its change when every second angle is left out. */
 struct kd_corona_light { double first, step, centre, width, log_epsilon[KD_CORONA_RINGS], error; };
 double kd_corona_light_at(const struct kd_corona_light *light, double r);
 
-/* The light of a whole corona, the mean over its rings, at radii from inner to outer. inner is the ISCO or larger.
+/* The light of a whole corona (the mean over its rings) at radii from inner to outer. inner is the ISCO or larger.
  * Takes 0.1 s for a ring and seconds for other shapes; the last 64 results are kept. Fails as kd_corona_init does.
  * kd_corona_source_of must be true for every ring. */
 enum kd_status kd_corona_light_of(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,

@@ -1,7 +1,7 @@
 /* Direct image of the equatorial plane outside the ISCO for an observer at infinity. A table, made once for a spin and
  * an inclination, gives the place of each ring on the image plane. The light of a thin disk (line_profile.h,
- * transfer_function.h, disk_spectrum.h) is an integral over this image. Double precision; pure except for making the
- * table, any thread. G = c = M = 1.
+ * transfer_function.h, disk_spectrum.h) is an integral over this image. Double precision; any thread; pure, except the
+ * function that makes the table. G = c = M = 1.
  *
  * The image of a ring of radius r is given by its distance from a centre, in units of an ellipse of about its size:
  *
@@ -19,7 +19,7 @@
 #include <stdbool.h>
 
 enum {
-    KD_DISK_IMAGE_RINGS = 24,   /* between infinity and the ISCO */
+    KD_DISK_IMAGE_RINGS = 24,   /* rings between infinity and the ISCO */
     KD_DISK_IMAGE_ANGLES = 512, /* maximum number of nodes round a ring */
 };
 
@@ -29,34 +29,34 @@ enum {
 
 struct kd_disk_image {
     struct kd_hole hole;
-    double cos_i, sin_i; /* cos_i >= 0, because the disk looks the same from below as from above */
+    double cos_i, sin_i; /* cos_i >= 0: the disk looks the same from below as from above */
     double isco, horizon, origin;
     int angles;                                                      /* 64 to 512: more towards edge-on; 0: no table */
     double cosine[KD_DISK_IMAGE_ANGLES], sine[KD_DISK_IMAGE_ANGLES]; /* of directions */
-    /* R; row 0 is that of infinity, the last row that of the ISCO */
+    /* R. Row 0 is the ring at infinity, the last row is the ISCO. */
     double stretch[KD_DISK_IMAGE_RINGS + 1][KD_DISK_IMAGE_ANGLES];
 };
 
-/* inclination in radians, 0 to pi. Next to edge-on there is no table: only the functions below that trace one ray and
- * do not interpolate may be used. Returns false if a ring was not found, which has not been observed. Takes 1 600 to 19
- * 000 rays: most nodes take one, since preceding rings and angles predict their places and slopes. */
+/* inclination in radians, 0 to pi. Next to edge-on there is no table. Then only those functions below that trace a ray
+ * instead of interpolating may be called. Returns false if a ring was not found, which has not been observed. Takes 1
+ * 600 to 19 000 rays: most nodes take one, since preceding rings and angles predict their places and slopes. */
 bool kd_disk_image_init(struct kd_disk_image *image, const struct kd_hole *hole, double inclination);
 
 /* A ring's image in `n` directions, evenly spaced in chi; n is a power of 2, from 32 to KD_DISK_IMAGE_ANGLES. With
- * `skip` 1 every node of the table is used, with 2 every second one: the difference of the two estimates the error of
- * the table. r >= ISCO. */
+ * `skip` 1 every node of the table is used, with 2 every second one: the difference of the two results estimates the
+ * table's error. r >= ISCO. */
 void kd_disk_image_ring(const struct kd_disk_image *image, double r, int skip, int n, double *alpha, double *beta);
 
 /* A step in ln r for finite differences at a ring: `share` of the distance to the horizon, so that a step inwards
  * from the ISCO stays outside it at any spin. */
 double kd_disk_image_step(const struct kd_disk_image *image, double r, double share);
 
-/* The image of a ring at one angle. It is not interpolated, but found by a ray that meets the ring to 1e-12 of r; r may
- * be a little inside the ISCO. Returns false if it is not found. */
+/* The image of a ring at one angle, found by a ray instead of interpolation: the ray meets the ring to 1e-12 of r. r
+ * may be a little inside the ISCO. Returns false if no ray is found. */
 bool kd_disk_image_place(const struct kd_disk_image *image, double r, double chi, double *alpha, double *beta);
 
-/* The radius at which the ray seen at (alpha, beta) first meets the plane. 0: it is captured before; INFINITY: it
- * escapes. Computed in closed form in a microsecond. */
+/* The radius at which the ray seen at (alpha, beta) first meets the plane. 0 if the ray is captured before, INFINITY if
+ * it escapes. Computed in closed form in a microsecond. */
 double kd_disk_image_radius(const struct kd_disk_image *image, double alpha, double beta);
 
 /* Redshift factor g of light from a ring on circular orbits, seen at alpha; and the cosine mu of its angle of

@@ -21,7 +21,7 @@ enum { KD_STOKES_NODES = 640 };
 struct kd_disk_iqu { double i, q, u; }; /* IAU 1973: angles from north, the projected axis of the disk, to the east */
 
 struct kd_disk_stokes {
-    double hottest_k, scale; /* colour temperature at ln T = 0; unit of fluxes */
+    double hottest_k, scale; /* colour temperature for which ln T = 0; unit of the fluxes */
     struct kd_disk_iqu direct[KD_STOKES_NODES], scattered[KD_STOKES_NODES];
 };
 

@@ -31,14 +31,14 @@ struct kd_echo {
     /* Equivalent width of the line at infinity over its equivalent width in the gas's frame. The gas emits one photon
      * of the line for each photon of the continuum per unit of energy that it receives. */
     double strength;
-    /* Of kd_echo_impulse only. mean: mean time of all photons of the line, after t_0. error: estimated from sums over
-     * every second ring and direction. */
+    /* mean and error are set by kd_echo_impulse only. mean: mean arrival time of all photons of the line, after t_0.
+     * error: estimated from sums over every second ring and direction. */
     double mean, error;
 };
 
 /* share[i * times + k]: share of the line's photons between the energies edges[i] and edges[i + 1], in units of E0, and
- * the times first + k step and first + (k + 1) step. error: largest error of the cumulative share, summed from the
- * first energy and time. KD_ENOMEM; KD_EINVAL: the source's light does not reach a ring or the observer. */
+ * the times first + k step and first + (k + 1) step. error: largest error of the cumulative share, which is the sum
+ * from the first energy and time. KD_ENOMEM; KD_EINVAL: the source's light does not reach a ring or the observer. */
 enum kd_status kd_echo_impulse(const struct kd_disk_image *image, const struct kd_echo_params *params,
                                const double *edges, size_t bins, double first, double step, size_t times, double *share,
                                struct kd_echo *echo, struct kd_error *error);

@@ -1,4 +1,4 @@
-/* nodes are evenly spaced in ln r: the first, and the step */
+/* Illumination of a thin disk by a point source on the axis, tabulated at KD_LAMPPOST_RINGS radii. */
 #ifndef KD_PHYSICS_DISK_LAMPPOST_H
 #define KD_PHYSICS_DISK_LAMPPOST_H
 
@@ -9,9 +9,9 @@
 enum { KD_LAMPPOST_RINGS = 120 };
 
 struct kd_lamppost {
-    double first, step; /* nodes in ln r */
+    double first, step; /* ln r of the first node, and the even step in ln r */
     double log_epsilon[KD_LAMPPOST_RINGS];
-    double late[KD_LAMPPOST_RINGS]; /* coordinate time of the light from the source to the ring, less r */
+    double late[KD_LAMPPOST_RINGS]; /* coordinate time of the light from source to ring, minus r */
 };
 
 /* height: beyond the horizon. The table covers the radii from inner, which is the ISCO or larger, to outer. Returns

@@ -1,5 +1,5 @@
 /* Laws of limb darkening: the intensity that a disk's surface emits, as a function of the cosine mu of the angle from
- * its normal in the gas's frame. Pictures, lines and spectra have them in common. Pure functions, any thread. */
+ * its normal in the gas's frame. Pictures, line profiles and spectra use the same laws. Pure functions, any thread. */
 #ifndef KD_PHYSICS_DISK_LIMB_H
 #define KD_PHYSICS_DISK_LIMB_H
 
@@ -11,7 +11,7 @@ enum kd_limb { KD_LIMB_ISOTROPIC, KD_LIMB_LAOR, KD_LIMB_HAARDT, KD_LIMB_SCATTERI
  * values differ from scattering.h by less than 1e-8. */
 double kd_limb_at(enum kd_limb law, double mu);
 
-/* Factor with which a surface radiates as much in all as an isotropic one: it makes the integral of f mu dmu 1/2. */
+/* Factor that makes the integral of f mu dmu 1/2, so that the surface radiates the same total as an isotropic one. */
 double kd_limb_scale(enum kd_limb law);
 
 #endif

@@ -2,13 +2,13 @@
  * by energy, in units of the energy in the gas's frame. Double precision; any thread. G = c = M = 1.
  *
  * The gas moves on circular orbits from `inner` >= ISCO to `outer`. It emits epsilon(r) f(mu) photons per time, solid
- * angle and area across the light. mu is the cosine of the angle between light and normal; per area of the disk there
- * are mu times as many photons. Since I_nu/nu^3 is constant along a ray, an area of the image plane receives
+ * angle and area across the light. mu is the cosine of the angle between light and normal. Per area of the disk, the
+ * number of photons is mu times this. Since I_nu/nu^3 is constant along a ray, an area of the image plane receives
  * (Cunningham 1975, ApJ 202, 788)
  *
  *   dN = g^3 epsilon(r) f(mu) dalpha dbeta        at E = g E0
  *
- * photons, and g times as much energy. The disk's image (disk_image.h) is divided into cells between two rings and
+ * photons, and the energy g E0 per photon. The disk's image (disk_image.h) is divided into cells between two rings and
  * two directions. Within a cell g is taken as linear, with the cell's light-weighted mean and differences of g. The
  * fraction of a cell's light below an energy is then quadratic at both ends and linear between, so that each bin is
  * exact, however narrow. Next to edge-on, where the image has no table, the cells are those of its columns
@@ -28,20 +28,20 @@ struct kd_line_params {
     enum kd_line_emissivity emissivity;
     double index;                /* POWER and BROKEN: epsilon = r^-index, for BROKEN up to break_r */
     double outer_index, break_r; /* BROKEN: (r/break_r)^-outer_index beyond, continuous */
-    /* LAMPPOST, RING, DISK and SLAB: epsilon is proportional to the light that the disk receives from a lamp at
-     * `height` or from the corona. */
+    /* LAMPPOST: epsilon is proportional to the light that the disk receives from a lamp at `height`. RING, DISK and
+     * SLAB: the same for light from the corona. */
     double height, photon_index;
     struct kd_corona_shape corona;
     enum kd_limb limb;
     bool energy; /* count energies instead of photons */
-    /* Largest allowed error of the cumulative share: the sum is refined until its estimated error is below this. 0: as
-     * fine as possible. */
+    /* Largest allowed error of the cumulative share: the sum is refined until its estimated error is smaller. 0: the
+     * finest sum that is possible. */
     double tolerance;
 };
 
 struct kd_line_profile {
-    /* The sum over all energies, in units of epsilon M^2, extrapolated from the last two sums, the second of which is
-     * twice as fine. */
+    /* The sum over all energies, in units of epsilon M^2. It is extrapolated from the last two sums; the second has
+     * twice the resolution of the first. */
     double total;
     /* Largest error of the cumulative share at an edge, estimated from its change with half as many rings, angles and
      * nodes of the table. */

@@ -73,8 +73,8 @@ struct kd_returning {
      * angular momentum. */
     double once[KD_RETURNING_RINGS], lacks[KD_RETURNING_RINGS];
     struct kd_returning_list { double returns[KD_RETURNING_RINGS], falls_in[KD_RETURNING_RINGS]; } photons, energy;
-    struct kd_returning_shares first; /* shares of Page & Thorne's luminosity by the light's first destination */
-    /* shares of the same luminosity by the light's last destination; `returns` is 0 */
+    struct kd_returning_shares first; /* shares of Page & Thorne's luminosity by where the light first goes */
+    /* shares of the same luminosity by where the light finally goes; `returns` is 0 */
     struct kd_returning_shares lastly;
     double hottest, largest; /* radius of the largest F; the largest F, over Mdot */
     /* Matrices for kd_reflection_init. They give r^3 Int g^5 F T/pi f(mu_e) mu dOmega at the nodes, where F and T are
@@ -83,19 +83,19 @@ struct kd_returning {
     double warmth_of[KD_RETURNING_RINGS][KD_RETURNING_RINGS], echo_of[KD_RETURNING_RINGS][KD_RETURNING_RINGS];
     double error; /* largest relative error of two checks: energy that arrives over energy that returns, and the sum of
                      `lastly`; both should be 1 */
-    int steps;    /* steps of the iteration until the change is below 1e-12 */
+    int steps;    /* iterations until the change is below 1e-12 */
 };
 
-/* If the table's error is this large, answers are refused. This happens at 1 - |a| of some 1e-9. */
+/* Answers are refused if the table's error is larger. This happens where 1 - |a| is about 1e-9. */
 #define KD_RETURNING_WRONG 1e-2
 
-/* Takes 0.1 to 0.3 s of one core, less time if other cores are idle. The 8 tables that were used last are kept and
- * copied. */
+/* Takes 0.1 to 0.3 s of one core, less time if other cores are idle. The 8 tables that were used last are cached; a
+ * cached table is copied. */
 void kd_returning_init(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb);
-/* The member `largest` of that table. The values of the last 256 tables are kept, and take no time. */
+/* The member `largest` of the table that kd_returning_init would make. The values of the last 256 tables are cached. */
 double kd_returning_largest(const struct kd_hole *hole, enum kd_limb limb);
 
-/* kd_returning_flux: F at r >= ISCO. kd_returning_at: one of the table's lists, interpolated at r and divided by
+/* kd_returning_flux: F at r >= ISCO. kd_returning_at: one of the table's arrays, interpolated at r and divided by
  * r^3. */
 double kd_returning_flux(const struct kd_returning *table, double r);
 double kd_returning_at(const struct kd_returning *table, const double list[KD_RETURNING_RINGS], double r);

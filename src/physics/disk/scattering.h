@@ -10,7 +10,7 @@
  * and along the plane of normal and light. */
 struct kd_scattered { double across, along; };
 
-/* Fills `out` for n cosines from 0 to 1. Takes some milliseconds, plus microseconds for each. */
+/* Fills `out` for n cosines from 0 to 1. Takes some milliseconds, plus some microseconds for each cosine. */
 void kd_scattered_light(const double *mu, size_t n, struct kd_scattered *out);
 
 /* Functions of mu in Chandrasekhar's law of diffuse reflection (section 70), for the same atmosphere. psi, phi, chi and

@@ -3,14 +3,14 @@
 #ifndef KD_PHYSICS_DISK_SYNCHROTRON_H
 #define KD_PHYSICS_DISK_SYNCHROTRON_H
 
-/* Units of the kernels. This is the unit of emissivity: e^2/c cm^-3 GHz (e in Gaussian units), in W m^-3 Hz^-1 sr^-1.
- * The unit of absorptivity is the same divided by 2h GHz^3/c^2, in 1/m. */
+/* The kernels' unit of emissivity, e^2/c cm^-3 GHz (e in Gaussian units), in W m^-3 Hz^-1 sr^-1.
+ * Their unit of absorptivity is the unit of emissivity divided by 2h GHz^3/c^2, in 1/m. */
 double kd_synchrotron_light_unit(void);
 double kd_synchrotron_depth_unit(void);
 
 /* Electrons with a power law gamma^-p from gamma_min to gamma_max emit j = light nu_c sin(theta) (nu/(nu_c
- * sin(theta)))^(-(p - 1)/2) and absorb alpha = depth (nu/(nu_c sin(theta)))^(-(p + 2)/2)/nu, in those units for n in
- * cm^-3 and nu, nu_c in GHz (A. Pandya et al. 2016, ApJ 822, 34, equations 33 and 34). p > 1. */
+ * sin(theta)))^(-(p - 1)/2) and absorb alpha = depth (nu/(nu_c sin(theta)))^(-(p + 2)/2)/nu, in the kernels' units, for
+ * n in cm^-3 and nu, nu_c in GHz (A. Pandya et al. 2016, ApJ 822, 34, equations 33 and 34). p > 1. */
 struct kd_synchrotron_power { double log2_light, log2_depth; };
 struct kd_synchrotron_power kd_synchrotron_power(double p, double gamma_min, double gamma_max);
 

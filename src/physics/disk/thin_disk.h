@@ -7,20 +7,20 @@
 
 #include <stdbool.h>
 
-/* Page & Thorne 1974, ApJ 191, 499, eqs 11b, 12 and 15n: energy radiated from one face, per comoving area and
- * proper time, F / Mdot, for a disk that ends at the ISCO without torque. Zero at and inside the ISCO.
- * Relative error below 1e-11 + 4e-14/(r - r_isco)^2 for |a| <= 0.9999: towards the ISCO, where F has a double zero, the
- * closed form cancels. With charge the integral is computed by quadrature; relative error below 1e-12 up to a^2 + q^2 =
+/* Page & Thorne 1974, ApJ 191, 499, eqs 11b, 12 and 15n: energy radiated from one face, per comoving area and proper
+ * time, F / Mdot, for a disk that ends at the ISCO without torque. Zero at and inside the ISCO. Relative error below
+ * 1e-11 + 4e-14/(r - r_isco)^2 for |a| <= 0.9999: the closed form loses digits by cancellation towards the ISCO, where
+ * F has a double zero. With charge the integral is computed by quadrature; relative error below 1e-12 up to a^2 + q^2 =
  * 1 - 1e-6. */
 double kd_disk_flux_page_thorne(const struct kd_hole *hole, double r);
 
-/* Shakura & Sunyaev 1973 (Newtonian) with the inner edge at the ISCO: 3/(8 pi r^3) (1 - sqrt(r_in/r)). */
+/* Shakura & Sunyaev 1973 (Newtonian), with the inner edge r_in at the ISCO: 3/(8 pi r^3) (1 - sqrt(r_in/r)). */
 double kd_disk_flux_shakura_sunyaev(const struct kd_hole *hole, double r);
 
 typedef double (*kd_disk_flux_fn)(const struct kd_hole *hole, double r);
 
 /* Radius of the largest flux. For Page & Thorne's flux it is the root of the derivative, to 1e-15 up to |a| = 0.9999,
- * and to 1e-12 beyond. For Shakura & Sunyaev's it is a closed form. */
+ * and to 1e-12 beyond. For the flux of Shakura & Sunyaev it has a closed form. */
 double kd_disk_peak_page_thorne(const struct kd_hole *hole);
 double kd_disk_peak_shakura_sunyaev(const struct kd_hole *hole);
 
@@ -34,9 +34,9 @@ double kd_disk_redshift(const struct kd_hole *hole, double r, double lambda);
  * outwards. */
 double kd_disk_redshift_plunging(const struct kd_hole *hole, double r, double lambda, double eta, bool outwards);
 
-/* These are in SI units, for a mass in solar masses and an accretion rate in units of L_Edd / (efficiency(a) c^2), with
- * L_Edd = 4 pi G M m_p c / sigma_T: the rate in kg/s; a flux F/Mdot (as above) in W/m^2; and its effective temperature
- * in K, sigma T^4 = F. Constants: physics/math/constants.h. */
+/* SI units. The mass is in solar masses, and the accretion rate in units of L_Edd / (efficiency(a) c^2), with L_Edd = 4
+ * pi G M m_p c / sigma_T. In order: the rate in kg/s; a flux F/Mdot (as above) in W/m^2; its effective temperature in
+ * K, sigma T^4 = F. Constants: physics/math/constants.h. */
 double kd_disk_rate(const struct kd_hole *hole, double mass_msun, double mdot_edd);
 double kd_disk_flux_si(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd);
 double kd_disk_temperature(double flux, const struct kd_hole *hole, double mass_msun, double mdot_edd);

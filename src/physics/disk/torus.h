@@ -1,5 +1,5 @@
-/* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): gas in equilibrium with constant l = u^t u_phi; h
- * is its enthalpy per rest mass. Double precision, pure, any thread. */
+/* The torus of L. G. Fishbone & V. Moncrief 1976 (ApJ 207, 962): gas in equilibrium with constant l = u^t u_phi. h is
+ * the gas's enthalpy per rest mass. Double precision, pure, any thread. */
 #ifndef KD_PHYSICS_DISK_TORUS_H
 #define KD_PHYSICS_DISK_TORUS_H
 
@@ -9,12 +9,12 @@ struct kd_torus {
     double l;        /* u^t u_phi of the circular orbit at the largest pressure */
     double edge;     /* constant subtracted from ln h so that it is 0 at the inner edge */
     double log_most; /* ln h at the largest pressure */
-    double outer;    /* outer edge, M in the plane; INFINITY: none */
+    double outer;    /* outer edge in the plane, M; INFINITY if there is none */
     double height;   /* largest |cos(theta)| inside */
 };
 
-/* inner: inner edge in the plane, between the horizon and `most`. most: radius of the largest pressure, where there
- * is a circular orbit outside the ISCO. Takes 0.5 ms. */
+/* inner: inner edge in the plane, between the horizon and `most`. most: radius of the largest pressure; it must be
+ * outside the ISCO. Takes 0.5 ms. */
 struct kd_torus kd_torus_of(const struct kd_hole *hole, double inner, double most);
 
 /* ln h at a place; negative outside the torus. */

@@ -16,10 +16,10 @@
 /* The bluest and the reddest point of a ring. */
 struct kd_transfer_ring {
     double r, g_min, g_max;
-    double alpha[2], beta[2]; /* their places: red end, blue end */
+    double alpha[2], beta[2]; /* places of the two points: red end, blue end */
 };
 
-/* False if the ring has a single energy: face-on. */
+/* Returns false if the ring has a single energy, as for an observer on the axis. */
 bool kd_transfer_ring_of(const struct kd_disk_image *image, double r, struct kd_transfer_ring *ring);
 
 struct kd_transfer { double f, mu, alpha, beta; };

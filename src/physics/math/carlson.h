@@ -17,7 +17,7 @@
 /* x, y, z >= 0, at most one of them 0. */
 double kd_carlson_rf(double x, double y, double z);
 
-/* x >= 0, y != 0; for y < 0 Cauchy's principal value. An elementary function (DLMF 19.2.17-20). */
+/* x >= 0, y != 0; for y < 0 Cauchy's principal value. R_C is an elementary function (DLMF 19.2.17-20). */
 double kd_carlson_rc(double x, double y);
 
 /* x, y, z >= 0, at most one of them 0, p != 0; for p < 0 Cauchy's principal value. */
@@ -41,11 +41,13 @@ struct kd_carlson_arg { double first, sum, root; };
 
 double kd_carlson_rf_arg(struct kd_carlson_arg arg);
 double kd_carlson_rj_arg(struct kd_carlson_arg arg, double p); /* p > 0 */
-double kd_carlson_rd_arg(struct kd_carlson_arg arg);           /* R_D(y, z, x): x is the special argument, x > 0 */
+/* R_D(y, z, x): x, the last argument, differs in role from y and z; x > 0 */
+double kd_carlson_rd_arg(struct kd_carlson_arg arg);
 
 /* (f(p) - f(q))/(p - q) for f = R_J(x, y, z, .), p, q > 0, and for f = R_C(1, .), p, q > 0; f'(p) if p = q. Nothing is
- * subtracted, so that close p and q lose no digits: relative error some 1e-15. The first is -3/2 Int_0^inf
- * dt / ((t+p)(t+q) sqrt((t+x)(t+y)(t+z))) by duplication; its series is that of DLMF 19.19.7 for seven arguments. */
+ * subtracted, so that close p and q lose no digits: relative error some 1e-15. The first difference quotient, of R_J,
+ * is -3/2 Int_0^inf dt / ((t+p)(t+q) sqrt((t+x)(t+y)(t+z))) by duplication; its series is that of DLMF 19.19.7 for
+ * seven arguments. */
 double kd_carlson_rj_slope(struct kd_carlson_arg arg, double p, double q);
 double kd_carlson_rc_slope(double p, double q);
 

@@ -1,6 +1,6 @@
-/* Physical constants in SI units. CODATA 2018: E. Tiesinga et al. 2021, Rev. Mod. Phys. 93, 025010; those without an
- * error are exact by the definition of the units (SI 2019). Nominal solar values: IAU 2015 resolution B3 (A. Prsa et
- * al. 2016, AJ 152, 41). Lengths: IAU 2012 resolution B2, IAU 2015 resolution B2. */
+/* Physical constants in SI units. CODATA 2018: E. Tiesinga et al. 2021, Rev. Mod. Phys. 93, 025010; constants without a
+ * stated error are exact by the definition of the units (SI 2019). Nominal solar values: IAU 2015 resolution B3 (A.
+ * Prsa et al. 2016, AJ 152, 41). Lengths: IAU 2012 resolution B2, IAU 2015 resolution B2. */
 #ifndef KD_PHYSICS_MATH_CONSTANTS_H
 #define KD_PHYSICS_MATH_CONSTANTS_H
 

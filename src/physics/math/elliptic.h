@@ -25,9 +25,9 @@ double kd_elliptic_pi_complete(double n, double m);
 
 struct kd_jacobi { double sn, cn, dn; };
 
-/* Jacobi's functions of u, 0 <= m <= 1. m1 = 1 - m is a separate argument, because near m = 1 the difference has no
- * digits. For |u| < K the relative error of each is a few 1e-16, in addition to the effect of an ulp or two in u.
- * Domain |u| <= 2K. */
+/* Jacobi's functions of u, 0 <= m <= 1. m1 = 1 - m is a separate argument, because 1 - m loses all digits near m = 1.
+ * For |u| < K the relative error of each is a few 1e-16, in addition to the effect of an ulp or two in u. Domain |u| <=
+ * 2K. */
 struct kd_jacobi kd_jacobi(double u, double m, double m1);
 
 /* The amplitude: sn = sin(am); |u| <= 2K. */

@@ -9,7 +9,7 @@ double kd_polynomial_at(const double *c, int degree, double x);
 
 /* The roots in [low, high], ascending; returns their number. Between neighbouring roots of the derivative there is one
  * root if the sign changes. An extremum that is zero within rounding counts as a double root, since rounded
- * coefficients cannot resolve it further. roots: room for `degree`. */
+ * coefficients cannot resolve it further. roots: room for `degree` numbers. */
 int kd_polynomial_roots(const double *c, int degree, double low, double high, double *roots);
 
 #endif

@@ -1,5 +1,5 @@
-/* The critical curve: the points of an observer's sky where light arrives from the spherical photon orbits.
- * A ray traced back falls into the hole inside the curve and escapes outside; it is the edge of the shadow. Double
+/* The critical curve: the points of an observer's sky where light arrives from the spherical photon orbits. A ray
+ * traced back falls into the hole inside the curve and escapes outside it. The curve is the edge of the shadow. Double
  * precision; pure functions, any thread. Units G = c = M = 1, angles in radians.
  *
  * An orbit of the photon shell with lambda, eta is seen by an observer at inclination i (u = cos i, s = sin i) at
@@ -29,8 +29,8 @@
  *   area         (1/2) Int rho^2 d(angle).
  * At a finite radius the same in angles; the area is then the solid angle, Int (1 - cos rho) d(angle).
  *
- * Accuracy: alpha and beta are within some 1e-15 M of the exact curve. (Not of the exact point on it: where the
- * curve is nearly straight, near a = 1, `orbit` loses digits; only y = r - 1 is accurate there.) */
+ * Accuracy: alpha and beta are within some 1e-15 M of the exact curve. (The position along the curve is less accurate.
+ * Where the curve is nearly straight, near a = 1, `orbit` loses digits, and only y = r - 1 is accurate.) */
 #ifndef KD_PHYSICS_NULL_CRITICAL_H
 #define KD_PHYSICS_NULL_CRITICAL_H
 
@@ -41,16 +41,17 @@
 
 struct kd_critical_observer {
     struct kd_hole hole;
-    double radius;                    /* outside the horizon, for a falling observer outside the inner one; INFINITY */
+    /* outside the horizon; for a falling observer, outside the inner horizon; may be INFINITY */
+    double radius;
     double cos_theta;                 /* [-1, 1], exact 0 and +-1 included                               */
-    double sin_theta;                 /* 0: taken from cos_theta, as in null_geodesic.h                  */
-    struct kd_observer_motion motion; /* at a finite radius; this observer must exist there */
+    double sin_theta;                 /* 0: computed from cos_theta, as in null_geodesic.h */
+    struct kd_observer_motion motion; /* motion at a finite radius; this observer must exist there */
 };
 
 enum kd_critical_status {
     KD_CRITICAL_OK,
     KD_CRITICAL_BAD_INPUT,   /* NaN, or outside the ranges above                  */
-    KD_CRITICAL_NO_OBSERVER, /* no such observer exists there */
+    KD_CRITICAL_NO_OBSERVER, /* this kind of observer does not exist at the place */
 };
 
 /* The curve of one observer. */
@@ -60,10 +61,11 @@ struct kd_critical {
     struct kd_shell shell;
     struct kd_tetrad tetrad; /* at a finite radius: the observer's tetrad or, if the observer moves along theta, that of
                                 zero angular momentum */
-    struct kd_tetrad skew;   /* the own tetrad of an observer that moves along theta; otherwise not set */
+    struct kd_tetrad skew;   /* the observer's own tetrad if it moves along theta; otherwise not set */
     bool is_skew;
-    double sine;        /* sine of the inclination                   */
-    double low, high;   /* places of the orbits at the left and right end, divided by `sine` unless that is 0 */
+    double sine; /* sine of the inclination                   */
+    /* places of the orbits at the left and right end, divided by `sine`; not divided if `sine` is 0 */
+    double low, high;
     double left, right; /* positions of the ends: alpha, or the angle to the right of -e_r */
     double centre;
 };
@@ -79,7 +81,7 @@ struct kd_critical_point {
     struct kd_shell_orbit orbit;
     double alpha, beta;
     double angle, rho;         /* polar coordinates about the centre                 */
-    double right, up, inwards; /* direction, at a finite radius; at infinity 0, 0, 1 */
+    double right, up, inwards; /* direction at a finite radius; (0, 0, 1) at infinity */
 };
 
 /* The point of the curve at `angle`, which may be any real number. Takes some two microseconds. */
@@ -90,16 +92,16 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *curve, double 
  * finding, so it is ten times as fast, for drawing the curve. At the ends `up` is accurate to some 1e-8 M. */
 struct kd_critical_point kd_critical_upper(const struct kd_critical *curve, double along);
 
-/* Like kd_critical_upper, but a smooth function of `along`. kd_critical_upper has a kink; here the orbits' radii are
- * smooth, because they are spaced by ln(r - 1). */
+/* Like kd_critical_upper, but a smooth function of `along`. The curve of kd_critical_upper has a kink as a function of
+ * `along`. Here the orbits' radii are a smooth function of it, because they are spaced by ln(r - 1). */
 struct kd_critical_point kd_critical_round(const struct kd_critical *curve, double along);
 
 /* Converts right, up and inwards of a point of kd_critical_upper, or of its mirror image, to those of an observer
- * that moves along theta; no change for other observers. kd_critical_at has done so already. */
+ * that moves along theta; no change for other observers. Results of kd_critical_at are converted already. */
 void kd_critical_see(const struct kd_critical *curve, struct kd_critical_point *point);
 
-/* Measures by the trapezoidal rule, which converges exponentially. `points`: the number needed for 1e-13, or 8192;
- * near a = 1, where the curve bends almost abruptly, an error of some 1e-10 remains. */
+/* Measures by the trapezoidal rule, which converges exponentially. `points`: the number needed for an error of 1e-13,
+ * at most 8192. Near a = 1, where the curve bends almost abruptly, an error of some 1e-10 remains. */
 struct kd_critical_measures {
     double area, mean_radius, displacement, asymmetry;
     double width,

@@ -21,20 +21,21 @@ double kd_deflection_critical(const struct kd_hole *hole);
  * at a = 0.9999. */
 double kd_deflection(const struct kd_hole *hole, double b);
 
-/* The closest approach of that ray, in Boyer-Lindquist's r. */
+/* The closest approach of that ray, in Boyer-Lindquist r. */
 double kd_deflection_closest(const struct kd_hole *hole, double b);
 
-/* Largest radius that light of the same b reaches before it falls back, if it is emitted inside the photon orbit: the
- * other turning point. NaN also for b > (2 r+ - q^2)/a, a > 0: at the horizon all light has E >= L a/(2 r+ - q^2), so
- * that no light has such a b. */
+/* Largest radius that light of the same b reaches before it falls back, if it is emitted inside the photon orbit. This
+ * is the turning point below the photon orbit. NaN also for b > (2 r+ - q^2)/a, a > 0: at the horizon all light has E
+ * >= L a/(2 r+ - q^2), so that no light has such a b. */
 double kd_deflection_farthest(const struct kd_hole *hole, double b);
 
 /* Weak-field deflection: 4/b, and with the next order 4/b + (15 pi/4 - 4a - 3 pi q^2/4)/b^2. */
 double kd_deflection_weak(double b);
 double kd_deflection_weak_second(const struct kd_hole *hole, double b);
 
-/* Bozza's limit for b -> critical: -rate ln(b/critical - 1) + offset. rate = 1 and offset = ln(216 (7 - 4 sqrt 3)) -
- * pi at a = 0. Its error falls as (b/critical - 1) ln(b/critical - 1). Relative error of both 1e-12 for a <= 0.99. */
+/* Bozza's limit for b -> critical: -rate ln(b/critical - 1) + offset. rate = 1 and offset = ln(216 (7 - 4 sqrt 3)) - pi
+ * at a = 0. The error of the limit falls as (b/critical - 1) ln(b/critical - 1). Relative error of rate and offset:
+ * 1e-12 for a <= 0.99. */
 struct kd_deflection_strong { double rate, offset; };
 struct kd_deflection_strong kd_deflection_strong(const struct kd_hole *hole);
 

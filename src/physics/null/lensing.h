@@ -4,30 +4,31 @@
  * Order n counts the crossings of the plane back from the eye, as null_geodesic.h does. For n >= 1 the image of the
  * plane between r_in and r_out is a ring round or beside the critical curve (Gralla, Holz & Wald 2019,
  * arXiv:1906.00873, for a = 0; Gralla & Lupsasca 2020, arXiv:1910.12873, section VI: from the horizon to infinity it
- * contains the curve). Each is thinner than the last by e^-gamma (photon_shell.h).
+ * contains the curve). Each ring is thinner than the ring of the order before by the factor e^-gamma (photon_shell.h).
  *
  * Positions are given in coordinates adapted to the curve: the angle about its centre, and the signed relative
  * distance from it,
  *
  *   d = rho/rho_c(angle) - 1
  *
- * positive outside. An edge is where the Mino time of the n-th crossing, from the polar motion, equals that of the
- * source's radius, from the radial one. Both are smooth in ln|d|, the latter almost linear, and roots are sought in
- * that variable. d enters through kd_null_roots_beside and is never added to 1 before it matters, so that it may be
- * arbitrarily small. Its relative error is some 1e-15 (n + 1), times 1/(1 - |a|)^(1/2) along the flat side of a hole
- * near a = 1. Only the point (alpha, beta) itself no longer resolves positions with d < 1e-15. */
+ * positive outside. At an edge two Mino times are equal: the time of the n-th crossing, from the polar motion, and the
+ * time at which the ray has the source's radius, from the radial motion. Both are smooth functions of ln|d|, the second
+ * almost linear, and roots are sought in ln|d|. d enters through kd_null_roots_beside and is never added to 1 before it
+ * matters, so that it may be arbitrarily small. Its relative error is some 1e-15 (n + 1), times 1/(1 - |a|)^(1/2) along
+ * the flat side of a hole near a = 1. Only the point (alpha, beta) itself no longer resolves positions with d <
+ * 1e-15. */
 #ifndef KD_PHYSICS_NULL_LENSING_H
 #define KD_PHYSICS_NULL_LENSING_H
 
 #include "physics/null/critical.h"
 
 /* d of the n-th image of the circle of radius `source`, n >= 1, r+ <= source <= INFINITY. `point` is the point of the
- * curve at that angle, for an observer at infinity. NaN if there is no such image: it lies beyond the centre (n = 1
- * seen almost edge-on), or the rays lie in the equatorial plane. Takes some ten microseconds. */
+ * curve at that angle, for an observer at infinity. NaN if there is no such image, because it would lie beyond the
+ * centre (n = 1 seen almost edge-on) or the rays lie in the equatorial plane. Takes some ten microseconds. */
 double kd_lensing_edge(const struct kd_critical *curve, const struct kd_critical_point *point, int n, double source);
 
 /* Radius seen at distance d in order n >= 1. INFINITY: the ray escapes before its n-th crossing; 0: the ray falls into
- * the hole before it. */
+ * the hole before its n-th crossing. */
 double kd_lensing_source(const struct kd_critical *curve, const struct kd_critical_point *point, int n, double d);
 
 #endif

@@ -1,16 +1,15 @@
 /* Deflection of an escaping ray, given as two angles. They are smooth functions of the ray, however often it goes
- * round, across the axis or along the equator. They can therefore be interpolated from a few rays, while the direction
- * of escape cannot. Double precision; pure; any thread.
+ * round, across the axis or along the equator. They can therefore be interpolated from a few rays. The direction of
+ * escape cannot. Double precision; pure; any thread.
  *
  * The ray turns by `turn` in a plane through the hole, initially spanned by the observer's place o and the tangent
- * t, and this plane is dragged about the axis by `drag`. Traced back the ray ends at Rz(drag) (cos(turn) o +
+ * t, and this plane is dragged about the axis by `drag`. The ray traced back ends at Rz(drag) (cos(turn) o +
  * sin(turn) t), with o = (sin, 0, cos) of the observer, t = t_theta e_theta + t_phi e_phi.
  *
- * With u = cos(theta) = sqrt(z) cos x (null_polar.h), x' = sqrt(N + a^2 u^2) in Mino time, and L = sqrt(N + a^2),
- * cos(iota) = lambda/L is that of the inclination of a plane in which x is the angle from the highest latitude. The
- * azimuth in that plane grows by cos(iota) x'/(1 - u^2), and the ray's own by lambda/(1 - u^2) + a (2r - a
- * lambda)/Delta (Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8). The difference is, as L^2 - x'^2 = a^2 (1 -
- * u^2),
+ * With u = cos(theta) = sqrt(z) cos x (null_polar.h), x' = sqrt(N + a^2 u^2) in Mino time, and L = sqrt(N + a^2), the
+ * angle iota with cos(iota) = lambda/L is the inclination of a plane in which x is the angle from the highest latitude.
+ * The azimuth in that plane grows by cos(iota) x'/(1 - u^2), and the ray's own by lambda/(1 - u^2) + a (2r - a
+ * lambda)/Delta (Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8). The difference is, as L^2 - x'^2 = a^2 (1 - u^2),
  *
  *   drag' = a^2 lambda/(L (L + x')) + a (2r - a lambda)/Delta,
  *

@@ -1,6 +1,6 @@
-/* Course of a null geodesic of Kerr as a list of places, for drawing: by steps in Mino time, in double precision. It
- * shares no formula of the motion with the closed form of null_geodesic.h, whose crossings it must reproduce. Units
- * G = c = M = 1, E = 1. Pure functions, any thread.
+/* Course of a null geodesic of Kerr as a list of places, for drawing. It is integrated in steps of Mino time, in double
+ * precision. It shares no formula of the motion with the closed form of null_geodesic.h, and must give the same
+ * crossings. Units G = c = M = 1, E = 1. Pure functions, any thread.
  *
  * With w = 1/r and a unit vector n towards the place on the sphere (theta, psi), psi being the azimuth without frame
  * dragging,
@@ -30,8 +30,8 @@
 
 #include <stddef.h>
 
-/* mino: Mino time since the observer; phi and delay as in null_geodesic.h; order: number of crossings between the
- * place and the observer; crossing: number of the crossing of the plane that this place is, or -1. */
+/* mino: Mino time since the observer; phi and delay as in null_geodesic.h; order: number of crossings between the place
+ * and the observer. crossing: if this place is itself a crossing of the plane, its number; otherwise -1. */
 struct kd_null_place {
     double mino, r, u, phi, delay;
     int order, crossing;
@@ -44,21 +44,21 @@ struct kd_null_course {
         KD_COURSE_CAPTURED,
         KD_COURSE_ESCAPED,
         KD_COURSE_LONG
-    } end;          /* NONE: no such ray; LONG: more places than room */
+    } end;          /* NONE: no such ray; LONG: the ray has more places than `out` has room for */
     double least_r; /* minimum over all places, including the turning point */
     double drift;   /* largest error of the first integrals, relative to their terms */
 };
 
-/* Places of the ray traced back. It starts at the observer, or where the ray comes within r = far. It ends beyond
- * both far and the observer, or within `near` (M) of the horizon. Neighbours are at most 0.03 rad apart in
- * direction, and every crossing is a place. out: room for `most`. */
+/* Places of the ray traced back. It starts at the observer, or where the ray comes within r = far. It ends beyond both
+ * far and the observer, or within `near` (M) of the horizon. Neighbouring places are at most 0.03 rad apart in
+ * direction. Every crossing of the plane is among the places. out: room for `most`. */
 struct kd_null_course kd_null_course_of(const struct kd_null_ray *ray, double far, double near,
                                         struct kd_null_place *out, size_t most);
 
 /* Like kd_null_course_of, in ingoing azimuth and time, for an observer anywhere outside the inner horizon. reversed:
- * the labels belong to a ray with negative energy at infinity, whose azimuth and time run opposite to those of a
- * positive one. A ray that does not come from outside and ends at the horizon from within is CAPTURED. far may be
- * INFINITY: the last place of an escaping ray is then at infinity and has its direction. */
+ * the labels belong to a ray with negative energy at infinity. Its azimuth and time run opposite to those of a ray with
+ * positive energy. The fate is CAPTURED if the ray traced back does not lead outside but ends at the horizon from
+ * within. far may be INFINITY: the last place of an escaping ray is then at infinity and has its direction. */
 struct kd_null_course kd_null_course_ingoing(const struct kd_null_ray *ray, bool reversed, double far, double near,
                                              struct kd_null_place *out, size_t most);
 

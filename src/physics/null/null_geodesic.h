@@ -29,9 +29,10 @@ struct kd_null_ray {
     struct kd_hole hole;
     double radius;    /* radius of the observer; outside the horizon, or INFINITY */
     double cos_theta; /* cos(theta) of the observer: [-1, 1], exact 0 and +-1 included */
-    double sin_theta; /* 0: computed from cos_theta, which within 1e-5 of the axis determines it to 1e-6 only */
+    /* 0: computed from cos_theta. Within 1e-5 of the axis, cos_theta determines the sine to 1e-6 only. */
+    double sin_theta;
     double alpha, beta;
-    bool outward; /* finite radius only: the traced ray starts outwards, the photon arrives moving inwards */
+    bool outward; /* finite radius only: the traced ray starts outwards, that is, the photon arrives moving inwards */
     int orders;   /* number of crossings wanted, 0 ... KD_NULL_ORDERS */
 };
 
@@ -49,8 +50,8 @@ enum kd_null_fate { KD_NULL_CAPTURED, KD_NULL_ESCAPED };
 
 /* Crossing n = 0, 1, ... counts back from the observer; a start in the plane does not count.
  *   phi    Boyer-Lindquist, source minus observer, not reduced to a turn. On the axis the observer's azimuth is
- *          such that the image's right, +alpha, is +90 degrees: phi is atan2(alpha, -beta cos(theta)) as the ray
- *          sets out. A ray through the axis (alpha = 0) turns by pi there, towards -phi.
+ *          such that the image's right, +alpha, is +90 degrees: phi is atan2(alpha, -beta cos(theta)) at the ray's
+ *          start. A ray through the axis (alpha = 0) turns by pi there, towards -phi.
  *   delay  t(observed) - t(emitted); from INFINITY less r_o + 2 ln r_o.
  *   sense  sign of the real photon's p^r: +1 before the traced ray's turning point, -1 after it (of rays traced
  *          inwards).
@@ -63,9 +64,9 @@ struct kd_null_crossing {
 };
 
 /* sky_u, sky_phi: cos(theta) and azimuth, as phi above, of the direction of escape; NaN if captured. sky_error:
- * absolute, of either. turned: the traced ray meets a radial turning point, which includes rays that start outwards and
- * are captured. doubtful: the number of crossings changes when the labels move by 1e-13 to 1e-11, at the horizon or far
- * out; kd_null_trace_fast does not set it. */
+ * absolute error of each of the two. turned: the traced ray meets a radial turning point, which includes rays that
+ * start outwards and are captured. doubtful: the number of crossings changes when the labels move by 1e-13 to 1e-11, at
+ * the horizon or far out; kd_null_trace_fast does not set it. */
 struct kd_null_path {
     enum kd_null_status status;
     enum kd_null_fate fate;
@@ -78,7 +79,7 @@ struct kd_null_path {
 /* With a status other than OK, IN_PLANE and CRITICAL there are no crossings and no direction. */
 struct kd_null_path kd_null_trace(const struct kd_null_ray *ray);
 
-/* Like kd_null_trace, without the errors, which are 0; takes a quarter to a third of the time. */
+/* Like kd_null_trace, but does not estimate errors and sets them to 0. It takes a quarter to a third of the time. */
 struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray);
 
 #endif

@@ -1,7 +1,7 @@
 /* Radius at which a ray meets the equatorial plane of Kerr for the n-th time, for an observer anywhere outside the
- * inner horizon and any energy at infinity: including observers within the horizon, and light of negative energy in the
- * ergosphere. Double precision; pure functions, any thread. Units G = c = M = 1. Azimuth and time are not computed, so
- * that the horizon needs no special treatment.
+ * inner horizon, and for any energy at infinity. This includes observers within the horizon, and light of negative
+ * energy in the ergosphere. Double precision; pure functions, any thread. Units G = c = M = 1. Azimuth and time are not
+ * computed, so that the horizon needs no special treatment.
  *
  * In Mino time, with w = 1/r and u = cos(theta), for constants E, L, Q in any common scale (Carter 1968, Phys. Rev.
  * 174, 1559),
@@ -16,10 +16,10 @@
 
 #include "physics/spacetime/tetrad.h"
 
-/* photon: the photon as it arrives. Crossing n = 0, 1, ... counts back from the observer, also within the horizon; a
- * start in the plane does not count. Returns -INFINITY if the ray traced back reaches the past horizon first. Returns
- * INFINITY if it escapes first, has no end, or comes from another exterior region. Takes some 10 us. The relative error
- * is 1e-13, times the factor by which the ray's bending amplifies a rounding of its start. */
+/* photon: the photon as it arrives. Crossings n = 0, 1, ... are counted back from the observer, also within the
+ * horizon. A start in the plane is not counted. Returns -INFINITY if the ray traced back reaches the past horizon
+ * first. Returns INFINITY if it escapes first, has no end, or comes from another exterior region. Takes some 10 us. The
+ * relative error is 1e-13, times the factor by which the ray's bending amplifies a rounding of its start. */
 double kd_null_plane_radius(const struct kd_vantage *at, const struct kd_covector *photon, int n);
 
 #endif

@@ -37,23 +37,23 @@ struct kd_null_polar {
     bool crosses;  /* the equatorial plane: eta > 0 and not `fixed` */
     /* sums from a turning point to the plane, or, if vortical, to the other turning point */
     struct kd_null_polar_sum quarter;
-    struct kd_null_polar_sum start; /* from the turning point at z, the next or the last one, to the observer;
-                                     * negative if it is the next one */
-    double first, first_phi;        /* Mino time and azimuth from the observer to the first crossing             */
+    /* sums from a turning point at z to the observer: the previous one, or the next one, for which they are negative */
+    struct kd_null_polar_sum start;
+    double first, first_phi; /* Mino time and azimuth from the observer to the first crossing             */
 };
 
 struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m);
 
-/* z - u^2 and N + a^2 u^2 at the observer, and s = N + a^2 z, each without cancellation. */
+/* z - u^2 and N + a^2 u^2 at the observer, and s = N + a^2 z; each is computed without cancellation. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *s, double *gap, double *weight);
 
 /* Computes only the Mino time from the observer to the first crossing; INFINITY if there is no crossing. */
 double kd_null_polar_first(const struct kd_null_motion *m);
 
-/* Only the Mino time from one crossing to the next; eta > 0. */
+/* Computes only the Mino time from one crossing to the next; eta > 0. */
 double kd_null_polar_half(const struct kd_null_motion *m);
 
-/* Integrals from the observer to crossing n = 0, 1, ...; only if p->crosses. */
+/* Integrals from the observer to crossing n = 0, 1, ...; valid only if p->crosses. */
 struct kd_null_polar_sum kd_null_polar_crossing(const struct kd_null_polar *p, int n);
 
 /* cos(theta) at Mino time tau, and the azimuth since the observer. */

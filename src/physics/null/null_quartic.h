@@ -5,10 +5,10 @@
  *
  * Charge q of the hole enters C alone, by Delta: C = -a^2 eta - q^2 K.
  *
- * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881, section IV and appendix A (roots and cases). The roots are
- * found differently: r1 and r2 by Newton's method from a side where it is monotone, the other two by division. So
- * the distance between these two, which vanishes on the critical curve, is one number (pair) with the accuracy of
- * the coefficients. */
+ * Sources: Gralla & Lupsasca 2020, arXiv:1910.12881, section IV and appendix A (roots and cases). The roots are found
+ * differently: r1 and r2 by Newton's method, started on a side from which it converges monotonically, and r3 and r4 by
+ * division. The distance between r3 and r4, which vanishes on the critical curve, is therefore one number (pair) with
+ * the accuracy of the coefficients. */
 #ifndef KD_PHYSICS_NULL_NULL_QUARTIC_H
 #define KD_PHYSICS_NULL_NULL_QUARTIC_H
 
@@ -43,9 +43,9 @@ enum kd_null_case {
 struct kd_null_roots {
     enum kd_null_case kind;
     double r1, r2, mean, pair, pair_left;
-    double r3, r4;      /* four real roots only                                                    */
+    double r3, r4;      /* for four real roots only */
     double r21, p1, p2; /* r2 - r1, (r3 - r1)(r4 - r1), (r3 - r2)(r4 - r2): not in case 4            */
-    double margin;      /* |pair| / mean^2: the relative distance from the critical curve, roughly */
+    double margin;      /* |pair| / mean^2: roughly the relative distance from the critical curve */
 };
 
 /* The error is as if the coefficients had been changed by a few 1e-16. An exactly double root r3 = r4 is split by 1e-11
@@ -62,8 +62,8 @@ struct kd_null_displacement {
 struct kd_null_displacement kd_null_displacement_of(const struct kd_null_motion *critical, double r, double bend,
                                                     double dalpha, double dbeta);
 
-/* The same roots for a ray beside the critical curve, where the rounded coefficients no longer determine `pair`. It is
- * found from the displacement, with a relative error of a few 1e-16 however small the displacement is. m: the motion of
+/* The same roots for a ray beside the critical curve, where the rounded coefficients no longer determine `pair`. `pair`
+ * is computed from the displacement, with a relative error of a few 1e-16 for any small displacement. m: the motion of
  * the displaced ray. The displacement must be some percent at most. Where the iteration does not converge (near a = 1,
  * where bend is small), the result is that of kd_null_roots_of. */
 struct kd_null_roots kd_null_roots_beside(const struct kd_null_motion *m, const struct kd_null_displacement *d);

@@ -4,10 +4,10 @@
  *   (dr/dtau)^2 = R(r)        phi' = a (2r - q^2 - a lambda)/Delta
  *   t' = r^2 + 2r + 4 - q^2 + ((8 - 4q^2 - 2a lambda) r + q^2 (q^2 + a lambda - 4) - 4a^2)/Delta
  *
- * (the parts that depend on r; Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8, with 2r - q^2 for 2r). r(tau) is
- * theirs (section IV), but time is counted from infinity or a turning point, so that addition theorems give r - r_i as
- * products. The integrals are Carlson's in terms of r itself (DLMF 19.29.4-10), with r1 or r2 as the root that is
- * singled out. Unlike the reductions to Legendre's Pi they have no removable singularities (r3 = horizon, lambda = 2
+ * (the parts that depend on r; Gralla & Lupsasca 2020, arXiv:1910.12881, eqs. 6-8, with 2r - q^2 for 2r). r(tau) is as
+ * in their section IV, except that time is counted from infinity or a turning point. Addition theorems then give r -
+ * r_i as products. The integrals are Carlson's in terms of r itself (DLMF 19.29.4-10), with r1 or r2 as the root that
+ * is singled out. Unlike the reductions to Legendre's Pi they have no removable singularities (r3 = horizon, lambda = 2
  * r+/a), and nearly every term is positive.
  *
  * Motion is possible in two regions: OUTER, from the outermost root r4 (or the horizon) to infinity; and, if r3 >
@@ -34,8 +34,8 @@ struct kd_null_radial {
     struct kd_null_roots roots;
     double r_plus, r_minus;
     bool inner, turns;              /* turns: there is a turning point outside the horizon          */
-    struct kd_null_radial_sum turn; /* OUTER with `turns`: from r4 to infinity                      */
-    double tau_horizon;             /* from the horizon to the reference                            */
+    struct kd_null_radial_sum turn; /* for OUTER with `turns`: from r4 to infinity */
+    double tau_horizon;             /* Mino time from the horizon to the reference */
     double rate, k, k1, s0, c0, d0; /* Jacobi's functions: scale, parameter, values at the reference */
 };
 
@@ -44,13 +44,13 @@ enum kd_null_region { KD_NULL_OUTER, KD_NULL_INNER, KD_NULL_FORBIDDEN };
 /* The region of a radius > r+, which may be INFINITY. */
 enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double radius);
 
-/* The roots must not be of kind KD_NULL_NO_REAL. */
+/* The roots must not be of the kind KD_NULL_NO_REAL. */
 struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner);
 
 struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r);
 
-/* The radius at Mino time tau from the reference. OUTER: tau >= 0, up to the horizon or the turning point, beyond which
- * it is the mirror image. INNER: tau of any sign, up to the horizon. */
+/* The radius at Mino time tau from the reference. OUTER: tau >= 0, up to the horizon, or past the turning point, after
+ * which the motion is mirrored. INNER: tau of any sign, up to the horizon. */
 struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double tau);
 
 /* Computes only the radius, at Mino time tau from infinity. Returns 0 if the ray reaches the horizon before, and
@@ -58,7 +58,7 @@ struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double t
  * kd_null_radial_of and kd_null_radius_at, since azimuths and times are left out. */
 double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null_roots *roots, double tau);
 
-/* Rates of the integrals in Mino time at r: tau has 1, phi' and t' as above. */
+/* Rates of the integrals in Mino time at r: tau has the rate 1; phi' and t' are given above. */
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r);
 
 /* Integrals from `at` to the reference. t is computed only if `time` is true, and is 0 otherwise. */

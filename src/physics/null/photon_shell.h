@@ -5,9 +5,9 @@
  * Johnson et al. 2020, arXiv:1907.04329 (the exponent gamma); Gralla & Lupsasca 2020, arXiv:1910.12873, section V
  * (gamma, delta, tau).
  *
- * The usual lambda = a + (r/a)(r - 2 Delta/(r - 1)) has no digits at small a, where all orbits have r = 3, nor near
- * a = 1, where many have r = 1. Here, with y = r - 1, N = 1 - a^2 and P the orbit over the poles (lambda = 0), for a
- * >= 0
+ * The usual lambda = a + (r/a)(r - 2 Delta/(r - 1)) loses all digits at small a, where all orbits have r = 3, and near
+ * a = 1, where many have r = 1. Here, with y = r - 1, N = 1 - a^2 and P the orbit over the poles (lambda = 0), for a >=
+ * 0
  *
  *   w = (r - r_P)/a      x = (r - 3)/a = x_P + w      y_P^3 - (3 - a^2) y_P - 2N = 0      x_P = -4a/(r_P^2 + a^2)
  *   lambda = -w (y + y_P + 2N/(y y_P))
@@ -15,8 +15,8 @@
  *
  * without cancellation (the second form of eta for y < 1). A hole with a < 0 is the mirror image of that with |a|.
  *
- * With charge N = 1 - a^2 - q^2, and y_0 = (1 + sqrt(1 + 8 (N + a^2)))/2 is that of the orbits at a = 0, 2 without
- * charge. Then x = (y - y_0)/a, and
+ * With charge N = 1 - a^2 - q^2, and y_0 = (1 + sqrt(1 + 8 (N + a^2)))/2 is the y of the orbits at a = 0; without
+ * charge it is 2. Then x = (y - y_0)/a, and
  *
  *   y_P^3 - (1 + a^2 + 2N) y_P - 2N = 0      x_P = -a (y_P + 2)/((y_P + 1)(y_P + y_0 - 1))      lambda as above
  *   eta = (r/y)^2 (4 (y + N + a^2) - x^2 (y + y_0 - 1)^2)
@@ -37,7 +37,7 @@ struct kd_shell {
     bool charged;
 };
 
-/* y = r - 1; w and n as above. At a = 0 r alone does not identify an orbit. */
+/* y = r - 1; w and n are those above. At a = 0, r alone does not identify an orbit. */
 struct kd_shell_orbit { double a, r, y, w, lambda, eta, n; };
 
 struct kd_shell kd_shell_of(const struct kd_hole *hole);
@@ -59,10 +59,11 @@ double kd_shell_inside(const struct kd_hole *hole, const struct kd_shell_orbit *
 
 /* From one crossing of the equatorial plane to the next:
  *   mino   Mino time;
- *   gamma  how far a ray at a small distance d from the orbit departs: to d e^gamma. Pi at a = 0. In the limit each
+ *   gamma  a ray at a small distance d from the orbit departs to the distance d e^gamma. gamma is pi at a = 0. In the
+ *   limit each
  *          order of images is closer to the critical curve than the order before, by the factor e^-gamma;
  *   delta  azimuth. At a = 0: pi, with the sign of lambda. It jumps by 2 pi where the orbit passes over the axis:
- *          at lambda = 0 it is that of lambda -> 0+ (a >= 0; mirrored for a < 0);
+ *          at lambda = 0 it is the limit lambda -> 0+ (a >= 0; mirrored for a < 0);
  *   tau    time t.
  * Complete elliptic integrals in Carlson's form. The relative error is below 1e-14, except within 1e-6 of |a| = 1,
  * where y = r - 1 is known to 1e-16 / (1 - |a|)^(1/2) at least. */

@@ -7,9 +7,9 @@
  *   (right, up) ~ (cos chi, |cos i| sin chi)
  *
  * so that chi advances evenly round a ring seen unlensed from afar. Along each chi the radius at which rays meet the
- * plane grows from the edge of the dark disk, near rho = 0, to infinity, at most at rho = pi. So each direction
- * meets the image of each order once, and every ring outside the horizon has one. Observers that move relative to
- * rain see these directions aberrated. */
+ * plane grows with rho. It starts at the edge of the dark disk, near rho = 0, and reaches infinity at rho = pi or
+ * before. Therefore each chi meets the image of each order once, and every ring outside the horizon has one. Observers
+ * that move relative to rain see these directions aberrated. */
 #ifndef KD_PHYSICS_NULL_RING_VIEW_H
 #define KD_PHYSICS_NULL_RING_VIEW_H
 
@@ -26,8 +26,8 @@ struct kd_ring_view kd_ring_view_of(const struct kd_observer_motion *motion, con
                                     int order);
 
 /* alpha, beta: labels of the photon's constants (null_geodesic.h), infinite or NaN if it has no energy at infinity.
- * phi, delay: of the crossing, as there; NaN for observers within the horizon, whose azimuth and time are not
- * Boyer-Lindquist's, and for light whose energy at infinity is not positive. residual: ln of the crossing's radius
+ * phi, delay: of the crossing, as in null_geodesic.h; NaN for observers within the horizon, whose azimuth and time are
+ * not Boyer-Lindquist's, and for light whose energy at infinity is not positive. residual: ln of the crossing's radius
  * over the ring's. */
 struct kd_ring_view_point {
     struct kd_look look;

@@ -4,10 +4,10 @@
  *
  * A photon seen with local energy 1 in the direction (right, up, inwards), a unit vector of tetrad.h, has the energy
  * at infinity
- *   E = E_t + inwards E_r + up E_theta - right E_phi,
- * E_i being those of the frame's legs, and is shifted by g = 1/E. E is linear in the direction. So the least and
- * largest g over the visible sky are in the directions +-(E_r, E_theta, -E_phi) if the sky is visible there, and
- * otherwise on the edge of the dark disk, the critical curve (critical.h). */
+ *   E = E_t + inwards E_r + up E_theta - right E_phi, where the E_i belong to the frame's legs. It is shifted by g =
+ * 1/E. E is linear in the direction. Therefore the least and largest g over the visible sky are in the directions
+ * +-(E_r, E_theta, -E_phi) if the sky is visible there, and otherwise on the edge of the dark disk, the critical curve
+ * (critical.h). */
 #ifndef KD_PHYSICS_NULL_SKY_VIEW_H
 #define KD_PHYSICS_NULL_SKY_VIEW_H
 
@@ -25,7 +25,7 @@ struct kd_sky_view {
  * spins up to 0.99; 1e-12 of `least` and `greatest` where they lie on the edge, from its rounding. */
 struct kd_sky_view kd_sky_view_of(const struct kd_critical_observer *observer);
 
-/* g of the sky in a direction, a unit vector; NaN in the dark disk. Takes some 2 microseconds. */
+/* g of the sky in a direction (a unit vector); NaN in the dark disk. Takes some 2 microseconds. */
 double kd_sky_view_shift(const struct kd_sky_view *view, const double direction[3]);
 
 #endif

@@ -9,7 +9,7 @@
 
 #include "physics/orbit/timelike.h"
 
-/* Increase of each coordinate. */
+/* Increases of the coordinates. */
 struct kd_orbit_sums { double proper, t, phi; };
 
 struct kd_orbit_bound {
@@ -18,12 +18,13 @@ struct kd_orbit_bound {
     double pace_r, k_r, k1_r, quarter_r; /* r is a function of sn^2(pace lambda | k), quarter = K(k); k1 = 1 - k */
     double unit_r;                       /* equal to the pace; 1 for a circle, where quarter_r is 1 and half_r holds
                                           * the rates */
-    double beyond[2];                    /* r[1] - r+ and r[1] - r- */
+    double beyond[2];                    /* distances r[1] - r+ and r[1] - r- */
     double h, h_plus, h_minus;
     double pace_z, k_z, k1_z, quarter_z; /* u = sqrt(z) sn(pace lambda | k) */
     /* sums from periastron to apastron, and from the equator to a turning point of theta */
     struct kd_orbit_sums half_r, half_z;
-    double phase_r, phase_z; /* pace times Mino time since periastron and ascending node, at the start */
+    /* pace times Mino time at the start, counted from periastron and from the ascending node */
+    double phase_r, phase_z;
     struct kd_orbit_sums start_r, start_z;
 };
 

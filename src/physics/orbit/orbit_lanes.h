@@ -1,5 +1,5 @@
 /* Follows eight paths side by side in SIMD lanes, for lists of orbits. Eight scalar paths give the same results bit for
- * bit, but take several times as long, because a single path mostly waits for results of its own sums. Any thread. */
+ * bit, but take several times as long: in a single path each sum must wait for the one before. Any thread. */
 #ifndef KD_PHYSICS_ORBIT_ORBIT_LANES_H
 #define KD_PHYSICS_ORBIT_ORBIT_LANES_H
 
@@ -11,7 +11,7 @@ struct kd_orbit_lanes {
     struct kd_orbit_path *path[KD_ORBIT_LANES]; /* all different */
     double h[KD_ORBIT_LANES];
     uint64_t steps[KD_ORBIT_LANES]; /* steps for each path; a path with 0 steps is not moved, but must be set */
-    /* Receives the largest absolute drifts after any of the steps; all NULL: not computed. */
+    /* Receive the largest absolute drift after any step. If all are NULL, drifts are not computed. */
     struct kd_orbit_drift *worst[KD_ORBIT_LANES];
     /* Called after a step in which w has stopped growing, with the path up to date; may be NULL. */
     void (*periastron)(void *user, int lane);

@@ -5,10 +5,10 @@
  *
  *   w'' = W'(w)/2        y'' = -(L^2 + Q + a^2 b) y + 2 a^2 b z y^3
  *
- * two separate oscillators with polynomial forces, Binet's and Duffing's. An orbit in the equatorial plane has a
- * fictitious y. The rates of proper time, t and phi depend on the place alone. They are treated as further momenta,
- * so that any method integrates them to its own order. The azimuth has no pole at the axis: with N = Q/z, cc =
- * |L|/(N - a^2 b), nu = -a^2 b cc^2
+ * two separate oscillators with polynomial forces, those of Binet and Duffing. An orbit in the equatorial plane has a
+ * fictitious y. The rates of proper time, t and phi depend on the place alone. They are treated as further momenta.
+ * Each method then integrates them to its own order. The azimuth has no pole at the axis: with N = Q/z, cc = |L|/(N -
+ * a^2 b), nu = -a^2 b cc^2
  *
  *   |L|/(1 - u^2) = d/dlambda atan2(cc y (N - a^2 b u^2), y') - a^2 b cc (1 - y^2)/(1 - nu y^2)
  *
@@ -47,7 +47,7 @@ struct kd_spring {
 };
 
 struct kd_orbit_path {
-    /* read only for callers */
+    /* not used here; for callers */
     struct kd_orbit orbit;
     enum kd_orbit_method method;
     bool factored, ingoing;
@@ -60,7 +60,7 @@ struct kd_orbit_path {
     struct kd_exact rate[KD_PATH_RATES];   /* derivatives of w, y; then proper time, t, and the smooth part of phi */
     struct kd_exact mino;
     int half_turns;
-    double turn_h; /* the step that the springs' rotations were computed for */
+    double turn_h; /* the step for which the springs' rotations were computed */
 };
 
 /* start: from kd_orbit_start or kd_orbit_from_state. */

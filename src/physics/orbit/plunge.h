@@ -3,9 +3,9 @@
  * horizon. Its radial potential has a triple root, so that proper time, azimuth and coordinate time are elementary
  * functions of r. Double precision, pure, any thread. G = c = M = 1; spin signed as in physics/spacetime/kerr.h.
  *
- * Sources: A. Mummery & S. Balbus 2022, Phys. Rev. Lett. 129, 161101, arXiv:2209.03579 (u^r and phi); C. Dyson & M.
- * van de Meent 2023, arXiv:2302.03704 (t too); with charge plunge.c. Relative error, from a thirtieth to 0.999 of the
- * way from the ISCO to the horizon: below 4e-13 where sqrt(1 - a^2 - q^2) > 0.06, 1e-11 where it is 0.014. */
+ * Sources: A. Mummery & S. Balbus 2022, Phys. Rev. Lett. 129, 161101, arXiv:2209.03579 (u^r and phi); C. Dyson & M. van
+ * de Meent 2023, arXiv:2302.03704 (t too); with charge see plunge.c. The relative error, from a thirtieth to 0.999 of
+ * the way from the ISCO to the horizon, is below 4e-13 where sqrt(1 - a^2 - q^2) > 0.06, 1e-11 where it is 0.014. */
 #ifndef KD_PHYSICS_ORBIT_PLUNGE_H
 #define KD_PHYSICS_ORBIT_PLUNGE_H
 
@@ -15,13 +15,15 @@ struct kd_plunge {
     struct kd_hole hole;
     double isco;
     double energy, momentum; /* constants of the orbit at the ISCO */
-    /* (u^r)^2 = 2/(3 isco) gap^3 (stretch - bend gap), gap = isco/r - 1. Without charge 1 and 0. */
+    /* (u^r)^2 = 2/(3 isco) gap^3 (stretch - bend gap) with gap = isco/r - 1. Without charge stretch is 1 and bend is
+     * 0. */
     double stretch, bend;
     double shift; /* bend/stretch */
-    /* The partial fractions of t and phi, at the outer and the inner horizon. With z = sqrt(r/(isco - r) - shift): the
-     * position of the pole, and the coefficients of artanh(pole/z)/pole, without the factor isco/(isco - r_horizon). */
+    /* Partial fractions of t and phi, one for the outer and one for the inner horizon, with z = sqrt(r/(isco - r) -
+     * shift). Each has the position of the pole, and the coefficients of artanh(pole/z)/pole without the factor
+     * isco/(isco - r_horizon). */
     struct kd_plunge_pole { double pole, t, phi; } outer, inner;
-    double t_rate, phi_rate; /* rates with z, as z -> infinity */
+    double t_rate, phi_rate; /* derivatives by z in the limit z -> infinity */
 };
 struct kd_plunge kd_plunge_of(const struct kd_hole *hole);
 

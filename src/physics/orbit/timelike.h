@@ -23,15 +23,15 @@ const char *kd_orbit_fate_name(enum kd_orbit_fate fate); /* "bound", "plunge", "
 
 struct kd_orbit {
     struct kd_hole hole;
-    double energy, binding;  /* E, and 1 - E^2, which is accurate where E is close to 1 */
+    double energy, binding;  /* E, and 1 - E^2, which is stored because E may be close to 1 */
     double momentum, carter; /* L and Q */
     double k, total;         /* K, and the sum L^2 + Q */
-    double w[5];             /* coefficients of W, ascending powers */
+    double w[5];             /* coefficients of W, in ascending powers */
     /* Rates of azimuth and time per Mino time: a (2E r - drag)/Delta + L/sin^2 theta and
      * E (r^2 + 2r + four + a^2 u^2) + (near r - 4 a^2 E - nearer)/Delta. */
     double drag, four, near, nearer;
-    /* u'^2 = (z - u^2)(n - a^2 b u^2), z n = Q: u oscillates between -sqrt(z) and sqrt(z), for Q < 0 on one side of
-     * the equator. */
+    /* u'^2 = (z - u^2)(n - a^2 b u^2), z n = Q: u oscillates between -sqrt(z) and sqrt(z); for Q < 0 it stays on one
+     * side of the equator. */
     double z, n, axis_gap; /* axis_gap is 1 - z */
     enum kd_orbit_fate fate;
     /* The range of 1/r of the motion. Each end is a turning point. Without one, w_low is 0 (infinity) and w_high is
@@ -68,25 +68,26 @@ enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double 
                                    const double v[3], struct kd_orbit *orbit, struct kd_orbit_state *start,
                                    struct kd_error *error);
 
-/* The start of the motion, at the ascending node, outwards or inwards. r: radius of the start; NAN: periastron if there
- * is one, and otherwise the outer end. If r is within 1e-14 of a turning point, the body starts at rest there. For an
- * orbit from infinity r must be given. An unstable circle is left inwards: the start is one ulp of 1/r inside it. */
+/* The start of the motion, at the ascending node, outwards or inwards. r: radius of the start; NAN: the periastron, or,
+ * without one, the outer end of the range. If r is within 1e-14 of a turning point, the body starts at rest there. For
+ * an orbit from infinity r must be given. A body on an unstable circle leaves it inwards: it starts one ulp of 1/r
+ * inside the circle. */
 struct kd_orbit_state kd_orbit_start(const struct kd_orbit *orbit, double r, bool outward);
 
-/* A whirl is a long stay near an unstable circular orbit that the constants nearly describe. This is the factor by
+/* A whirl is a long stay near an unstable circular orbit that the constants nearly describe. Returns the factor by
  * which relative errors of the constants are amplified in the length of the whirl ahead: the size of the terms of W
- * over W itself at its minimum. The motion passes the minimum, or turns there, after a time that grows as the logarithm
- * of this factor. 0 if no such minimum lies ahead, and for an unstable circular orbit itself. *r (may be NULL): radius
- * of the whirl. */
+ * divided by W, at the minimum of W. The time until the motion passes the minimum, or turns there, grows as the
+ * logarithm of this factor. Returns 0 if no such minimum lies ahead, and for an unstable circular orbit itself. *r (may
+ * be NULL): radius of the whirl. */
 double kd_orbit_whirl(const struct kd_orbit *orbit, const struct kd_orbit_state *start, double *r);
 
-/* W, its derivative, and the derivative of W by E at fixed L and Q, which converts a residual of W to one of E. */
+/* W, its derivative, and the derivative of W by E at fixed L and Q, which converts a residual of W to a residual of
+ * E. */
 double kd_orbit_radial(const struct kd_orbit *orbit, double w);
 double kd_orbit_radial_slope(const struct kd_orbit *orbit, double w);
 double kd_orbit_radial_by_energy(const struct kd_orbit *orbit, double w);
 
-/* Shared by the files of this folder: sets all that follows from the hole, E, b, L and Q
- * alone. */
+/* Shared by the files of this folder: sets all members that depend on the hole, E, b, L and Q alone. */
 void kd_orbit_set_constants(struct kd_orbit *orbit);
 
 /* W = (w - w_low)(w_high - w)(g[0] + g[1] w + g[2] w^2), if both ends are turning points. */

@@ -19,7 +19,8 @@ double kd_embedding_radius(const struct kd_hole *hole, double r);
  * relative error of r - r+. */
 double kd_embedding_height(const struct kd_hole *hole, double r);
 
-/* Proper distance from the horizon along r: sqrt(Delta) + ln((r - 1 + sqrt(Delta))/sqrt(1 - a^2)); same error. */
+/* Proper distance from the horizon along r: sqrt(Delta) + ln((r - 1 + sqrt(Delta))/sqrt(1 - a^2)); the relative error
+ * is that of the height. */
 double kd_embedding_distance(const struct kd_hole *hole, double r);
 
 #endif

@@ -14,14 +14,14 @@
  * + a s)/P.
  *
  * Sources: J. M. Bardeen, W. H. Press & S. A. Teukolsky 1972; A. T. Okazaki, S. Kato & J. Fukue 1987, PASJ 39, 457; S.
- * Kato 1990, PASJ 42, 99. The relative error is below 1e-14. For kappa, which has a zero at the ISCO, it is below 1e-15
- * r_isco/|r - r_isco| times the error for a = 0. */
+ * Kato 1990, PASJ 42, 99. The relative error is below 1e-14. For kappa, which has a zero at the ISCO, the error is
+ * below 1e-15 r_isco/|r - r_isco| times the error for a = 0. */
 #ifndef KD_PHYSICS_SPACETIME_EPICYCLIC_H
 #define KD_PHYSICS_SPACETIME_EPICYCLIC_H
 
 #include "physics/spacetime/hole.h"
 
-/* NaN inside the ISCO, where the orbit is not stable; 0 at it. */
+/* NaN inside the ISCO, where the orbit is not stable; 0 at the ISCO. */
 double kd_epicyclic_radial(const struct kd_hole *hole, double r);
 double kd_epicyclic_vertical(const struct kd_hole *hole, double r);
 

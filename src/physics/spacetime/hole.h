@@ -1,6 +1,6 @@
 /* The hole as a value. It is made once, and passed as a const pointer to every function that computes in its spacetime;
  * the pointer need not outlive the call. Double precision, pure, any thread. Units G = c = M = 1. Domain |a| < 1;
- * outside it undefined numbers are NaN.
+ * outside the domain, numbers that are undefined are NaN.
  *
  * The spin a is signed: a < 0 means that the orbit or disk, which always turns towards +phi, is retrograde to the hole.
  * The horizons are r± = 1 ± root with root = sqrt(1 - a^2 - q^2). */
@@ -35,7 +35,8 @@ static inline struct kd_hole kd_hole_of(double a)
  * by bit. */
 struct kd_hole kd_hole_charged(double a, double q);
 
-/* The hole of given parameters; kd_hole_in: of a struct that has them as members. kd_hole_told is the inverse. */
+/* The hole with the given parameters. kd_hole_in: from any struct that has them as members. kd_hole_told is the
+ * inverse. */
 static inline struct kd_hole kd_hole_from(struct kd_hole_given given)
 {
     return kd_hole_charged(given.spin, given.charge);
@@ -54,11 +55,11 @@ static inline double kd_hole_charge2(const struct kd_hole *hole) { return hole->
 /* True if the charge has any effect: its square does not underflow. */
 static inline bool kd_hole_is_charged(const struct kd_hole *hole) { return hole->q * hole->q > 0; }
 
-/* True if the horizons are close to each other. If they are not, the difference of integrals with their poles gives
- * time and azimuth with an error of 1e-16/(r+ - r-), which is below 2e-15. */
+/* True if the horizons are close to each other. If they are not, time and azimuth are computed as a difference of
+ * integrals with a pole at either horizon. Their error is 1e-16/(r+ - r-), which is then below 2e-15. */
 static inline bool kd_hole_is_close(const struct kd_hole *hole) { return hole->root < 0.03; }
 
-/* r - horizon, for one of both horizons. If they are close, r - 1 is exact. */
+/* r - horizon, for either horizon. If the horizons are close, r - 1 is exact. */
 static inline double kd_hole_past(const struct kd_hole *hole, double r, double horizon)
 {
     if (!kd_hole_is_close(hole))
@@ -69,7 +70,7 @@ static inline double kd_hole_past(const struct kd_hole *hole, double r, double h
 /* Whether the metric is Kerr's: no parameter besides the spin has any effect. */
 static inline bool kd_hole_is_kerr(const struct kd_hole *hole) { return !kd_hole_is_charged(hole); }
 
-/* False for a struct of zeros and outside the domain. */
+/* False for a struct of zeros and for a hole outside the domain. */
 static inline bool kd_hole_exists(const struct kd_hole *hole)
 {
     return hole->a * hole->a + hole->q * hole->q <= 1 && hole->root > 0 && hole->outer > 1;
@@ -78,7 +79,7 @@ static inline bool kd_hole_exists(const struct kd_hole *hole)
 /* KD_EINVAL at "/spin" or "/charge", with the allowed range, if the hole does not exist. */
 enum kd_status kd_hole_check(const struct kd_hole *hole, struct kd_error *error);
 
-/* The approximations that parameters of the hole stand for, by index; NULL after the last. */
+/* The approximations that are reported for parameters of the hole, by index; NULL after the last. */
 struct kd_hole_sentence { const char *name, *text; };
 const struct kd_hole_sentence *kd_hole_sentence(struct kd_hole_given given, size_t index);
 
@@ -89,11 +90,12 @@ struct kd_hole_parameter {
 };
 struct kd_hole_parameter kd_hole_largest(const struct kd_hole *hole);
 
-/* A hole from its spin, to be used as an argument: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the enclosing
+/* A hole from its spin, as an argument of a call: kd_kerr_isco(kd_hole(0.9)). It lives until the end of the enclosing
  * block. */
 #define kd_hole(a) ((const struct kd_hole[]) { kd_hole_of(a) })
 
-/* The hole in coordinates in which motion towards +phi (sense 1), or towards -phi (sense -1), is towards +phi. */
+/* The hole in coordinates in which motion towards +phi (sense 1), or towards -phi (sense -1), becomes motion towards
+ * +phi. */
 static inline struct kd_hole kd_hole_turned_of(const struct kd_hole *hole, double sense)
 {
     struct kd_hole turned = *hole;
@@ -102,7 +104,7 @@ static inline struct kd_hole kd_hole_turned_of(const struct kd_hole *hole, doubl
 }
 #define kd_hole_turned(hole, sense) ((const struct kd_hole[]) { kd_hole_turned_of(hole, sense) })
 
-/* Delta = r^2 - 2r + a^2 + q^2 by its factors, which keeps the accuracy of r - r+ next to the horizon. */
+/* Delta = r^2 - 2r + a^2 + q^2 as a product of its factors, which keeps the accuracy of r - r+ next to the horizon. */
 static inline double kd_hole_delta(const struct kd_hole *hole, double r)
 {
     return (r - hole->outer) * (r - hole->inner);
@@ -117,9 +119,9 @@ static inline double kd_hole_delta_y(const struct kd_hole *hole, double y)
 /* Delta at r = 0, the product of the horizons: a^2 + q^2. */
 static inline double kd_hole_horizons(const struct kd_hole *hole) { return hole->a * hole->a + hole->q * hole->q; }
 
-/* Delta - a^2, and Delta/r^2, written out. Schmidt's conditions on bound orbits (orbit_shape.c) have determinants in
- * which the terms of Delta cancel against each other. Next to the separatrix at a = 1 - 1e-9 (p = 1.21, e = 0.1) E is
- * then off by 1.6e-13; with Delta by its factors it would be off by 6.8e-12. */
+/* Delta - a^2, and Delta/r^2, as sums of their terms. Schmidt's conditions on bound orbits (orbit_shape.c) have
+ * determinants in which the terms of Delta cancel against each other. Next to the separatrix at a = 1 - 1e-9 (p = 1.21,
+ * e = 0.1) E is then off by 1.6e-13; with Delta as a product it would be off by 6.8e-12. */
 static inline double kd_hole_delta_sum(const struct kd_hole *hole, double r) { return r * (r - 2) + hole->q * hole->q; }
 static inline double kd_hole_delta_sum_w(const struct kd_hole *hole, double w)
 {
@@ -132,11 +134,11 @@ static inline double kd_hole_delta_sum_w(const struct kd_hole *hole, double w)
 #define KD_HOLE_DELTA_W(root, w) ((1 - (w) - (root) * (w)) * (1 - (w) + (root) * (w))) /* of vectors too */
 static inline double kd_hole_delta_w(const struct kd_hole *hole, double w) { return KD_HOLE_DELTA_W(hole->root, w); }
 
-/* The mass term of the metric, 2r - q^2, where an uncharged hole has 2r; and the same over r, at w = 1/r. */
+/* The mass term of the metric, 2r - q^2 (2r without charge); and the mass term over r, at w = 1/r. */
 static inline double kd_hole_mass(const struct kd_hole *hole, double r) { return 2 * r - hole->q * hole->q; }
 static inline double kd_hole_mass_w(const struct kd_hole *hole, double w) { return 2 - hole->q * hole->q * w; }
 
-/* The numbers c[0] r + c[1] of kd_hole_mass, and c[0] + c[1] w of kd_hole_mass_w. */
+/* The coefficients of kd_hole_mass, c[0] r + c[1], and of kd_hole_mass_w, c[0] + c[1] w. */
 static inline void kd_hole_mass_line(const struct kd_hole *hole, double c[2]) { c[0] = 2, c[1] = -hole->q * hole->q; }
 
 /* The rate at which the mass term falls: -(Sigma^2/2r) d/dr (mass/Sigma), at cos(theta) = u. In the plane, where Sigma
@@ -147,15 +149,15 @@ static inline double kd_hole_pull(const struct kd_hole *hole, double r, double u
 }
 static inline double kd_hole_pull_w(const struct kd_hole *hole, double w) { return 1 - hole->q * hole->q * w; }
 
-/* A of kd_metric_at in the plane: r^2 (r^2 + a^2) + a^2 (2r - q^2), without Delta. */
+/* A of kd_metric_at in the plane: r^2 (r^2 + a^2) + a^2 (2r - q^2), which does not contain Delta. */
 static inline double kd_hole_area_in_plane(const struct kd_hole *hole, double r)
 {
     const double a2 = hole->a * hole->a;
     return r * (r * (r * r + a2) + 2 * hole->a * hole->a) - a2 * (hole->q * hole->q);
 }
 
-/* D of the radial quartic R/r^4 = E^2 - mu^2 + ... - D w^4 of light and matter, from Carter's constants Q and K =
- * Q + (L - aE)^2: a^2 Q + q^2 K (Carter 1968, Phys. Rev. 174, 1559). */
+/* D of the radial quartic R/r^4 = E^2 - mu^2 + ... - D w^4, for light and matter: D = a^2 Q + q^2 K with Carter's
+ * constants Q and K = Q + (L - aE)^2 (Carter 1968, Phys. Rev. 174, 1559). */
 static inline double kd_hole_quartic(const struct kd_hole *hole, double carter, double k)
 {
     return hole->a * hole->a * carter + hole->q * hole->q * k;

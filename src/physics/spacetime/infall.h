@@ -6,8 +6,8 @@
 #include "physics/spacetime/hole.h"
 #include "physics/spacetime/observer.h"
 
-/* True if the latitude is constant, so that proper time is a function of the radius alone. It is constant for rain,
- * without spin, in the equatorial plane, and on the axis. */
+/* True if the latitude is constant, so that proper time is a function of the radius alone. This holds for rain, for
+ * holes without spin, in the equatorial plane, and on the axis. */
 bool kd_infall_is_level(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
 /* Proper time from `at` down to the radius r, for an infall that exists there and is level. The smallest allowed r is
@@ -28,8 +28,8 @@ struct kd_infall_way kd_infall_way(const struct kd_observer_motion *motion, cons
 struct kd_infall_way kd_infall_after(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                      double proper_time);
 
-/* Smallest radius of a falling camera. It is just outside the radius where the model ends, because pictures have no
- * limit there. */
+/* Smallest radius of a falling camera. It is just outside the radius where the model ends, because at that radius
+ * itself a picture has no defined limit. */
 double kd_infall_last(const struct kd_hole *hole);
 
 #endif

@@ -25,12 +25,12 @@ double kd_kerr_marginally_bound(const struct kd_hole *hole);
  * 1983, The Mathematical Theory of Black Holes, ch. 7 eq. 84. With charge 1/Omega there. */
 double kd_kerr_critical_impact(const struct kd_hole *hole);
 
-/* Radius of the outermost photon orbit, which counter-rotates. */
+/* Radius of the outermost photon orbit, which is retrograde. */
 double kd_kerr_outermost_photon_orbit(const struct kd_hole *hole);
 
 /* A circular equatorial orbit towards +phi about a hole with or without charge, in terms of y = r - 1 and n = root^2,
- * which keep their digits as a^2 + q^2 -> 1. With s^2 = r - q^2 and sigma = s - a = (y + n)/(s + a) the orbit has in
- * Carter's frame the velocity sigma/sqrt(Delta), and
+ * which keep their digits as a^2 + q^2 -> 1. With s^2 = r - q^2 and sigma = s - a = (y + n)/(s + a), the orbit's
+ * velocity in Carter's frame is sigma/sqrt(Delta), and
  *
  *   P^2 = Delta - sigma^2             E = (Delta + a sigma)/(r P)      L = (a Delta + (r^2 + a^2) sigma)/(r P)
  *   u^t = (r^2 + a s)/(r P)           Omega = s/(r^2 + a s)            dE/dr = Omega dL/dr = X/(2 r^2 P^3)
@@ -63,16 +63,16 @@ double kd_kerr_weak_advance(const struct kd_hole *hole, double p);
 /* Efficiency of a thin disk, 1 - E(ISCO). */
 double kd_kerr_efficiency(const struct kd_hole *hole);
 
-/* Boyer-Lindquist azimuth minus ingoing Kerr-Schild azimuth, which agree at infinity: the integral of a/Delta from r
- * to infinity. r > r+; it diverges at the horizon. */
+/* Boyer-Lindquist azimuth minus ingoing Kerr-Schild azimuth; the two are equal at infinity. It is the integral of
+ * a/Delta from r to infinity. r > r+; it diverges at the horizon. */
 double kd_kerr_twist(const struct kd_hole *hole, double r);
 
 /* Angular velocity of frame dragging, -g_tphi/g_phiphi. */
 double kd_kerr_dragging(const struct kd_hole *hole, double r, double cos_theta);
 
-/* Half the range of d(phi)/dt about the angular velocity of frame dragging: every motion at r is within +- this of it,
- * and light reaches both limits. sqrt(Delta) Sigma/(B sin(theta)), B = (r^2 + a^2)^2 - a^2 Delta sin^2(theta) [BPT eqs
- * 2.3, 2.5]. Infinite on the axis. */
+/* Half the range of d(phi)/dt about the angular velocity of frame dragging: every motion at r has a d(phi)/dt within
+ * this distance of it, and light reaches both limits. sqrt(Delta) Sigma/(B sin(theta)), B = (r^2 + a^2)^2 - a^2 Delta
+ * sin^2(theta) [BPT eqs 2.3, 2.5]. Infinite on the axis. */
 double kd_kerr_rotation_reach(const struct kd_hole *hole, double r, double cos_theta, double sin_theta);
 
 /* dOmega/dr of circular orbits. */

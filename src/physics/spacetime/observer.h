@@ -1,6 +1,5 @@
-/* Table of observers at a finite radius: their names, where they exist, and the frames in which they measure. It is
- * used wherever an observer can be chosen: camera.observer of a scene, /v1/physics, the frame of an orbit's
- * velocity.
+/* Table of observers at a finite radius: their names, where they exist, and the frames in which they measure. Users:
+ * camera.observer of a scene, /v1/physics, and the frame of an orbit's velocity.
  *
  * To add one: a row here, and the function of its frame, frame_WORD in observer.c. Words, enumerators, help, rules
  * and error messages are generated. Double precision, pure functions, any thread. */
@@ -35,7 +34,7 @@
 
 #define KD_OBSERVER_NAME_(NAME, word, ...) KD_OBSERVER_##NAME,
 enum kd_observer { KD_OBSERVERS(KD_OBSERVER_NAME_) KD_OBSERVER_COUNT };
-enum { KD_OBSERVER_FRAMES = KD_OBSERVER_VELOCITY }; /* the observers before it have no parameters */
+enum { KD_OBSERVER_FRAMES = KD_OBSERVER_VELOCITY }; /* number of the observers before it, which have no parameters */
 
 /* String constants. WORDS: "static|zamo|...", as in a row of enumerated words. HELP: "; static: at rest ...; zamo:
  * ...". PLACES: where each exists. */
@@ -52,7 +51,7 @@ static inline int kd_observer_sense(enum kd_observer observer)
 {
     return (observer == KD_OBSERVER_KEPLERIAN) - (observer == KD_OBSERVER_RETROGRADE);
 }
-#define KD_OBSERVER_CIRCULAR "keplerian and retrograde" /* the two circular kinds, in messages */
+#define KD_OBSERVER_CIRCULAR "keplerian and retrograde" /* names of the two circular kinds, for messages */
 
 /* Motion of an observer. All members but the first are parameters of one kind of observer and ignored for the
  * others. */
@@ -67,14 +66,14 @@ struct kd_observer_motion {
 };
 
 /* Name of the largest component, "velocity_r", "velocity_theta" or "velocity_phi", for a message about an excessive
- * speed; and its value in *component. */
+ * speed. *component gets its value. */
 const char *kd_observer_fastest(const double velocity[3], double *component);
 
 /* The motion with default parameters: infall from rest at infinity without angular momentum; velocity 0. */
 struct kd_observer_motion kd_observer_motion_of(enum kd_observer observer);
 
 struct kd_observer_row {
-    const char *word, *edge, *why; /* "static", "the ergosphere", "nothing is at rest" */
+    const char *word, *edge, *why; /* such as "static", "the ergosphere", "nothing is at rest" */
     double (*outside)(const struct kd_hole *hole, double u);
     struct kd_tetrad (*tetrad)(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 };
@@ -109,7 +108,7 @@ double kd_observer_energy(const struct kd_observer_motion *motion, const struct 
  * Inside it there are no circular orbits with that latitude. */
 double kd_observer_light_orbit(const struct kd_hole *hole, double u, int sense);
 
-/* Words of the observers that exist there, in quotes and joined by " or ". */
+/* Writes the words of the observers that exist at the place, in quotes and joined by " or ". */
 enum { KD_OBSERVER_TEXT = 17 * KD_OBSERVER_COUNT };
 const char *kd_observer_others(const struct kd_vantage *at, char out[KD_OBSERVER_TEXT]);
 

@@ -1,5 +1,5 @@
-/* The parameters of a hole, in one list. Members of structs, fields of scenes and requests, rows of tables, cards of
- * FITS, cache keys and members of answers are made of it (docs/adding-a-metric.md). All are doubles.
+/* The parameters of a hole, in one list. Members of structs, fields of scenes and requests, rows of tables, FITS
+ * keywords, cache keys and members of answers are generated from it (docs/adding-a-metric.md). All are doubles.
  *
  * KD_HOLE_MORE(P, x) calls P(x, name, member, ...) for each parameter besides the spin. Its default is 0, with which
  * the hole is Kerr's:
@@ -10,8 +10,8 @@
  *     what, bound  in helps: what it is, and which values a hole has
  *     help         of the scene's field
  *     source       of the metric
- *     told, text   name and sentence of the approximation that is told wherever the parameter is not 0
- * x is passed on, such as the macro of another list. */
+ *     told, text   name and sentence of the approximation that is reported wherever the parameter is not 0
+ * x is passed to P unchanged; it may be the macro of another list. */
 #ifndef KD_PHYSICS_SPACETIME_PARAMETERS_H
 #define KD_PHYSICS_SPACETIME_PARAMETERS_H
 
@@ -36,13 +36,13 @@ enum { KD_HOLE_MORE_COUNT = 0 KD_HOLE_MORE(KD_HOLE_ONE_, ) };
 #define KD_HOLE_NAME_(x, name, ...) ", " #name
 #define KD_HOLE_MORE_NAMES KD_HOLE_MORE(KD_HOLE_NAME_, )
 
-/* Initialisers of the parameters: from another struct that has them, and all by one value. */
+/* Initialisers of the parameters: copied from another struct that has them, or all set to one value. */
 #define KD_HOLE_TAKE_(from, name, ...) , .name = (from)->name
 #define KD_HOLE_FROM(from) .spin = (from)->spin KD_HOLE_MORE(KD_HOLE_TAKE_, from)
 #define KD_HOLE_IS_(value, name, ...) , .name = value
 #define KD_HOLE_ALL(value) .spin = value KD_HOLE_MORE(KD_HOLE_IS_, value)
 
-/* The parameters of a hole as they were given. kd_hole_given: those of any struct that has them. */
+/* The parameters of a hole as they were given. kd_hole_given(from): those of any struct that has them. */
 struct kd_hole_given { KD_HOLE_MEMBERS };
 #define kd_hole_given(from) ((struct kd_hole_given) { KD_HOLE_FROM(from) })
 

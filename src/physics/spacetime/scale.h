@@ -23,7 +23,7 @@ struct kd_scale_hole {
     double mass_msun, distance_pc, ring_uas, ring_error_uas;
 };
 extern const struct kd_scale_hole kd_scale_holes[];
-/* Their masses and distances as tokens, because the presets write them as text (scene/presets.c). */
+/* Their masses and distances as tokens: the presets write them as text (scene/presets.c). */
 #define KD_SCALE_M87_MSUN 6.5e9
 #define KD_SCALE_M87_PC 16.8e6
 #define KD_SCALE_SGRA_MSUN 4.297e6

@@ -33,7 +33,7 @@ struct kd_tetrad {
     double past_rain[4];
 };
 
-/* The covector of the components x, and the components of a covector. kd_tetrad_components fails exactly at a horizon,
+/* The covector with the components x, and the components of a covector. At a horizon kd_tetrad_components fails,
  * where E, L and Delta p_r are not independent (NaN or infinity). */
 struct kd_covector kd_tetrad_covector(const struct kd_tetrad *frame, const double x[4]);
 void kd_tetrad_components(const struct kd_tetrad *frame, const struct kd_covector *p, double x[4]);
@@ -51,17 +51,17 @@ int kd_tetrad_is_level(const struct kd_tetrad *frame);
 struct kd_look { double right, up, inwards, energy; };
 struct kd_look kd_tetrad_look(const struct kd_tetrad *frame, const struct kd_covector *photon);
 
-/* Like kd_tetrad_look, for light that moves inwards (radial <= 0), in a frame that falls, also at a horizon. polar2:
- * the square of p_theta. It may be negative when continued beyond the visible directions; `up` is then computed from
- * the photon's own p_theta. kd_tetrad_look uses this function where necessary. */
+/* Like kd_tetrad_look, for a frame that falls and light that moves inwards (radial <= 0). It is valid at a horizon too.
+ * polar2: the square of p_theta. It may be negative where it is continued beyond the visible directions. `up` is then
+ * computed from the photon's own p_theta. kd_tetrad_look uses this function where necessary. */
 struct kd_look kd_tetrad_look_inwards(const struct kd_tetrad *frame, const struct kd_covector *photon, double polar2);
 
-/* The same from the components x = (1, m) of a photon in the rain frame: for a frame that falls, regular at a
+/* The same from the components x = (1, m) of a photon in the rain frame, for a frame that falls. It is regular at a
  * horizon for light in any direction. */
 struct kd_look kd_tetrad_look_past_rain(const struct kd_tetrad *frame, double energy, const double x[4]);
 
-/* The photon with the labels alpha, beta of null_geodesic.h, E = 1, that passes `at` outwards; radial is 0 if there
- * is none. */
+/* The photon with the labels alpha, beta of null_geodesic.h and E = 1 that passes `at` outwards. radial is 0 if there
+ * is no such photon. */
 struct kd_covector kd_tetrad_outgoing(const struct kd_vantage *at, double alpha, double beta);
 
 #endif

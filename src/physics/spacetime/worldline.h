@@ -5,8 +5,8 @@
 
 #include "physics/spacetime/observer.h"
 
-/* True if the observer's path is implemented: at a finite radius and at constant latitude, except for observers with a
- * chosen velocity. */
+/* True if the observer's path is implemented: at a finite radius and at constant latitude. Paths of observers with a
+ * chosen velocity are not implemented. */
 bool kd_worldline_is_known(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
 /* The observer's place after `proper_time`, 0 or more. azimuth (radians) and time are increases since the start. They
@@ -20,7 +20,7 @@ struct kd_worldline_place {
 struct kd_worldline_place kd_worldline_after(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                              double proper_time);
 
-/* Returns false for an observer that has fallen as far as a camera can. */
+/* Returns false if the observer has fallen as far as a camera can. */
 bool kd_worldline_goes_on(const struct kd_observer_motion *motion, const struct kd_vantage *at);
 
 #endif

@@ -10,22 +10,23 @@
 #ifndef KD_PHYSICS_WAVES_INSPIRAL_H
 #define KD_PHYSICS_WAVES_INSPIRAL_H
 
-/* m1 m2/(m1 + m2)^2 for the ratio q = m2/m1 > 0; and the chirp mass eta^(3/5). */
+/* eta = m1 m2/(m1 + m2)^2 for the mass ratio q = m2/m1 > 0; and the chirp mass, eta^(3/5). */
 double kd_inspiral_eta(double q);
 double kd_inspiral_chirp_mass(double eta);
 
-/* Power of an ellipse over that of a circle of the same a [PM eq. 17]: (1 + 73/24 e^2 + 37/96 e^4)/(1 - e^2)^(7/2). */
+/* Power radiated on an ellipse over that on a circle of the same a [PM eq. 17]: (1 + 73/24 e^2 + 37/96 e^4)/(1 -
+ * e^2)^(7/2). */
 double kd_inspiral_enhancement(double e);
 
-/* Radiated power [P 5.4], and da/dt, de/dt [P 5.6, 5.7], all averaged. */
+/* Radiated power [P 5.4], and da/dt, de/dt [P 5.6, 5.7], all averaged over an orbit. */
 double kd_inspiral_power(double eta, double a, double e);
 double kd_inspiral_axis_rate(double eta, double a, double e);
 double kd_inspiral_eccentricity_rate(double eta, double a, double e);
 
-/* dP/dt of the orbital period P = 2 pi a^(3/2), a pure number: Hulse and Taylor's -2.40e-12. */
+/* dP/dt of the orbital period P = 2 pi a^(3/2), a pure number. For the Hulse-Taylor pulsar it is -2.40e-12. */
 double kd_inspiral_period_rate(double eta, double a, double e);
 
-/* The axis at eccentricity e, 0 < e < 1, for an orbit that had (a0, e0) [P 5.11]; 0 for e = 0 < e0. */
+/* Semi-major axis at eccentricity e, 0 < e < 1, of an orbit that had (a0, e0) [P 5.11]; 0 for e = 0 < e0. */
 double kd_inspiral_axis(double a0, double e0, double e);
 
 /* Time to coalescence, a = 0 [P 5.10 and 5.14]. A circular orbit spends (6/a)^4 of it inside a = 6. */

@@ -2,21 +2,21 @@
  * precision, pure functions, any thread. Units G = c = M = 1.
  *
  *   Teukolsky's equation 1973, ApJ 185, 635, with no wave from the horizon and none from infinity, separates into
- *   S(cos theta) with eigenvalue A_lm(a omega) and R(r). Both are three-term recurrences, and omega is where the
- *   continued fraction of the radial one vanishes.
+ *   S(cos theta) with eigenvalue A_lm(a omega) and R(r). Both are solved by series with three-term recurrences. omega
+ *   is a zero of the continued fraction of the radial recurrence.
  *
  * Sources: E. W. Leaver 1985, Proc. R. Soc. Lond. A 402, 285, eqs. 18-27 (recurrences, inversion of the fraction for
  * the overtone n); H.-P. Nollert 1993, Phys. Rev. D 47, 5253 (remainder of the fraction after its last term); S. R.
  * Dolan & A. C. Ottewill 2009, Class. Quantum Grav. 26, 225003 (the first guess at a = 0). From there a mode is
  * followed in spin, so that l and n keep their meaning at a = 0.
  *
- * omega has Re > 0 and Im < 0; the mirror modes are -conj(omega) at -m. A is Leaver's, l(l+1) - 2 at a = 0. A spin a
- * < 0 is the hole turned over: omega(-a, m) = omega(a, -m). For m > 0 and a > 0 the mode turns with the hole.
- * Domain: 2 <= l <= 4, |m| <= l, 0 <= n <= 3, |a| <= 0.9999, where fewer than 1e5 terms suffice. Beyond it the
- * damped and the undamped modes of m > 0 crowd together at omega = m/2 (Yang et al. 2013, Phys. Rev. D 87, 041502),
- * and l and n no longer identify them. Relative error of both, as complex numbers, measured against another method
- * (tests/oracle/qnm_reference.py): below 1e-13 up to a = 0.99, 1e-12 up to 0.999; beyond, rounding leaves 1e-10 for
- * the overtones of l = 4. */
+ * omega has Re > 0 and Im < 0; the mirror modes are -conj(omega) at -m. A is Leaver's, l(l+1) - 2 at a = 0. A spin a <
+ * 0 means the hole turned over: omega(-a, m) = omega(a, -m). For m > 0 and a > 0 the mode turns with the hole. Domain:
+ * 2 <= l <= 4, |m| <= l, 0 <= n <= 3, |a| <= 0.9999, where fewer than 1e5 terms suffice. Beyond it the damped and the
+ * undamped modes of m > 0 crowd together at omega = m/2 (Yang et al. 2013, Phys. Rev. D 87, 041502), and l and n no
+ * longer identify them. Relative error of both, as complex numbers, measured against another method
+ * (tests/oracle/qnm_reference.py): below 1e-13 up to a = 0.99, 1e-12 up to 0.999; beyond, rounding leaves 1e-10 for the
+ * overtones of l = 4. */
 #ifndef KD_PHYSICS_WAVES_QNM_H
 #define KD_PHYSICS_WAVES_QNM_H
 

@@ -1,5 +1,6 @@
-/* Ringdown of a quasi-normal mode (physics/waves/qnm.h): quality factor, damped oscillation, and two fits that are
- * in use instead of the mode itself. Double precision, pure functions, any thread. Times in M, omega as M omega. */
+/* Ringdown of a quasi-normal mode (physics/waves/qnm.h): quality factor, damped oscillation, and two published fits
+ * that are used in place of the mode itself. Double precision, pure functions, any thread. Times in M, omega as M
+ * omega. */
 #ifndef KD_PHYSICS_WAVES_RINGDOWN_H
 #define KD_PHYSICS_WAVES_RINGDOWN_H
 
@@ -7,14 +8,15 @@
 
 #include <complex.h>
 
-/* Q = Re(omega) / (-2 Im(omega)): half the number of radians in which the amplitude falls by e. */
+/* Q = Re(omega) / (-2 Im(omega)): half the phase, in radians, over which the amplitude falls by the factor e. */
 double kd_ringdown_quality(double complex omega);
 
 /* e^(Im(omega) t) cos(Re(omega) t), t >= 0 from the start, where it is 1. */
 double kd_ringdown_wave(double complex omega, double t);
 
-/* 2.1 + 11.3 a^3, a commonly used fit for the l = m = 2 fundamental mode; no source could be found. It is within 4.1 %
- * only below a = 0.33; its errors are +30 % at 0.5, +104 % at 0.8 and -71 % at 0.999. It is given for comparison. */
+/* 2.1 + 11.3 a^3, a commonly used fit for the l = m = 2 fundamental mode; no source could be found. Its error is below
+ * 4.1 % only for a < 0.33; its errors are +30 % at 0.5, +104 % at 0.8 and -71 % at 0.999. It is given for
+ * comparison. */
 double kd_ringdown_quality_cubic(const struct kd_hole *hole);
 
 /* Berti, Cardoso & Will 2006, Phys. Rev. D 73, 064030, table VIII, l = m = 2, n = 0, 1, 2; 0 <= a < 1 (else NaN):

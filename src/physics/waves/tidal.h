@@ -1,8 +1,8 @@
 /* Tidal disruption of a star by a black hole. Double precision, pure functions, any thread. G = c = 1; all masses,
  * lengths and times in one unit, which may be the hole's M or a metre.
  *
- * Newtonian estimates on a parabolic orbit, within a factor of two of simulations; the hole's spin enters through
- * the capture orbit only.
+ * Newtonian estimates for a parabolic orbit, which agree with simulations within a factor of two. The hole's spin
+ * enters through the capture orbit only.
  *
  * Sources: J. G. Hills 1975, Nature 254, 295; M. J. Rees 1988, Nature 333, 523; E. S. Phinney 1989, IAU Symp. 136,
  * 543; N. Stone, R. Sari & A. Loeb 2013, MNRAS 435, 1809 [S]; M. Kesden 2012, Phys. Rev. D 85, 024037 (capture).
@@ -36,7 +36,8 @@ double kd_tidal_fallback_rate(struct kd_tidal t, double time);
  * star on a parabolic orbit is captured within the marginally bound orbit, so that the limit is r_t = r_mb(a) [Kesden
  * 2012], 4M at a = 0; a < 0: the orbit is against the hole's spin. */
 double kd_tidal_capture_mass(struct kd_tidal t, const struct kd_hole *hole);
-/* Hills's mass: the same with the horizon, r_t = r+(a); 1.1e8 solar masses for the sun at a = 0. */
+/* Hills's mass: the same with the horizon in place of the capture orbit, r_t = r+(a); 1.1e8 solar masses for the sun at
+ * a = 0. */
 double kd_tidal_hills_mass(struct kd_tidal t, const struct kd_hole *hole);
 
 #endif
