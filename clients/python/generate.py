@@ -94,7 +94,7 @@ def write(name, node, out):
 
 
 def served(kerrd):
-    """The schema of scenes and the document of the API, from a server started for this."""
+    """The JSON Schema of scenes and the OpenAPI document, from a server that is started for this."""
     server = subprocess.Popen([kerrd, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True)
     try:
         address = server.stdout.readline().split()[-1]
@@ -140,11 +140,12 @@ TOLD = (
     "Job",
     "Asset",
 )
-COLUMNS = {"OrbitSeries": "Columns"}  # schemas whose answers the client converts
+COLUMNS = {"OrbitSeries": "Columns"}  # names of the schemas of those answers that the client converts to other types
 
 
 class Answers:
-    """TypedDicts of answers, from the schemas in /openapi.json. Each stands after the classes of its members."""
+    """TypedDicts of answers, from the schemas in /openapi.json. The classes of members come before the classes that use
+    them."""
 
     def __init__(self, schemas):
         self.schemas, self.out, self.done = schemas, [], set()

@@ -32,7 +32,8 @@ DUMP_OPTIONS = (
 
 
 def report(found: Imported, everything: bool) -> str:
-    """A line for each key whose fate is "not said", or with everything for each key; then a line with the counts."""
+    """A line for each key: by default only for those whose fate is "not said"; with `everything` for all. At the end, a
+    line with the counts."""
     notes = found.notes if everything else found.not_said
     lines = []
     for note in notes:

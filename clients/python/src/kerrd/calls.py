@@ -56,7 +56,7 @@ class Call(Generic[T_co]):
 
 def retry_after(answer: Answer) -> float | None:
     """Seconds to wait before a request is repeated, if the server is busy or still works on the same request. None for
-    another answer, or one that names no time."""
+    any other answer, and for an answer that names no time."""
     said = answer.headers.get("retry-after", "")
     return float(said) if answer.status in (409, 429, 503, 507) and said.replace(".", "", 1).isdigit() else None
 
@@ -69,8 +69,8 @@ def may_be_sent_again(call: Call[Any], error: httpx.TransportError) -> bool:
 
 
 def checked(answer: Answer, url: str) -> Answer:
-    """The answer, if it is a success. Otherwise raises its problem document as Problem, or NoKerrd if there is none:
-    then another program answers at this address."""
+    """Returns the answer if it is a success. Otherwise raises its problem document as Problem. If it has none, another
+    program answers at this address, and NoKerrd is raised."""
     if 200 <= answer.status < 300:
         return answer
     try:
@@ -83,7 +83,7 @@ def checked(answer: Answer, url: str) -> Answer:
 
 
 def understood(call: Call[T], answer: Answer, url: str) -> T:
-    """The parsed answer. NoKerrd if it cannot be parsed."""
+    """Returns the parsed answer. Raises NoKerrd if it cannot be parsed."""
     try:
         return call.read(answer)
     except (ValueError, KeyError, TypeError, OSError, zipfile.BadZipFile) as error:
@@ -100,7 +100,7 @@ def _nothing(answer: Answer) -> None:
 
 
 def _arrays(node: Any) -> Any:
-    """Turns lists of numbers into float64 arrays, null into NaN; anything else stays."""
+    """Turns lists of numbers into float64 arrays, with NaN for null; other values stay."""
     if isinstance(node, dict):
         return {name: _arrays(part) for name, part in node.items()}
     if (
@@ -120,7 +120,7 @@ def _table(answer: Answer) -> dict[str, Any]:
 
 
 def _quantity(answer: Answer) -> Any:
-    """The values of several ranges as arrays in their shape."""
+    """The values of a quantity over several ranges, as arrays in the shape of the ranges."""
     told = _table(answer)
     shape = told.get("shape")
     if shape is not None:
@@ -152,7 +152,8 @@ def _frame(answer: Answer) -> Frame:
 
 
 def shown(frame: Frame, scenes: Mapping[int, Document]) -> Frame:
-    """A session's frame with its scene: the scene of the frame's revision, at the frame's own time and azimuth."""
+    """A session's frame with the scene that it shows: the scene of the frame's revision, at the frame's own time and
+    azimuth."""
     if frame.revision not in scenes:
         return frame
     document: Document = copy.deepcopy(scenes[frame.revision])
@@ -188,7 +189,7 @@ def post(
     method: str = "POST",
     once: bool = False,
 ) -> Call[T]:
-    """A request with a JSON body. once: whether the request gets an Idempotency-Key, so that it may be sent again
+    """A request with a JSON body. once: the request gets an Idempotency-Key, so that it may be sent again
     (docs/http.md)."""
     key = {ONCE: f'"{uuid.uuid4()}"'} if once else {}
     headers = {"Content-Type": JSON, **({"Accept": accept} if accept else {}), **bearer(token), **key}
@@ -235,8 +236,8 @@ TILED: Document = {
 
 
 def of_a_tile(problem: Problem, document: Document) -> Document | None:
-    """The document with the refused field set to the value that a tile supports. None if the server refused it for
-    another reason than the tile."""
+    """The document with the refused field set to the only value that a tile supports. None if the server refused it for
+    a reason other than the tile."""
     if problem.pointer not in TILED:
         return None
     _, section, field = problem.pointer.split("/")
@@ -284,7 +285,7 @@ def integral(name: str, document: Document) -> Call[Any]:
 
 
 def _comparison(answer: Answer) -> Any:
-    """Turns columns of words into arrays, as well as columns of numbers. In columns of words null becomes ""."""
+    """Turns columns of numbers and columns of words into arrays. In columns of words null becomes ""."""
     told = _table(answer)
     told["columns"] = {
         name: np.array(["" if part is None else part for part in column]) if isinstance(column, list) else column
@@ -314,8 +315,8 @@ def is_hash(text: str) -> bool:
 
 
 def is_observation_name(observation: object) -> bool:
-    """True if a server knows the observation by this text: it is the hash of an asset, or a name as "m87-2017-04-05-lo"
-    of an observation that the server has. A file has an extension."""
+    """True if the server knows the observation by this text: the hash of an asset, or the name of an observation that
+    the server has, such as "m87-2017-04-05-lo". The path of a file is told apart by its extension."""
     return isinstance(observation, str) and not pathlib.Path(observation).suffix and "/" not in observation
 
 
@@ -331,7 +332,7 @@ def physics(name: str, parameters: Mapping[str, Any]) -> Call[answers.Quantity]:
 
 
 def _ranged(name: str, value: Any) -> str:
-    """A parameter as it stands in a query. An array must be evenly spaced, as from numpy.linspace; it becomes
+    """A parameter in the form that a query takes. An array must be evenly spaced, as from numpy.linspace; it becomes
     first:last:count."""
     if isinstance(value, str) or np.ndim(value) == 0:
         return str(value)
@@ -420,7 +421,7 @@ def read_curve(body: bytes) -> dict[str, NDArray[np.float64]]:
 
 
 def read_cube(body: bytes) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
-    """The arrays of a sweep's NPZ file by name, its axes among them, and its notes.json: scene, axes, units,
+    """The arrays of a sweep's NPZ file by name, including its axes, and its notes.json: scene, axes, units,
     approximations."""
     with np.load(io.BytesIO(body), allow_pickle=False) as file:
         notes: dict[str, Any] = json.loads(file["notes.json"])
@@ -436,7 +437,8 @@ def finished(status: Mapping[str, Any]) -> bool:
 
 @contextmanager
 def bar(wanted: bool) -> Iterator[Callable[[Mapping[str, Any]], None]]:
-    """A function that shows a job's status as a bar of tqdm; without the package tqdm it shows nothing."""
+    """Returns a function that shows a job's status as a progress bar of tqdm. Without the package tqdm the function
+    does nothing."""
     shown = None
     if wanted:
         try:

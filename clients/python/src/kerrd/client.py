@@ -30,12 +30,12 @@ class Client:
 
     timeout: seconds without a byte after which a request fails. patience: seconds for which a request is repeated while
     the server is busy (429, 503, 507), at the intervals that it asks for, before the refusal is raised. For the same
-    time, the request for a job or a session is sent again if its connection breaks; the server creates the job or
-    session only once. headers: sent with each request. access: the access token for a server with a token file.
-    trust_env: whether the environment sets proxies and certificates.
+    time, a request for a job or a session is sent again if its connection breaks. The server creates the job or session
+    only once. headers: sent with each request. access: the access token for a server with a token file. trust_env:
+    whether proxies and certificates are read from the environment.
 
-    Methods raise Problem for a refused request, Unreachable without a connection, and NoKerrd if another program
-    answers.
+    Methods raise Problem if the server refuses the request, Unreachable if there is no connection, and NoKerrd if
+    another program answers.
     """
 
     def __init__(
@@ -114,8 +114,8 @@ class Client:
         Args:
             scene: a Scene or a dict (docs/scene.md); None: the default scene.
             preset: name of the preset to which `scene` and `changes` are applied.
-            layers: names of layers (docs/layers.md) to return with it. They take a second request, which reuses the
-                lens map.
+            layers: names of layers (docs/layers.md) to return with the picture. The client requests them separately,
+            and the server reuses the picture's lens map.
             changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
 
         Returns:
@@ -166,7 +166,7 @@ class Client:
 
         Raises:
             Problem: the scene has exposure "auto", samples "auto", bloom or a beam, which a tile cannot have
-                (docs/scene.md); the message names all of them.
+                (docs/scene.md); the message names every such field.
         """
         document = scene_of(scene, changes)
         width, height = self._size(document, preset)
@@ -213,7 +213,7 @@ class Client:
         return whole
 
     def _may_be_tiled(self, document: Document, preset: str | None) -> None:
-        """Raises a Problem that names everything that a tile of this scene cannot have."""
+        """Raises a Problem that names every field of the scene that a tile does not support."""
         refused: list[Problem] = []
         while True:
             try:
@@ -271,14 +271,15 @@ class Client:
         inclination_deg, orders, profile, tolerance, engine. With motion ("infall", "velocity", ...: the values of
         camera.observer) pairs are directions for that observer, yaw and pitch in degrees.
 
-        Returns one record for each ray: fate (0 captured, 1 escaped, 2 undecided), n_crossings, error (relative),
-        sky_theta, sky_phi, and r, phi, delay, g of shape (orders,). ValueError for pairs of another shape.
+        Returns a structured array with one record for each ray: fate (0 captured, 1 escaped, 2 undecided), n_crossings,
+        error (relative), sky_theta, sky_phi, and r, phi, delay, g of shape (orders,). ValueError for pairs of another
+        shape.
         """
         return self._run(calls.rays(pairs, settings))
 
     def orbits(self, orbit: Mapping[str, Any] | None = None, **settings: Any) -> answers.OrbitPath:
-        """The path of a body: orbit={"p": 6, "e": 0.5}, spin=0.9, samples=1000. `series` holds its columns as float64
-        arrays. For several bodies, orbits=[...], the answer is an answers.OrbitPaths."""
+        """The path of a body: orbit={"p": 6, "e": 0.5}, spin=0.9, samples=1000. `series` of the answer holds the
+        columns as float64 arrays. With orbits=[...], for several bodies, the answer is an answers.OrbitPaths."""
         return self._run(calls.orbits({**({"orbit": dict(orbit)} if orbit is not None else {}), **settings}))
 
     def physics(self, name: str, **parameters: Any) -> answers.Quantity:
@@ -294,41 +295,44 @@ class Client:
         return self._run(calls.physics(name, parameters))
 
     def line(self, **settings: Any) -> answers.LineProfile:
-        """The profile of a spectral line from a thin disk. `columns` are arrays."""
+        """The profile of a spectral line from a thin disk. `columns` of the answer are arrays."""
         told: answers.LineProfile = self._run(calls.integral("line", settings))
         return told
 
     def transfer_function(self, **settings: Any) -> answers.TransferFunction:
-        """Cunningham's transfer function f(g*, r) of a thin disk, near and far side. `columns` are arrays."""
+        """Cunningham's transfer function f(g*, r) of a thin disk, for its near and far side. `columns` of the answer
+        are arrays."""
         told: answers.TransferFunction = self._run(calls.integral("transfer-function", settings))
         return told
 
     def impulse(self, **settings: Any) -> answers.ImpulseResponse:
-        """The echo of a flash on a thin disk, by energy and time. `columns` are arrays."""
+        """The echo of a flash on a thin disk, by energy and time. `columns` of the answer are arrays."""
         told: answers.ImpulseResponse = self._run(calls.integral("impulse", settings))
         return told
 
     def lags(self, **settings: Any) -> answers.Lags:
-        """Lags of that echo, diluted by the continuum, by Fourier frequency and energy. `columns` are arrays."""
+        """Lags of the echo that impulse() computes, diluted by the continuum, by Fourier frequency and energy.
+        `columns` of the answer are arrays."""
         told: answers.Lags = self._run(calls.integral("lags", settings))
         return told
 
     def spectrum(self, **settings: Any) -> answers.DiskSpectrum | answers.VolumeSpectrum:
-        """The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. `columns` are arrays."""
+        """The spectrum of a thin disk of black bodies, or of a scene's volume, in SI units. `columns` of the answer are
+        arrays."""
         told: answers.DiskSpectrum | answers.VolumeSpectrum = self._run(calls.integral("spectrum", settings))
         return told
 
     def visibility(self, **settings: Any) -> answers.Visibilities:
-        """Visibilities of a scene: amplitude and phase by baseline and image order. `columns` are arrays."""
+        """Visibilities of a scene: amplitude and phase by baseline and image order. `columns` of the answer are arrays."""
         told: answers.Visibilities = self._run(calls.integral("visibility", settings))
         return told
 
     def compare(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
     ) -> answers.Comparison:
-        """Compares a scene with an observation: chi^2, and `columns` as arrays. The observation is a file (uvfits, or
-        the EHT's CSV), its bytes, the hash of an asset on the server, or the name of an observation that the server
-        has: compare("m87-2017-04-05-lo", preset="m87", average_s=600)."""
+        """Compares a scene with an observation. Returns chi^2, and `columns` as arrays. The observation is a file
+        (uvfits, or the EHT's CSV), its bytes, the hash of an asset on the server, or the name of an observation that
+        the server has: compare("m87-2017-04-05-lo", preset="m87", average_s=600)."""
         document = self._observed(observation, scene, settings)
         told: answers.Comparison = self._run(calls.compare(document))
         return told
@@ -340,9 +344,10 @@ class Client:
         scene: SceneLike = None,
         **settings: Any,
     ) -> answers.ComparisonOfSets:
-        """chi^2 of many parameter sets in one request: `columns` as arrays with a row for each set. A set has fields of
-        the scene by their paths, and "flux_jy", "size" and "position_angle_deg": compare_sets("m87.uvfits",
-        [{"spacetime.spin": 0.5}, {"spacetime.spin": 0.9}], preset="m87"). kerrd.fit fits by such requests."""
+        """Computes chi^2 of many parameter sets in one request. Returns `columns` as arrays with an element for each
+        set. A set has fields of the scene by their paths, and "flux_jy", "size" and "position_angle_deg":
+        compare_sets("m87.uvfits", [{"spacetime.spin": 0.5}, {"spacetime.spin": 0.9}], preset="m87"). kerrd.fit fits by
+        such requests."""
         document = self._observed(observation, scene, settings)
         told: answers.ComparisonOfSets = self._run(calls.compare_sets({**document, "sets": list(sets)}))
         return told
@@ -350,8 +355,8 @@ class Client:
     def observe(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
     ) -> answers.Simulation:
-        """Simulates a measurement of a scene by the array of an observation, with its noise: `columns` as arrays. The
-        observation is given as for compare(): observe("m87.uvfits", preset="riaf", seed=1)."""
+        """Simulates a measurement of a scene by the array of telescopes of an observation, with its noise. Returns
+        `columns` as arrays. The observation is given as for compare(): observe("m87.uvfits", preset="riaf", seed=1)."""
         document = self._observed(observation, scene, settings)
         told: answers.Simulation = self._run(calls.observe(document))
         return told
@@ -364,8 +369,8 @@ class Client:
         form: Literal["uvfits", "csv"] = "uvfits",
         **settings: Any,
     ) -> bytes:
-        """The data of observe() as the bytes of a file: uvfits or the EHT's CSV. For uvfits the observation must be
-        uvfits too."""
+        """The data of observe() as the bytes of a file, uvfits or the EHT's CSV. For uvfits, the given observation must
+        be a uvfits file too."""
         if form not in ("uvfits", "csv"):
             raise ValueError(f"form is {form!r}; it must be 'uvfits' or 'csv'")
         document = self._observed(observation, scene, settings)
@@ -375,7 +380,7 @@ class Client:
     def _observed(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike, settings: dict[str, Any]
     ) -> dict[str, Any]:
-        """The request of a comparison or a simulation. Uploads the observation unless the server knows it by name."""
+        """The request for a comparison or a simulation. Uploads the observation unless the server knows it by name."""
         name = observation if calls.is_observation_name(observation) else None
         if name is None:
             name = self.put_asset(*calls.observed(observation))
@@ -538,7 +543,8 @@ class Session:
         self.token: str = opened["token"]
         self.scene: dict[str, Any] = opened["scene"]
         self.revision: int = opened["revision"]
-        self._scenes = {self.revision: self.scene}  # by revision; contains only revisions that a later frame may show
+        # scenes by revision; contains only revisions that a later frame may show
+        self._scenes = {self.revision: self.scene}
         self.quality = quality
         self.frame_wait = FRAME_WAIT_MS / 1000  # seconds for which an iteration waits for a frame before it asks again
         self._seen = 0
@@ -574,20 +580,21 @@ class Session:
         return self.revision
 
     def refresh(self) -> dict[str, Any]:
-        """Requests the current scene, which changes by itself while `motion` is set, and returns it."""
+        """Requests the current scene from the server and returns it. The scene changes by itself while `motion` is set."""
         told = self.client._run(calls.session(self.id))
         self._take(told)
         return self.scene
 
     def _take(self, told: Mapping[str, Any]) -> None:
         if told["revision"] < self.revision:
-            return  # a later answer has arrived already
+            return  # the answer to a later change has arrived already
         self.scene = told["scene"]
         self.revision = told["revision"]
         self._scenes[self.revision] = self.scene
 
     def frame(self, wait: float = FRAME_WAIT_MS / 1000) -> Frame | None:
-        """The next new frame, or None if none comes within `wait` seconds, as when the scene is at rest."""
+        """Returns the next new frame. Returns None if no frame comes within `wait` seconds, as when the scene is at
+        rest."""
         frame = self.client._run(calls.next_frame(self.id, self._seen, self.quality, int(1000 * wait)))
         if frame is None:
             return None
@@ -602,8 +609,8 @@ class Session:
         return calls.shown(frame, self._scenes)
 
     def __iter__(self) -> Iterator[Frame]:
-        """Yields frames as they come. For a scene at rest it stops after the final one, or at once if that has been
-        received. For a moving scene it does not stop, unless nothing visible moves."""
+        """Yields frames as they come. For a scene at rest the iteration stops after the final frame, or at once if the
+        final frame has been received already. For a moving scene it does not stop, unless nothing visible moves."""
         while self.moves or self._final < self.revision:
             frame = self.frame(self.frame_wait)
             if frame is not None:

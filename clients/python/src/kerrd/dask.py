@@ -93,8 +93,9 @@ def _render_all(
     layers: Sequence[str],
     paths: Sequence[str | None],
 ) -> list[Any]:
-    """The task: renders some scenes one after the other. If a scene is refused, the Problem is the
-    last element of the list instead of being raised, because another worker would refuse the scene too."""
+    """The task: renders some scenes one after the other. If a scene is refused, the Problem is returned as the last
+    element of the list. It is not raised, because Dask would then retry the task on another worker, which would refuse
+    the scene too."""
     got: list[Any] = []
     try:
         for document, path in zip(documents, paths):
@@ -105,8 +106,8 @@ def _render_all(
 
 
 def _render(plugin_name: str, document: Document, preset: str | None, layers: Sequence[str], to: str | None) -> Any:
-    """On a worker: renders a picture's bytes or a scene's layers. With `to` they are written into that file, whose name
-    is returned. If the server dies, it is started again, once."""
+    """On a worker: renders a picture's bytes or a scene's layers. With `to` they are written into that file, and its
+    name is returned. If the server dies, it is started again once."""
     if to is not None and os.path.exists(to):  # written by a worker that died with this task
         return to
     plugin = cast(Servers, get_worker().plugins[plugin_name])
@@ -119,7 +120,8 @@ def _render(plugin_name: str, document: Document, preset: str | None, layers: Se
         got = _ask(plugin.hole(other_than=hole), document, preset, layers)
     if to is None:
         return got
-    part = f"{to}.{os.getpid()}.{threading.get_ident()}.part"  # renamed when complete: no half file has the name
+    # renamed when complete, so that no incomplete file has the final name
+    part = f"{to}.{os.getpid()}.{threading.get_ident()}.part"
     with open(part, "wb") as file:
         if isinstance(got, bytes):
             file.write(got)
@@ -136,7 +138,7 @@ def _ask(
         return hole.layers(document, layers, preset=preset) if layers else hole.render(document, preset=preset).png
     except Problem:
         if (document.get("image") or {}).get("tile"):
-            hole._may_be_tiled(document, preset)  # raises a Problem with all that a tile cannot have
+            hole._may_be_tiled(document, preset)  # raises a Problem that names all fields that a tile does not support
         raise
 
 
@@ -168,13 +170,14 @@ def sweep(
     for Servers.
 
     folder: a folder shared by all workers, for files 000000.png (or .npz) …; returns their paths. Existing files are
-    kept, so that an interrupted sweep continues; sweep.json records the scene of each, and a file of another scene is
-    an error. zarr: a store shared by all workers, with one array (scenes, height, width[, 3]) for each layer; returns
-    its group. Needs the package zarr, and scenes of one size.
+    kept, so that an interrupted sweep can be continued. sweep.json records the scene of each file; a file of another
+    scene is an error. zarr: a store shared by all workers, with one array (scenes, height, width[, 3]) for each layer;
+    returns its group. Needs the package zarr, and scenes of one size.
 
-    batch: scenes of one task; None: some thirty tasks for each thread, of at most 16 scenes. retries: how often a task
-    is repeated when its worker has died; what it had not finished goes to other workers. Raises Problem for a scene
-    that is refused, ValueError without scenes or for a batch below 1, and KerrdError for a folder with other scenes.
+    batch: number of scenes in a task; None: such that there are some thirty tasks for each thread, with at most 16
+    scenes each. retries: how often a task is repeated if its worker has died; its unfinished scenes go to other
+    workers. Raises Problem for a scene that is refused, ValueError without scenes or for a batch below 1, and
+    KerrdError for a folder with other scenes.
     """
     if isinstance(layers, str):
         raise TypeError(f"layers is {layers!r}; it must be a list, as in [{layers!r}]")
@@ -222,7 +225,7 @@ def _refused(tasks: Iterable[list[Any]]) -> list[Any]:
 
 
 def _files(folder: Path, documents: Sequence[Document], preset: str | None, layers: Sequence[str]) -> list[str | None]:
-    """The names of the files, after comparing those that exist with sweep.json, the hashes of their scenes."""
+    """The names of the files. Existing files are checked against sweep.json, which has the hashes of their scenes."""
     folder.mkdir(parents=True, exist_ok=True)
     names = [f"{k:06}.{'npz' if layers else 'png'}" for k in range(len(documents))]
     wanted = {
@@ -243,7 +246,7 @@ def _files(folder: Path, documents: Sequence[Document], preset: str | None, laye
 
 
 def _parts(cluster: Cluster, places: Sequence[int], batch: int | None) -> list[Sequence[int]]:
-    """Indices of scenes, divided into tasks."""
+    """The indices of the scenes, divided into tasks."""
     threads = max(sum(cluster.nthreads().values()), 1)  # type: ignore[no-untyped-call]
     size = batch if batch is not None else min(max(len(places) // (32 * threads), 1), 16)
     return [places[k : k + size] for k in range(0, len(places), size)]
@@ -298,7 +301,8 @@ def _place(
     layers: Sequence[str],
     store: str,
 ) -> list[Problem]:
-    """The task: writes the layers of some scenes into the store. A refusal ends it, and is returned."""
+    """The task: writes the layers of some scenes into the store. If the server refuses a scene, the task ends and
+    returns the Problem."""
     group = _zarr().open_group(store, mode="r+")
     try:
         for k, document in zip(places, documents):

@@ -16,13 +16,14 @@ from .scene import Scene
 
 Document: TypeAlias = dict[str, Any]
 SceneLike: TypeAlias = Scene | Mapping[str, Any] | None
-Open: TypeAlias = Any  # type of keywords beside **changes; with a narrower one, checkers refuse **{"camera.r": 60}
+# type of the keywords beside **changes; with a narrower type, type checkers refuse **{"camera.r": 60}
+Open: TypeAlias = Any
 T = TypeVar("T")
 
 
 def plain(value: Any) -> Any:
-    """The value in JSON's types, from dataclasses, tuples, and arrays and scalars of numpy. Fields of a dataclass that
-    are None are left out."""
+    """Converts a value to JSON's types. It may hold dataclasses, tuples, and numpy arrays and scalars. Fields of a
+    dataclass that are None are left out."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         fields = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
         return {name: plain(part) for name, part in fields.items() if part is not None}
@@ -34,7 +35,7 @@ def plain(value: Any) -> Any:
 
 
 def finite(value: Any, path: str = "") -> Any:
-    """The same document. ValueError, naming the field, for a number that JSON cannot hold: NaN or infinity."""
+    """Returns the document unchanged. Raises ValueError, naming the field, for NaN or infinity, which JSON cannot hold."""
     for name, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
         finite(part, f"{path}.{name}" if path else str(name))
     if isinstance(value, float) and not math.isfinite(value):
@@ -113,7 +114,7 @@ def tile_of(document: Document, window: Window) -> Document:
 
 
 def _widths(document: Document) -> tuple[Any, Any]:
-    """The picture's width in M and in microarcseconds. If changes set only one of the two, that one holds, as in
+    """The picture's width in M and in microarcseconds. If changes set only one of the two, that one counts, as in
     src/scene/sky_scale.h of the server."""
     camera = document.get("camera") or {}
     return camera.get("field_m"), camera.get("field_uas")
@@ -140,8 +141,8 @@ def scene_of(scene: SceneLike, changes: Mapping[str, Any]) -> Document:
 
 
 def patch_of(scene: Document, changes: Mapping[str, Any]) -> Document:
-    """The merge patch that applies changes, given as for scene_of, to a whole scene. It holds each changed list as a
-    whole, since a merge patch cannot address an element."""
+    """The merge patch that applies changes, given as for scene_of, to a whole scene. A changed list is included as a
+    whole, because a merge patch cannot address an element."""
     lists = [
         parts[0]
         for parts in (name.replace("__", ".").split(".") for name in changes)
@@ -163,7 +164,8 @@ def dataclass_of(document: Mapping[str, Any], kind: type[T]) -> T:
 
 
 def _typed(value: Any, hint: Any) -> Any:
-    """A section as its dataclass, a list of sections as a list of dataclasses, and any other value unchanged."""
+    """A section as its dataclass, and a list of sections as a list of dataclasses. Any other value is returned
+    unchanged."""
     for part in typing.get_args(hint):
         if isinstance(value, Mapping) and dataclasses.is_dataclass(part):
             return dataclass_of(value, typing.cast(type[Any], part))

@@ -30,7 +30,7 @@ def _width_m(camera: dict[str, Any]) -> float:
 
 
 def _polarised(frame: Frame, flux: NDArray[np.float32]) -> list[NDArray[np.float64]]:
-    """Stokes Q, U and V in Jy a pixel, as many of them as the frame has."""
+    """Stokes Q, U and V in Jy a pixel; only those that the frame has."""
     names = [name for name in STOKES if name in frame.layers]
     if names not in ([], list(STOKES[:2]), list(STOKES)):
         raise ValueError(
@@ -57,13 +57,13 @@ def to_ehtim(
 ) -> Any:
     """An ehtim.image.Image of a frame that was rendered with the layer "jy_per_pixel".
 
-    Pixels are in Jy. Orientation: that of the picture, north up and east left. Size: by the scene's mass and distance.
-    Frequency: volume.frequency_ghz, without a volume disk.frequency_ghz. With the layers "intensity", "stokes_q" and "stokes_u" (and "stokes_v") the image
-    is polarised.
+    Pixels are in Jy. Orientation: as in the picture, north up and east left. Size: from the scene's mass and distance.
+    Frequency: volume.frequency_ghz; disk.frequency_ghz if there is no volume. With the layers "intensity", "stokes_q"
+    and "stokes_u" (and "stokes_v") the image is polarised.
 
     source: name of the source; ra: right ascension in hours; dec: declination in degrees; mjd: modified Julian date in
     days. Their defaults are the values of the scene's section "source". ValueError if the frame lacks a layer, if its
-    projection is not flat, or if place or date are unknown; ImportError without the package ehtim.
+    projection is not flat, or if the source's position or the date is unknown; ImportError without the package ehtim.
     """
     if "jy_per_pixel" not in frame.layers:
         raise ValueError('the frame has no layer "jy_per_pixel": render it with layers=["jy_per_pixel"]')

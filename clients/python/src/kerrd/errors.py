@@ -29,7 +29,7 @@ class Unreachable(KerrdError, httpx.TransportError):
 
 
 class NoKerrd(KerrdError):
-    """Another program than kerrd answers at the address, or a proxy without kerrd behind it."""
+    """The program that answers at the address is not kerrd, or is a proxy that cannot reach kerrd."""
 
     def __init__(self, url: str, reason: str) -> None:
         self._made_of = (url, reason)
@@ -40,11 +40,12 @@ class NoKerrd(KerrdError):
 
 
 class Problem(KerrdError):
-    """A request that the server refused, or failed to serve (RFC 9457).
+    """The server refused a request, or failed to serve it (RFC 9457).
 
     status: the HTTP status. pointer: the field of the document, such as "/image/width", or None. detail: a sentence
-    with the field, its value and what it must be. allowed: the part of detail that says what the value must be, or
-    None. type, title: as in the problem document. retry_after: seconds after which another try may succeed, or None.
+    that names the field, its value and the allowed values. allowed: the part of detail that says what the value must
+    be, or None. type, title: as in the problem document. retry_after: seconds after which another try may succeed, or
+    None.
     """
 
     def __init__(self, status: int, document: dict[str, Any], retry_after: float | None = None) -> None:

@@ -14,7 +14,7 @@ from .document import Document
 from .errors import KerrdError
 
 MOST_POSITIONS = 400
-DECADES = 30  # a slider is logarithmic if the ratio of its ends is larger
+DECADES = 30  # a slider is logarithmic if the ratio of its ends exceeds this
 PER_DECADE = 40
 UNITS = re.compile(r"_(deg|k|uas|pc|msun|edd|m|jy|ghz|cm3)$")
 
@@ -24,8 +24,9 @@ class Field:
     """A field of the scene.
 
     kind: "number", "integer", "choice" or "switch"; or "other", such as a file or a list of words, which has no
-    control. low, high: the range that the server accepts; span: the useful part of it. word: the word that may stand
-    instead of a number, such as "infinity"; first: the number to begin with when a number replaces the word.
+    control. low, high: the range that the server accepts; span: the useful part of it. word: the word that is allowed
+    instead of a number, such as "infinity". first: the number that a control shows at first when a number replaces the
+    word.
     """
 
     path: str
@@ -42,7 +43,7 @@ class Field:
 
     @property
     def label(self) -> str:
-        """Name in words, without the unit. A field of a list has the number of its element, from 1."""
+        """Name in words, without the unit. The name of a field in a list includes the number of its element, from 1."""
         name = UNITS.sub("", self.path.rsplit(".", 1)[-1]).replace("_", " ")
         section = self.path.split(".")[0]
         element = re.match(r"[a-z]+\.(\d+)\.", self.path)
@@ -51,8 +52,8 @@ class Field:
         return name if section in ("spacetime", "camera", "style", "time") else f"{section}: {name}"
 
     def positions(self) -> list[float]:
-        """The numbers at which a slider stops, ends included: evenly spaced round numbers, or a logarithmic scale for a
-        range of many decades; about MOST_POSITIONS at most."""
+        """The positions of a slider, including the ends: evenly spaced round numbers, or a logarithmic scale if the
+        range spans many decades. There are about MOST_POSITIONS at most."""
         low, high = self.span
         if self.kind == "integer" and high - low <= MOST_POSITIONS:
             return [float(n) for n in range(math.ceil(low), math.floor(high) + 1)]
@@ -63,7 +64,7 @@ class Field:
             inner = [
                 0.0,
                 *_factors(self._usual() / 100, high),
-            ]  # 0 is "off"; one step leads from there to a hundredth of the default
+            ]  # 0 is "off"; the next position is a hundredth of the default
         else:
             step = next(
                 size * 10.0**power
@@ -108,7 +109,7 @@ class Fields:
     def __init__(self, schema: Mapping[str, Any]) -> None:
         self.paths = {
             path: spec for path, spec in _leaves(schema, "") if not path.startswith("image.tile.")
-        }  # a session shows whole pictures
+        }  # not a field of a session, which shows whole pictures
         self.folders = {
             name for name, spec in schema["properties"].items() if not spec.get("deprecated") and name not in self.paths
         }
@@ -129,7 +130,7 @@ class Fields:
         raise KerrdError(f"a scene has no field {name}" + (f"; near it: {', '.join(near)}" if near else ""))
 
     def document(self, changes: Mapping[str, Any]) -> Document:
-        """The same changes by whole paths; `size` stays."""
+        """The same changes with full paths; `size` is kept."""
         return {name if name == "size" else self.path(name): value for name, value in changes.items()}
 
     def control(self, name: str) -> Field:
@@ -184,6 +185,6 @@ def _field(path: str, spec: Mapping[str, Any]) -> Field:
 
 
 def _factors(low: float, high: float) -> list[float]:
-    """Numbers of three significant digits from low to high, each the one before times a constant factor."""
+    """Numbers of three significant digits from low to high, with a constant ratio between neighbours."""
     number = min(MOST_POSITIONS, math.ceil(math.log10(high / low) * PER_DECADE))
     return [float(f"{low * (high / low) ** (k / number):.3g}") for k in range(number + 1)]

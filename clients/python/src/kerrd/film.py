@@ -19,12 +19,12 @@ from .document import plain
 from .errors import KerrdError
 from .local import find_binary
 
-LOCK_WAIT_S = 120  # seconds to wait for the lock of a process that outlives its worker for a moment
+LOCK_WAIT_S = 120  # seconds to wait for the lock that a process may hold for a moment after its worker has died
 
 
 def _run(arguments: Sequence[str], request: bytes, binary: str | None) -> dict[str, Any]:
-    """Runs `kerrd film` on a worker, and returns what its --stats print. With util-linux's setpriv the process ends
-    with its worker."""
+    """Runs `kerrd film` on a worker, and returns the output of --stats. If util-linux's setpriv is installed, the
+    process ends with its worker."""
     with_worker = [setpriv, "--pdeathsig", "TERM", "--"] if (setpriv := shutil.which("setpriv")) else []
     until = time.monotonic() + LOCK_WAIT_S
     while True:
@@ -59,11 +59,11 @@ def film(
 
     document: the request, as for `kerrd film`. output: the file, .mp4, .webm or .zip. client: a distributed.Client, by
     default the current one. state: a folder shared by all workers, where frames are kept; an interrupted film continues
-    from it. rate: frames a second. options: further options of `kerrd film`, such as ("--samples", "8"). batch: frames
-    of one task. retries: how often a task is repeated. binary: the program on the workers (find_binary).
+    from it. rate: frames a second. options: further options of `kerrd film`, such as ("--samples", "8"). batch: number
+    of frames in a task. retries: how often a task is repeated. binary: the program on the workers (find_binary).
 
-    The workers' devices must be of one kind, or their frames are refused. A process ends with its worker; its
-    unfinished frames are rendered by other workers. KerrdError with the message of a process that fails; ValueError for
+    The workers' devices must be of one kind, or their frames are refused. A process ends with its worker; other workers
+    render its unfinished frames. Raises KerrdError, with the message of the process, if a process fails; ValueError for
     a batch below 1.
     """
     if batch < 1:

@@ -60,8 +60,8 @@ def _teller(progress: bool | Progress) -> Progress:
 @dataclass(frozen=True)
 class Maximum:
     """The best parameters. values: by name. chi2: of all data; data: their number. converged: whether the search's
-    steps became small. at_bounds: parameters closer to a bound than a thousandth of their range. For these the least
-    chi^2 may lie beyond the bound."""
+    steps became small. at_bounds: parameters that are closer to a bound than a thousandth of their range. The least
+    chi^2 may lie beyond that bound."""
 
     values: dict[str, float]
     chi2: float
@@ -81,12 +81,12 @@ class Posterior:
     acceptance: float
 
     def samples(self, burn: float = 0.5) -> NDArray[np.float64]:
-        """All samples except those of the first steps, of which `burn` is the share. Shape (samples, parameters), as
-        for corner.corner()."""
+        """All samples except the first share `burn` of the steps. Shape (samples, parameters), as for corner.corner()."""
         return self.chain[round(burn * len(self.chain)) :].reshape(-1, len(self.names))
 
     def interval(self, name: str, share: float = 0.95, burn: float = 0.5) -> tuple[float, float, float]:
-        """Lower end, median and upper end of the central interval that holds this share of the samples."""
+        """Lower end, median and upper end of the central interval that holds this share of the samples, for one
+        parameter."""
         if name not in self.names:
             raise ValueError(f"there is no parameter {name}; there are {', '.join(self.names)}")
         column = self.samples(burn)[:, self.names.index(name)]
@@ -94,8 +94,8 @@ class Posterior:
         return float(low), float(middle), float(high)
 
     def holds(self, log_probability: float, share: float = 0.95, burn: float = 0.5) -> bool:
-        """True if the region of highest density with this share of the samples contains a point of this log
-        probability."""
+        """True if a point with this log probability is inside the region of highest density that holds this share of
+        the samples."""
         seen = self.log_probability[round(burn * len(self.chain)) :]
         return bool(log_probability >= np.quantile(seen, 1 - share))
 
@@ -106,7 +106,7 @@ class Posterior:
 
 
 def _bounds_of(name: str, given: object) -> tuple[float, float]:
-    """The bounds of a parameter, checked."""
+    """Returns the bounds of a parameter after checking them."""
     try:
         low, high = (float(bound) for bound in given)  # type: ignore[attr-defined]
     except (TypeError, ValueError):
@@ -144,12 +144,12 @@ class Fit:
     client: a kerrd.Client. observation: a file (uvfits, or the EHT's CSV), its bytes, or the hash of an asset.
     parameters: name -> its bounds. A name is a field of the scene by its path, such as "spacetime.spin", or "size",
     "position_angle_deg" or "flux_jy". scene, preset: what the parameters change. products: data that are compared.
-    solve: quantities that the server finds for each set, in closed form or by a search; by default the flux, unless it
-    is given. settings: further fields of the request, such as pixels, average_s, systematic, scattering
+    solve: quantities that the server fits for each parameter set, in closed form or by a search; by default the flux,
+    unless it is given. settings: further fields of the request, such as pixels, average_s, systematic, scattering
     (docs/comparing.md).
 
-    Amplitudes and log closure amplitudes together are the same data twice, so this combination is refused, as are
-    visibilities with any other product.
+    Amplitudes together with log closure amplitudes would count the same data twice, so this combination is refused.
+    Visibilities with any other product are refused for the same reason.
     """
 
     def __init__(
@@ -192,7 +192,8 @@ class Fit:
         return np.array([self.parameters[name] for name in self.names], dtype=np.float64)
 
     def chi2(self, points: ArrayLike) -> NDArray[np.float64]:
-        """chi^2 of all data at each point, (points, parameters); infinity where the picture is dark."""
+        """chi^2 of all data at each point, for points of shape (points, parameters); infinity where the picture is
+        dark."""
         rows = np.atleast_2d(np.asarray(points, dtype=np.float64))
         if rows.ndim != 2 or rows.shape[1] != len(self.names):
             raise ValueError(f"points has the shape {rows.shape}; it must be (n, {len(self.names)})")
@@ -233,9 +234,9 @@ class Fit:
     ) -> Maximum:
         """The point of the least chi^2, by differential evolution over the bounds and then the simplex method.
 
-        population: points a generation for each parameter. tolerance: accepted difference of chi^2 within the last
-        simplex. progress: True prints a line; a function gets generation, generations and chi^2. ImportError without
-        scipy.
+        population: points a generation for each parameter. tolerance: largest difference of chi^2 within the last
+        simplex. progress: True prints a line; a function is called with generation, generations and chi^2. ImportError
+        without scipy.
         """
         optimize = _needs("scipy.optimize", "Fit.maximum")
         tell, seen = _teller(progress), [0]
@@ -278,7 +279,7 @@ class Fit:
         return Maximum(values, float(best.fun), self.data, bool(fine.success), seen[0], at_bounds)
 
     def _described(self, walkers: int, seed: int | None) -> str:
-        """All that a chain depends on. A file is resumed only by a fit with the same text."""
+        """A text of all settings that determine a chain. A file is continued only by a fit with the same text."""
         parts = [
             self.observation,
             self.parameters,
@@ -322,9 +323,9 @@ class Fit:
         """Samples the posterior by the stretch moves of emcee (Foreman-Mackey et al. 2013, PASP 125, 306).
 
         steps: steps in all. walkers: default 4 for each parameter, and at least 16. start: where the walkers begin,
-        such as maximum(); default: all over the bounds. file: an .npz that is written every `every` steps; a call
-        with the same fit, walkers and seed continues it, and gives the same chain as one call for all steps.
-        progress: as for maximum(). ImportError without emcee.
+        such as maximum(); default: all over the bounds. file: an .npz that is written every `every` steps. A call with
+        the same fit, walkers and seed continues the chain in the file; the result equals that of a single call for all
+        steps. progress: as for maximum(). ImportError without emcee.
         """
         emcee = _needs("emcee", "Fit.posterior")
         walkers = max(16, 4 * len(self.names)) if walkers is None else walkers

@@ -17,8 +17,9 @@ from .errors import KerrdError, Problem
 from .frame import Frame
 
 MOST_UNSHOWN = 2  # frames sent to the viewer that it has not acknowledged yet
-DEAF_S = 0.25  # seconds after which a frame counts as shown while a running cell keeps acknowledgements away
-PRESENCE_S = 150  # seconds without a message after which a viewer has left; a hidden page sends one a minute
+DEAF_S = 0.25  # seconds after which a frame counts as shown while a running cell blocks acknowledgements
+# seconds without a message after which a viewer counts as gone; a hidden page sends a message each minute
+PRESENCE_S = 150
 AGAIN_S = 2.0  # seconds between two attempts to reach the server
 REFRESH_S = 0.2  # seconds between two requests for a scene that moves by itself
 
@@ -34,17 +35,18 @@ def _end(session: Session) -> None:
     try:
         session.close()
     except (KerrdError, httpx.HTTPError, RuntimeError):
-        pass  # the server ends it within a minute
+        pass  # the server ends the session within a minute
 
 
 class Follower:
-    """Keeps a session, and opens a new one with the same scene when it has ended. Frames are fetched only while
-    somebody watches or waits.
+    """Keeps a session, and opens a new one with the same scene if the server has ended it. Frames are fetched only
+    while there is a viewer or a call that waits for a frame.
 
     Callbacks: took(scene) when the scene has changed; show(frame, serial) to show a frame, which the viewer
     acknowledges by shown(serial); complain(text) with an error, or with "" when the error is over. At most MOST_UNSHOWN
-    frames are unacknowledged; of those that come meanwhile only the newest is kept. The callbacks run on any thread,
-    `took` on one at a time. The constructor raises Problem if the server refuses the scene.
+    frames are sent without acknowledgement. Of the frames that arrive in the meantime only the newest is kept. The
+    callbacks run on any thread; calls of `took` never overlap. The constructor raises Problem if the server refuses the
+    scene.
     """
 
     def __init__(
@@ -63,14 +65,14 @@ class Follower:
         self.complain: Callable[[str], None] = lambda text: None
         self._session: Session = client.session(scene_of(scene, changes), preset=preset, quality=quality)
         self.scene: Document = self._session.scene
-        self._patching = threading.RLock()  # keeps the order of scenes
-        self._sending = threading.RLock()  # keeps the order of frames
-        self._state = threading.Condition()  # guards all that follows
+        self._patching = threading.RLock()  # keeps scenes in order
+        self._sending = threading.RLock()  # keeps frames in order
+        self._state = threading.Condition()  # guards all members below
         self._waiting: dict[str, Any] = {}
         self._answers: list[Callable[[], None]] = []
         self._views: dict[str, float] = {}
         self._waiters = 0
-        self._unshown: list[tuple[int, float]] = []  # serial, and when it was sent
+        self._unshown: list[tuple[int, float]] = []  # serial number of each frame, and the time at which it was sent
         self._unsent = False
         self._serial = 0
         self._frame: Frame | None = None
@@ -111,15 +113,15 @@ class Follower:
         self._attempt(lambda: self._exchange(scene(self.scene)))
 
     def later(self, changes: Mapping[str, Any], answer: Callable[[], None]) -> None:
-        """Changes fields soon, by dotted path; of several values for one field only the last is sent. answer() is
-        called when the server has taken or refused them."""
+        """Changes fields, by dotted path, without waiting. If a field is changed several times before a request, only
+        the last value is sent. answer() is called when the server has accepted or refused the changes."""
         with self._state:
             self._waiting.update(changes)
             self._answers.append(answer)
             self._state.notify_all()
 
     def watch(self, view: str, *, anew: bool = False) -> None:
-        """Registers a viewer, which calls this again within PRESENCE_S. anew: it has no frame to show yet."""
+        """Registers a viewer, which must call this again within PRESENCE_S. anew: the viewer has no frame to show yet."""
         with self._state:
             self._views[view] = monotonic()
             if anew:
@@ -140,8 +142,8 @@ class Follower:
         self._send()
 
     def deaf(self) -> None:
-        """To be called while the caller's thread cannot hear acknowledgements: the oldest frame then counts as shown
-        after DEAF_S, so that a loop in a cell is animated."""
+        """To be called while the caller's thread cannot receive acknowledgements. The oldest frame then counts as shown
+        after DEAF_S seconds, so that a loop in a cell is animated."""
         with self._state:
             if self._unshown and monotonic() - self._unshown[0][1] > DEAF_S:
                 del self._unshown[0]
@@ -149,8 +151,8 @@ class Follower:
         self._send()
 
     def frame(self, *, final: bool, timeout: float) -> Frame:
-        """The newest frame of the current scene. final: the finest one; of a moving scene, the newest. timeout: seconds
-        to wait. KerrdError if none comes."""
+        """The newest frame of the current scene. final: wait for the finest frame; for a moving scene, the newest frame
+        is returned. timeout: seconds to wait. KerrdError if none comes."""
 
         def there() -> bool:
             session, frame = self._session, self._frame
@@ -231,7 +233,7 @@ class Follower:
                 self._waiting, self._answers = {}, []
             try:
                 self.change(lambda scene: patch_of(scene, changes))
-            except Exception:  # reported already; the scene is unchanged
+            except Exception:  # the error was reported already; the scene is unchanged
                 pass
             for answer in answers:
                 answer()
@@ -286,8 +288,8 @@ class Follower:
                 self.took(self.scene)
 
     def _send(self) -> None:
-        """Sends the newest frame, unless it was sent or too many are unacknowledged. One thread at a time does so, so
-        that no frame overtakes another."""
+        """Sends the newest frame, unless it was sent already or too many frames are unacknowledged. One thread at a
+        time does so, so that no frame overtakes another."""
         with self._sending:
             self._send_newest()
 

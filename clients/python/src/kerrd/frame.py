@@ -30,7 +30,7 @@ def items(header: str | None) -> list[str]:
 
 
 def figures(header: str | None) -> dict[str, float | str]:
-    """The name=value pairs of a header such as Kerrd-Accuracy; numbers as floats."""
+    """The name=value pairs of a header such as Kerrd-Accuracy; numbers become floats."""
     out: dict[str, float | str] = {}
     for pair in (header or "").split():
         name, _, value = pair.partition("=")
@@ -47,13 +47,13 @@ def passes(header: str | None) -> dict[str, float]:
 
 
 def _with_text(png: bytes, name: str, text: str) -> bytes:
-    """The PNG with one more text, as an iTXt chunk (PNG 1.2, section 4.2.3)."""
+    """The bytes of the PNG with one more text, as an iTXt chunk (PNG 1.2, section 4.2.3)."""
     body = b"iTXt" + name.encode("latin-1") + b"\0\0\0\0\0" + text.encode()
     return png[:HEADER] + struct.pack(">I", len(body) - 4) + body + struct.pack(">I", zlib.crc32(body)) + png[HEADER:]
 
 
 class Picture(PngImageFile):
-    """A PNG that keeps its texts, among them the scene, when Pillow saves it as a PNG again."""
+    """A Pillow image that keeps the PNG's texts, among them the scene, when it is saved as a PNG again."""
 
     def __init__(self, data: bytes) -> None:
         super().__init__(io.BytesIO(data))
@@ -79,9 +79,9 @@ class Frame:
     """A picture, with its headers and numbers.
 
     data: bytes of the file; kind: its media type. layers: the layers that were requested, by name, float32 of shape
-    (height, width), "rgb" of shape (height, width, 3). shows: the scene of a session's frame, whose file does not hold
-    the scene; None for other frames. accuracy: numbers of the header Kerrd-Accuracy. timing: milliseconds of each pass.
-    quality, number and revision: of frames of a session only.
+    (height, width), "rgb" of shape (height, width, 3). shows: the scene of a session's frame, which the frame's file
+    does not hold; None for other frames. accuracy: numbers of the header Kerrd-Accuracy. timing: milliseconds of each
+    pass. quality, number and revision: of frames of a session only.
     """
 
     data: bytes
@@ -154,17 +154,17 @@ class Frame:
 
     @property
     def quality(self) -> dict[str, float | str]:
-        """Of a session's frame, the header Kerrd-Quality; else empty."""
+        """The header Kerrd-Quality of a session's frame; empty for other frames."""
         return figures(self.headers.get("kerrd-quality"))
 
     @property
     def number(self) -> int:
-        """The number of a session's frame; else 0."""
+        """The number of a session's frame; 0 for other frames."""
         return int(self.headers.get("kerrd-frame", 0))
 
     @property
     def revision(self) -> int:
-        """The revision of the scene that a session's frame shows; else 0."""
+        """The revision of the scene that a session's frame shows; 0 for other frames."""
         return int(self.headers.get("kerrd-revision", 0))
 
     @property
@@ -173,8 +173,9 @@ class Frame:
         return not self.quality or self.quality.get("final") == 1
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the file in its own format, PNG (with the scene) or JPEG; path must end accordingly, else KerrdError.
-        For other formats of pictures use `image` and Pillow, for files of numbers `kerrd render`."""
+        """Writes the file in its own format, PNG (with the scene) or JPEG; the ending of path must match, otherwise
+        KerrdError is raised. For other formats of pictures use `image` and Pillow, for files of numbers `kerrd
+        render`."""
         kinds = {"image/png": ("png",), "image/jpeg": ("jpg", "jpeg")}
         if self.kind not in kinds:
             raise KerrdError(f"a picture of the type {self.kind} cannot be saved by its name")

@@ -1,7 +1,7 @@
 """A live view in a notebook's cell: kerrd.widget(...). Needs the package anywidget (pip install kerrd[jupyter]).
 
-Frames go from the server's session to the kernel (follow.py), and over the kernel's comm to widget.js; so the browser
-need not reach the server.
+Frames go from the server's session to the kernel (follow.py), and from there over the kernel's comm to widget.js. The
+browser therefore need not reach the server.
 """
 
 from __future__ import annotations
@@ -29,7 +29,8 @@ from .scene import Scene
 USUAL = ("spacetime.spin", "camera.inclination_deg", "disk.outer", "style.exposure")
 WIDTH = 640  # pixels, the default width of a picture
 PATIENCE_S = 60.0  # seconds to wait for a frame that is requested
-FINEST_S, SHOW_S = 2.0, 10.0  # seconds to wait for the finest frame, then for any, to save in the notebook
+# seconds to wait for the finest frame, and then for any frame, to save a picture in the notebook
+FINEST_S, SHOW_S = 2.0, 10.0
 
 _starting = threading.Lock()
 _own: local | None = None
@@ -55,8 +56,8 @@ class _Taken:
 
 
 class _SceneTrait(traitlets.TraitType[Any, Any]):
-    """A kerrd.Scene with every field. Reading returns a copy. A value that is set goes to the server first; if the
-    server refuses it, the trait keeps the old one."""
+    """A kerrd.Scene with every field. Reading returns a copy. A new value is sent to the server first; if the server
+    refuses it, the trait keeps its old value."""
 
     def validate(self, obj: Any, value: Any) -> Scene:
         return value.scene if isinstance(value, _Taken) else obj._replaced(value)
@@ -66,16 +67,7 @@ class _SceneTrait(traitlets.TraitType[Any, Any]):
 
 
 class Widget(anywidget.AnyWidget):
-    """A black hole to turn and change in a notebook's cell.
-
-    scene: the current scene, a kerrd.Scene. It is a trait: observe it, or set it to a mapping or dataclasses; fields
-    that are not named get their defaults, except the picture's size. Observers run on a thread of the widget when the
-    change comes from the browser. error: the current error, or "".
-
-    client: a kerrd.Client, kerrd.local(), or the address of a server; by default a local server is started. controls:
-    names of fields that get a control. preset: the scene that `scene` and changes are applied to. quality: of JPEG
-    frames while something moves, 1 to 100; None: PNG frames only.
-    """
+    """A view of a black hole, moved and changed by hand, in a notebook's cell."""
 
     _esm = Path(__file__).with_name("widget.js")
     _css = Path(__file__).with_name("widget.css")
@@ -136,13 +128,13 @@ class Widget(anywidget.AnyWidget):
 
     @property
     def frame(self) -> Frame:
-        """The newest frame of the current scene. Waits for it; KerrdError if none comes."""
+        """The newest frame of the current scene. Waits for the frame; raises KerrdError if none comes."""
         return self._follower.frame(final=False, timeout=PATIENCE_S)
 
     @property
     def png(self) -> bytes:
-        """The finest picture of the current scene as the bytes of a PNG; of a moving scene, the newest one. Waits for
-        it; KerrdError if none comes."""
+        """The finest picture of the current scene as the bytes of a PNG; for a moving scene, the newest picture. Waits
+        for the picture; raises KerrdError if none comes."""
         frame = self._follower.frame(final=True, timeout=PATIENCE_S)
         return frame.data if frame.kind == "image/png" else _encoded(frame, "PNG")
 
@@ -153,7 +145,7 @@ class Widget(anywidget.AnyWidget):
         self._follower.client.render(self._follower.scene).save(path)
 
     def close(self) -> None:
-        """Removes the widget and ends its session, as the end of the kernel does."""
+        """Removes the widget and ends its session. The end of the kernel has the same effect."""
         super().close()
         if hasattr(self, "_follower"):
             self._follower.close()
@@ -193,7 +185,7 @@ class Widget(anywidget.AnyWidget):
             self._follower.leave(message["view"])
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        """The widget, and a picture for readers of the notebook without its kernel."""
+        """The widget, and a still picture that the notebook shows without its kernel."""
         bundle: Any = super()._repr_mimebundle_(**kwargs)
         frame = self._within(FINEST_S, final=True) or self._within(SHOW_S, final=False)
         if frame is None:

@@ -19,7 +19,7 @@ from .errors import KerrdError, NoBinary
 
 
 def _installed() -> str | None:
-    """The program in the wheel of this package, wherever pip has put it, or None."""
+    """The program in the wheel of this package, wherever pip has installed it; None if there is none."""
     try:
         files = metadata.files("kerrd") or []
     except metadata.PackageNotFoundError:
@@ -31,7 +31,7 @@ def _installed() -> str | None:
 
 
 def _checkout() -> Path | None:
-    """The source tree that holds this file, or None."""
+    """The source tree that contains this file; None if there is none."""
     for folder in Path(__file__).resolve().parents:
         if (folder / "scripts/setup").is_file() and (folder / "src/main.c").is_file():
             return folder
@@ -39,11 +39,11 @@ def _checkout() -> Path | None:
 
 
 def _build(tree: Path) -> None:
-    """Builds the program; only one process at a time does so. The output goes to standard error, since this takes
-    minutes."""
+    """Builds the program; only one process at a time does so. The build's output goes to standard error, because a
+    build takes minutes."""
     try:
         import fcntl
-    except ImportError as missing:  # kerrd cannot be built without POSIX either
+    except ImportError as missing:  # where there is no fcntl (no POSIX), kerrd cannot be built either
         raise NoBinary(
             f"{tree} cannot be built on this system: kerrd runs on Linux; kerrd.Client(url) speaks to a server elsewhere"
         ) from missing
@@ -58,8 +58,8 @@ def _build(tree: Path) -> None:
 
 def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = False) -> str:
     """The path of the program: the argument, $KERRD, the program of this package's wheel, the PATH, or the build of the
-    source tree that this package was installed from with -e. build: whether to build that by scripts/setup, which may
-    install packages, if it does not exist. NoBinary if there is none."""
+    source tree that this package was installed from with -e. build: if no program exists, build that source tree by
+    scripts/setup, which may install packages. Raises NoBinary if there is no program."""
     for said in (binary, os.environ.get("KERRD")):
         if said:
             found = shutil.which(os.fspath(said))
@@ -88,8 +88,8 @@ class local(Client):
     of `with`: with kerrd.local() as hole.
 
     binary, build: the program (find_binary). device: "auto", an index of `kerrd doctor`, or part of a name. args:
-    further options of `kerrd serve`. env: added to the environment. timeout, patience: as for Client. Raises NoBinary
-    without the program, and KerrdError if the server does not start.
+    further options of `kerrd serve`. env: variables added to the environment. timeout, patience: as for Client. Raises
+    NoBinary without the program, and KerrdError if the server does not start.
     """
 
     def __init__(
@@ -112,8 +112,8 @@ class local(Client):
             *(["--device", device] if device else []),
             *args,
         ]
-        # The server has a process group of its own, so that an interrupt of a cell or a script reaches Python alone,
-        # and that atexit functions can run when a kernel ends.
+        # The server has a process group of its own. An interrupt of a cell or a script then reaches Python alone, and
+        # the server lives until atexit functions have run at the end of a kernel.
         self.process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,

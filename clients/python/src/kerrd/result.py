@@ -15,8 +15,8 @@ class Sweep:
     """One scene for each combination of the axes' values.
 
     axes: field -> its values, in order. arrays: layer -> array of shape (length of each axis ..., height, width[, 3]).
-    hashes: of each scene. notes: the scene that the axes change, the axes, the units of fields and layers, version,
-    device, approximations.
+    hashes: the hash of each scene. notes: the scene that the axes change, the axes, the units of fields and layers,
+    version, device, approximations.
     """
 
     axes: dict[str, NDArray[Any]]
@@ -68,5 +68,5 @@ class Sweep:
 
 
 def _words(values: NDArray[Any]) -> NDArray[Any]:
-    """Bytes as texts, which files of arrays can hold; numbers and texts stay as they are."""
+    """Converts bytes to texts, which files of arrays can hold; numbers and texts are returned unchanged."""
     return values if values.dtype.kind in "fiub" else values.astype(str)

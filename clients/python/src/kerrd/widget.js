@@ -1,11 +1,11 @@
 // The live view in a notebook's cell; jupyter.py is its other half. Frames come over the kernel's comm, and each is
-// acknowledged when it is shown. One change is on its way at a time: changes made meanwhile wait, and of one field the
-// last counts. The camera is moved by hand as on the page (clients/web/controls/view.js).
+// acknowledged when it is shown. At most one change is sent at a time. Changes made in the meantime wait; for each
+// field only the last one is sent. The camera is moved by hand as on the page (clients/web/controls/view.js).
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));
 const radians = Math.PI / 180;
-const near_r = 10; // M, within which a drag looks around
+const near_r = 10; // radius in M within which a drag looks around
 const presence_ms = 30_000; // time between two messages by which this view tells the kernel that it is still open
 
 function el(name, attributes = {}, ...children) {

@@ -74,15 +74,16 @@ def matter(
 
     mass_msun, m_unit: mass of the hole, and the code's unit of mass, g; together they give the density in cm^-3 and the
     field in gauss. Without m_unit the largest density is 1e6 cm^-3, and the scene's volume.grid_scale or
-    volume.normalise_to_jy sets it. electrons: "ratio" of temperatures by r_low and r_high (Moscibrodzka et al. 2016),
-    or the name of the stored entropy, such as "KEL", or, of KORAL, "te", their temperature. gamma_e, gamma_p: adiabatic
-    indices of electrons and ions; None: the file's, else 4/3 and 5/3. sigma_cut: zones with a larger b^2/rho have no
-    matter; None: no such cut. rho_floor: zones whose density in the code's units is at most this have no matter,
-    because the code has set that density; None: no such cut. outer: rows beyond this r are left out. row_step: of so
-    many rows, one is kept. every: of so many dumps of a series, one is kept. code: "iharm3d",
-    "kharma", "koral" or "athena++"; None: found by the contents. spin, gamma: of the hole, and the gas's adiabatic
-    index: needed for Athena++, whose files have neither. DumpProblem, with file and name, for a file that cannot be
-    read; ValueError for another argument; ImportError without the package h5py.
+    volume.normalise_to_jy sets it. electrons: how their temperature is found. "ratio": from a ratio of ion and electron
+    temperatures by r_low and r_high (Moscibrodzka et al. 2016). A name such as "KEL": from that stored entropy. "te":
+    the temperature stored by KORAL. gamma_e, gamma_p: adiabatic indices of electrons and ions; None: those in the file,
+    or 4/3 and 5/3 if it has none. sigma_cut: zones with a larger b^2/rho have no matter; None: no such cut. rho_floor:
+    zones whose density in the code's units is at most this have no matter, because there the density is the
+    simulation's floor; None: no such cut. outer: rows beyond this r are left out. row_step: every row_step-th row is
+    kept. every: every every-th dump of a series is kept. code: "iharm3d", "kharma", "koral" or "athena++"; None: found
+    by the contents. spin, gamma: of the hole, and the gas's adiabatic index: needed for Athena++, whose files have
+    neither. DumpProblem, with file and name, for a file that cannot be read; ValueError for another argument;
+    ImportError without the package h5py.
     """
     if code is not None and code not in CODES:
         raise ValueError(f"code is {code!r}; it must be {', '.join(CODES)} or None")

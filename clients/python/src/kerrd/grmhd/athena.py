@@ -36,7 +36,7 @@ class Mesh:
     finest: int
 
     def factor(self, block: int, axis: int) -> int:
-        """Zones of the finest level, along an axis, in one zone of the block."""
+        """Number of zones of the finest level, along an axis, in one zone of the block."""
         return 1 if self.whole[axis] == 1 else 1 << (self.finest - self.levels[block])
 
     def span(self, block: int, axis: int) -> slice:
@@ -109,7 +109,7 @@ def _wholes(file: DumpFile, name: str, shape: tuple[int, ...], high: int) -> NDA
 
 
 def _variables(file: DumpFile, mesh: Mesh) -> dict[str, tuple[str, Any, int]]:
-    """For each variable, its dataset and its index there."""
+    """For each variable, the name of its dataset and its index there."""
     datasets = file.attribute_texts("DatasetNames", 64)
     counts = file.attribute_wholes("NumVariables", len(datasets), 1, 256)
     names = file.attribute_texts("VariableNames", 256)

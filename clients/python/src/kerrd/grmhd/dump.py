@@ -47,7 +47,7 @@ class Dump:
         return len(self.r), self.theta.shape[-1], 1 if self.phi is None else len(self.phi)
 
     def angles(self, row: int) -> NDArray[np.float64]:
-        """theta of the columns of a row."""
+        """theta of the nodes of a row."""
         return self.theta if self.theta.ndim == 1 else self.theta[row]
 
 

@@ -1,4 +1,4 @@
-"""Reads HDF5 files of simulations within bounds: nothing is allocated before its size is known to be right."""
+"""Reads HDF5 files of simulations with limits: memory is allocated only after its size has been checked."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from ..errors import KerrdError
 MAGIC = b"\x89HDF\r\n\x1a\n"
 NODES_MOST = 1 << 26  # most nodes of a dump; the server's limit stands in src/render/emit/matter_grid.h
 SIDE_MOST = 65536
-TEXT_MOST = 256  # bytes of an element of a dataset or an attribute, as of a text of fixed length
-LIST_MOST = 4096  # elements of an attribute
+TEXT_MOST = 256  # largest number of bytes of an element of a dataset or an attribute, such as a text of fixed length
+LIST_MOST = 4096  # largest number of elements of an attribute
 
 
 def printable(text: str) -> str:
@@ -88,7 +88,7 @@ class DumpFile:
             raise self.problem(name, f"cannot be read: {_reason(error)}") from error
 
     def _attributes(self, name: str) -> tuple[Any, str]:
-        """The attributes among which one is, of the file or of a group, and its name there."""
+        """The attributes that contain the named one, of the file or of a group, and its name there."""
         group, _, last = name.rpartition("/")
         return (self.root[group] if group else self.root).attrs, last
 
@@ -175,7 +175,7 @@ class DumpFile:
         return [self._text(name, value) for value in self.read(name, found)]
 
     def array(self, name: str, shape: tuple[int, ...]) -> Any:
-        """A dataset of numbers of this shape; its elements are read by `part`."""
+        """A dataset of numbers with this shape; `part` reads its elements."""
         found = self.dataset(name)
         if tuple(found.shape) != shape:
             raise self.problem(name, f"has the shape {tuple(found.shape)}; it must be {shape}")

@@ -33,7 +33,7 @@ UNITS = {
 }
 ARRAYS = tuple(UNITS)[2:]
 KIND = "application/x-npz"
-NODES_MOST, SIDE_MOST, FRAMES_MOST = 1 << 25, 4096, 1024  # of a grid, as in src/render/emit/matter_grid.h
+NODES_MOST, SIDE_MOST, FRAMES_MOST = 1 << 25, 4096, 1024  # limits of a grid, as in src/render/emit/matter_grid.h
 
 
 @dataclass(frozen=True)
@@ -111,9 +111,9 @@ def _check_electrons(dump: Dump, plasma: Plasma) -> None:
 
 
 def _fill(arrays: dict[str, NDArray[np.float32]], dump: Dump, plasma: Plasma) -> int:
-    """Fills the arrays in the code's units. Returns the number of zones that a cut leaves without matter."""
+    """Fills the arrays in the code's units. Returns the number of zones without matter because of a cut."""
     empty = 0
-    with np.errstate(all="ignore"):  # _check_single finds what overflows
+    with np.errstate(all="ignore"):  # _check_single finds overflows
         for i in range(dump.shape[0]):
             row = dump.row(i)
             _check(dump, i, row)
@@ -183,7 +183,7 @@ def _nothing(dump: Dump, plasma: Plasma, by_cuts: bool) -> Exception:
 
 
 def _scale(arrays: dict[str, NDArray[np.float32]], unit: float | None) -> None:
-    """From the code's units to cm^-3 and gauss."""
+    """Converts from the code's units to cm^-3 and gauss."""
     if unit is None:
         unit = PEAK * (PROTON + ELECTRON) / float(arrays["density"].max())
     gauss = field_unit(unit)
@@ -194,7 +194,7 @@ def _scale(arrays: dict[str, NDArray[np.float32]], unit: float | None) -> None:
 
 
 def _check_single(dump: Dump, plasma: Plasma, arrays: dict[str, NDArray[np.float32]]) -> None:
-    """Refuses what single precision, the grid's, cannot express."""
+    """Refuses numbers that single precision, in which a grid is stored, cannot express."""
     for name, values in arrays.items():
         bad = ~np.isfinite(values)
         if not bad.any():

@@ -22,14 +22,14 @@ FIELDS = ("RHO", "UU", "U1", "U2", "U3", "B1", "B2", "B3")
 METRICS = ("MKS", "MMKS", "FMKS")
 PRIMS_MOST = 64
 R_LEAST, R_MOST = 0.1, 1e6  # as in src/render/emit/matter_grid.c
-BLOCK = 1 << 22  # numbers that are read at once, if a row has fewer
-ROW_MOST = 1 << 25  # numbers of a row
+BLOCK = 1 << 22  # numbers that are read at once if a row has fewer
+ROW_MOST = 1 << 25  # largest number of numbers in a row
 GEOMETRY = "header/geom/"
 
 
 @dataclass(frozen=True)
 class Coordinates:
-    """theta of X1 and X2, and its derivatives by both; r is exp(X1). turn: X2 is multiplied by it."""
+    """theta of X1 and X2, and its derivatives by both; r is exp(X1). turn: factor of X2 in the formula."""
 
     slope: float
     start: float = 0.0
@@ -97,7 +97,7 @@ def _reader(
 ) -> Callable[[int], Row]:
     prims = file.array("prims", shape)
     rows = max(1, BLOCK // math.prod(shape[1:]))
-    block: dict[int, Numbers] = {}  # the rows that were read last, by the number of the first
+    block: dict[int, Numbers] = {}  # the rows that were read last, by the index of the first one
 
     def row(i: int) -> Row:
         first = i - i % rows

@@ -22,11 +22,11 @@ ENTROPIES = ("Kel_Constant", "Kel_Howes", "Kel_Kawazura", "Kel_Rowan", "Kel_Shar
 BASES = ("spherical_ks", "ks")
 TRANSFORMS = {"exponential": "eks", "exp": "eks", "modified": "mks", "funky": "fmks"}
 DECK = "Input/File"
-DECK_MOST = 1 << 20  # bytes of the input file
+DECK_MOST = 1 << 20  # largest number of bytes of the input file
 BLOCKS_MOST = 1 << 20
-EDGES_MOST = 1 << 24  # edges of zones along an axis, of all blocks
+EDGES_MOST = 1 << 24  # largest number of edges of zones along an axis, of all blocks
 GHOSTS_MOST = 16
-NEAR = 1e-3  # fraction of a zone
+NEAR = 1e-3  # tolerance, as a fraction of a zone
 
 
 @dataclass(frozen=True)
@@ -74,8 +74,8 @@ class Deck:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Blocks of equal zones. size: zones of a block along X1, X2 and X3, without ghost zones; ghosts: of these, on each
-    side; places: the first zone of each block."""
+    """Blocks of equal zones. size: zones of a block along X1, X2 and X3, without ghost zones; ghosts: number of ghost
+    zones on each side; places: the first zone of each block."""
 
     file: DumpFile
     whole: tuple[int, int, int]

@@ -57,7 +57,7 @@ def _coordinates(file: DumpFile, shape: tuple[int, int, int]) -> tuple[Numbers, 
 
 
 def _schild(a: float, r: float, v: list[Numbers]) -> list[Numbers]:
-    """Contravariant components of Boyer and Lindquist in the ingoing coordinates of Kerr and Schild."""
+    """Converts contravariant Boyer-Lindquist components to ingoing Kerr-Schild coordinates."""
     delta = r * r - 2 * r + a * a
     return [v[0] + 2 * r / delta * v[1], v[1], v[2], v[3] + a / delta * v[1]]
 

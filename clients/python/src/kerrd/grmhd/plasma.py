@@ -16,7 +16,7 @@ Numbers = NDArray[np.float64]
 C, K = 2.99792458e10, 1.380649e-16
 PROTON, ELECTRON = 1.67262192369e-24, 9.1093837015e-28
 GM_SUN = 1.3271244e26
-THETA_LEAST = 1e-3  # of k T/(m_e c^2), as in ipole
+THETA_LEAST = 1e-3  # limit of k T/(m_e c^2), as in ipole
 PEAK = 1e6  # the largest density in cm^-3 if the code's unit is unknown
 
 
@@ -53,7 +53,7 @@ class Plasma:
 
     @property
     def density_unit(self) -> float | None:
-        """g cm^-3 of the code's density 1: m_unit (c^2/GM)^3."""
+        """Density in g cm^-3 that is 1 in the code's units: m_unit (c^2/GM)^3."""
         if self.m_unit is None or self.mass_msun is None:
             return None
         return self.m_unit / (GM_SUN * self.mass_msun / C**2) ** 3
@@ -106,5 +106,5 @@ class Plasma:
 
 
 def field_unit(density_unit: float) -> float:
-    """Gauss of the code's field 1, whose unit has the factor sqrt(4 pi)."""
+    """Magnetic field in gauss that is 1 in the code's units, which contain the factor sqrt(4 pi)."""
     return C * math.sqrt(4 * math.pi * density_unit)

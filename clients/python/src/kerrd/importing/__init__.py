@@ -14,9 +14,10 @@ CODES = ("gyoto", "ipole", "blacklight")
 def scene_from(path: str | os.PathLike[str], *, code: str | None = None, model: str | None = None) -> Imported:
     """The scene of another code's input file, and what became of each of its keys.
 
-    code: "gyoto" (XML), "ipole" (.par) or "blacklight" (.input); None: found by the contents. model: of ipole, whose
-    files do not name it, "analytic", "riaf", "thin_disk" or "grmhd"; None: found by the keys. ImportProblem, with file
-    and line, for a file that cannot be read, an unknown key and a wrong value; ValueError for another code or model.
+    code: "gyoto" (XML), "ipole" (.par) or "blacklight" (.input); None: found by the contents. model: for ipole, whose
+    files do not name their model: "analytic", "riaf", "thin_disk" or "grmhd"; None: found by the keys. ImportProblem,
+    with file and line, for a file that cannot be read, an unknown key and a wrong value; ValueError for another code or
+    model.
     """
     if code is not None and code not in CODES:
         raise ValueError(f"code is {code!r}; it must be {', '.join(CODES)} or None")

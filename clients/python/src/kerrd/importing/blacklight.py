@@ -25,7 +25,7 @@ FORMULA = {f"formula_{name}" for name in ("mass", "spin", "r0", "h", "l0", "q", 
 CAMERA = set(OLD_NAMES.values())
 CUTS = ("rho", "n_e", "p_gas", "theta_e", "b", "sigma", "beta_inverse")
 
-# Words, whole numbers, numbers and flags about Blacklight's own method and files.
+# Keys about Blacklight's own method and files, by type: words, whole numbers, numbers and flags.
 METHOD_WORDS = {
     "ray_terminate": ("photon", "multiplicative", "additive"),
     "ray_integrator": ("dp", "rk4", "rk2"),
@@ -133,7 +133,7 @@ NUMBERED = re.compile(r"render_[0-9]+_(num_features|[0-9]+_\w+)|adaptive_region_
 
 
 def _entries(name: str, data: bytes) -> dict[str, Entry]:
-    """Blacklight removes white space, and what follows a #."""
+    """Blacklight removes white space, and all text after a #."""
     entries: dict[str, Entry] = {}
     for number, line in enumerate(text.lines(name, data), 1):
         told = re.sub(r"\s", "", line).split("#")[0]
@@ -259,7 +259,7 @@ def _simulation(sheet: Sheet) -> float:
 
 
 def _camera(sheet: Sheet, spin: float) -> Received:
-    """Sets the camera. Returns what its observer receives."""
+    """Sets the camera. Returns the frequency and motion of its observer."""
 
     def named(key: str) -> str:
         return next((old for old, new in OLD_NAMES.items() if new == key and old in sheet), key)

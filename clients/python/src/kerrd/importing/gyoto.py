@@ -65,7 +65,7 @@ def _metric(draft: Draft, element: xml.Element) -> tuple[Units, float]:
 
 
 def _scenery(scenery: Section) -> tuple[str, ...]:
-    """The quantities that the file requests of GYOTO."""
+    """The quantities that the file asks GYOTO to compute."""
     scenery.known({"NThreads", "NProcesses", "Quantities", *WORLDLINE_METHOD, *("Metric", "Screen", "Astrobj")})
     for key in ("NThreads", "NProcesses"):
         scenery.whole(key, 0, 0)

@@ -1,4 +1,4 @@
-"""The section <Astrobj> of a GYOTO file: what shines."""
+"""The section <Astrobj> of a GYOTO file: the light sources."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .kerr import eddington_kg_s, efficiency, isco, kepler
 from .sheet import Draft, ImportProblem, shown
 from .units import Units
 
-OUTER_M = 1e6  # M; outer edge for a disk of GYOTO that has none
+OUTER_M = 1e6  # outer edge in M for a disk that has none in GYOTO
 # Kinds of matter that kerrd does not have.
 OTHERS = (
     *"Blob DeformedTorus DirectionalDisk Disk3D Disk3D_BB DynamicalDisk DynamicalDisk3D DynamicalDiskBolometric".split(),
@@ -57,13 +57,13 @@ class Path:
 
 
 class Matter:
-    """Adds what shines to the draft, one object after another."""
+    """Adds the light sources to the draft, one object after another."""
 
     def __init__(self, draft: Draft, units: Units, spin: float, coordinates: str, quantities: tuple[str, ...]) -> None:
         self.draft, self.units, self.spin, self.coordinates = draft, units, spin, coordinates
         self.stokes = any(name.startswith("SpectrumStokes") for name in quantities)
         self.disks = 0
-        self.against = False  # a disk turns against the spin
+        self.against = False  # a disk that turns against the spin
         draft.put("disk.model", "none")
 
     def add(self, element: xml.Element, name: str) -> None:
@@ -98,7 +98,7 @@ class Matter:
             )(element, name, kind)
 
     def finish(self, camera: Camera) -> None:
-        """Completes what depends on all objects: the time, and the sense in which the disk turns."""
+        """Sets the fields that depend on all objects: the time, and the sense in which the disk turns."""
         document, screen = self.draft.document, camera.screen
         moving = document.get("spots") or document.get("bodies")
         if moving and camera.time is not None:
@@ -108,7 +108,7 @@ class Matter:
             screen.ignore("Time", "nothing in the scene moves")
         if not self.against:
             return
-        # kerrd's disk always turns towards +phi, so the hole is turned over.
+        # kerrd's disk always turns towards +phi, so the hole is turned over instead.
         document["spacetime"]["spin"] = -self.spin or 0.0
         view = document["camera"]
         view["inclination_deg"] = 180 - camera.inclination_deg
@@ -122,11 +122,11 @@ class Matter:
             self.draft.lacks("the scene is without its spots, which turn against the disk")
 
     def _full(self, name: str, most: int) -> str | None:
-        """The reason why the scene can have no more of these objects, or None if it can."""
+        """The reason why the scene cannot have another of these objects; None if it can."""
         return f"a scene has at most {most} {name}" if len(self.draft.document.get(name, [])) >= most else None
 
     def _generic(self, sheet: Section) -> tuple[bool, bool]:
-        """Whether light is redshifted, and whether matter is transparent."""
+        """Sets whether light is redshifted and whether matter is transparent."""
         for pair in GENERIC_SWITCHES:
             sheet.switch(*pair, default=False)
         for key in ("RMax", "DeltaMaxInsideRMax"):

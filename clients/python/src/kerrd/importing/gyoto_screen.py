@@ -12,8 +12,8 @@ from .kerr import UAS
 from .sheet import Draft, ImportProblem, shown
 from .units import ANGLES, Units
 
-NEAREST_INFINITE_M = 1e5  # beyond it the camera is at infinity, with the same width at the hole
-DMAX_M = 1e7  # GYOTO traces rays from there if the screen is farther away
+NEAREST_INFINITE_M = 1e5  # distance beyond which the camera is placed at infinity, with the same width at the hole
+DMAX_M = 1e7  # if the screen is farther away than this, GYOTO starts its rays here
 FIELD_RAD = 0.1 * math.pi  # GYOTO's standard
 RESOLUTION = 1001  # GYOTO's standard
 KINDS = ("ObserverAtInfinity", "KeplerianObserver", "ZAMO", "VelocitySpecified", "FullySpecified")
@@ -52,7 +52,7 @@ class Camera:
 
 
 def turn(degrees: float) -> float:
-    """The angle from -180 (excluded) to 180; rounded, because sums of radians are not exact."""
+    """The angle in the range -180 (excluded) to 180. It is rounded, because sums of radians are not exact."""
     return round(180 - (180 - degrees) % 360, 9) + 0.0
 
 
@@ -68,7 +68,7 @@ def read(draft: Draft, element: xml.Element, units: Units, spin: float, coordina
         draft.put(path, value)
     if "Time" in screen:
         camera.time = units.time(screen, "Time")
-        if camera.r > NEAREST_INFINITE_M:  # kerrd's delay from infinity is less r + 2 ln r
+        if camera.r > NEAREST_INFINITE_M:  # kerrd subtracts r + 2 ln r from a delay from infinity
             camera.time -= camera.r + 2 * math.log(min(camera.r, DMAX_M))
     side = screen.whole("Resolution", RESOLUTION, 1)
     draft.put("image.width", side)

@@ -13,7 +13,7 @@ ATTRIBUTES = {
     "Spectrometer": {"kind", "plugin", "nsamples", "unit"},
     **{name: {"kind", "plugin"} for name in ("Metric", "Screen", "Astrobj", "SubAstrobj", "Spectrum", "Opacity")},
 }
-# Properties of every path of light or matter: numbers, whole numbers, words, switches.
+# Properties that the path of any light or matter has in GYOTO: numbers, whole numbers, words, switches.
 WORLDLINE_NUMBERS = ("RelTol", "AbsTol", "DeltaMaxOverR", "DeltaMax", "DeltaMin", "Delta", "MinimumTime")
 WORLDLINE_SWITCHES = (
     ("Adaptive", "NonAdaptive"),
@@ -52,7 +52,7 @@ class Section(Sheet):
         return said
 
     def numbers(self, key: str, count: int) -> list[float]:
-        """The count numbers of a key, with white space between them."""
+        """The numbers of a key, separated by white space; there must be `count` of them."""
         words = self.text(key).split()
         parts = [Sheet(self.draft, {key: Entry(word, self.entries[key].line)}, self.section) for word in words]
         if len(words) != count:
@@ -69,7 +69,7 @@ class Section(Sheet):
         return on in self or (default and off not in self)
 
     def method(self) -> None:
-        """Notes the properties of paths."""
+        """Notes the use of the properties of paths."""
         for key in WORLDLINE_NUMBERS:
             self.number(key, 0.0)
         self.whole("MaxIter", 0, 0)
@@ -88,8 +88,8 @@ class Section(Sheet):
 def section(
     draft: Draft, element: Element, name: str, containers: Iterable[str] = (), several: Iterable[str] = ()
 ) -> Section:
-    """The children of an element as entries. containers: children that have children; several: children that may be
-    there more than once, which are no entries."""
+    """The children of an element as entries. containers: children that have children; several: children that may occur
+    more than once; they are not entries."""
     entries: dict[str, Entry] = {}
     for child in element.children:
         allowed = ATTRIBUTES.get(child.name, {"unit"})

@@ -12,7 +12,7 @@ from . import text
 from .kerr import UAS, efficiency, field_m, horizon
 from .sheet import Draft, Entry, Imported, ImportProblem, Sheet, shown
 
-LONGEST_LINE = 254  # ipole reads lines in a buffer of 255
+LONGEST_LINE = 254  # ipole reads lines into a buffer of 255 bytes
 MODELS = ("analytic", "riaf", "thin_disk", "grmhd")
 # The numbers of the five tests of Gold et al. 2020 (ApJ 897, 148), table 1: A, alpha, h, l0, spin.
 GOLD = {
@@ -48,7 +48,7 @@ OFF = {
     "usepsi": (0, "matter is not chosen by its magnetic flux"),
     "infall_factor": (0, "outside the ISCO the flow does not fall in"),
 }
-# The model of constant coefficients, a test of transfer without a hole.
+# The model with constant coefficients, a test of radiative transfer without a hole.
 CONSTANT = [kind + stokes for kind in "jar" for stokes in "IQUV" if kind + stokes != "rI"]
 ELECTRONS = (
     *"kappa variable_kappa_min variable_kappa_interp_start variable_kappa_max".split(),
@@ -86,7 +86,7 @@ def _entries(name: str, data: bytes) -> dict[str, Entry]:
 
 
 def _model(sheet: Sheet) -> str:
-    """The model, by keys that no other has."""
+    """Finds the model by keys that no other model has."""
     if "model" in sheet:
         return "analytic"
     if any(key in sheet for key in RIAF):
@@ -266,7 +266,7 @@ def _thin_disk(sheet: Sheet) -> float:
     }
     for field, value in disk.items():
         sheet.draft.put(f"disk.{field}", value)
-    # ipole's Eddington rate has an efficiency of 0.1, kerrd's that of the spin.
+    # ipole's Eddington rate assumes an efficiency of 0.1; kerrd's has the efficiency of the spin.
     rate = sheet.positive("Mdot", 0.01) * efficiency(spin) / DISK_EFFICIENCY
     sheet.draft.put("disk.mdot_edd", rate)
     sheet.say("Mdot", "disk.mdot_edd", rate)

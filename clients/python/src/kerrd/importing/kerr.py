@@ -1,4 +1,5 @@
-"""Numbers of a hole that input files leave to their code: its orbits, and what an observer near it receives."""
+"""Numbers of a hole that the codes compute themselves instead of reading them from input files: orbits, and the light
+that an observer near the hole receives."""
 
 from __future__ import annotations
 
@@ -46,9 +47,9 @@ def field_m(angle_rad: float, mass_msun: float, distance_pc: float) -> float:
 
 @dataclass(frozen=True)
 class Received:
-    """Frequency and motion of an observer. infinity: frequency at infinity over that at the observer, for the given
-    photon. still: whether it is at rest with respect to infinity. velocity: r, theta and phi components relative to the
-    local observer of zero angular momentum, c."""
+    """Frequency and motion of an observer. infinity: a photon's frequency at infinity over its frequency at the
+    observer. still: whether the observer is at rest with respect to infinity. velocity: r, theta and phi components
+    relative to the local observer of zero angular momentum, c."""
 
     infinity: float
     still: bool

@@ -1,5 +1,5 @@
-"""Keys and values of another code's input file, each with its line, and what became of each: said by fields of the
-scene, ignored, or not said."""
+"""Keys and values of another code's input file, each with its line, and the fate of each: said by fields of the scene,
+ignored, or not said."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from ..document import Document, dataclass_of
 from ..errors import KerrdError
 from ..scene import Scene
 
-LARGEST_BYTES = 1 << 20  # as of a scene document
+LARGEST_BYTES = 1 << 20  # as the version of a scene document
 LONGEST_SHOWN = 60
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,4})?")
 WHOLE = re.compile(r"[+-]?[0-9]{1,9}")
 
-# Ranges and words of the fields that are set here, as in src/scene/fields.h. A test compares them with the schema.
+# Ranges and words of the fields that are set here, as in src/scene/fields.h. A test compares this list with the schema.
 LIMITS: Mapping[str, tuple[float, float]] = {
     "spacetime.spin": (-0.999999999999, 0.999999999999),
     "spacetime.mass_msun": (1e-3, 1e12),
@@ -65,7 +65,7 @@ Fate: TypeAlias = Literal["said", "ignored", "not said"]
 
 
 class ImportProblem(KerrdError, ValueError):
-    """An input file that cannot be read. file, line (from 1, or None), key (or None): where the fault is."""
+    """An input file that cannot be read. file, line (from 1, or None), key (or None): where the error is."""
 
     def __init__(self, file: str, line: int | None, key: str | None, sentence: str) -> None:
         self.file, self.line, self.key = file, line, key
@@ -78,7 +78,7 @@ class ImportProblem(KerrdError, ValueError):
 
 @dataclass(frozen=True)
 class Note:
-    """The use that was made of a key.
+    """How a key was used.
 
     key: its name, with its sections as in Screen/Distance; "" for something that the file does not have. line: its
     line, from 1, or None. fate: "said" by fields of the scene; "ignored", because it is about the other code's method
@@ -115,7 +115,7 @@ class Imported:
 
     @property
     def ignored(self) -> tuple[Note, ...]:
-        """Keys about the other code's method or files, and those that switch something off."""
+        """The notes on keys about the other code's method or files, and on keys that switch something off."""
         return tuple(note for note in self.notes if note.fate == "ignored")
 
 
@@ -196,7 +196,7 @@ class Sheet:
         value = shown(entry.value) + (f" {entry.unit}" if entry.unit else "")
         return ImportProblem(self.draft.file, entry.line, name, f"{name} is {value}; it must be {must}")
 
-    # Values. Each refuses a key that is missing, unless it has a default.
+    # Values of keys. Each method refuses a missing key, unless the key has a default.
 
     def text(self, key: str, default: str | None = None) -> str:
         if key not in self.entries:

@@ -1,4 +1,4 @@
-"""Reads another code's input file, within bounds, and finds out which code it is for."""
+"""Reads another code's input file, with limits on its size, and finds out which code it is for."""
 
 from __future__ import annotations
 

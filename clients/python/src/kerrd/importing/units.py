@@ -1,4 +1,5 @@
-"""Units of GYOTO's input files. GYOTO knows all of udunits; these are the ones that its manual and examples name."""
+"""Units of GYOTO's input files. GYOTO accepts all units of udunits; kerrd accepts those that GYOTO's manual and
+examples use."""
 
 from __future__ import annotations
 
@@ -50,7 +51,7 @@ class Units:
         return sheet.number(key) * _factor(sheet, key, ANGLES, "rad")
 
     def length(self, sheet: Sheet, key: str, default: str) -> float:
-        """M. default: the unit of a value without one."""
+        """The length in M. default: the unit of a value that has none."""
         unit = sheet.entries[key].unit or default
         if unit == "geometrical":
             return sheet.number(key)

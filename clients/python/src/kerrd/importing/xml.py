@@ -1,4 +1,5 @@
-"""XML as elements with their lines, by Python's expat. Document types, and so entities, are refused."""
+"""Parses XML into elements with their line numbers, by Python's expat. Document types are refused, and with them
+entities."""
 
 from __future__ import annotations
 
@@ -13,7 +14,7 @@ MOST_ELEMENTS = 10000
 
 @dataclass
 class Element:
-    """text: what stands before the first child, without white space at its ends."""
+    """text: the text before the first child, without white space at its ends."""
 
     name: str
     line: int
@@ -23,7 +24,7 @@ class Element:
 
 
 def parse(file: str, data: bytes) -> Element:
-    """The root. ImportProblem, with the line, for what is not XML, or has a document type."""
+    """The root element. ImportProblem, with the line, if the text is not XML or has a document type."""
     parser = expat.ParserCreate()
     parser.buffer_text = True
     open_elements: list[Element] = []
