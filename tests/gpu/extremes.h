@@ -10,10 +10,10 @@
 #include <stddef.h>
 
 /* Result of a case for one engine. Errors are divided by 1 + the condition number: relative for r, in radians for phi;
- * NaN: not judged. */
+ * NaN: not compared. */
 struct extreme_row {
     char what[48];
-    const char *engine;         /* "mino-rkn6 f32", "lens map 16", ... */
+    const char *engine;         /* such as "mino-rkn6 f32" or "lens map 16" */
     size_t rays;                /* number of rays or pixels */
     double median, most, worst; /* errors of r: the median, the 99th percentile, the largest */
     double phi;                 /* largest error of phi among crossings beyond 1.6 times the horizon's radius */
@@ -21,11 +21,12 @@ struct extreme_row {
     size_t unsure;              /* rays that the answer itself marks as inaccurate */
     double unsure_most;         /* maximum fraction of such rays */
     size_t loose;               /* rays whose error exceeds their stated error */
-    size_t broken; /* rays with a number that is not finite, or with a wrong fate or crossing that is not marked */
+    /* rays with a number that is not finite, or with a wrong fate or crossing, that the answer does not mark */
+    size_t broken;
 };
 
-/* Prints a row, the first one with a heading. A row fails if `broken` is not 0, a worst error exceeds its bound, more
- * rays than `limit` are unsure, or the errors of more than one ray in a hundred exceed their stated errors. */
+/* Prints a row, and a heading before the first row. A row fails if `broken` is not 0, a worst error exceeds its bound,
+ * more rays than `limit` are unsure, or the errors of more than one ray in a hundred exceed their stated errors. */
 void extreme_row(const struct extreme_row *row);
 /* Number of rows so far, and of those that failed. */
 size_t extreme_rows(size_t *broken);

@@ -1,9 +1,9 @@
 /* Lens maps of pictures at the extremes: every plane is finite; radii, azimuths and fates against the closed form,
  * for cameras at infinity and at rest in a locally non-rotating frame next to the horizon.
  *
- * A picture's ray has labels of single precision. Those of a finite camera are differences, E = e_t + e_phi m_phi
- * and L likewise, and lose the digits that cancel there. Rays that change their kind when all inputs move by a few
- * roundings are unsure. */
+ * A picture's ray has labels of single precision. The labels of a finite camera are sums such as E = e_t + e_phi m_phi,
+ * which lose digits where the terms cancel. Rays that change their kind when all inputs move by a few roundings are
+ * unsure. */
 #include "extremes.h"
 
 #include "physics/spacetime/kerr.h"
@@ -56,8 +56,8 @@ static struct kd_scene scene_of(const struct camera *v, int steps)
     return scene;
 }
 
-/* The ray of a pixel by the kernel's own arithmetic, and the ratio of its labels' error to one rounding. False for E <=
- * 0, which the closed form does not support. */
+/* The ray of a pixel, computed by the kernel's own arithmetic; and the error of its labels in units of one rounding.
+ * False for E <= 0, which the closed form does not support. */
 static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int pixel, struct kd_null_ray *ray,
                    double *weight)
 {
@@ -133,8 +133,8 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
     }
 }
 
-/* Within a thousandth of M of the shadow's edge all rays are unsure. In the throat of an extremal hole all rays from
- * infinity have L = 2E within 1e-4, so that the labels lose half of their digits. */
+/* Within a thousandth of M of the shadow's edge all rays are unsure. Close to the horizon of an extremal hole all rays
+ * from infinity have L = 2E within 1e-4, so that the labels lose half of their digits. */
 static double unsure_most(const struct camera *v)
 {
     return v->field < 1e-4 && isinf(v->r) ? 1 : fabs(v->spin) > 0.999 && v->r < 1.001 ? 0.5 : 0.1;

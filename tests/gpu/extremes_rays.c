@@ -65,7 +65,8 @@ static bool captured(const struct view *v, double alpha, double beta)
     return kd_null_trace_fast(&ray).fate == KD_NULL_CAPTURED;
 }
 
-/* Places a ray at a relative distance from the shadow's edge, in the direction of angle t from a point inside it. */
+/* Places a ray at a relative distance from the shadow's edge, in the direction of the angle t from a point inside the
+ * shadow. */
 static void near_critical(const struct view *v, double t, double distance, double *out)
 {
     double middle = 2.4 * v->spin * sin(v->inclination * (M_PI / 180)), c = cos(t), s = sin(t), in = 0, edge = 12;
@@ -79,7 +80,7 @@ static void near_critical(const struct view *v, double t, double distance, doubl
     out[1] = edge * (1 + distance) * s;
 }
 
-/* Places rays evenly over the image, but a sixth of them on its axes, next to the axes, or far out. */
+/* Places rays evenly over the image. A sixth of them are placed on its axes, next to the axes, or far out. */
 static void make(const struct view *v, struct list *list)
 {
     static const double special[] = { 0,     -0.0, 1e-12, -1e-12, 1e-310, 5e-324, -1e-40,
@@ -119,7 +120,7 @@ struct tally {
     size_t n;
 };
 
-/* Judges the crossings of one ray that the answer claims to be accurate. fault: error of the reference itself. */
+/* Compares those crossings of one ray that the answer states to be accurate. fault: error of the reference itself. */
 static void judge_crossings(const struct view *v, const struct kd_null_path *p, const struct kd_ray_end *e,
                             const struct kd_ray_crossing *c, const double *gain, const double *phi_gain,
                             struct tally *t)
@@ -195,7 +196,7 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
         row.unsure_most = 0.1;
     }
     /* The smallest distance from the critical curve at which a precision can decide the fate of a ray. For extremal
-     * holes it is larger, in proportion to the errors of the last digits. */
+     * holes this distance is larger, in proportion to the errors of the last digits. */
     if (v->critical > 0)
         row.unsure_most = v->critical < (wide ? 1e-8 : 1e-4) ? 1 : 0.25;
     snprintf(row.what, sizeof row.what, "%s", what);

@@ -7,7 +7,7 @@
 
 #include "vk/functions.h"
 
-/* 0: the driver's own value. */
+/* 0: the driver's own value */
 struct fake_device {
     uint32_t groups;                    /* workgroups of a dispatch along x and y */
     uint64_t binding, allocation, heap; /* bytes */
@@ -102,7 +102,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Extensions(VkPhysicalDevice device, c
     return result;
 }
 
-/* Requests of the fake extension are not passed to the driver. */
+/* Requests for the simulated extension are not passed to the driver. */
 static VKAPI_ATTR VkResult VKAPI_CALL fake_CreateDevice(VkPhysicalDevice device, const VkDeviceCreateInfo *info,
                                                         const VkAllocationCallbacks *allocator, VkDevice *out)
 {

@@ -22,8 +22,8 @@ static double random_spin(struct kd_random *random)
     return below(random, 3) ? size : -size;
 }
 
-/* A radius between just outside the observer's edge and 1e7 M. An infalling observer is sometimes within the outer
- * horizon. */
+/* A radius between the smallest one at which the observer exists and 1e7 M. An infalling observer is sometimes within
+ * the outer horizon. */
 static double random_radius(struct kd_random *random, enum kd_observer observer, double spin, double inclination_deg)
 {
     const double u = cos(inclination_deg * (M_PI / 180)), horizon = kd_hole(spin)->outer, inner = kd_hole(spin)->inner;

@@ -1,4 +1,5 @@
-/* Shared by the tests of src/render: one renderer under the validation layer, which must report nothing by the end. */
+/* Shared by the tests of src/render: one renderer under the validation layer. At the end the layer must have reported
+ * no error. */
 #ifndef KD_TEST_RENDER_SUPPORT_H
 #define KD_TEST_RENDER_SUPPORT_H
 
@@ -22,14 +23,14 @@ static inline int open_renderer(void)
     const char *device = getenv("KERRD_TEST_DEVICE");
     struct kd_renderer_params params = {
         .device = device ? device : "auto", .validate = true, .assets = renderer_assets, .passing = true
-    }; /* does not store the costs learned in a test for other programs */
+    }; /* the costs learned in a test are not stored for other programs */
     if (!kd_renderer_create(&params, &renderer, &error))
         return 0;
     fprintf(stderr, "%s\n", error.message);
     return 1;
 }
 
-/* True if kernels can compute in double precision here; otherwise prints which case is skipped. */
+/* True if kernels can compute in double precision on this device; otherwise prints which case is skipped. */
 static inline bool has_float64(const char *what)
 {
     struct kd_capacity capacity;

@@ -42,8 +42,8 @@
         assert_null(strchr(error.message, '\n')); \
     } while (0)
 
-/* Keeps drivers and layers loaded until the end. When the last instance is destroyed the loader unloads them, and a
- * leak checker could no longer attribute a leak to them or suppress it by name. */
+/* Keeps drivers and layers loaded until the end. Otherwise the loader would unload them with the last instance, and a
+ * leak checker could not suppress their leaks by name. */
 static inline void keep_drivers_loaded(void)
 {
     static struct kd_vk_instance keeper;

@@ -76,7 +76,7 @@ static double light_of(const struct kd_scene *scene, bool bright)
 
 /* The star is put on the seam, at the poles, and in the rows of pixels beside them that it can reach by turning the
  * sky. Pixels are 2.8 degrees wide. Next to a pole a map of second order does not represent the whole turn. When only
- * bright images are drawn, two tiles of 25 degrees disagree at their border by up to 0.2 rays. */
+ * bright images are drawn, positions of images in two tiles of 25 degrees differ at their border by up to 0.2 rays. */
 static void a_star_anywhere(void **state)
 {
     (void)state;

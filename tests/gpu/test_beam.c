@@ -177,8 +177,8 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* The unfinished part of a picture is dark. Finished rows look as they would in a picture that is dark there, and the
- * beam leaves the light unchanged for the next preview. */
+/* The unfinished part of a picture is dark. Finished rows look as they would in a picture whose other rows are dark.
+ * The beam does not change the light itself, so that the next preview is correct. */
 static void what_is_not_lit_is_dark(void **state)
 {
     (void)state;
@@ -213,7 +213,8 @@ static void no_numbers_are_no_light(void **state)
     }
 }
 
-/* "auto" makes the brightest place white, to the eighth of a stop that the histogram resolves; no pixel is clipped. */
+/* "auto" makes the brightest place white, to within the eighth of a stop that the histogram resolves. No pixel is
+ * clipped. */
 static void exposure_is_of_what_the_beam_sees(void **state)
 {
     (void)state;

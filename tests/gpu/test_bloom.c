@@ -77,7 +77,7 @@ static void energy(void **state)
             if (fabs(after / before - 1) > 2e-4)
                 fail_msg("%d x %d, channel %d: %.9g became %.9g", width, height, c, before, after);
         }
-        assert_true(moved > 2e-4 || height < 10); /* there must be some spread light to conserve */
+        assert_true(moved > 2e-4 || height < 10); /* the light must contain some that is spread */
     }
 }
 
@@ -158,8 +158,8 @@ static void widths(void **state)
 }
 
 /* A point of light becomes a disk that falls off from its centre outwards. At equal distances from the centre,
- * brightnesses differ by at most a quarter where they fall steeply. The contours are therefore circles within a few
- * hundredths of the radius. The point is moved within its cell, and to other cells. */
+ * brightnesses differ by at most a quarter, even where they fall steeply. The contours are therefore circles to within
+ * a few hundredths of the radius. The point is moved within its cell, and to other cells. */
 static void a_point(void **state)
 {
     (void)state;
@@ -254,7 +254,8 @@ static void others_unharmed(void **state)
     light[3 * AT] = NAN;
     light[3 * (AT + 900) + 1] = INFINITY;
     show(W, H, 1, 0, others);
-    for (int i = 0; i < 3 * W * H; i++) /* tolerance: `others` lacks the spread light of these two places */
+    /* tolerance: the array `others` does not contain the spread light of these two places */
+    for (int i = 0; i < 3 * W * H; i++)
         assert_true(i / 3 == AT || i / 3 == AT + 900 || abs(pixels[i] - others[i]) <= 40);
     make_light(W, H);
     for (int i = 0; i < 3 * W * H; i++)

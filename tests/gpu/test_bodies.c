@@ -1,6 +1,6 @@
-/* Bodies along rays. Their images are compared with the Kerr-Schild oracle, which does not use Mino time and measures
- * the distance at which a ray passes a place along a wave front. Also tested: their light, mutual hiding of bodies,
- * disk and hole, and extreme numbers. */
+/* Tests of bodies along rays. Their images are compared with the Kerr-Schild oracle, which does not use Mino time. The
+ * oracle measures the distance at which a ray passes a place along a wave front. Also tested: their light, mutual
+ * hiding of bodies, disk and hole, and extreme numbers. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -102,8 +102,8 @@ static const struct view {
       12 },
 };
 
-/* Distance in pixels of an image's edge from its expected place, for a pixel about which picture and oracle disagree.
- * It is computed from the slope of b. */
+/* For a pixel about which picture and oracle disagree: the distance in pixels of the image's edge from its expected
+ * place, from the slope of b. */
 static double off_by(const struct kd_scene *scene, int x, int y)
 {
     const double radius = scene->bodies.at[0].radius;
@@ -138,7 +138,7 @@ static void test_places(void **state)
     }
 }
 
-/* The metric at the scene's first body: -g_tt, g_tphi, g_phiphi, sufficient for motion along phi. */
+/* The metric at the scene's first body: -g_tt, g_tphi, g_phiphi, which are sufficient for motion along phi. */
 struct metric { double tt, tp, pp; };
 
 static struct metric metric_of(const struct kd_scene *scene)
@@ -150,7 +150,8 @@ static struct metric metric_of(const struct kd_scene *scene)
                              (r * r + a * a + a * a * mass * s2 / sigma) * s2 };
 }
 
-/* 1/g of matter that turns with Omega, or that moves along phi relative to zero angular momentum. */
+/* 1/g of matter that moves with the angular velocity Omega, or with a velocity along phi relative to zero angular
+ * momentum. */
 static double shift_of(const struct kd_scene *scene, const struct ks_photon *p)
 {
     const struct kd_body *b = &scene->bodies.at[0];
@@ -212,7 +213,8 @@ static void test_light(void **state)
     }
 }
 
-/* Of a body and an opaque disk, the camera sees the one nearer along the ray, whose light left later. */
+/* The camera sees either a body or an opaque disk: the one that is nearer along the ray, that is, whose light left
+ * later. */
 static void test_order(void **state)
 {
     (void)state;
@@ -260,7 +262,7 @@ static void test_order(void **state)
     }
 }
 
-/* Each of many bodies has the same image as alone. */
+/* Each of many bodies has the same image as it has alone. */
 static void test_tree(void **state)
 {
     (void)state;
@@ -302,7 +304,7 @@ static void test_tree(void **state)
     }
 }
 
-/* A volume in front of a body dims it; one behind has no effect. */
+/* A volume in front of a body dims the body. A volume behind it has no effect. */
 static void shell(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     (void)p, (void)r, (void)u;
@@ -385,7 +387,7 @@ static void test_layers(void **state)
     assert_int_equal(kd_plan_make(&scene, &c, &plan, &(struct kd_error) { 0 }), KD_EINVAL);
 }
 
-/* Extreme numbers cause no NaN. */
+/* Extreme numbers do not cause NaN. */
 static void test_adversarial(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Errors of every engine about charged holes, compared with the Kerr-Schild oracle and with the same engine about
- * uncharged holes whose horizons are as far apart. With --markdown it prints the table of docs/accuracy.md. */
+/* Tests the errors of every engine about charged holes, by the Kerr-Schild oracle. They are compared with the errors of
+ * the same engine about uncharged holes whose horizons are equally far apart. With --markdown it prints the table of
+ * docs/accuracy.md. */
 #include "kerr_schild.h"
 #include "base/random.h"
 #include "render/rays/rays.h"
@@ -59,7 +60,7 @@ static void prepare(void)
 }
 
 /* Errors over 1 + the condition number for the labels. differ: rays with another fate or number of crossings. loose:
- * rays off by more than their own error. */
+ * rays whose error exceeds the stated one. */
 struct errors {
     double r[MOST], phi[MOST];
     size_t n, n_phi, rays, differ, loose;
@@ -74,7 +75,7 @@ static void judge(const struct view *v, const struct kd_ray_crossing *crossings,
     for (int k = 0; k < RAYS; k++) {
         const struct ks_path *p = &v->paths[k], *q = &v->beside[k];
         if (p->crossings != q->crossings || p->fate != q->fate || p->fate == KS_UNDECIDED)
-            continue; /* skipped, because here the oracle itself changes its kind of ray within a millionth */
+            continue; /* skipped, because the oracle's ray changes its kind when it is moved by a millionth */
         const int wanted = p->crossings < ORDERS ? p->crossings : ORDERS;
         double worst = 0, gain = 0;
         e->rays++;

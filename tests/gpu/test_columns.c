@@ -1,4 +1,4 @@
-/* Two paths of the transfer kernel through the same rays give the same light. Pixels of one ray are processed in
+/* Tests that two paths of the transfer kernel give the same light for the same rays. Pixels of one ray are processed in
  * columns, which skip crossings that no emitter reaches. Pixels of several rays visit each crossing. */
 #include "render/device/device_internal.h"
 #include "render/render.h"

@@ -1,6 +1,6 @@
-/* A playground in pictures. Images of its bodies and their order are compared with the Kerr-Schild oracle. A body looks
- * the same as one of a scene, in front of and behind the disk and the hole. Also tested: the light of debris, and
- * invalid sets of bodies. */
+/* Tests of a playground in pictures. Images of its bodies and their order are compared with the Kerr-Schild oracle. A
+ * body looks the same as a body of a scene, in front of and behind the disk and the hole. Also tested: the light of
+ * debris, and invalid sets of bodies. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -79,7 +79,7 @@ static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, d
     return least;
 }
 
-/* The centre of an image near a place; returns its width, 0 if none is found. */
+/* The centre of an image near a place. Returns the image's width, or 0 if none is found. */
 static double image_near(const struct kd_scene *scene, const struct kd_seen_body *b, double at[2], double step)
 {
     double delay, least = pass(scene, b, at[0], at[1], 8, &delay);
@@ -112,8 +112,8 @@ struct judged {
     double worst;
 };
 
-/* Judges a picture of one image: where the oracle finds the body, a pixel shows this body, or another one that the ray
- * met before. */
+/* Compares a picture of one image: where the oracle finds the body, a pixel shows this body, or another body that the
+ * ray met before. */
 static void judge(struct kd_scene scene, const struct kd_dynamic_bodies *dynamic, uint32_t which, const double at[2],
                   double size, struct judged *sum)
 {
@@ -205,7 +205,7 @@ static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
     return dynamic;
 }
 
-/* A body of a playground has the same pixels, to the bit, as a body of a scene, and hides the same things. Bodies of
+/* A body of a playground has the same pixels, to the bit, as a body of a scene, and hides the same objects. Bodies of
  * scenes are tested by test_bodies.c. */
 static void test_as_a_scene_has_it(void **state)
 {
@@ -367,7 +367,8 @@ static void test_debris(void **state)
 }
 
 /* A dark body far from the hole reflects light that falls on its visible side. The expected light is the full integral
- * over the disk, with ten times as many places and the cosine itself, because light travels straight there. */
+ * over the disk, with ten times as many places. It uses the cosine of the straight line, because light is not bent
+ * there. */
 static double falls_on(const struct kd_scene *scene, const double at[3], const double normal[3])
 {
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer,
@@ -393,8 +394,8 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
     return sum;
 }
 
-/* Light that falls on a moving body is transformed into the body's frame by the matrix of the boost: the four
- * components of one photon at a time. */
+/* Light that falls on a moving body is transformed into the body's frame by the matrix of the boost, applied to the
+ * four components of each photon. */
 static void test_lit_moving(void **state)
 {
     (void)state;
@@ -472,7 +473,7 @@ static void test_lit(void **state)
                                                                          .temperature_k = 5000,
                                                                          .albedo = 0.5 },
                                                 1);
-        /* Light is bent only weakly, so that a first estimate of the image's place is enough for this wide picture. */
+        /* Light is bent only weakly. In this wide picture a first estimate of the image's place is therefore enough. */
         double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
         const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]),
                      more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
@@ -531,7 +532,7 @@ static void test_adversarial(void **state)
     }
 }
 
-/* A scene without bodies of a playground has no cost: its plan has no emitter for them. */
+/* A scene without bodies of a playground has no cost for them: its plan has no emitter for them. */
 static void test_off(void **state)
 {
     (void)state;

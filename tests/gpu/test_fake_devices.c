@@ -1,5 +1,5 @@
-/* Pictures, lists and particles on simulated devices: with low limits, with incoherent memory, and lost in the
- * middle. The results equal those of the real device byte for byte. */
+/* Tests of pictures, lists and particles on simulated devices: with low limits, with incoherent memory, or lost during
+ * the work. The results equal those of the real device byte for byte. */
 #include "fake_device.h"
 
 #include "render/output/particle_list.h"
@@ -115,7 +115,7 @@ static void answer_as(const struct fake_device *device)
     forget(&answers);
 }
 
-/* The device has fewer workgroups than a picture has blocks of pixels, even if everything fits one binding. */
+/* The device has fewer workgroups than a picture has blocks of pixels, although everything fits in one binding. */
 static void test_groups(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void test_incoherent(void **state)
     answer_as(&(struct fake_device) { .incoherent = true });
 }
 
-/* A lost device is abandoned with all memory of the driver for it; that is not a leak. */
+/* A lost device is abandoned together with all memory that the driver has for it; this is not counted as a leak. */
 void __lsan_disable(void) __attribute__((weak));
 void __lsan_enable(void) __attribute__((weak));
 

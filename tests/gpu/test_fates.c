@@ -1,6 +1,6 @@
 /* Tests of fates and orders of all rays of small pictures from random cameras, of every observer, spin, radius and
- * projection. They are compared with the closed form in double precision, and the captured fraction of the sky with the
- * area inside the critical curve.
+ * projection. They are compared with the closed form in double precision. The captured fraction of the sky is compared
+ * with the area inside the critical curve.
  *
  *   test_fates [CAMERAS [SEED [FIRST]]]     e.g. nice build/tests/gpu/test_fates 2000 7
  *
@@ -99,9 +99,9 @@ static void tell(const struct kd_scene *s, unsigned number, const char *what, ui
                   c->yaw_deg, c->pitch_deg, c->roll_deg);
 }
 
-/* The captured part of the sky of an equirectangular picture is the area inside the critical curve, to two pixels times
- * its length and to the pixels that are undecided. An observer at 0.999999 c next to a horizon has many of these:
- * labels that are divided by E cannot represent their rays even in double precision. */
+/* The captured part of the sky of an equirectangular picture is the area inside the critical curve. The tolerance is
+ * two pixels times the curve's length, plus the undecided pixels. An observer at 0.999999 c next to a horizon has many
+ * of these: labels that are divided by E cannot represent their rays even in double precision. */
 static void judge_share(const struct kd_scene *scene, unsigned number, const float *fate, struct tally *t)
 {
     const struct kd_camera *c = &scene->camera;

@@ -1,6 +1,6 @@
-/* A device is tested when kerrd first uses it, and not again. A start with another driver, with another kerrd, or after
- * the file was damaged counts as a first use. A device that computes wrongly causes a warning, and is tested again at
- * each start. */
+/* Tests that a device is tested when kerrd first uses it, and not again. A start with another driver, with another
+ * kerrd, or after the file was damaged counts as a first use. A device that computes wrongly causes a warning, and is
+ * tested again at each start. */
 #include "render_support.h"
 
 #include "render/selftest/first_start.h"
@@ -57,7 +57,7 @@ static void test_once(void **state)
     read_all(path);
     assert_non_null(strstr(text, "kerrd " KD_VERSION));
 
-    for (int prove = 0; prove < 2; prove++) { /* each caller gets the results and the costs of the passes */
+    for (int prove = 0; prove < 2; prove++) { /* each caller gets the test's results and the costs of the passes */
         r = start(prove);
         known = kd_renderer_verdict(r);
         assert_true(known->result == KD_PASSED && !known->now && known->checks > 50 && r->capacity.measured);

@@ -79,14 +79,15 @@ static double orbit_omega(const struct kd_spacetime *hole, double r)
 }
 
 /* Light of the lamp on the disk by rays of the oracle, in steps of x = ln tan(delta/2), where delta is the angle from
- * the direction to the hole. A ray that arrives at the lamp, traced back, has the radii and times of one that leaves.
+ * the direction to the hole. A ray that arrives at the lamp and is traced back has the same radii and times as a ray
+ * that leaves the lamp.
  */
 enum { RAYS = 801 };
 struct lit {
     int n;
     double r[RAYS], time[RAYS], light[RAYS], largest;
 };
-static const double AXIS = 1e-5; /* polar angle of the lamp, so that it has an azimuth */
+static const double AXIS = 1e-5; /* polar angle of the lamp; it is not 0, so that the lamp has an azimuth */
 
 static double between(const struct lit *lit, const double *values, double r)
 {
@@ -237,7 +238,7 @@ static void test_impulse_response(void **state)
         struct kd_echo echo;
         const double edges[] = { 1e-3, 4 }, first = -20, step = 0.05, sharp = 1 / scene.flash.duration;
         OK(kd_echo_impulse(&image, &params, edges, 1, first, step, TIMES, share, &echo, &error));
-        /* All photons, over their largest illumination: of the line's sum, which is in units of epsilon. */
+        /* All photons, divided by the largest illumination, from the line's sum, which is in units of epsilon. */
         const struct kd_line_params line_params = { .inner = image.isco,
                                                     .outer = scene.disk.outer,
                                                     .emissivity = KD_LINE_LAMPPOST,
@@ -272,10 +273,10 @@ static void test_impulse_response(void **state)
     }
 }
 
-/* In flat space light from the lamp at z = h by a place x to an observer in the direction n takes the time |x - h| -
- * n x, so that the ring is a section of a paraboloid. The hole adds to first order 2 ln((r_1 + r_2 + d)/(r_1 + r_2 -
- * d)) in isotropic coordinates, r - 1 (I. I. Shapiro 1964), and for the second way 2 ln(2/(r + n x)) after r_o + 2 ln
- * r_o is taken off. The ring is seen at b of A. M. Beloborodov 2002, ApJ 566, L85. */
+/* In flat space light travels from the lamp at z = h over a place x to an observer in the direction n in the time |x -
+ * h| - n x. The ring is therefore a section of a paraboloid. The hole adds to first order 2 ln((r_1 + r_2 + d)/(r_1 +
+ * r_2 - d)) in isotropic coordinates, r - 1 (I. I. Shapiro 1964), and for the second way 2 ln(2/(r + n x)) after r_o +
+ * 2 ln r_o is taken off. The ring is seen at b of A. M. Beloborodov 2002, ApJ 566, L85. */
 static void test_far_out(void **state)
 {
     (void)state;
@@ -301,8 +302,8 @@ static void test_far_out(void **state)
     printf("far out the ring is within %.2g of its radius\n", worst);
 }
 
-/* A flash that repeats shows the same at each period, and what one flash shows meanwhile. Without slow light the ring
- * is round. Nothing is left before the flash. */
+/* A flash that repeats shows the same picture at each period, and between them what a single flash shows. Without slow
+ * light the ring is round. Nothing is visible before the flash. */
 static void test_course(void **state)
 {
     (void)state;

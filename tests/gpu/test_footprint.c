@@ -165,8 +165,8 @@ static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene,
     return out;
 }
 
-/* Smallest and largest size here and at the four neighbours; NAN if one of them is missing. A difference over a step
- * is the derivative somewhere on it, so that a footprint lies between the two. */
+/* Smallest and largest size here and at the four neighbours; NAN if one of them is missing. A difference over a step is
+ * the derivative somewhere on the step, so a footprint lies between these two sizes. */
 struct range { struct sizes own, least, most; };
 
 static struct range range_at(const struct view *v, const struct kd_scene *scene, double x, double y, double way)
@@ -296,7 +296,7 @@ static float *read_buffer(struct kd_vk_buffer *buffer)
     return out;
 }
 
-/* A picture is traced and lit a few rows at a time: its footprints equal those of a map traced at once. */
+/* A picture is traced and lit a few rows at a time. Its footprints equal those of a map traced at once. */
 static void test_slices(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* A frame runs exactly the passes of its plan, under their names; their times become the estimates of the next plan. */
+/* Tests that a frame runs exactly the passes of its plan, under their names, and that their times become the estimates
+ * of the next plan. */
 #include "render_support.h"
 
 #include "render/device/device_internal.h"
@@ -38,7 +39,7 @@ static bool planned(const struct kd_plan *plan, const char *name)
     for (size_t i = 0; i < plan->cost.n_passes; i++)
         if (!strcmp(plan->cost.passes[i].name, name))
             return true;
-    /* "rays": the device's part of a "trace" by listed rays; "kernels": time to compile missing kernels */
+    /* "rays": the device's part of a "trace" by listed rays. "kernels": time to compile missing kernels */
     return !strcmp(name, "kernels") || !strcmp(name, "upload") || !strcmp(name, "fill") || !strcmp(name, "rays") ||
            !strcmp(name, "total");
 }

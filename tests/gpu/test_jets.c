@@ -78,7 +78,7 @@ static void test_far_away(void **state)
         "\"lorentz\":1.3,\"opening_deg\":15,\"sheath\":0,\"spectral_index\":-0.5}}",
         "{\"camera\":{\"inclination_deg\":80,\"field_m\":300000}," FAR_AWAY
         "\"lorentz\":3,\"opening_deg\":10,\"counterjet\":false}}",
-        /* the jet moves towards the observer: g is up to 200, from a difference of 1/20000 */
+        /* the jet moves towards the observer: g is up to 200, computed from a difference of 1/20000 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY "\"lorentz\":100,\"opening_deg\":8}}",
         /* g^12 is 2^70 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY
@@ -137,8 +137,9 @@ static void test_ratio(void **state)
     }
 }
 
-/* Emission in the matter's frame, by the metric. p_r follows from R(r) and the photon's constants, and the observer of
- * zero angular momentum gives -k.U = Gamma (e - v k_r). way: 1 where light moves outwards, -1 where inwards. */
+/* Emission in the matter's frame, by the metric. p_r follows from R(r) and the photon's constants, and -k.U = Gamma (e
+ * - v k_r) with the components for the observer of zero angular momentum. way: 1 where light moves outwards, -1 where
+ * it moves inwards. */
 static void shine(void *user, const struct ks_photon *p, double r, double u, double way, double out[2])
 {
     const struct kd_scene *scene = user;
@@ -219,9 +220,9 @@ static void jet_below(void *user, const struct ks_photon *p, double r, double u,
 }
 
 /* Jets from next to the horizon, on rays that fall in. No ray turns, at any latitude. There the charge's term in -k.U
- * across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to matter. Light as g^10 changes by large factors
- * within a stretch of the march, most of all where a ray crosses the axis. There the march's error is 7.5e-3 with the
- * profile "balanced" and 3e-4 with "high". */
+ * across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to be tested. Light proportional to g^10 changes by
+ * large factors within a step of the march, most of all where a ray crosses the axis. There the march's error is 7.5e-3
+ * with the profile "balanced" and 3e-4 with "high". */
 static void test_beside_the_horizon(void **state)
 {
     /* rows of spin, charge, i */

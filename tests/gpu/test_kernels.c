@@ -1,4 +1,5 @@
-/* Kernels are recorded first, and compiled together on several threads. A frame uses exactly those that it recorded. */
+/* Tests that kernels are recorded first and then compiled together on several threads, and that a frame uses exactly
+ * those that it recorded. */
 #include "render_support.h"
 
 #include "render/device/device_internal.h"
@@ -71,8 +72,8 @@ static void what_cannot_be_made_is_told_later(void **state)
     assert_non_null(strstr(why.message, "broken"));
 }
 
-/* Each kernel that the first frame of a scene compiles in advance is used in this frame: it appears in the order of use
- * after its compilation. */
+/* Each kernel that the first frame of a scene compiles in advance is used in this frame: after its compilation it
+ * appears in the order of use. */
 static void a_frame_notes_what_it_needs(void **state)
 {
     (void)state;
@@ -142,7 +143,8 @@ static bool goes_on(void *user, double fraction)
     return true;
 }
 
-/* Kernels that are compiled while the device works are those that the frame uses, and the picture is the same. */
+/* Kernels that are compiled while the device works are exactly those that the frame uses, and the picture does not
+ * change. */
 static void compiled_beside_the_device(void **state)
 {
     (void)state;
@@ -200,7 +202,7 @@ static void compiled(struct kd_compilation *c)
     kd_compilation_end(c);
 }
 
-/* The pictures that determine a density are also rendered on a device that computes nothing, so that their kernels are
+/* The pictures that determine a density are also rehearsed on a device that computes nothing, so that their kernels are
  * compiled. */
 static void a_density_is_rehearsed(void **state)
 {
@@ -286,7 +288,7 @@ static void a_kernel_that_nobody_foresaw(void **state)
         assert_int_equal(lack.times, 1);
         assert_int_equal(lack.background_renders, i == 1);
     }
-    /* requested again, now that the kernel is there */
+    /* requested again, now that the kernel is compiled */
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[2], &error));
     assert_int_equal(lack.times, 1);
     for (int i = 0; i < 3; i++) {
@@ -321,7 +323,7 @@ static void kernels_of_lists_of_rays(void **state)
     assert_int_equal(made(), 2);
 }
 
-/* The last other reference to a playground's bodies may be dropped before the rehearsal. */
+/* The last other reference to a playground's bodies may be released before the rehearsal. */
 static void bodies_are_held_while_kernels_are_compiled(void **state)
 {
     (void)state;

@@ -243,7 +243,8 @@ static void test_ends(void **state)
 
 static double luminance(const float *rgb) { return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2]; }
 
-/* Each order has its light; all of them plus the sky are the picture's luminance, for any number of rays a pixel. */
+/* The layers contain the light of each order. The sum of all orders and the sky is the picture's luminance, for any
+ * number of rays a pixel. */
 static void test_light(void **state)
 {
     (void)state;
@@ -274,7 +275,7 @@ static void test_light(void **state)
     }
 }
 
-/* A black body is seen with (g T)^4, T from the flux at its radius; an opaque crossing has infinite depth. */
+/* A black body is seen with (g T)^4, with T from the flux at its radius. An opaque crossing has infinite depth. */
 static void test_temperature(void **state)
 {
     (void)state;
@@ -313,8 +314,8 @@ static double product(double a, double r, double x_t, double x_phi, double y_t, 
            delta;
 }
 
-/* Gas falling from the ISCO has a place, a temperature and a g. g follows from its four-velocity, which has the E and L
- * of the ISCO. The radial parts follow from u.u = -1 and, for the light, from p.p = 0. */
+/* Layers of gas that falls from the ISCO: place, temperature and g. g follows from the gas's four-velocity, which has
+ * the E and L of the ISCO. The radial components follow from u.u = -1 for the gas and p.p = 0 for the light. */
 static void test_plunge(void **state)
 {
     (void)state;
@@ -496,7 +497,8 @@ static const float *numbers_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* If 32 bits cannot distinguish neighbouring rays, these have no footprint, rather than one of 0. Other rays have one.
+/* If 32 bits cannot distinguish neighbouring rays, these rays have no footprint, rather than one of size 0. Other rays
+ * have a footprint.
  */
 static void test_tiny_fields(void **state)
 {

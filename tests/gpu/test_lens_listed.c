@@ -35,8 +35,8 @@ static double quantile(double *values, int n, double q)
     return values[(int)(q * (n - 1))];
 }
 
-/* Counts rays whose fate or number of crossings differs, and gives the others' median errors of r, phi and the angle
- * on the sky. */
+/* Counts rays whose fate or number of crossings differs, and gives the median errors of r, phi and the angle on the sky
+ * for all other rays. */
 static void compare(const char *what, const struct lens *a, const struct lens *b, double bound, int stray)
 {
     uint64_t n = a->plan.lens.rays;
@@ -163,9 +163,9 @@ static void test_slices(void **state)
     test_free(cut.planes);
 }
 
-/* Tests the errors of crossing radii that the profiles promise: the median and the largest error against the closed
- * form, over the bulk set from the ISCO to 1000 M. The accuracy table states larger errors for the rows that the
- * profiles use, because it covers all sets. */
+/* Tests the errors of crossing radii that the profiles promise. The median and the largest error are taken by
+ * comparison with the closed form, over the bulk set of rays from the ISCO to 1000 M. The accuracy table states larger
+ * errors for the rows that the profiles use, because it covers all sets. */
 static void test_profiles(void **state)
 {
     (void)state;

@@ -101,7 +101,7 @@ static double median(struct tally *t)
     return t->count ? t->errors[t->count / 2] : 0;
 }
 
-/* True if a ray must not be judged: its number of crossings changes when it is moved by 3e-6, or it grazes the inner
+/* True if a ray must not be compared: its number of crossings changes when it is moved by 3e-6, or it grazes the inner
  * limit of the crossings that are kept. */
 static bool undecided(const struct sample *s, int n, double inner)
 {
@@ -111,7 +111,7 @@ static bool undecided(const struct sample *s, int n, double inner)
     return r < inner * 1.001 || r > 1e4;
 }
 
-/* Judges one plane of radii and, if the map has them, azimuths. Errors are divided by 1 + the amplification. */
+/* Compares one plane of radii and, if the map has them, azimuths. Errors are divided by 1 + the amplification. */
 static void judge(const struct view *v, const struct lens *lens, const struct sample *samples, int n,
                   struct tally *radius, struct tally *azimuth)
 {
@@ -183,8 +183,8 @@ enum { VIEWS = sizeof views / sizeof *views };
 
 static struct sample samples[VIEWS][GRID * GRID];
 
-/* Per order: median and worst error over 1 + amplification. Float arithmetic alone (6e-8 an operation, tens of them)
- * gives some 3e-7; the bounds leave a factor for other devices' square roots and divisions. */
+/* For each order: the median and the worst error, divided by 1 + the amplification. Float arithmetic alone (6e-8 an
+ * operation, tens of them) gives some 3e-7; the bounds leave a factor for other devices' square roots and divisions. */
 static void check(const struct view *v, const struct lens *lens, const struct sample *s, double worst_r,
                   double worst_phi)
 {
@@ -316,7 +316,8 @@ static void test_in_plane(void **state)
     assert_true(escaped > GRID / 2 && escaped < GRID);
 }
 
-/* The project's promise for the first crossing holds without allowance for amplification: 1e-5, median 1e-6. */
+/* The project's bound for the first crossing holds without allowance for amplification: at most 1e-5, with a median of
+ * 1e-6. */
 static void test_promise(void **state)
 {
     (void)state;

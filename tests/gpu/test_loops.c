@@ -89,7 +89,8 @@ static struct ks_screen screen_of(const struct kd_scene *scene, double x, double
 }
 
 /* I, Q and U of the spot. At each place its gas moves on the circular orbit through that place. Its light, I_nu ~
- * nu^-index, arrives multiplied by g^(3 + index), where g is the inverse of `.g`. 3/4 of the light is polarised. */
+ * nu^-index, arrives multiplied by g^(3 + index), where g is the inverse of the member `g`. 3/4 of the light is
+ * polarised. */
 static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, enum ks_field field, double isco,
                          double out[3])
 {
@@ -178,9 +179,9 @@ static void test_oracle(void **state)
     printf("against the oracle: I, Q and U within %.2g of I\n", worst);
 }
 
-/* Face-on and without spin the polarisation of a small spot's light, from outwards to +phi, is 0 for a toroidal
- * field and atan2(cos, v sin) for a vertical one, by the light's angle to the radius and the speed v of the orbit
- * (R. Narayan et al. 2021; Z. Gelles et al. 2021). So Q and U go round twice in an orbit, in the spot's sense
+/* Face-on and without spin the polarisation of a small spot's light, from outwards to +phi, is 0 for a toroidal field
+ * and atan2(cos, v sin) for a vertical one, by the light's angle to the radius and the speed v of the orbit (R. Narayan
+ * et al. 2021; Z. Gelles et al. 2021). Therefore Q and U make two loops in an orbit, in the spot's sense of rotation
  * (GRAVITY 2018; M. Wielgus et al. 2022). */
 static void test_loops(void **state)
 {

@@ -1,6 +1,6 @@
-/* Tests of light along rays through volumes. It is compared with closed forms along paths measured by the Kerr-Schild
- * oracle, which uses neither Mino time nor a Nystroem method, and with integrals of emission and absorption along these
- * paths. Also tests the order of volumes and crossings of the plane, and self-consistency. */
+/* Tests of light along rays through volumes. It is compared with closed forms and with integrals of emission and
+ * absorption. Both use paths of the Kerr-Schild oracle, which uses neither Mino time nor a Nystroem method. Also tests
+ * the order of volumes and crossings of the plane, and self-consistency. */
 #include "render/device/store.h"
 #include "render_support.h"
 
@@ -194,8 +194,8 @@ static double largest(const float *light, int n)
 
 enum { THIN_WIDTH = 48, THIN_HEIGHT = 36, THIN = THIN_WIDTH * THIN_HEIGHT };
 
-/* Errors of a thick disk's light as its height goes to 0. The largest is given, relative to its own light or to a
- * twentieth of the brightest. */
+/* Errors of a thick disk's light as its height goes to 0. Returns the largest error, relative to the pixel's own light
+ * or to a twentieth of the brightest pixel's. */
 struct thin_errors {
     double worst, half, limit;
     int lit, off;
@@ -225,9 +225,9 @@ static struct thin_errors thin_limit(struct kd_scene scene, double height)
     return e;
 }
 
-/* A thick disk of almost no height equals the thin one, with opacity by depth, a chosen opacity, and its taper. Where
- * the flux vanishes steeply, at the inner edge of a disk seen nearly edge-on, the difference is the height itself,
- * because the ray meets the gas a little further in. The difference is proportional to the height, and its
+/* A thick disk of almost no height equals the thin one, with opacity by depth, a chosen opacity, and its taper. At the
+ * inner edge of a disk seen nearly edge-on, where the flux falls steeply to zero, the difference is of the order of the
+ * height, because the ray meets the gas a little further in. The difference is proportional to the height, and its
  * extrapolation to height 0 vanishes. */
 static void test_thin_limit(void **state)
 {
@@ -347,7 +347,7 @@ static void test_plan(void **state)
     assert_int_equal(kd_plan_make(&scene, &c, &with, &refused), KD_EINVAL);
 }
 
-/* Extreme numbers leave no NaN and no ray given up. */
+/* Extreme numbers cause neither NaN nor rays that are given up. */
 static void test_adversarial(void **state)
 {
     (void)state;

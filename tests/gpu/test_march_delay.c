@@ -1,6 +1,6 @@
 /* Tests of slow light of volumes. Emission times along a ray are compared with the Kerr-Schild oracle, which does not
- * use Mino time. The turbulence of gas of some height is compared with pictures of the emission times by the lens map
- * and by the oracle. */
+ * use Mino time. The turbulence of a disk of some height is compared with pictures at the emission times that the lens
+ * map and the oracle give. */
 #include "physics/spacetime/kerr.h"
 #include "render/explain/explain.h"
 #include "scene/hole.h"
@@ -159,7 +159,7 @@ static void thin_delays(struct kd_scene scene, double out[PIXELS])
     kd_frame_finish(&frame);
 }
 
-/* Opaque gas of almost no height shows the place where the ray first crosses the plane, as in a picture of its
+/* Opaque gas of almost no height shows the place where the ray first crosses the plane, as it looks in a picture of the
  * emission time. */
 static void test_thin(void **state)
 {
@@ -198,8 +198,8 @@ static void test_thin(void **state)
     }
 }
 
-/* Seen along the axis, all light of a circle was emitted at one time. The circle therefore equals the same circle of an
- * earlier picture. */
+/* Seen along the axis, all light of a circle was emitted at one time. The circle therefore equals the same circle of a
+ * picture at that earlier time. */
 static void test_face_on(void **state)
 {
     (void)state;

@@ -38,8 +38,8 @@ static struct kd_frame by_plan(const struct kd_scene *scene, uint32_t fine, uint
 
 static const float *intensity(const struct kd_frame *frame) { return kd_frame_layer(frame, "intensity")->data; }
 
-/* Errors relative to a pixel's light, or to a thousandth of the brightest pixel's, over the pixels that differ: the 80,
- * 90 and 96 % quantiles, and the maximum. */
+/* Quantiles of the errors of the pixels that differ: 80, 90 and 96 %, and the maximum. Errors are relative to a pixel's
+ * light, or to a thousandth of the brightest pixel's. */
 struct errors { double eight, nine, most, worst; };
 
 static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
@@ -75,8 +75,9 @@ static const struct {
     { "jet", "{\"disk\":{\"model\":\"none\"}}" },
 };
 
-/* A frame states the error that nine tenths of a hundred rays do not exceed. Within two standard deviations this is
- * between the 80 % and 96 % quantiles of all pixels. Doubling the steps leaves at most half of the error. */
+/* A frame states the error that nine tenths of a sample of a hundred rays do not exceed. Within two standard deviations
+ * of the sample this is between the 80 % and 96 % quantiles of all pixels. Doubling the steps leaves at most half of
+ * the error. */
 static void test_said(void **state)
 {
     (void)state;
@@ -210,8 +211,8 @@ static void test_close_rays(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The sketch of a changing view is marked as a sketch, measures its error, and is as accurate as it states. The sketch
- * leaves out fine octaves and does not change the lens map. */
+/* The sketch of a changing view is marked as a sketch. It states its measured error, and is as accurate as stated. The
+ * sketch leaves out fine octaves and does not change the lens map. */
 static void test_sketch(void **state)
 {
     (void)state;

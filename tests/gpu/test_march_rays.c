@@ -170,8 +170,9 @@ static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
     return worst;
 }
 
-/* lavapipe stops the loops of eight such rays, but not of a single one. Rays that it stops are continued in pieces.
- * They then have the same light as alone, also within their pixel. Without this, 16 rays of the tile were given up. */
+/* lavapipe stops the loops of eight such rays together, but not the loop of a single ray. Stopped rays are continued in
+ * pieces. They then have the same light as when they are followed alone, also within their pixel. Without this, 16 rays
+ * of the tile were given up. */
 static void test_pieces(void **state)
 {
     (void)state;

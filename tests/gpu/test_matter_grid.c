@@ -1,6 +1,6 @@
-/* Tests of matter on a grid. Each ray is compared with the integral of emission and absorption along the Kerr-Schild
- * oracle's path. Interpolation is reimplemented here; velocities and fields are from the metric's components, and
- * emissivities in CGS. Also tests numbers beyond single precision. */
+/* Tests of matter on a grid. The light of each ray is compared with the integral of emission and absorption along the
+ * Kerr-Schild oracle's path. For this the test has its own interpolation, velocities and fields from the metric's
+ * components, and emissivities in CGS. Also tests numbers beyond single precision. */
 #include "image/npy.h"
 #include "image/zip.h"
 #include "render/emit/matter_grid.h"
@@ -39,7 +39,7 @@ static struct keeper {
     struct kd_buffer file;
     bool missing;
     unsigned taken;
-    pthread_t taker; /* the thread that last took the file */
+    pthread_t taker; /* the thread that fetched the file last */
 } keeper;
 
 static bool take(void *user, const char *hash, struct kd_asset_bytes *out)
@@ -103,7 +103,7 @@ struct event {
     unsigned n;
 };
 
-/* Replaces the previous grid's file, under another hash. */
+/* Replaces the previous grid's file; the new file has another hash. */
 static void keep(const struct numbers *g)
 {
     static int n;
@@ -285,10 +285,11 @@ static void fill_ring(struct numbers *g)
 struct view {
     const struct kd_scene *scene;
     const struct numbers *g;
-    bool closed; /* the ring itself, not its nodes */
+    bool closed; /* compared with the ring itself, not with its nodes */
 };
 
-/* The time on the grid's clock, as a frame with a fraction: by definition at the scene's time, or when light left. */
+/* The time on the grid's clock, as a fractional index of a frame. By definition it is the scene's time, or with slow
+ * light the time when the light left. */
 static double frame_of(const struct view *view, const struct ks_photon *p, double r)
 {
     const struct numbers *g = view->g;
@@ -516,8 +517,8 @@ static void test_ends(void **state)
         }
 }
 
-/* The ring with its lump in slow light, against the closed form at the time when light left each place. The fast
- * picture is another one. */
+/* The ring with its lump in slow light is compared with the closed form at the time when light left each place. The
+ * picture without slow light differs. */
 static void test_moving(void **state)
 {
     enum { FINE = 10 };
@@ -634,8 +635,8 @@ static enum kd_status render_one(struct kd_renderer *r, const struct kd_scene *s
     return kd_render(r, scene, &plan, NULL, NULL, out, why);
 }
 
-/* A thread reads a grid before a picture needs it. The picture then does not read it, and neither does one whose grid
- * is already on the device. While the file is missing, a picture is refused with an error at the field. */
+/* A thread reads a grid before a picture needs it. This picture then does not read it, and neither does a picture whose
+ * grid is already on the device. While the file is missing, a picture is refused with an error at the field. */
 static void test_reading(void **state)
 {
     (void)state;

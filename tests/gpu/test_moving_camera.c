@@ -1,4 +1,4 @@
-/* A camera with an arbitrary velocity, so that every leg of its tetrad has every component. The lens map by both
+/* Tests a camera with an arbitrary velocity, for which every leg of the tetrad has all components. The lens map by both
  * kernels, and the labels of a pixel, are compared with the Kerr-Schild oracle. The oracle applies aberration to the
  * directions of the picture, and follows them from a frame of zero angular momentum. No real kind of observer moves
  * like this; the test replaces one of them. */

@@ -290,9 +290,9 @@ static void maps(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* Angular radius of the dark disk for rain in Schwarzschild: sqrt(27) = b = r sin/(1 - cos sqrt(2/r)), a quadratic
- * equation for the tangent of half the angle. One root is for light moving inwards at the photon orbits, the other
- * for light moving outwards. */
+/* Angular radius of the dark disk for rain in Schwarzschild: b = r sin/(1 - cos sqrt(2/r)) = sqrt(27), a quadratic
+ * equation for the tangent of half the angle. One root is for light moving inwards at the photon orbits, the other for
+ * light moving outwards. */
 static double dark_angle(double r)
 {
     double q = sqrt(54 / r), middle = atan2(r, q), half = acos(fmin(1, sqrt(27) / hypot(r, q)));
@@ -337,7 +337,7 @@ static void dark_disk(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* The whole sky that rain sees at a radius: for each ray cos(theta) and azimuth of its end, and its fate. */
+/* The whole sky that rain sees at a radius: for each ray its fate, and cos(theta) and azimuth of its end. */
 static void look_around(double spin, double inclination, double r, float ends[FACES][3 * RAYS])
 {
     static float planes[(ORDERS + 3) * RAYS];

@@ -1,5 +1,5 @@
-/* Tests of particles as numbers. They are compared with the closed form in double precision; their constants and the
- * norm with physics/orbit/timelike.h and the metric; and their rates with differences. Also tests parts of a list, and
+/* Tests of particles as numbers. Places are compared with the closed form in double precision; constants and the norm
+ * with physics/orbit/timelike.h and the metric; rates with differences of places. Also tests parts of a list, and
  * refused requests. */
 #include "render/output/particle_list.h"
 

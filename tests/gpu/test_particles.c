@@ -46,7 +46,7 @@ static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); 
 
 /* Without epicycles a particle is at phi0 + t/(r^(3/2) + a), computed here with 64 bits of mantissa; r is one of the
  * radii of equal shares of the disk. The reported r has single precision, 1e-7, which would be 1e-4 rad after 1e4 M.
- * So the radius in double is computed from the share, and the float must agree. */
+ * Therefore the radius is computed in double from the share, and the reported float must agree with it. */
 static void test_phase(void **state)
 {
     (void)state;
@@ -213,8 +213,8 @@ static void test_lists_between_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* To an observer that co-rotates with a narrow ring, the ring stands still. To one that moves the other way it does
- * not. */
+/* To an observer that co-rotates with a narrow ring, the ring does not move. To one that rotates the other way it
+ * does. */
 static void test_turning(void **state)
 {
     (void)state;
@@ -278,10 +278,11 @@ static void test_edges(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Light with delay D shows the disk at t - D. So a pixel of a picture with slow light equals that of a picture with
- * fast light at t - D, where D is the delay of its ray. This holds for an observer at infinity and a near one, and
- * about a charged hole. The pixels agree only approximately, because a grid that is rotated by a part of a cell is
- * blurred differently. About the charged hole the angular velocity without charge would be wrong by several cells. */
+/* Light with delay D shows the disk at t - D. A pixel of a picture with slow light therefore equals the pixel of a
+ * picture without slow light at t - D, where D is the delay of its ray. This holds for an observer at infinity and a
+ * near one, and about a charged hole. The pixels agree only approximately, because a grid that is rotated by a part of
+ * a cell is blurred differently. About the charged hole the angular velocity without charge would be wrong by several
+ * cells. */
 static void test_slow_light(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* The explanation of a pixel: its light adds up to the picture's linear light, and its crossings are those of listed
- * rays and of layers. Explaining it does not change the picture. */
+/* Tests of the explanation of a pixel: its light adds up to the picture's linear light, and its crossings are those of
+ * listed rays and of layers. Explaining a pixel does not change the picture. */
 #include "physics/spacetime/kerr.h"
 #include "render/emit/emitter.h"
 #include "render/explain/ahead.h"
@@ -106,9 +106,9 @@ static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
     return n;
 }
 
-/* Checks that all rays of the pixel together give its light, and that each ray has its emitters' light; 0 would mean
- * that the data was lost on its way from the kernel. Returns the number of rays whose light differs from that of the
- * first. */
+/* Checks that all rays of the pixel together give its light, and that each ray has its emitters' light; a 0 would mean
+ * that the data was lost between the kernel and the answer. Returns the number of rays whose light differs from that of
+ * the first. */
 static uint32_t judge_rays(const struct kd_frame *frame)
 {
     const struct kd_probed_pixel *told = frame->told;
@@ -163,7 +163,7 @@ static void judge_direction(const struct kd_scene *scene, const struct kd_explai
     }
 }
 
-/* The closed form's crossings equal those of the list of rays, and the picture's up to rounding. */
+/* The closed form's crossings equal those of the list of rays. They equal the picture's crossings up to rounding. */
 static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_frame *frame)
 {
     const struct kd_picture picture = { frame, scene, plan, "", 0 };
@@ -359,8 +359,8 @@ static void velocity_of_gas(void **state)
     assert_true(compared > 8 && approaching > 2 && compared > approaching + 2);
 }
 
-/* Explains pixels of special pictures: of one eye of a stereo pair, in a band that is no longer in memory, and in a
- * picture of a ring. */
+/* Explains pixels of special pictures: of one eye of a stereo pair, of a band that is no longer in memory, and of a
+ * ring projection. */
 static void other_pictures(void **state)
 {
     static const uint32_t columns[] = { 20, WIDTH + 20 };
@@ -618,8 +618,8 @@ static void judge_volumes(const struct kd_probed_ray *told)
 }
 
 /* Each of two overlapping volumes is explained with the depth that it has alone. If neither hides the other, it also
- * has the light of a picture without the other volume. The shell's edges lie within the jets' bounds and are located
- * within a step; otherwise the error would be 1 %. */
+ * has the light of a picture without the other volume. The shell's edges lie within the jets' bounds. The march must
+ * locate them within a step; otherwise the error would be 1 %. */
 static void volumes(void **state)
 {
     static const char *const names[] = { "volume", "jets" };
@@ -668,8 +668,8 @@ static void encoded(const struct kd_scene *scene, const struct kd_plan *plan, st
     kd_frame_finish(&frame);
 }
 
-/* If a pixel does not depend on the rest of the picture, it is explained from itself and a margin alone, with the same
- * bytes. With automatic exposure, a pixel depends on the whole picture, and the whole picture is rendered. */
+/* If a pixel does not depend on the rest of the picture, only the pixel and a margin are rendered to explain it, with
+ * the same bytes. With automatic exposure a pixel depends on the whole picture, which is then rendered. */
 static void alone(void **state)
 {
     (void)state;
@@ -721,8 +721,8 @@ static bool until_done(void *user, double fraction)
     return true;
 }
 
-/* The kernels that are compiled ahead for a picture are all that the explanation of its pixels needs, at the critical
- * curve and elsewhere. */
+/* The kernels that are compiled ahead for a picture are all that the explanation of its pixels needs, both at the
+ * critical curve and elsewhere. */
 static void kernels_ahead(void **state)
 {
     (void)state;

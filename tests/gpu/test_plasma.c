@@ -516,8 +516,8 @@ static void test_normalised(void **state)
     }
 }
 
-/* All pictures of an integral share one density, which is determined once. The test covers sizes at
- * which the aspect ratio is rounded differently to whole pixels, visibilities, and two frequencies. */
+/* All pictures of an integral use one density, which is determined once. Tested are sizes whose aspect ratio is rounded
+ * differently to whole pixels, visibilities, and two frequencies. */
 static void test_normalised_once(void **state)
 {
     (void)state;

@@ -65,8 +65,8 @@ static void integrate(const struct kd_hole *hole, double time, double *r, double
 
 static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
 
-/* A particle at (r, phi) continues along its geodesic, or starts again. This holds at early, late and negative times.
- * The reported r has single precision, 6e-8, at both ends. */
+/* A particle at (r, phi) continues along its geodesic, or starts again. This is tested at early, late and negative
+ * times. The reported r has an error of 6e-8 (single precision) at both times. */
 static void test_geodesics(void **state)
 {
     (void)state;
@@ -114,7 +114,7 @@ static void test_geodesics(void **state)
 }
 
 /* The particles are a steady stream at any time: uniform in coordinate time along the curve, and in azimuth. Each fall
- * of a particle has another azimuth, always the same one. */
+ * of a particle has an azimuth of its own, which is the same in every run. */
 static void test_stream(void **state)
 {
     (void)state;

@@ -129,8 +129,8 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
 }
 
 /* Each place is tested at the order whose light is visible there. Each half turn round the hole amplifies
- * single-precision errors by some 20. So the tolerance of order 1 is ten times as large, and its radius checks that
- * both methods follow the same ray. */
+ * single-precision errors by some 20. The tolerance of order 1 is therefore ten times as large; its radius is compared
+ * to check that both methods follow the same ray. */
 static void judge(const struct view *view)
 {
     static const char *const names[] = { "evpa_0", "evpa_1" }, *const parts[] = { "polarization_fraction_0",
@@ -221,10 +221,11 @@ static void test_stokes(void **state)
 }
 
 /* Face-on and without spin light stays in a plane through the axis, and its direction relative to that plane is
- * unchanged. By the ray's angle to the radius in the rest frame, sin = b sqrt(1 - 2/r)/r, and the aberration of the
- * orbit, whose speed is 1/sqrt(r - 2), the angle of the electric field, from outwards to +phi, is for a toroidal field
- * 0,  a radial one atan2(sin, -v cos),  a vertical one atan2(cos, v sin) (Narayan et al. 2021, ApJ 912, 35; Gelles et
- * al. 2021, PRD 104, 044060), where the closed form of Beloborodov 2002 has cos = 2/r, accurate to relative order 1/r.
+ * unchanged. From the ray's angle to the radius in the rest frame, sin = b sqrt(1 - 2/r)/r, and the aberration by the
+ * orbital motion, whose speed is 1/sqrt(r - 2), the angle of the electric field, from outwards to +phi, is for a
+ * toroidal field 0,  a radial one atan2(sin, -v cos),  a vertical one atan2(cos, v sin) (Narayan et al. 2021, ApJ 912,
+ * 35; Gelles et al. 2021, PRD 104, 044060), where the closed form of Beloborodov 2002 has cos = 2/r, accurate to
+ * relative order 1/r.
  */
 static void test_face_on(void **state)
 {

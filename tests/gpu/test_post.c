@@ -45,9 +45,9 @@ static uint32_t post(bool texels, bool film, bool wide, const float *light, stru
     return post_by(texels, (uint32_t[]) { film, wide }, 2, light, push, out);
 }
 
-/* Light 0.44 of a step from a level, on either side, is rounded to that level. Rounding changes 0.06 of a step further.
- * This distance is 9e-7 of the whole range, the tolerance of the curve. The rounding of the light and of 65535 times
- * the curve to floats uses up a twentieth of it. */
+/* Light 0.44 of a step from a level, on either side, is rounded to that level. The rounding threshold is 0.06 of a step
+ * further. This distance is 9e-7 of the whole range, which is the tolerance of the curve. The rounding of the light and
+ * of 65535 times the curve to floats uses a twentieth of it. */
 static void every_level(void **state)
 {
     (void)state;
@@ -75,9 +75,9 @@ static double noise(double x, double y)
     return outer - floor(outer) - 0.5;
 }
 
-/* In dithered grey, rows, columns and channels are at their places. This holds in pictures of any width and from any
- * offset, also far beyond 2^24, where floats do not resolve offsets. The last pixel is followed by zeros up to a whole
- * group. */
+/* In dithered grey, rows, columns and channels are at their places. This is tested for any width of the picture and
+ * from any offset, also far beyond 2^24, where floats do not resolve offsets. The last pixel is followed by zeros up to
+ * a whole group. */
 static void places(void **state)
 {
     (void)state;

@@ -141,8 +141,8 @@ static void wide(void **state)
 }
 
 /* Rays that fly outwards, along the hole's axis more than round it, meet the plane late or never. Their Q is 0 or
- * nearly so, and the closed form of the polar motion once gave a time for a crossing that does not exist. At these
- * sizes a row of pixels shows such rays. */
+ * nearly so, and the closed form of the polar motion, in an earlier version, gave a time for a crossing that does not
+ * exist. At these sizes a row of pixels shows such rays. */
 static void outwards(void **state)
 {
     (void)state;
@@ -160,7 +160,7 @@ static void outwards(void **state)
 }
 
 /* The same for rays that start inwards, which fill an ellipse of the picture. All of their crossings must exist in the
- * independent closed form in double. One crossing of this picture did not. */
+ * independent closed form in double precision. In an earlier version one crossing of this picture did not. */
 static void inwards(void **state)
 {
     (void)state;

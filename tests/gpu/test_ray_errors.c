@@ -1,7 +1,7 @@
-/* Stated errors of single rays, by every engine, against Taylor series in extended precision
- * (tests/oracle/null_series.h): 999 rays of 1000 are within them, and no ray has an unmarked wrong number of
- * crossings or fate. Rays are spread evenly over the image, at the critical curve, along the plane of the disk, and
- * at the ends of the ranges of spin, inclination and radius. */
+/* Tests the stated errors of single rays, by every engine, against Taylor series in extended precision
+ * (tests/oracle/null_series.h). At least 999 rays of 1000 are within their stated errors, and every ray with a wrong
+ * fate or number of crossings is marked. Rays are spread evenly over the image, at the critical curve, along the plane
+ * of the disk, and at the ends of the ranges of spin, inclination and radius. */
 #include "null_extremes.h"
 #include "null_reference.h"
 #include "null_series.h"
@@ -233,7 +233,8 @@ static void test_double(void **state)
     check(KD_ENGINE_KS_TAO6, KD_PRECISION_F64, 64);
 }
 
-/* A ray with eight crossings, of which four coarse steps a half turn find seven: its stated error must not be small. */
+/* A ray has eight crossings, of which coarse steps (four for a half turn) find seven. The stated error of this ray must
+ * not be small. */
 static void test_few_steps_at_high_order(void **state)
 {
     (void)state;
@@ -251,8 +252,8 @@ static void test_few_steps_at_high_order(void **state)
     assert_true(end.n_crossings == 8 || end.error >= 1);
 }
 
-/* Numbers of crossings whose errors exceed a tolerance, over all lists; silent: those of rays that claim to be
- * within it. */
+/* Numbers of crossings whose errors exceed a tolerance, over all lists. silent: those of rays whose stated error is
+ * within the tolerance. */
 struct held { size_t crossings, off, silent, again, beyond, rays; };
 
 static void count(const struct list *l, double tolerance, const struct kd_ray_end *ends,

@@ -220,8 +220,9 @@ static void test_estimate(void **state)
     }
 }
 
-/* Each method converges with its order: twice the steps leave 1/2, 1/16 or 1/64 of the error, except at the coarse end.
- * Mino's method is judged on the second crossing, where the oracle's error of 1e-11 is not yet visible. */
+/* Each method converges with its order: twice the steps leave 1/2, 1/16 or 1/64 of the error, except for the coarsest
+ * steps. The method in Mino time is compared at the second crossing, where the oracle's error of 1e-11 is not yet
+ * visible. */
 static void test_orders(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* Tests of one ray step by step: the recording kernel ends where the ordinary one does, its steps lie on the ray, and
- * the first integrals hold along them. */
+ * the first integrals are constant along them. */
 #include "render/rays/steps.h"
 
 #include "render_support.h"
@@ -50,8 +50,8 @@ static void check_step(const struct kd_rays_step *s, double bound)
     assert_true(!isnan(s->res_w) && !isnan(s->res_u) != !isnan(s->res_n) && !isnan(s->res_n) == !isnan(s->res_l));
 }
 
-/* Every crossing is recorded, half a period (params.steps steps) after the one before, with the r, phi and delay of the
- * answer that has end points only. */
+/* Every crossing is recorded, half a period (params.steps steps) after the one before, with the same r, phi and delay
+ * as in the answer without steps. */
 static void check_crossings(const struct kd_rays_steps *steps)
 {
     unsigned found = 0, taken = 0;

@@ -64,7 +64,8 @@ static const char *const scenes[] = {
     "{\"disk\": {\"gas\": {\"amplitude\": 0.5}}}",
     "{\"camera\": {\"inclination_deg\": 85}, \"disk\": {\"gas\": {\"amplitude\": 0.8}, \"emission_opacity\": 10}}",
     "{\"sky\": {\"model\": \"grid\"}, \"disk\": {\"model\": \"none\"}}",
-    /* Almost no edges: the remaining differences come from curvature and from the map's third differences. */
+    /* A picture with almost no edges: the remaining differences come from curvature and from the map's third
+     * differences. */
     "{\"spacetime\": {\"spin\": 0.998}, \"camera\": {\"inclination_deg\": 85}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
@@ -94,9 +95,10 @@ static void residual(const struct kd_frame *adaptive, const struct kd_frame *tru
     assert_true(said < 4 * left && said > left / 4);
 }
 
-/* The requirement: an adaptive picture has at most a quarter of the rays of the picture with 16 rays a pixel. Compared
- * with the picture with 64 rays a pixel, its error is within 0.5 dB of that picture's. Its pixels are those of the
- * picture with one ray or with 16, except for a few where an interpolated ray falls on the other side of an edge. */
+/* The requirement: an adaptive picture has at most a quarter of the rays of the picture with 16 rays a pixel. The
+ * errors of both are taken by comparison with the picture with 64 rays a pixel, and agree within 0.5 dB. Its pixels are
+ * those of the picture with one ray or with 16, except for a few where an interpolated ray falls on the other side of
+ * an edge. */
 static void test_as_good(void **state)
 {
     (void)state;
@@ -288,8 +290,9 @@ static void test_choice(void **state)
     kd_choice_finish(&choice);
 }
 
-/* Plans estimate the numbers of traced and interpolated rays to a factor of two, whether pixels need them only at the
- * curve or everywhere. With one fraction for all pictures, the count of a smooth disk was four times too high. */
+/* Plans estimate the numbers of traced and interpolated rays to a factor of two, whether such rays are needed only at
+ * the critical curve or everywhere. When one fraction was used for all pictures, the count of a smooth disk was four
+ * times too high. */
 static void test_planned(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of frames on the device. Bands, slices and the cache must not change a picture; fields of the scene must. Also
- * tests limits and cancelling. */
+/* Tests of frames on the device. Bands, slices and the cache must not change a picture, while a change of the scene's
+ * fields must. Also tests limits and cancelling. */
 #include "render/render.h"
 #include "render/view/critical_pixels.h"
 
@@ -79,7 +79,7 @@ static void test_reuse(void **state)
     }
 }
 
-/* The critical curve is computed once for a picture and its plan, and not again while the camera is unchanged. */
+/* The critical curve is computed once for a picture and its plan, and not again while the camera does not change. */
 static void test_the_curve_is_followed_once(void **state)
 {
     (void)state;
@@ -235,7 +235,7 @@ static void test_progress(void **state)
     OK(kd_plan_make(&scene, &c, &plan, &error));
     FAILS(KD_ECANCELLED, "cancelled", kd_render(renderer, &scene, &plan, stop_at_once, &calls, &frame, &error));
     assert_int_equal(calls, 1);
-    /* A cancelled frame leaves no half-made lens map. */
+    /* A cancelled frame does not leave an incomplete lens map in the cache. */
     OK(kd_render(renderer, &scene, &plan, count_up, &last, &frame, &error));
     assert_false(frame.lens_reused);
     assert_true(last == 1);
@@ -276,7 +276,7 @@ static void test_glances(void **state)
         scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays traced, or a sampled map */
         scene.image.bit_depth = k % 2 ? 16 : 8;
         scene.style.exposure = k < 3 ? 0 : INFINITY;
-        /* the last three have glare, and their previews that of the finished part */
+        /* the last three have glare, and their previews have the glare of the finished part */
         scene.style.bloom = k < 3 ? 0 : 0.5;
         scene.image.critical_factor = 1;
         scene.accuracy.precision = k == 2 ? (int32_t)KD_PRECISION_F64 + 1 : KD_PRECISION_WORD_AUTO;
@@ -307,8 +307,8 @@ static bool count_reports(void *user, double fraction)
     return true;
 }
 
-/* The light of a block of a sampled map is made in several submissions, so that other work need not wait for the
- * whole block. The longer the light takes, the more submissions there are. The picture is the same. */
+/* The light of a block of a sampled map is made in several submissions, so that other work does not wait for the whole
+ * block. The longer the light takes, the more submissions there are. The picture does not change. */
 static void test_light_of_a_block(void **state)
 {
     (void)state;
@@ -372,7 +372,8 @@ static bool let_others(void *user, double fraction)
     return true;
 }
 
-/* Interleaved pictures, and those that they interrupt, are the same as when rendered alone. Each has its own times. */
+/* Interleaved pictures, and the pictures that they interrupt, are the same as when rendered alone. Each has its own
+ * times. */
 static void test_asides(void **state)
 {
     (void)state;
@@ -457,8 +458,8 @@ static struct kd_frame rendered_by(struct kd_renderer *r, const struct kd_scene 
     return frame;
 }
 
-/* Idle memory is released. Later pictures are the same, and the latest view finds its lens map. If too much memory
- * remains that the program cannot account for, the device is reopened. */
+/* Idle memory is released. Later pictures do not change, and the latest view finds its lens map in the cache. If too
+ * much memory remains that the program cannot account for, the device is reopened. */
 static void test_rest(void **state)
 {
     (void)state;

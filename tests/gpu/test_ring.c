@@ -59,8 +59,8 @@ static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 
 static const struct { double spin, inclination_deg; } views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
 
-/* Returns 1 if a pixel shows the plane nearer than `source` exactly when the edge predicts it. Pixels so close to the
- * edge that alpha and beta cannot decide do not count. */
+/* Returns 1 if a pixel shows the plane nearer than `source` exactly when the edge predicts it. Pixels are not counted
+ * if they are so close to the edge that alpha and beta cannot decide on which side they are. */
 static int check_column(const struct kd_ring *ring, const struct kd_critical_point *column, int n, double source,
                         const float *w, int *skipped)
 {
@@ -189,7 +189,7 @@ struct shown {
     int octaves, orders, lit;
 };
 
-/* A pixel of a ring has the light and redshift of a plane picture aimed there. */
+/* A pixel of a ring picture has the light and redshift of the same ray in a plane picture. */
 static void same_light(const struct shown *shown)
 {
     struct kd_scene ring_scene = scene_of(0.9, 70), plane;
@@ -239,8 +239,8 @@ static void same_light(const struct shown *shown)
     kd_frame_finish(&frame);
 }
 
-/* Turbulence is compared at order 0 of a fine ring: elsewhere a pixel of the ring covers many cells and shows their
- * mean. */
+/* Turbulence is compared at order 0 of a fine ring. Elsewhere a pixel of the ring picture covers many cells of the
+ * turbulence and shows their mean. */
 static void light_is_that_of_a_plane_picture(void **state)
 {
     (void)state;

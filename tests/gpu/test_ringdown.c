@@ -1,5 +1,6 @@
-/* Tests of the ringing of a struck hole. The light of image orders 1 and up follows the hole's mode, by numbers of
- * another method (tests/oracle/qnm_reference.py). The light of order 0 is unchanged, and nothing is traced again. */
+/* Tests of the ringing of a struck hole. The light of image orders 1 and up must follow the hole's mode, whose
+ * frequency was computed by another method (tests/oracle/qnm_reference.py). The light of order 0 is unchanged, and
+ * nothing is traced again. */
 #include "render_support.h"
 
 #include "qnm_reference.h"
@@ -125,7 +126,8 @@ static void test_paths(void **state)
     follow("the ring projection", scene);
 }
 
-/* Particles and spots change their brightness by themselves, so that the reference is the same time without ringdown.
+/* Particles and spots also change their brightness without ringing. The reference is therefore a picture of the same
+ * time without ringdown.
  */
 static void test_lumps(void **state)
 {

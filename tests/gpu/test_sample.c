@@ -63,8 +63,8 @@ static uint32_t crossings(const struct map *m, size_t i)
 
 struct tally {
     uint64_t rays, other_fate, other_order, other_side, same;
-    /* `between`, `followed`: errors of w over the condition, in the interpolated and in the traced map; `sky`: angles
-     * between the directions of both */
+    /* `between`, `followed`: errors of w divided by the condition, in the interpolated and in the traced map. `sky`:
+     * angles between the directions of both maps */
     double *between, *followed, *sky;
     size_t n, n_sky;
 };
@@ -192,8 +192,8 @@ static void rays_between_nodes_are_those_that_are_followed(void **state)
     assert_int_equal(t.other_order, 0);
     assert_int_equal(t.other_side, 0);
     /* The bound of the median is twice the single-precision error of a radius where each ray is traced. The bound of
-     * the 99.9 % quantile is that error next to the critical curve, whose condition the neighbours determine only
-     * roughly. */
+     * the 99.9 % quantile is the single-precision error next to the critical curve, where the neighbours give only a
+     * rough value of the condition. */
     assert_true(between_half < 2.5e-7 && between < fmax(2 * followed, 5e-6));
     test_free(t.between);
     test_free(t.followed);
@@ -266,7 +266,7 @@ static void footprints_are_derivatives(void **state)
     test_free(b.planes);
 }
 
-/* Profiles that promise more accuracy trace every ray, and so does a scene that names an engine. */
+/* Profiles that promise more accuracy trace every ray. So does a scene that names an engine. */
 static void some_scenes_follow_every_ray(void **state)
 {
     (void)state;

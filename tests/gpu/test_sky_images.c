@@ -155,8 +155,8 @@ static struct place centre(const struct kd_frame *frame, double x, double y, int
     return p;
 }
 
-/* Expected place for an observer who sees the hole at galactic longitude 180 and longitudes growing to the left.
- * From 1e5 M, and more than 30 degrees from the hole, light is bent by less than 0.01 degrees. */
+/* Expected place in the picture, for an observer who sees the hole at galactic longitude 180, with longitudes growing
+ * to the left. From 1e5 M, and more than 30 degrees from the hole, light is bent by less than 0.01 degrees. */
 static struct place expected(double l, double b)
 {
     const double left = l - M_PI - 2 * M_PI * floor((l - M_PI) / (2 * M_PI) + 0.5);
@@ -225,7 +225,7 @@ static void white(void **state)
     }
 }
 
-/* Automatic exposure does not brighten a sky without anything else. Away from the Milky Way most of such a picture is
+/* Automatic exposure does not brighten a scene that has only a sky. Away from the Milky Way most of such a picture is
  * black, with stars. */
 static void space_is_black(void **state)
 {
@@ -289,7 +289,7 @@ static double largest(const struct kd_frame *a, const struct kd_frame *b, const 
     return worst;
 }
 
-/* Stars are added to a panorama, as they are to the Milky Way where there is no panorama. */
+/* Stars are added to a panorama in the same way as to the Milky Way. */
 static void stars_over_pictures(void **state)
 {
     for (int model = KD_SKY_STARS; model <= KD_SKY_CATALOGUE; model++)

@@ -136,7 +136,8 @@ static void oracle_finish(struct oracle *o)
     free(o->paths);
 }
 
-/* Light of a crossing: the gas of its own radius, a Gaussian in the plane of x = r cos(phi), y = r sin(phi). */
+/* Light of a crossing. The gas has the motion of its own radius; the spot is a Gaussian in the plane with x = r
+ * cos(phi), y = r sin(phi). */
 static double crossing_light(const struct kd_scene *scene, const struct ks_photon *p, const struct ks_path *path, int k,
                              double isco)
 {
@@ -359,8 +360,8 @@ static void test_parts(void **state)
     }
 }
 
-/* The maximum number of spots, at any places of the list: their light is the sum of the light of each. Dark ones
- * between them have no effect. */
+/* The maximum number of spots, at any places of the list: their light is the sum of the light of each. Spots of
+ * brightness 0 between them have no effect. */
 static void test_many(void **state)
 {
     (void)state;

@@ -154,7 +154,7 @@ static void compare(struct kd_scene *scene, double x, double y, double *worst_li
 }
 
 /* Compares images at several places of the picture. The last places are next to the critical curve of the primary
- * image, where light diverges. */
+ * image, where the magnification diverges. */
 static void by_rays(double spin, double inclination, double *worst_light, double *worst_place)
 {
     struct kd_scene scene = scene_of(spin, inclination);
@@ -210,7 +210,7 @@ static double swept(double b)
         double begin = part ? start : 0, length = M_PI / 2 - begin;
         for (int i = 0; i < n; i++) {
             double t = begin + (i + 0.5) * length / n, s = sin(t), w = turn * s * s;
-            /* Since 1/b^2 = w_t^2 - 2 w_t^3, the root is that of (w_t - w)(w_t + w - 2 (w_t^2 + w_t w + w^2)). */
+            /* Since 1/b^2 = w_t^2 - 2 w_t^3, the radicand is (w_t - w)(w_t + w - 2 (w_t^2 + w_t w + w^2)). */
             sum += length / n * 2 * sqrt(turn) * s / sqrt(turn + w - 2 * (turn * turn + turn * w + w * w));
         }
     }
@@ -530,8 +530,8 @@ static struct kd_plan plan_of(const struct kd_scene *scene, const struct kd_capa
     return plan;
 }
 
-/* A picture in bands is rendered in the background under one sky, while others are rendered under another. Its light
- * is not mistaken for theirs: with the shared lens map, the other sky equals that of a map of its own. */
+/* A picture in bands is rendered in the background under one sky, while others are rendered under another. The light of
+ * one sky is not used for the other: with the shared lens map, the other sky looks as it does with a map of its own. */
 static void another_sky_meanwhile(void **state)
 {
     (void)state;
@@ -572,8 +572,8 @@ static bool was_run(const struct kd_frame *frame, const char *pass)
 }
 
 /* The light of stars is cached with the lens map. A frame that reuses the map after one change equals a frame with a
- * map of its own. To force a new map, the second frame has another number of rays at the curve. This changes no pixel,
- * because the curve is out of view. */
+ * map of its own. To force a new map, the second frame has another number of rays at the critical curve. This changes
+ * no pixel, because the curve is out of view. */
 static void kept_and_made_anew(void **state)
 {
     (void)state;
@@ -659,7 +659,7 @@ static void bright_images(void **state)
 }
 
 /* With diffuse light on the sky, bright images are searched for in the same lens map, which then has footprints:
- * light of one kind is not taken for that of the other. */
+ * cached light of one kind of map is not used for the other. */
 static void bright_images_before_spread_light(void **state)
 {
     (void)state;
@@ -683,8 +683,8 @@ static void bright_images_before_spread_light(void **state)
     kd_frame_finish(&again);
 }
 
-/* With diffuse light on the sky, however faint, each pixel is lit by itself. With stars only, columns of pixels go from
- * crossing to crossing. */
+/* With diffuse light on the sky, however faint, each pixel is lit by itself. With stars only, columns of pixels are
+ * processed from crossing to crossing. */
 static void points_behind_a_disk(void **state)
 {
     (void)state;

@@ -319,8 +319,8 @@ static void test_adversarial(void **state)
     }
 }
 
-/* Plasma so dense and cold that light rotates by up to 1e6 radians: polarisation averages out, and I is that of
- * unpolarised light, for any profile. */
+/* Plasma so dense and cold that the polarisation rotates by up to 1e6 radians. The polarisation averages out, and I
+ * equals that of unpolarised transfer, for any profile. */
 static void test_mixed(void **state)
 {
     (void)state;
@@ -380,8 +380,8 @@ static void test_spread_of_rotations(void **state)
     }
 }
 
-/* A kappa distribution n(gamma) up to a factor; and one electron's emission of I and Q (K. C. Westfold 1959) and of
- * V (M. P. C. Legg & K. C. Westfold 1968) by its energy. */
+/* A kappa distribution n(gamma), up to a factor; and the emission of one electron by its energy: I and Q (K. C.
+ * Westfold 1959) and V (M. P. C. Legg & K. C. Westfold 1968). */
 static double kappa_number(double kappa, double w, double g)
 {
     return g * sqrt(g * g - 1) * pow(1 + (g - 1) / (kappa * w), -(kappa + 1));
@@ -401,8 +401,8 @@ static void one_electron(double x, double out[3])
 }
 
 /* Integrals of these over all energies; those of absorption contain -d(n/gamma^2)/dgamma. A kappa distribution is the
- * Laplace transform of lambda^kappa exp(-lambda). So its rotativities are those of a mixture of thermal electrons with
- * 1/Theta = lambda/(kappa w) and these weights. */
+ * Laplace transform of lambda^kappa exp(-lambda). Its rotativities are therefore those of a mixture of thermal
+ * electrons with 1/Theta = lambda/(kappa w) and these weights. */
 static struct coefficients kappa_integrals(double kappa, double w, double turn, double s, double c, double nu)
 {
     struct coefficients o = { 0 };

@@ -86,7 +86,7 @@ static void test_cases(void **state)
     printf("%d lengths, off by at most %.2g\n", CASES, worst);
 }
 
-/* For numbers of any size that a float can have, light is a number, and is polarised by at most 100 %. */
+/* For all numbers that a float can have, the light is a number and is polarised by at most 100 %. */
 static void test_extremes(void **state)
 {
     enum { N = 4096 };

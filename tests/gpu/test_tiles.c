@@ -1,5 +1,5 @@
-/* A tile has the same bytes as this part of the whole picture, for each emitter and projection. The same holds for the
- * strips of a picture that does not fit on the device in one piece. */
+/* Tests that a tile has the same bytes as this part of the whole picture, for each emitter and projection. The same is
+ * tested for the strips of a picture that does not fit on the device in one piece. */
 #include "render/output/format.h"
 
 #include "render_support.h"

@@ -1,4 +1,4 @@
-/* Compares the suballocator with a map of bytes: blocks do not overlap, and all memory is recovered. */
+/* Compares the suballocator with a map of bytes: blocks must not overlap, and all memory must be recovered. */
 #include "support.h"
 
 #include "vk/arena.h"

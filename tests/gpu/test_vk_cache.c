@@ -1,4 +1,4 @@
-/* The pipeline cache on disk: written, read, damaged, and in places that cannot be written. */
+/* Tests of the pipeline cache on disk: written, read, damaged, and in places that cannot be written. */
 #include "support.h"
 
 #include <dirent.h>
@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 static char directory[256];
-static size_t given; /* number of bytes that the driver got when the cache was created */
+static size_t given; /* number of bytes that the driver received when the cache was created */
 static PFN_vkCreatePipelineCache real_create;
 
 static VKAPI_ATTR VkResult VKAPI_CALL watching(VkDevice device, const VkPipelineCacheCreateInfo *info,
@@ -100,7 +100,7 @@ static void damaged(void **state)
     assert_true(given > 0);
 }
 
-/* The path leads through a file instead of a directory, so that not even the superuser can write there. */
+/* A part of the path is a file instead of a directory, so that not even the superuser can write there. */
 static void unwritable(void **state)
 {
     char path[600], file[300], below[310];

@@ -1,4 +1,4 @@
-/* Choice of a device on simulated machines, and of a memory type on simulated heaps. */
+/* Tests of the choice of a device on simulated machines, and of a memory type on simulated heaps. */
 #include "support.h"
 
 #include "vk/choose.h"

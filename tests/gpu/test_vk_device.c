@@ -1,4 +1,4 @@
-/* Listing and choosing the devices of this machine. */
+/* Tests of listing and choosing the devices of this machine. */
 #include "support.h"
 #include "vk/functions.h"
 

@@ -27,7 +27,7 @@ static void sizes(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* The size of a dispatch is written by the device just before; with size 0 nothing runs. */
+/* The size of a dispatch is written by the device just before the dispatch. With size 0 nothing runs. */
 static void sizes_of_a_buffer(void **state)
 {
     struct kd_vk *vk = *state;

@@ -1,4 +1,4 @@
-/* Tests with a driver that fails. Every call that can fail does so once, and one device hangs. */
+/* Tests with a driver that fails. Each call that can fail fails once. One device hangs. */
 #include "support.h"
 
 #include "base/log.h"
@@ -96,8 +96,8 @@ static void plant(struct kd_vk_functions *fn)
     }
 }
 
-/* `real` is a copy of the table after the first steps. It must not be copied after our functions are in the table, as
- * they are in the third step. */
+/* `real` is a copy of the table after the first steps. It must be made before the third step puts our functions into
+ * the table. */
 static void plant_once(struct kd_vk_functions *fn)
 {
     struct kd_vk_functions before = real;
@@ -204,7 +204,7 @@ static void out_of_memory(void **state)
     sweep(VK_ERROR_OUT_OF_DEVICE_MEMORY, KD_ENOMEM);
 }
 
-/* A lost device is abandoned with all memory of the driver for it; that is not a leak. */
+/* A lost device is abandoned together with all memory that the driver has for it; this is not counted as a leak. */
 void __lsan_disable(void) __attribute__((weak));
 void __lsan_enable(void) __attribute__((weak));
 
@@ -278,7 +278,7 @@ static void deadline(void **state)
     FAILS(KD_EDEVICE, "missed its deadline of 1500 ms", kd_vk_wait(vk, ticket, &error));
     assert_int_equal(waits, 2);
 
-    vk->core.fn.WaitSemaphores = NULL; /* replaced by NULL, because from here on nothing may reach the driver */
+    vk->core.fn.WaitSemaphores = NULL; /* set to NULL, because from here on no call may reach the driver */
     FAILS(KD_EDEVICE, "lost", kd_vk_wait(vk, 0, &error));
     FAILS(KD_EDEVICE, "lost", kd_vk_submit(vk, NULL, &error));
     FAILS(KD_EDEVICE, "lost", kd_vk_fill(vk, "fill", buffer, 0, 256, 3, &error));

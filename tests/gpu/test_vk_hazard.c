@@ -1,5 +1,5 @@
-/* Tests of the placement of barriers, without a device: first cases written by hand. Then the
- * barriers of random programs are compared with those that follow from the definition of a hazard. */
+/* Tests of the placement of barriers, without a device: first of cases written by hand, then of random programs, whose
+ * barriers are compared with those that follow from the definition of a hazard. */
 #include "support.h"
 
 #include "vk/hazard.h"
@@ -77,7 +77,7 @@ static void emptied_by_a_barrier(void **state)
     assert_int_equal(barrier.src_access, 0);
 }
 
-/* One command may bind a buffer twice without a hazard within itself, but both entries count for the next command. */
+/* One command may bind a buffer twice without a hazard within itself, but both bindings count for the next command. */
 static void one_command(void **state)
 {
     (void)state;

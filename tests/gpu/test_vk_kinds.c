@@ -249,7 +249,7 @@ static void views(void **state)
     assert_int_equal(views_of(set.block) + views_of(set.y), 0);
     finish(vk);
     ((struct kinds_block *)kd_vk_buffer_map(set.block))->n = n;
-    /* all dispatches are in one submission, so that none of these views is idle, only the earlier one */
+    /* all dispatches are in one submission, so only the earlier view is idle, and none of these */
     for (uint32_t i = 0; i < parts; i++) {
         d.bindings[1] = (struct kd_vk_binding) { .buffer = set.singles, .offset = 256 * i, .size = 256 };
         d.bindings[3] = (struct kd_vk_binding) { .buffer = set.y, .offset = 256 * i, .size = 256, .write = true };

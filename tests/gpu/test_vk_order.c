@@ -1,5 +1,6 @@
-/* Chains of commands that read and write the same buffers give correct results, with barriers only where they are
- * necessary. Barriers are counted, because a device that runs everything in order is correct without any. */
+/* Tests that chains of commands which read and write the same buffers give correct results, with barriers only where
+ * they are necessary. Barriers are counted, because a device that runs everything in order would be correct without
+ * any. */
 #include "support.h"
 
 enum { n = 2048 };

@@ -1,4 +1,4 @@
-/* Tests of device time by pass: it is plausible by the clock, summed by name, and absent without timestamps. */
+/* Tests of device time by pass: the times are plausible by the clock, summed by name, and absent without timestamps. */
 #include "support.h"
 
 #include <time.h>

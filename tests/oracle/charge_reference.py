@@ -67,7 +67,7 @@ def orbit(a, q, r):
 
 
 def bisect(f, low, high):
-    """The place between low and high where f, which is positive at `high`, changes its sign."""
+    """The place between low and high where f changes sign; f is positive at `high`."""
     while high - low > mpf(10) ** (5 - mp.dps) * high:
         middle = (low + high) / 2
         if f(middle) > 0:
@@ -88,7 +88,7 @@ def flux(a, q, r, photon, isco):
         w, energy, momentum, _, _, dl = orbit(a, q, x)
         return (energy - w * momentum) * dl
 
-    # in the logarithm of the distance from the photon orbit, where the integrand has a pole
+    # integrated in the logarithm of the distance from the photon orbit, where the integrand has a pole
     low, high = mp.log(isco - photon), mp.log(r - photon)
     edges = [low + (high - low) * i / 6 for i in range(7)]
     total = quad(lambda y: share(photon + mp.e**y) * mp.e**y, edges, method="gauss-legendre")
@@ -117,7 +117,7 @@ def advance(q, p, e):
     the root. The rest of the integrand is regular."""
     w1, w2 = (1 - e) / p, (1 + e) / p
     f1, both, squares = 1 - 2 * w1 + q * q * w1 * w1, w1 + w2, w1 * w1 + w2 * w2
-    # this is divided by w2 - w1, so that a circle needs no special case
+    # divided by w2 - w1, so that a circle needs no special case
     l2 = (2 - q * q * both) / (both - 2 * (squares + w1 * w2) + q * q * both * squares)
     rest = [q * q * l2, both * q * q * l2 - 2 * l2, (1 - f1 * (1 + l2 * w1 * w1)) / (w1 * w2)]
 

@@ -21,7 +21,8 @@ static inline struct circle_by_metric circle_by_metric(long double a, long doubl
     return o;
 }
 
-/* E and L of the ISCO, outside which L grows. Circular orbits begin where the norm is that of light. */
+/* E and L of the ISCO. Outside the ISCO, L grows with r. Circular orbits begin at the radius of circular light, where
+ * the norm vanishes. */
 struct plunge_by_metric { double a, q, energy, momentum; };
 static inline struct plunge_by_metric plunge_by_metric(double a, double q)
 {
@@ -38,8 +39,8 @@ static inline struct plunge_by_metric plunge_by_metric(double a, double q)
     return (struct plunge_by_metric) { a, q, (double)o.energy, (double)o.momentum };
 }
 
-/* g = 1/(-k.u) with every component written out. The inverse metric raises k; u^r follows from u.g.u = -1 with the E
- * and L of the ISCO, k_r from k.g.k = 0. Uses no potentials. */
+/* g = 1/(-k.u) with every component written out. k is raised by the inverse metric. u^r follows from u.g.u = -1 with
+ * the E and L of the ISCO, and k_r from k.g.k = 0. No potentials are used. */
 static inline double redshift_of_plunge(const struct plunge_by_metric *gas, double r, double lambda, double eta,
                                         double sign)
 {

@@ -35,12 +35,13 @@ def lowest(a, lam, eta):
         r -= step
         if abs(step) < mpf(10) ** (5 - mp.dps):
             break
-    return (r, potential(a, lam, eta)(r)) if r > 1 else (r, mpf(1))  # without a minimum outside, the ray does not turn
+    # if R has no minimum outside the horizon, the ray does not turn
+    return (r, potential(a, lam, eta)(r)) if r > 1 else (r, mpf(1))
 
 
 def on_line(a, u, start, direction, bound):
-    """The distance of the curve from `start` along `direction`: bracketed by the sign, then the root by Ridder's
-    method."""
+    """The distance of the curve from `start` along `direction`. The distance is bracketed by a change of sign, and
+    found by Ridder's method."""
     value = lambda d: lowest(a, *constants(a, u, start[0] + d * direction[0], start[1] + d * direction[1]))[1]
     low, high = mpf(bound) / 100, mpf(bound)
     while high - low > mpf(1) / 1000:
@@ -95,13 +96,13 @@ def polar_time(a, u, alpha, beta, order):
 
 
 def radial_time(a, u, alpha, beta, source):
-    """Mino time from infinity to the source radius. The ray reaches it on its way in if there is no turning point, and
-    otherwise on its way out again."""
+    """Mino time from infinity to the source radius. The ray reaches this radius on its way in if it has no turning
+    point, and otherwise on its way out."""
     lam, eta = constants(a, u, alpha, beta)
     A, K = a * a - eta - lam * lam, eta + (lam - a) ** 2
     roots = polyroots([1, 0, A, 2 * K, -a * a * eta], maxsteps=500, extraprec=400)
     real = sorted(mp.re(x) for x in roots if abs(mp.im(x)) < mpf(10) ** (-45))
-    pieces = list(range(0, 80, 4)) + [120, 160]  # from |t| = ln(1/distance) on, the integrand falls as exp(-t)
+    pieces = list(range(0, 80, 4)) + [120, 160]  # for |t| > ln(1/distance) the integrand falls as exp(-t)
     if len(real) == 4 and real[3] > 1 + sqrt(1 - a * a):  # r = r4 + r43 sinh^2 t
         r1, r2, r3, r4 = real
         leg = lambda t: 2 / sqrt((r4 + (r4 - r3) * sinh(t) ** 2 - r1) * (r4 + (r4 - r3) * sinh(t) ** 2 - r2))

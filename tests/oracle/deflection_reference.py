@@ -25,7 +25,8 @@ def inverse(a, r):
 
 
 def impact(a, r):
-    """The b > 0 with a turning point at r. Of the two roots it is the one that stays finite through the ergosphere."""
+    """The b > 0 for which the ray turns at r. Of the two roots, the one that stays finite through the ergosphere is
+    returned."""
     tt, tp, pp, _ = inverse(a, r)
     return tt / (tp - sqrt(tp * tp - tt * pp))
 

@@ -21,7 +21,7 @@ STRETCH = [1.0009765625, 1.015625, 1.25, 1.5, 2.0, 4.0, 16.0, 1000.0]  # r over 
 
 
 def slopes(a, r):
-    """dW/dr and dL/dr, by differentiating the geodesic condition, the normalisation and L = u_phi."""
+    """dW/dr and dL/dr, by differentiating the geodesic condition, the normalisation u.u = -1 and L = u_phi."""
     (_, tp, pp), (tt1, tp1, pp1) = metric(a, r)
     tt2, tp2, pp2 = -2 * tt1 / r, -2 * tp1 / r, 2 + 4 * a * a / r**3
     w, _, momentum, ut = orbit(a, r)
@@ -42,7 +42,8 @@ def flux(a, r, isco):
 
 
 def peak(a, isco):
-    """The radius where the slope of the flux is zero. The slope is by differences, to some 1e-16 of the radius."""
+    """The radius at which the slope of the flux is zero. The slope is computed by differences, with an error of some
+    1e-16 of the radius."""
     f, h = lambda r: flux(a, r, isco), mpf(10) ** -9
     top = findroot(
         lambda r: f(r * (1 + h)) / f(r * (1 - h)) - 1,
@@ -55,8 +56,8 @@ def peak(a, isco):
 
 
 def temperature(a, r, mass, mdot):
-    """Effective temperature in K. F is in erg/s/cm^2, from masses in grams: CODATA 2018, the Sun's mass 1.98841e33
-    g."""
+    """Effective temperature in K. F is in erg/s/cm^2 and follows from masses in grams: CODATA 2018, the Sun's mass
+    1.98841e33 g."""
     G, sun, light = mpf("6.67430e-8"), mpf("1.98841e33"), mpf("2.99792458e10")
     proton, thomson, stefan = mpf("1.67262192369e-24"), mpf("6.6524587321e-25"), mpf("5.670374419e-5")
     isco = orbits(a)[2]

@@ -16,10 +16,10 @@ mp.dps = 60
 
 
 def epicyclic(a, r):
-    """kappa and Omega_theta of the circular orbit."""
+    """kappa and Omega_theta, the epicyclic frequencies of the circular orbit."""
     _, energy, momentum, ut = orbit(a, r)
     radial = -curvature(a, r, energy, momentum)[2] / 2
-    vertical = momentum**2 + a**2 * (1 - energy**2)  # half of -Theta'' at the plane
+    vertical = momentum**2 + a**2 * (1 - energy**2)  # half of -Theta'' at the plane, where Theta is the polar potential
     return sqrt(radial) / r**2 / ut, sqrt(vertical) / r**2 / ut
 
 
@@ -32,7 +32,7 @@ def potential(a, momentum, mu2, r):
 
 
 def turning(f, low, high, sign):
-    """The place where the slope of f changes from `sign` to -`sign`."""
+    """The place where the slope of f changes sign, from `sign` to -`sign`."""
     while high - low > mpf(10) ** -28 * high:
         middle = (low + high) / 2
         if sign * diff(f, middle, h=mpf(10) ** -30) > 0:

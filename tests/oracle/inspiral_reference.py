@@ -30,7 +30,8 @@ def eccentricity_rate(a, e):
     return -mpf(304) / 15 * e / a**4 / (1 - e * e) ** 2.5 * (1 + mpf(121) / 304 * e**2)
 
 
-NODES = [(x, w) for x, w in GaussLegendre(mp).calc_nodes(4, 120)]  # 24 points a piece
+# Gauss-Legendre quadrature with 24 points in each interval
+NODES = [(x, w) for x, w in GaussLegendre(mp).calc_nodes(4, 120)]
 
 
 def gauss(f, low, high):
@@ -38,7 +39,8 @@ def gauss(f, low, high):
 
 
 def pieces(high):
-    """Intervals from 0 on, each half of the rest up to 1, because near e = 1 the integrands are powers of 1 - e."""
+    """Intervals that start at 0; each covers half of what remains up to 1, because near e = 1 the integrands are powers
+    of 1 - e."""
     edges = [mpf(0)]
     while 1 - (1 - edges[-1]) / 2 < high:
         edges.append(1 - (1 - edges[-1]) / 2)
@@ -47,14 +49,14 @@ def pieces(high):
 
 def time(eta, a0, e0):
     def slope(e):
-        """d ln a/de without its pole 12/(19 e)."""
+        """d ln a/de without its pole 12/(19 e) at e = 0."""
         return axis_rate(mpf(1), e) / eccentricity_rate(mpf(1), e) - mpf(12) / 19 / e
 
     total, fallen, edges = mpf(0), mpf(0), pieces(e0)
     for low, high in reversed(list(zip(edges, edges[1:]))):
 
         def speed(x):
-            """dt/dx with e = x^19, in which powers of e in 19ths are smooth."""
+            """dt/dx with e = x^19. In x the powers of e in 19ths are smooth."""
             e = x**19
             lna = log(a0) - fallen - gauss(slope, e, high) + mpf(12) / 19 * log(e / e0)
             return -19 * x**18 / eccentricity_rate(exp(lna), e)

@@ -31,7 +31,7 @@ def omega(a, r):
 
 
 def norm2(a, r):
-    """-(1, W).g.(1, W), which is positive where the circle is timelike."""
+    """-(1, 0, 0, W).g.(1, 0, 0, W), which is positive where the circle is timelike."""
     tt, tp, pp = metric(a, r)[0]
     w = omega(a, r)
     return -(tt + 2 * tp * w + pp * w * w)

@@ -21,7 +21,7 @@ struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_c
     return run((struct system) { at->a, p[0], at->q }, y, false, max_crossings);
 }
 
-/* The Hamiltonian of a body differs from that of light by a constant, so that its flow is the same. */
+/* The Hamiltonian of a body differs from that of light by a constant, so both have the same equations of motion. */
 struct ks_body_place ks_body_after(const struct ks_body *body, double proper)
 {
     const double a = body->a, q = body->q, r = body->r, u = body->u, delta = r * r - 2 * r + a * a + q * q;
@@ -168,7 +168,8 @@ static double radius_after(const struct along *w, const double *from, double t)
 
 static bool holds(const struct along *w, double r) { return r >= w->inner && r <= w->outer; }
 
-/* As add_stretch, for the part of the interval that is between the two radii, at most one of which lies within it. */
+/* Like add_stretch, but only for the part of the interval that is between the two radii. At most one of the radii is
+ * within the interval. */
 static void add_inside(struct along *w, const double *from, double t0, double t1)
 {
     bool first = holds(w, radius_after(w, from, t0)), last = holds(w, radius_after(w, from, t1));
@@ -222,7 +223,7 @@ struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bo
 
 struct target { double at[3], f, l[3]; };
 
-/* Azimuths are mirrored, like those of the path. */
+/* Azimuths are mirrored, as those of the path are. */
 static struct target target_of(double a, double charge, double r, double u, double phi)
 {
     const double psi = -phi + atan2(a, r) - twist(a, charge, r), s = sqrt((1 - u) * (1 + u)) * sqrt(r * r + a * a),
@@ -292,7 +293,8 @@ int ks_passes(struct ks_photon photon, double r, double u, double phi, double wi
     return n;
 }
 
-/* Position of a path by its distances from the axis and the plane. nearest: its point closest to a place so far. */
+/* Position of a path by its distances from the axis and the plane. nearest: the path's point that is closest to a place
+ * so far. */
 struct meridian { double x, z; };
 struct nearest {
     state from;

@@ -2,9 +2,9 @@
  * Gragg-Bulirsch-Stoer extrapolation to about 1e-12 a step. It shares no equation with the code under test: no Mino
  * time, no separation of variables, no elliptic function, no Boyer-Lindquist motion.
  *
- * A ray traced back from an observer is a photon of the mirrored spacetime (t, phi) -> (-t, -phi), in which Kerr looks
- * the same, flying away from the observer with the same E and L: it falls through the future horizon, where these
- * coordinates are regular. The returned Boyer-Lindquist azimuths, source minus observer, are mirrored back. */
+ * A ray traced back from an observer is a photon of the mirrored spacetime (t, phi) -> (-t, -phi), which is the same
+ * Kerr spacetime. It flies away from the observer with the same E and L, and may fall through the future horizon, where
+ * these coordinates are regular. The returned Boyer-Lindquist azimuths, source minus observer, are mirrored back. */
 #ifndef KD_TESTS_KERR_SCHILD_H
 #define KD_TESTS_KERR_SCHILD_H
 
@@ -45,7 +45,8 @@ struct ks_photon ks_from_camera_charged(double a, double q, double r, double the
 
 struct ks_path ks_trace(struct ks_photon photon, int max_crossings);
 
-/* The same in long double: to about 1e-16 a step where that has 64 bits. It costs some five times as much. */
+/* The same in long double, with an error of about 1e-16 a step where long double has a 64-bit mantissa. It takes some
+ * five times as long. */
 struct ks_path ks_trace_long(struct ks_photon photon, int max_crossings);
 
 /* Medium along a ray: light emitted and optical depth per unit of the affine parameter. `photon` is the arriving photon
@@ -54,16 +55,16 @@ struct ks_path ks_trace_long(struct ks_photon photon, int max_crossings);
 typedef void ks_medium(void *user, const struct ks_photon *photon, double r, double u, double light_and_depth[2]);
 
 /* Light emitted and absorbed along the path back in time, between two radii, until it ends or first crosses the
- * equatorial plane. The Hamiltonian's own parameter is affine; each step is divided in 16, with Simpson's rule in
- * each, and the radii are hit exactly. */
+ * equatorial plane. The Hamiltonian's own parameter is affine; each step is divided into 16 parts, Simpson's rule is
+ * used in each, and the ends at the two radii are exact. */
 struct ks_light { double light, depth, length; }; /* length in the affine parameter */
 struct ks_light ks_along(struct ks_photon photon, double inner, double outer, bool to_plane, ks_medium *medium,
                          void *user);
 
 /* Closest approaches of the path back in time to a place (r, cos(theta), azimuth: source minus observer). One is
  * reported each time that the path comes within `within` of the place, measured in these Cartesian coordinates. b:
- * distance of the approach, in M. It is the interval, by the metric at the place, from the event there on the same wave
- * front, which does not depend on the observer. delay: defined as for a crossing. */
+ * distance of the approach, in M. It is the interval, by the metric at the place, between the ray's event and the event
+ * at the place on the same wave front. It does not depend on the observer. delay: defined as for a crossing. */
 struct ks_near { double b, delay; };
 int ks_passes(struct ks_photon photon, double r, double u, double phi, double within, int most, struct ks_near *out);
 
@@ -73,10 +74,10 @@ int ks_passes(struct ks_photon photon, double r, double u, double phi, double wi
 void ks_delays(struct ks_photon photon, const double (*places)[2], int n, double *delay, double *off);
 
 /* The path back in time of the photon p, a covector of ingoing Kerr-Schild coordinates (kerr_schild_frame.h), from a
- * place that may lie within the horizon. Light from outside came there through the outer horizon, where everything is
- * regular. Azimuths are Boyer-Lindquist's of the source, minus the place's own in these coordinates; both agree at
- * infinity. A ray from the past horizon counts as captured. Crossings within the horizon count; their phi is
- * meaningless. No delays are computed. */
+ * place that may lie within the horizon. Light from outside came to that place through the outer horizon, where these
+ * coordinates are regular. Azimuths are Boyer-Lindquist's of the source, minus the place's own in these coordinates;
+ * both agree at infinity. A ray from the past horizon counts as captured. Crossings within the horizon count; their phi
+ * is meaningless. No delays are computed. */
 struct ks_path ks_follow(const struct ks_place *at, const double p[4], int max_crossings);
 
 /* A neutral body of unit mass at (r, cos(theta)), of energy E, angular momentum L and the covariant Boyer-Lindquist

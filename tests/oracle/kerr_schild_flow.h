@@ -1,7 +1,7 @@
-/* The Hamiltonian flow of kerr_schild.h, for the files that implement it. Before it is included, `real` is the type of
- * all numbers, and these are bounds of a step's relative error: KS_FINE ends the extrapolation, KS_ACCEPT is the
- * largest that is accepted, below KS_GROW the next step is twice as long. KS_LAND bounds the distance from the plane in
- * which a step ends. */
+/* The Hamiltonian flow of kerr_schild.h, for the files that implement it. The including file must define `real`, the
+ * type of all numbers, and these bounds of a step's relative error. Below KS_FINE the extrapolation ends. Above
+ * KS_ACCEPT the step is rejected. Below KS_GROW the next step is twice as long. KS_LAND bounds the distance from the
+ * plane in which a step ends. */
 #ifndef KD_TESTS_KERR_SCHILD_FLOW_H
 #define KD_TESTS_KERR_SCHILD_FLOW_H
 
@@ -17,7 +17,7 @@ static real radius(real a, const real *x)
 {
     real rho2 = x[0] * x[0] + x[1] * x[1] + x[2] * x[2] - a * a;
     real root = sqrt(rho2 * rho2 + 4 * a * a * x[2] * x[2]);
-    /* Each form avoids cancellation for one sign. */
+    /* each form avoids cancellation for one sign */
     return sqrt(rho2 > 0 ? 0.5 * (rho2 + root) : 2 * a * a * x[2] * x[2] / (root - rho2));
 }
 
@@ -156,7 +156,7 @@ static void start(const struct ks_photon *p, real *y)
     y[6] = p->delay + slow(a, q, r);
 }
 
-/* Takes the step from y that ends on z = 0, if a step of h would cross it. */
+/* Makes the step from y that ends on z = 0, if a step of h would cross z = 0. */
 static void land(const struct system *s, const real *y, real h, real *out)
 {
     real lo = 0, hi = h, z_lo = y[2], t = h;
@@ -178,8 +178,8 @@ static void land(const struct system *s, const real *y, real h, real *out)
 }
 
 /* Follows the Hamiltonian flow from y. mirrored: azimuth and time are reversed, and the horizon is reached at finite
- * parameter. Otherwise rays end at the past horizon, where these coordinates stall and momenta grow without bound. The
- * start may then lie within the future horizon. */
+ * parameter. Otherwise rays end at the past horizon. There these coordinates approach a limit, and momenta grow without
+ * bound. The start may then lie within the future horizon. */
 static struct ks_path run(const struct system s, state y, bool mirrored, int max_crossings)
 {
     struct ks_path path = { .fate = KS_UNDECIDED };

@@ -59,7 +59,7 @@ static void solve(double g[4][4], const double *v, double *w)
         w[i] = m[i][4] / m[i][i];
 }
 
-/* Derivatives back in time: dx = -k, dv^m = +Gamma^m_ab k^a v^b. */
+/* Derivatives along the ray traced back in time: dx = -k, dv^m = +Gamma^m_ab k^a v^b. */
 static void derivative(struct hole o, const struct state *s, struct state *d)
 {
     double g[4][4], dg[4][4][4] = { { { 0 } } }, h = 1e-4 * radius(o.a, s->x);
@@ -225,7 +225,7 @@ static void gas(struct hole o, const double *x, double r_isco, double u[4])
                         round[4] = { 0, 0, y[1], 0 };
     metric(o, y, there);
     const double want[2] = { product(there, v, t), product(there, v, round) };
-    /* u = c t + d turn + e out. Its products with t and turn give c and d, and its length gives e. */
+    /* u = c t + d turn + e out. The products of u with t and turn give c and d, and the length of u gives e. */
     double out[4] = { 0, x[1], x[2], 0 }, basis[2][4], c[2] = { 0 };
     memcpy(basis[0], t, sizeof t);
     memcpy(basis[1], turn, sizeof turn);
@@ -270,8 +270,8 @@ static void judge(const struct state *s, struct hole hole, enum ks_field field, 
     }
     memcpy(before[2], b, sizeof b);
     across(g, before[2], before, 2);
-    /* The direction outside the span of the other two. Of the coordinate vectors, the one with the longest component
-     * outside the span is taken. */
+    /* The direction outside the span of the other two vectors: the coordinate vector with the longest component outside
+     * the span is used. */
     double most = 0;
     for (int n = 0; n < 4; n++) {
         double v[4] = { 0 };
@@ -357,7 +357,7 @@ static void tell(const struct state *s, struct hole o, double h, ks_told *told, 
     told(user, &at);
 }
 
-/* The fraction of a pair of steps after which the ray reaches this radius, if it passes the radius within the pair. */
+/* The fraction of a pair of steps after which the ray reaches this radius, if the radius lies within the pair. */
 static double landing(const struct state *s, struct hole o, double h, double r)
 {
     const bool inwards = radius(o.a, s->x) > r;

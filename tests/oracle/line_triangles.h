@@ -1,8 +1,9 @@
-/* Oracle for line profiles. It traces a ray for each place of the disk's image, while the profile interpolates a table.
- * It sums triangles with linear g and uniform light, while the profile has cells with moments, and extrapolates from
- * two such sums. g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16, 5.4a; with charge Dadhich
- * & Kale 1977, J. Math. Phys. 18, 1727). The rays themselves are tested by tests/oracle/kerr_schild.h. The cumulative
- * share is accurate to about a tenth of `apart`: 1e-5 to 1e-4 with 1024 directions. */
+/* Oracle for line profiles. It traces a ray for each place of the disk's image; the code under test interpolates a
+ * table. It sums triangles with linear g and uniform light, and extrapolates from two such sums; the code under test
+ * has cells with moments. The formula of g is written out (Bardeen, Press & Teukolsky 1972, ApJ 178, 347, eqs. 2.16,
+ * 5.4a; with charge Dadhich & Kale 1977, J. Math. Phys. 18, 1727). The rays themselves are tested by
+ * tests/oracle/kerr_schild.h. The cumulative share is accurate to about a tenth of `apart`: 1e-5 to 1e-4 with 1024
+ * directions. */
 #ifndef KD_TESTS_LINE_TRIANGLES_H
 #define KD_TESTS_LINE_TRIANGLES_H
 
@@ -51,7 +52,7 @@ static inline void lt_add(struct lt_sum *s, const struct lt_place *a, const stru
     s->total += light;
 }
 
-/* The emission law of the line, with the profile's parameters; mu is the cosine to the disk's normal. */
+/* The emission law of the line, with the profile's parameters. mu is the cosine of the angle to the disk's normal. */
 struct lt_law {
     double inner, outer;
     double (*light)(const void *user, double r, double g, double mu);
@@ -100,8 +101,8 @@ static inline double lt_profile_of(const struct kd_disk_image *image, const stru
     double fine = 0, rough = 0;
     for (int i = 0; i < bins && apart >= 0; i++) {
         fine += sums[0].in[i] / sums[0].total, rough += sums[1].in[i] / sums[1].total;
-        cumulative[i] = fine + (fine - rough) / 3; /* the errors of both are proportional to the square of their
-                                                    * steps */
+        /* the errors of both sums are proportional to the square of their steps */
+        cumulative[i] = fine + (fine - rough) / 3;
         apart = fmax(apart, fabs(fine - rough));
     }
     free(at);
@@ -115,7 +116,7 @@ static inline double lt_power(const void *user, double r, double g, double mu)
     return g * g * g * pow(r, -*(const double *)user);
 }
 
-/* As lt_profile_of, for a line r^-index from the ISCO to `outer`. */
+/* Like lt_profile_of, for a line with emissivity r^-index from the ISCO to `outer`. */
 static inline double lt_profile(const struct kd_disk_image *image, double index, double outer, int n, int m,
                                 const double *edges, int bins, double *cumulative)
 {

@@ -107,7 +107,7 @@ def trace(a, u, radius, alpha, beta, outward, orders, q=0):
             side = -side
             state = state[:5] + (state[5] + side * 2 * (1 / w - 2 * log(w)),)
         W, N, X, T = series(a, lam, eta, state, side, q2)
-        # radius of convergence, estimated from the last coefficients
+        # estimate of the radius of convergence, from the last coefficients
         rho = min(
             (max(abs(c[k]) for c in (W, X, T) for k in (j, j - 1)) + mpf(10) ** -60) ** (mpf(-1) / j)
             for j in (ORDER - 4, ORDER - 12)
@@ -120,7 +120,7 @@ def trace(a, u, radius, alpha, beta, outward, orders, q=0):
             ends = findroot(lambda x: at(W, x), (mpf(0), h), solver="anderson", tol=mpf(10) ** -60)
             h = ends
         elif w1 >= horizon * (1 - mpf(10) ** -8) or (w > horizon * (1 - mpf(10) ** -8) and dw > 0):
-            return found, True, None  # at the horizon the azimuth is infinite, so that steps shrink
+            return found, True, None  # the azimuth diverges at the horizon, so steps become shorter there
         if here != 0 and here * at(N[2], h) < 0:
             x = findroot(lambda x: at(N[2], x), (mpf(0), h), solver="anderson", tol=mpf(10) ** -60)
             if len(found) < orders:
@@ -372,8 +372,9 @@ def extreme_table():
 
 
 def radial(a, q, lam, eta, begin, end):
-    """Differences of Mino time, azimuth and time between two radii, by quadrature in ln(r - r+); if `end` is None, to the
-    root r3, in s with s^2 = r3 - r. None if a root lies between them, or r3 is not beyond `begin`."""
+    """Differences of Mino time, azimuth and time between two radii, by quadrature in ln(r - r+). If `end` is None, up
+    to the root r3, by quadrature in s with s^2 = r3 - r. Returns None if a root lies between the radii, or if r3 is not
+    beyond `begin`."""
     k = eta + (lam - a) ** 2
     lead, last = a * a - eta - lam * lam, -a * a * eta - q * q * k
     found = polyroots([1, 0, lead, 2 * k, last], 300, extraprec=300)
@@ -401,8 +402,8 @@ def radial(a, q, lam, eta, begin, end):
 
 
 def close_table():
-    """Radial integrals about holes whose horizons are close. Rays: captured ones, ones that turn, one that starts
-    within the photon orbits on the way out and turns back (INNER), and vortical ones without real roots."""
+    """Radial integrals about holes whose horizons are close. Rays: some that are captured, some that turn, one that
+    starts outwards within the photon orbits and turns back (INNER), and vortical rays without real roots."""
     print("/* Integrals from r to `end` (0: to r3). */")
     print("struct null_close { double a, q, cos_theta, alpha, beta, r, end, tau, phi, t; };\n")
     print("static const struct null_close null_close[] = {")
@@ -448,7 +449,7 @@ def close_table():
 
 
 def half_line(f):
-    """Int_0^inf of f with t = e^x."""
+    """Int_0^inf of f, with the substitution t = e^x."""
     return quad(lambda x: f(mp.e**x) * mp.e**x, [-inf, -100, -30, -10, 0, 10, 30, 100, inf])
 
 

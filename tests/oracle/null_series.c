@@ -71,7 +71,7 @@ static number slope(const number *c, number h)
     return sum;
 }
 
-/* Root of series = level in (0, h); the values at the ends have different signs. */
+/* The root of series = level in (0, h). The values at the two ends have different signs. */
 static number root(const number *c, number level, number h)
 {
     number low = 0, high = h, side = value(c, h) - level, x = 0.5L * h;
@@ -90,8 +90,8 @@ static number root(const number *c, number level, number h)
     return x;
 }
 
-/* Radius of convergence, from the last coefficients. chi is included unless the ray is falling in, where azimuths
- * end. */
+/* Radius of convergence, estimated from the last coefficients. chi is not included while the ray falls in, because
+ * azimuths end at the horizon. */
 static number radius_of(const struct series *s, bool with_chi)
 {
     number least = INFINITY;

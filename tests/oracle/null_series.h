@@ -27,7 +27,7 @@ struct series_ray {
 enum series_fate { SERIES_CAPTURED, SERIES_ESCAPED, SERIES_LOST };
 
 struct series_path {
-    enum series_fate fate; /* LOST: the ray winds for ever */
+    enum series_fate fate; /* LOST: the ray winds round the hole without end */
     int crossings;
     long double r[SERIES_CROSSINGS], phi[SERIES_CROSSINGS];
     long double u, sky_phi; /* direction of escape: cosine of the polar angle, and azimuth */

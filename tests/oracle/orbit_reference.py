@@ -11,7 +11,7 @@ from mpmath import cos, findroot, linspace, mp, mpf, pi, polyroots, quad, sin, s
 
 mp.dps = 40
 
-# spin, p, e, x = cos(inclination), and the Mino time of a place on the way
+# spin, p, e, x = cos(inclination), and the Mino time of a place on the orbit
 ORBITS = [
     (0, 8, 0.5, 1, 3),
     (0, 8, 0.5, 0.5, 40),
@@ -59,7 +59,7 @@ def constants(a, p, e, x):
         value, slope = radial(a, energy, x * l_x, carter(a, energy, l_x, x))
         return [value(r1) / r1**3, value(r2) / r2**3 if e else slope(r1) / r1**2]
 
-    # starts from the orbit in Schwarzschild, and increases the spin in steps
+    # starts from the orbit in Schwarzschild's metric, and increases the spin in steps
     energy, l_x = (
         sqrt(((p - 2) ** 2 - 4 * e * e) / (p * (p - 3 - e * e))) if p > 3 + e * e else mpf(1),
         p / sqrt(abs(p - 3 - e * e)),
@@ -125,7 +125,8 @@ def integral(f, end, i, start=0):
 
 
 def phase_at(f, mino, half):
-    """The radial phase where the first integral equals `mino`: whole half turns, then Newton's method."""
+    """The radial phase at which the first integral equals `mino`, found by counting whole half turns and then by
+    Newton's method."""
     turns = mp.floor(mino / half)
     rest, x = mino - turns * half, (mino / half) * pi
     for _ in range(60):

@@ -24,7 +24,7 @@ def metric(a, q, r):
 
 
 def turning(a, q, r):
-    """d(phi)/dt of a circular orbit, from the r-derivatives of the metric, and -u.u of it for dt/dtau = 1."""
+    """d(phi)/dt of a circular orbit, from the r-derivatives of the metric; and -u.u of this orbit for dt/dtau = 1."""
     f1 = -2 / r**2 + 2 * q * q / r**3
     tt, tp, pp = f1, -a * f1, 2 * r + a * a * f1
     w = (-tp + sqrt(tp * tp - tt * pp)) / pp

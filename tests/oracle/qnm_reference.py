@@ -114,7 +114,8 @@ def advance(a, m, omega, lam, at, to, y, dy, terms):
 
 
 def horizon(a, m, omega, lam, outer, gap, to, terms):
-    """Frobenius's series with the exponent of the ingoing wave. The power itself is left out of y, but not of dy/y."""
+    """Frobenius's series with the exponent of the ingoing wave. The power itself is not a factor of the returned y, but
+    is included in dy/y."""
     p2, p1, p0 = polynomials(a, m, omega, lam, outer)
     p2, p1 = p2[2:], p1[1:]  # Delta^2 ~ x^2 and p1 ~ x have exact zeros
     rho = -S - 1j * ((outer**2 + a * a) * omega - a * m) / gap
@@ -134,7 +135,7 @@ def horizon(a, m, omega, lam, outer, gap, to, terms):
 
 def infinity(a, m, omega, lam, r, terms):
     """exp(i omega r) r^nu (c0 + c1/r + ...), up to the smallest term of the series. The factor before the brackets is
-    left out of y, as in `horizon`."""
+    not included in y, as in `horizon`."""
     p2, p1, p0 = polynomials(a, m, omega, lam, 0 * r)
     p2, p1, p0, nu = p2[::-1], [0] + p1[::-1], p0[::-1], 2j * omega - 1 - 2 * S
 
@@ -165,7 +166,7 @@ def wronskian(a, m, omega, lam, far, terms):
     gap = 2 * (sqrt if isinstance(omega, mpc) else cmath.sqrt)((1 - a) * (1 + a))
     outer, r = 1 + gap / 2, far
     y, dy = infinity(a, m, omega, lam, r, 3 * terms)
-    # the path has a corner, because near r+ the waves keep their size only on the real axis
+    # the path has a corner: near r+ it follows the real axis, because only there the waves keep their size
     for goal in (10 + 0 * r, outer + gap / 4 + 0 * r):
         while r != goal:
             room = 0.5 * min(abs(r - outer), abs(r - outer + gap))
@@ -177,22 +178,22 @@ def wronskian(a, m, omega, lam, far, terms):
 
 
 def mode(m, a, omega, sep, final):
-    """The mode by the secant method from the guess; Returns None if the guess was too far off. Near a = 1 the wave
+    """The mode, by the secant method from the guess. Returns None if the guess is too far off. Near a = 1 the wave
     changes fast at the horizon and its series cancels, so that more digits are used."""
     gap = 2 * np.sqrt((1 - a) * (1 + a))
     exact = final or a > 0.6 or omega.imag < -0.4  # 16 digits are not enough for overtones either
     mp.dps = (26 if final else 16) + int(0.5 * abs((2 + gap) * omega - a * m) / gap)
     terms, reach = (4 * mp.dps, 2.5 * mp.dps) if exact else (50, 25)
     small, start = (mpf(10) ** -12, mpf(10) ** -8) if final else (1e-6, 1e-4)
-    far = 1j * reach / omega  # the same for all steps, because the function must be analytic in omega
+    far = 1j * reach / omega  # fixed for all steps, because the function must be analytic in omega
     if exact:
         a, omega, far = mpf(a), mpc(omega), mpc(far)
 
     def at(w):
         nonlocal sep
         sep = separation(m, a * w, sep, final)
-        # this is the factor e^(i w r) r^nu that infinity() left out. Without it the function has the same root, but
-        # hardly any slope
+        # the factor e^(i w r) r^nu that infinity() left out. Without this factor the function has the same root, but
+        # almost no slope there
         left = (exp if exact else cmath.exp)(1j * (w - omega) * (far + 2 * (log if exact else cmath.log)(far)))
         return left * wronskian(a, m, w, sep + a * a * w * w - 2 * a * m * w, far, terms)
 

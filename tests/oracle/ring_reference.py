@@ -19,8 +19,8 @@ mp.dps = 30
 
 
 def turned(b, u, beyond):
-    """The angle from u = 0 to u; `beyond`: by way of the turning point. The variable w = sqrt(u_t - u) removes the root
-    there."""
+    """The angle from u = 0 to u. `beyond`: the path passes the turning point. The variable w = sqrt(u_t - u) removes
+    the root at the turning point."""
     roots = sorted(
         (x.real for x in polyroots([2, -1, 0, 1 / b**2], maxsteps=200, extraprec=200) if abs(x.imag) < 1e-15)
     )
@@ -35,8 +35,8 @@ def turned(b, u, beyond):
 
 
 def impact(u, psi):
-    """b of the ray that comes from u after turning by psi."""
-    edge = 1 / (u * sqrt(1 - 2 * u))  # for this b the turning point lies at u
+    """b of the ray that turns by psi on its way from u."""
+    edge = 1 / (u * sqrt(1 - 2 * u))  # for this b the turning point is at u
     if u >= mpf(1) / 3:
         low, high, rising = mpf(10) ** -9, sqrt(mpf(27)) * (1 - mpf(10) ** -20), lambda b: turned(b, u, False)
     elif turned(edge * (1 - mpf(10) ** -25), u, False) >= psi:

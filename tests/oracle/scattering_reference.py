@@ -22,7 +22,8 @@ ROWS = 40
 
 
 def t_of(s, y):
-    if y > 1000:  # the terms cancel; the series in x = 1/y^2, whose first term is 0 where scattering is conservative
+    # the terms cancel, so the series in x = 1/y^2 is used; its first term is 0 where scattering is conservative
+    if y > 1000:
         x = 1 / (y * y)
         rest = sum((-x) ** n * (mpf(1) / (2 * n + 1) - mpf(1) / (2 * n + 3)) for n in range(1, 8))
         return (1 - 4 * s / 3) - 2 * s * rest

@@ -10,9 +10,8 @@ No formula of src/ or shaders/ is used.
 - Deflections: quadrature of dphi/dw, checked against the series of Keeton & Petters 2005 where the field is weak.
 - Points of the critical curve: from R = R' = 0.
 - Redshifts: the metric contracted with photon and gas.
-- Directions of cameras: tetrads by Gram-Schmidt.
-A gain is the sum of |x df/dx| over the inputs x of a ray: alpha, beta, spin, inclination and radius. The derivatives
-are by differences in 38 digits.
+- Directions of cameras: tetrads by Gram-Schmidt. A gain is the sum of |x df/dx| over the inputs x of a ray: alpha,
+beta, spin, inclination and radius. The derivatives are differences computed with 38 digits.
 """
 
 import sys
@@ -117,7 +116,7 @@ def quantities(ray):
 
 
 def changes(of, x):
-    """For each number of of(x), the sum of |x_k d/dx_k| over the x_k that are not zero."""
+    """For each number of the result of(x), the sum of |x_k d/dx_k| over the x_k that are not zero."""
     here, total = of(x), None
     for k, value in enumerate(x):
         if value == 0 or value == inf or (k == 1 and value in (90, 180)):
@@ -130,8 +129,8 @@ def changes(of, x):
 
 
 def flat(rows, sky):
-    """Converts the numbers so that relative changes of r and g are changes of their logarithms, and a change of
-    direction is an angle, in two components."""
+    """Converts the numbers so that their differences are meaningful errors. r and g become logarithms, whose
+    differences are relative errors. A direction becomes two components of an angle."""
     out = [y for r, phi, t, g in rows for y in (log(r), phi, t, log(g))]
     return out + ([sky[0], sin(sky[0]) * sky[1]] if sky else [])
 
@@ -185,12 +184,13 @@ def orthonormal(g, vectors):
 
 
 def frame(a, r, u, observer, velocity):
-    """The four legs t, r, theta, phi of an observer: at rest, of zero angular momentum, or boosted from that."""
+    """The four legs t, r, theta, phi of an observer: at rest, with zero angular momentum, or with a velocity relative
+    to zero angular momentum."""
     g = metric(a, r, u)
     tt, tp, pp, rr, hh = g
     axes = [[mpf(i == k) for i in range(4)] for k in range(4)]
     rest = [1, 0, 0, 0 if observer == "static" else -tp / pp]
-    if observer == "infall":  # E = 1, L = 0, constant theta: the norm gives the r component
+    if observer == "infall":  # E = 1, L = 0, constant theta: the r component follows from the norm
         det = tt * pp - tp * tp
         ut, uphi = -pp / det, tp / det
         rest = [ut, -sqrt((-1 + ut) / rr), 0, uphi]

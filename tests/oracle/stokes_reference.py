@@ -43,7 +43,7 @@ def both(light, depth, a, rho):
 
 
 def single(x):
-    """The nearest number that 32 bits can hold."""
+    """The nearest 32-bit floating-point number."""
     import struct
 
     return struct.unpack("f", struct.pack("f", x))[0]
@@ -69,7 +69,7 @@ def cases():
         0.5,
         2.0,
         10.0,
-    ):  # lambda vanishes if a and rho are equally long and perpendicular; the second row has them parallel
+    ):  # lambda vanishes if a and rho are equally long and perpendicular; in the second row they are parallel
         yield [0.5, 0.2, -0.1], depth, [0.8 * depth, 0, 0], [0, 0.8 * depth, 0]
         yield [0.5, 0.2, -0.1], depth, [0, 0.6 * depth, 0], [0, 0.6 * depth, 0]
         yield [-0.9, 0.3, 0.1], depth, [0, 0, 0.999 * depth], [1e-4 * depth, 0, 0]

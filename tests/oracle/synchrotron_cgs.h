@@ -1,5 +1,5 @@
-/* Coefficients of polarised synchrotron light in CGS, as in the papers: of I, of V, and of Q, which is along the
- * electric field and perpendicular to the magnetic field. s and c: sine and cosine of the angle to the field; turn: the
+/* Coefficients of polarised synchrotron light in CGS, as in the papers, for I, V and Q. Q is positive along the
+ * electric field, perpendicular to the magnetic field. s and c: sine and cosine of the angle to the field; turn: the
  * gyrofrequency. */
 #ifndef KD_TESTS_SYNCHROTRON_CGS_H
 #define KD_TESTS_SYNCHROTRON_CGS_H
@@ -38,7 +38,7 @@ static inline struct coefficients thermal(double n, double theta, double turn, d
     const double y = nu / (1.5 * turn * s * theta * theta), y3 = 1 / cbrt(y);
     o.j[0] = lead * pow(sqrt(x) + k * pow(x, 1.0 / 6), 2);
     o.j[1] = lead * pow(sqrt(x) + (7 * t + 35) / (10 * t + 75) * k * pow(x, 1.0 / 6), 2);
-    /* Dexter 2016, A1 to A18: the ratio of V to I, both by his fits */
+    /* Dexter 2016, A1 to A18: the ratio of V to I, each by his fits */
     const double ii = 2.5651 * (1 + 1.92 * y3 + 0.9977 * y3 * y3),
                  iv = 1.81348 / y + 3.42319 * pow(y, -2.0 / 3) + 0.0292545 / sqrt(y) + 2.03773 * y3;
     o.j[2] = o.j[0] * (2 * c / s / (3 * sqrt(3) * theta) * iv) / (ii / (2 * sqrt(3)));

@@ -31,7 +31,7 @@ def slope(c, w):
 
 
 def whirl(a, energy):
-    """w and L of the unstable circle, followed from the marginally bound one in small steps of E."""
+    """w and L of the unstable circle, followed from the marginally bound circle in small steps of E."""
     r = 2 - a + 2 * sqrt(1 - a)
     w, l = 1 / r, 2 * (1 + sqrt(1 - a))
     for k in range(1, 21):
@@ -54,7 +54,7 @@ def crowded(low, high, at):
 
 
 def inwards(a, energy, l, low, high, middle):
-    """Mino time and proper time from low to the horizon, over the minimum of W at `middle`."""
+    """Mino time and proper time from low to the horizon, across the minimum of W at `middle`."""
     c = quartic(a, energy, l)
     return [
         quad(lambda w: rates(a, energy, l, w)[i] / sqrt(value(c, w)), crowded(low, high, middle)) for i in range(2)
@@ -62,7 +62,8 @@ def inwards(a, energy, l, low, high, middle):
 
 
 def to_turn(a, energy, l, start, turn, others):
-    """Integrals from start to the turning point, with w = turn - side s^2 and W divided by that root."""
+    """Integrals from start to the turning point, with w = turn - side s^2. W is divided by the root at the turning
+    point."""
     c = quartic(a, energy, l)
     side = 1 if turn > start else -1
 
@@ -90,7 +91,7 @@ def row(a, energy_text, beside):
     roots = sorted(x.real for x in polyroots(c, maxsteps=1000, extraprec=400) if abs(im(x)) < mpf(10) ** -25)
     low = [x for x in roots if x > 0 and x < minimum] if energy < 1 else []
     start = FAR if not low or low[0] < FAR else low[0]
-    if value(c, minimum) > 0:  # the body falls in. It starts at the outer turning point if that is within 100
+    if value(c, minimum) > 0:  # the body falls in; it starts at the outer turning point if this is within r = 100
         if start == FAR:
             sums = inwards(a, energy, l, FAR, horizon, minimum)
         else:
@@ -100,7 +101,7 @@ def row(a, energy_text, beside):
             second = inwards(a, energy, l, middle, horizon, minimum)
             sums = [first[i].real + second[i] for i in range(2)] + [mpf(0)] * 2
         fate = "WHIRL_PLUNGE"
-    elif energy < 1:  # the integrals of a radial period
+    elif energy < 1:  # the integrals over a radial period
         outer, inner = low[0], low[1]
         middle = 1 / (1 / inner + 1) if outer < FAR else (outer + inner) / 2
         parts = [to_turn(a, energy, l, middle, x, [y for y in roots if y != x]) for x in (outer, inner)]

@@ -25,7 +25,7 @@ static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision prec
     for (int k = 0; k < KD_ACCURACY_SETS; k++) {
         struct kd_accuracy_entry *e = &row->sets[k];
         *e = (struct kd_accuracy_entry) { .rays_per_s = speed, .rays = 1000, .crossings = 1500 };
-        /* Only errors of radii are used, and none near the critical curve. */
+        /* Only errors of radii are used, and no errors near the critical curve. */
         for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++)
             e->of[q] = k == KD_ACCURACY_NEAR_CRITICAL || q ? (struct kd_accuracy_errors) { 1, 1, 1 }
                                                            : (struct kd_accuracy_errors) { median, 4 * median, 1 };
@@ -33,7 +33,7 @@ static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision prec
     return row;
 }
 
-/* made_up: in each row the medians are a quarter of the error that the row promises. */
+/* made_up: in each row the medians are a quarter of the error that the row states. */
 static int made_up(void **state)
 {
     (void)state;
@@ -96,8 +96,9 @@ static void what_none_holds(void **state)
 {
     (void)state;
     refused(0.99e-11, "1.01e-11 at best (mino-rkn6 f64 with 16 steps)");
-    expect(1.01e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16); /* a tolerance that a message offers is accepted */
-    table.n = 4;                                                 /* a device without double precision */
+    /* a tolerance that an error message suggests is accepted */
+    expect(1.01e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
+    table.n = 4; /* a device without double precision */
     refused(0.99e-6, "mino-rkn6 f32 with 8 steps");
     refused(0, "above 0");
     refused(-1e-6, "above 0");
@@ -109,7 +110,7 @@ static void what_none_holds(void **state)
     refused(0.5, "kerrd bench accuracy");
 }
 
-/* With some numbers of steps the bulk is accurate enough, but edge-on rays are not. */
+/* With some numbers of steps most rays are accurate enough, but edge-on rays are not. */
 static void other_sets(void **state)
 {
     (void)state;
@@ -125,7 +126,7 @@ static void other_sets(void **state)
     expect(0.5, KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64);
 }
 
-/* A row that loses rays, or has no figures, is not used. */
+/* A row that loses rays, or has no measured errors, is not used. */
 static void rows_to_be_left_out(void **state)
 {
     (void)state;
@@ -235,7 +236,7 @@ static void kept(void **state)
     assert_non_null(strstr(error.message, "kerrd bench accuracy"));
     assert_int_equal(kd_accuracy_load(inner, &again, &error), KD_EIO); /* a directory */
     assert_int_equal(unlink(path), 0);
-    assert_int_equal(rmdir(inner), 0); /* nothing else was left there */
+    assert_int_equal(rmdir(inner), 0); /* no other file was left in the folder */
     assert_int_equal(kd_accuracy_save(&table, "/proc/kerrd/table.json", &error), KD_EIO);
     assert_int_equal(rmdir(folder), 0);
 }
@@ -261,8 +262,8 @@ static void markdown(void **state)
 }
 
 /* On the critical curve the radial potential R = (r^2 + a^2 - a l)^2 - Delta (eta + (l - a)^2) has a double root
- * outside the horizon; beside the curve it has no root there, or two (Bardeen 1973). Returns its minimum there, by
- * search. */
+ * outside the horizon; beside the curve it has none or two there (Bardeen 1973). Returns the minimum of R outside the
+ * horizon, by search. */
 static double least_potential(double a, double inclination_deg, const double *x)
 {
     double s = sin(inclination_deg * M_PI / 180), u2 = 1 - s * s;

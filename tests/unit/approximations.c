@@ -1,4 +1,4 @@
-/* docs/approximations.md lists every approximation that a plan may state. */
+/* Tests that docs/approximations.md lists every approximation that a plan may state. */
 #include "render/explain/approximations.h"
 
 #include <setjmp.h>

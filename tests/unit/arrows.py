@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Includes point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and cli on top.
 
-arrows.py SRC exit 1 naming every #include in SRC that points the wrong way, after checking that it finds planted ones
+arrows.py SRC exit 1 naming every forbidden #include in SRC, after checking that planted ones are found
 """
 
 import collections
@@ -66,10 +66,10 @@ MODULES = {
         "job",
         "server",
     },
-    "main.c": {"base", "cli", "vk"},  # vk may start the program anew
+    "main.c": {"base", "cli", "vk"},  # vk may restart the program
 }
 # Inside a large module, a folder may include those listed before it. Files of the module that are in no folder may
-# include all.
+# include all folders.
 FOLDERS = {
     "render": [
         "view",
@@ -115,7 +115,7 @@ NO_CIRCLES = {
     "job",
     "cli",
 }
-# In these modules calls count as includes: a header may declare what several files define.
+# In these modules calls count as includes, because one header may declare what several files define.
 CALLS = {"physics", "vk"}
 # Largest number of files that may share a name.
 SAME_NAME = 5
@@ -146,8 +146,8 @@ def rank(module, parts):
 
 
 def room_knows(module, mine, its):
-    """True if a file in the folder `mine` of a module may include one in the folder `its`; None stands for no
-    folder."""
+    """True if a file in the folder `mine` of a module may include a file in the folder `its`. None means that a file is
+    in no folder."""
     rooms = ROOMS[module]
     return mine in rooms and its in rooms and (mine == its or its in rooms[mine])
 
@@ -157,7 +157,7 @@ def folder(parts):
 
 
 def wrong(src):
-    """Sentences, one for each include that points the wrong way."""
+    """Sentences, one for each forbidden include."""
     for path in sorted(src.rglob("*.[ch]")):
         where = path.relative_to(src)
         module = where.parts[0]

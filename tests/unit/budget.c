@@ -1,4 +1,4 @@
-/* Tests of the shares of the device's time, with a simulated clock and compared with another algorithm. */
+/* Tests of the shares of the device's time, with a simulated clock. The shares are compared with another algorithm. */
 #include "server/session/budget.h"
 
 #include <math.h>
@@ -51,7 +51,7 @@ static void want(struct bench *b, struct kd_budget_entry *e, double demand)
         kd_budget_end(e, b->now, ms);
         b->now += k ? 0 : pause;
     }
-    kd_budget_ask(e, b->now + (demand > 0 ? pause : 0)); /* the frame waits from now on, for as long as necessary */
+    kd_budget_ask(e, b->now + (demand > 0 ? pause : 0)); /* from now on the frame waits for as long as necessary */
 }
 
 static void who_is_alone_has_everything(void **state)
@@ -175,8 +175,8 @@ static void clients_come_before_their_sessions(void **state)
         assert_true(fabs(kd_budget_share(&b.budget, &b.entries[i], b.now) - 1.0 / 14) < 1e-9);
 }
 
-/* Computes the division by another algorithm: it pours one drop at a time into the least full bowl that has room.
- * Bowl n has no limit; its content is the answer. */
+/* Computes the share by another algorithm. It gives out the time in small drops. Each drop goes to the demand that has
+ * received least so far and is not yet met. Entry n has unlimited demand; what it has received is the answer. */
 static double pour(const double *sizes, int n, double whole)
 {
     static const double drop = 1e-4;

@@ -1,5 +1,5 @@
-/* Tests of the limits on bytes that clients hold: the total, a client's share, the reserve for small requests, and the
- * single client that may exceed the total. */
+/* Tests of the limits on bytes that clients hold. The limits are the total, a client's share, and the reserve for small
+ * requests. One client at a time may exceed the total. */
 #include "server/http/bytes.h"
 
 #include <setjmp.h>
@@ -56,7 +56,7 @@ static void test_room_for_small_ones(void **state)
     assert_int_equal(take(b, "a", 5), FULL);
     kd_bytes_give(b, "b", 50);
     for (int i = 0; i < 4; i++)
-        assert_int_equal(take(b, "a", 5), TAKEN); /* of these 20 bytes, 8 fit its share, and 12 exceed it */
+        assert_int_equal(take(b, "a", 5), TAKEN); /* 8 of these 20 bytes fit the client's share, and 12 exceed it */
     assert_int_equal(take(b, "a", 5), OVER_SHARE);
     kd_bytes_destroy(b);
 }
@@ -93,8 +93,8 @@ static void test_what_is_there_already(void **state)
     kd_bytes_destroy(b);
 }
 
-/* There are more clients than places in the table. Those without a place are counted together, and all bytes are
- * returned. */
+/* There are more clients than entries in the table. Clients without an entry are counted together. At the end all bytes
+ * are returned. */
 static void test_many_clients(void **state)
 {
     struct kd_bytes *b = make(false);

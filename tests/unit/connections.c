@@ -1,5 +1,5 @@
-/* Tests of the deadlines of connections: a sweep shuts down connections whose client is late, but no connection for
- * which only the daemon is late. */
+/* Tests of the deadlines of connections: a sweep shuts down a connection if its client is late, but not if only the
+ * daemon is late. */
 #include "server/http/connections.h"
 
 #include <setjmp.h>
@@ -47,7 +47,7 @@ static void sweep_past_the_deadline(struct pair *p)
     kd_connections_sweep(p->all);
 }
 
-/* True if the server's end was shut down, as its client sees it. */
+/* True if the server has shut down its end, as seen by the client. */
 static bool is_shut(const struct pair *p)
 {
     char byte;
@@ -64,7 +64,8 @@ static void test_a_silent_client_is_late(void **state)
     closed(&p);
 }
 
-/* Half a request line has arrived and stays unread. Its client must not be able to keep a connection open with it. */
+/* Half a request line has arrived and stays unread. The client must not be able to keep a connection open in this
+ * way. */
 static void test_half_a_line_is_late(void **state)
 {
     (void)state;

@@ -41,7 +41,7 @@ static bool found(const struct kd_buffer *file, const char *key, const char *exp
     return same;
 }
 
-/* Texts that fill one, two and three cards have quotes at every position. Quotes are doubled, and the two halves are
+/* Texts that fill one, two and three cards, with a quote at every position. Quotes are doubled, and the two halves are
  * never split. */
 static void texts_of_any_length(void **state)
 {
@@ -195,8 +195,8 @@ static void damaged_zip(void **state)
     kd_buffer_finish(&file);
 }
 
-/* A directory of 700 000 entries is refused because of the count in either end record, before the entries are read,
- * which would take seconds. */
+/* A directory of 700 000 entries is refused because of the count in either end record. Its entries, which would take
+ * seconds, are not read. */
 static void too_many_members(void **state)
 {
     (void)state;
@@ -215,7 +215,7 @@ static void too_many_members(void **state)
     for (int liar = 0; liar < 2; liar++) {
         struct kd_unzip zip;
         struct kd_error error;
-        const uint16_t said = liar ? 3 : 0xffff; /* if `liar`, the record states fewer entries than there are */
+        const uint16_t said = liar ? 3 : 0xffff; /* if `liar`, the record states fewer entries than the directory has */
         const uint32_t bytes_said = liar ? (uint32_t)size : 0xffffffff;
         memcpy(end + 84, &said, 2);
         memcpy(end + 86, &said, 2);

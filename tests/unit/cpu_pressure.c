@@ -1,5 +1,5 @@
-/* Tests the kernel's figure of waiting, which is subtracted from the measured costs of passes: two threads that never
- * sleep, on one core, wait half of the time each. */
+/* Tests the kernel's figure of time spent waiting for a core, which is subtracted from the measured costs of passes.
+ * Two threads that never sleep share one core; each waits half of the time. */
 #include "base/cpu_pressure.h"
 
 #include <pthread.h>
@@ -57,7 +57,8 @@ static void shared_core(void **state)
 static void nothing_known(void **state)
 {
     (void)state;
-    struct kd_cpu_pressure future = { 1e30, 1e30 }; /* larger totals than now, as when threads have ended since */
+    /* the earlier totals are larger than the present ones, as when threads have ended since */
+    struct kd_cpu_pressure future = { 1e30, 1e30 };
     assert_true(kd_cpu_pressure_share(&future) == 1);
 }
 

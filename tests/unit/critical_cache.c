@@ -1,5 +1,5 @@
-/* Tests of the cached list of a camera: it is computed once, is eventually evicted, and equals that of
- * kd_critical_pixels_of whatever was cached before. */
+/* Tests of the cached list of a camera. The list is computed once and is eventually evicted. It equals the result of
+ * kd_critical_pixels_of, whatever was cached before. */
 #include "render/view/critical_cache.h"
 
 #include "scene/table.h"
@@ -91,7 +91,7 @@ static void the_oldest_goes(void **state)
     for (int i = 0; i < KD_CRITICAL_KEPT - 1; i++) {
         struct kd_scene other = scene_of(0.6 + 0.001 * i, 64);
         assert_int_equal(check(&other), 1);
-        assert_int_equal(check(&first), 0); /* it stays, because it was used recently */
+        assert_int_equal(check(&first), 0); /* the list stays cached, because it was used recently */
     }
     assert_int_equal(check(&second), 1);
 }

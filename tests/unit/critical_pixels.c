@@ -1,5 +1,5 @@
-/* Tests of the pixels on the critical curve. They are judged by the fates of rays in closed form, which do not use the
- * curve. Also tests the places of rays within such a pixel. */
+/* Tests of the pixels on the critical curve, and of the places of rays within such a pixel. The pixels are judged by
+ * the fates of rays in closed form, which do not use the curve. */
 #include "render/view/critical_pixels.h"
 
 #include "physics/null/null_geodesic.h"
@@ -77,8 +77,8 @@ static size_t judge(const struct kd_scene *scene, const char *what)
         assert_true(list.pixels[i].x < WIDTH && list.pixels[i].y < HEIGHT && (!i || at > before));
         listed[before = at] = true;
     }
-    /* Pixels next to the picture's edge are not judged, because they may be listed for a part of the curve outside
-     * the picture. */
+    /* Pixels next to the picture's edge are not judged. They may be listed because of a part of the curve outside the
+     * picture. */
     const int far = (int)KD_CRITICAL_NEAR + 2;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -116,7 +116,7 @@ static void from_infinity(void **state)
         }
 }
 
-/* Cameras that are yawed and rolled, one with the hole all round, and one that looks away from it. */
+/* Tests cameras that are yawed and rolled, one with the hole all round, and one that looks away from the hole. */
 static void from_nearby(void **state)
 {
     (void)state;

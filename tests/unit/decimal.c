@@ -68,8 +68,8 @@ static int digits_of(const char *text)
     return n - zeros; /* trailing zeros of whole numbers are not significant digits */
 }
 
-/* The decimal reads back as the same value. No text with one digit fewer does, and none with as many digits is
- * closer. */
+/* The decimal reads back as the same value. No text with one digit fewer reads back as this value, and no text with as
+ * many digits is closer to it. */
 static void check(double value)
 {
     char out[KD_DECIMAL_SIZE], fewer[40], same[40];
@@ -111,7 +111,7 @@ static void any_bits(void **state)
     }
 }
 
-/* The result is that of printf and strtod, unless the two candidates are equally close within rounding. */
+/* The result equals that of printf and strtod, unless two candidates are equally close within rounding. */
 static void rounded(void **state)
 {
     (void)state;

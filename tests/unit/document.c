@@ -1,4 +1,4 @@
-/* The engine of documents: readers, refusals, writer and schema of a table with a row of each kind. */
+/* Tests of the document engine: readers, refusals, writer and schema, for a table with a row of each kind. */
 #include "../document_example.h"
 #include "document/tree.h"
 
@@ -402,7 +402,7 @@ static void lists_are_refused_where_they_are_wrong(void **state)
         assert_string_equal(error.message, refused[i].message);
         assert_string_equal(error.pointer, refused[i].pointer);
     }
-    /* Without a patch null is no value, and an array within a patch is read as without one. */
+    /* Without a patch, null is not a valid value. An array within a patch is read as it is without a patch. */
     static const char *const nulls[] = { "{\"on\":null}", "{\"weight_g\":null}", "{\"biscuits\":null}" };
     for (size_t i = 0; i < sizeof nulls / sizeof *nulls; i++) {
         struct tray tray;
@@ -417,7 +417,7 @@ static void lists_are_refused_where_they_are_wrong(void **state)
 static void typed_paths_lead_to_one_field(void **state)
 {
     static const struct {
-        const char *path, *text, *pointer, *message; /* message NULL: the text is accepted */
+        const char *path, *text, *pointer, *message; /* message: NULL if the text is accepted */
     } steps[] = {
         { "biscuits.0.size_cm", "3", NULL, NULL },
         { "on.cloth.red", "false", NULL, NULL },

@@ -50,7 +50,7 @@ def tree(root):
 
 
 def named(name, paths, tops):
-    """Whether a quoted text is the name of a file or folder; if so, whether that file or folder exists."""
+    """Whether a quoted text is the name of a file or folder; and, if so, whether that file or folder exists."""
     if not re.fullmatch(r"[\w.*{},/-]+", name) or name.startswith("build/") or "DATE" in name or name.startswith("."):
         return True
     for each in braces(name):

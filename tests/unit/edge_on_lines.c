@@ -1,6 +1,7 @@
-/* Lines of disks seen next to edge on and exactly so, compared with followed rays: photons integrated in Kerr-Schild
- * coordinates (tests/oracle/kerr_schild.h), one in each field of a grid over the image plane, at a random place in it.
- * They share no equation with the profile, which cuts exact rays in closed form into columns.
+/* Lines of disks seen next to edge on and exactly so, compared with sums over rays that are integrated in Kerr-Schild
+ * coordinates (tests/oracle/kerr_schild.h). There is one ray in each field of a grid over the image plane, at a random
+ * place in the field. The rays share no equation with the code under test, which sums rays in closed form along
+ * columns.
  *
  *     unit_edge_on_lines [SIDE [CASE]]     SIDE^2 rays, 100 without; 2000 (4 million) take a quarter of an hour */
 #include "base/random.h"
@@ -33,7 +34,7 @@ static double redshift(double a, double q2, double r, double momentum)
     return r * sqrt(r * r - 3 * r + 2 * q2 + 2 * a * s) / (r * r + a * s - momentum * s);
 }
 
-/* Adds the light of one place, which stands for `area` of the image plane. */
+/* Adds the light of one place, which represents `area` of the image plane. */
 static void follow(size_t k, double isco, double alpha, double beta, double area, double *light)
 {
     const struct ks_path path =
@@ -83,8 +84,8 @@ static void compare(size_t k, double allowed)
     assert_true(fabs(total / profile.total - 1) < 2 * allowed);
 }
 
-/* The error of a grid of rays falls faster than their fields: 0.053 with 80 a side, 0.013 with 200 and 0.006 with 400
- * in the first case. 4 million rays must agree within half a percent. */
+/* The error of a grid of rays falls faster than the size of its fields: in the first case 0.053 with 80 rays a side,
+ * 0.013 with 200 and 0.006 with 400. 4 million rays must agree within half a percent. */
 static void test_lines(void **state)
 {
     (void)state;

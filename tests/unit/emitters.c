@@ -1,4 +1,4 @@
-/* The table of emitters is complete: plan, approximations, motion and numbers cover every emitter. */
+/* Tests that the table of emitters is complete: plan, approximations, motion and numbers cover every emitter. */
 #include "render/emit/emitter.h"
 #include "render/emit/motion.h"
 #include "render/emit/describe.h"
@@ -30,7 +30,7 @@ static void all_are_there(void **state)
     }
 }
 
-/* No sentence is dropped silently: a plan has room for all of them. */
+/* No sentence is dropped without notice: a plan has room for all of them. */
 static void sentences_have_room(void **state)
 {
     (void)state;
@@ -38,8 +38,8 @@ static void sentences_have_room(void **state)
     assert_true(kd_emit_sentence_count() > 20);
 }
 
-/* A header lists those of a scene, separated by commas, and proxies limit all headers together to 4096 bytes. No scene
- * has all of them; tests/http/headers.py renders the scene with the longest headers. */
+/* A header lists the approximations of a scene, separated by commas, and proxies limit all headers together to 4096
+ * bytes. No scene has all approximations; tests/http/headers.py renders the scene with the longest headers. */
 enum { ALL_NAMES = 2400 };
 static void check_name(const char *name, char all[ALL_NAMES])
 {
@@ -154,7 +154,7 @@ static const char GAS[] =
 static const char FLASH[] = "{\"flash\": {\"brightness\": 1, \"period\": 100}, \"disk\": {\"slow_light\": true, "
                             "\"atmosphere\": \"laor\"}, \"time\": 7, \"camera\": {\"r\": 40}}";
 
-/* Numbers depend only on the present scene, whatever was filled before, in any order. */
+/* Numbers depend only on the present scene, in any order of scenes and whatever was filled before. */
 static void numbers_follow_the_scene(void **state)
 {
     (void)state;
@@ -352,7 +352,7 @@ static void a_flash_is_off_by_default(void **state)
     assert_int_equal(kd_emit_needs(&scene), 0);
 }
 
-/* Light of one frequency is a variant, and the picture has a flux only if the disk alone shines. */
+/* Light of one frequency is a variant. The picture has a flux only if nothing but the disk shines. */
 static void a_frequency_is_a_variant(void **state)
 {
     (void)state;
@@ -399,7 +399,7 @@ static void reflection_is_a_variant(void **state)
         }
 }
 
-/* An emitter has only the variants that its GLSL lists, which do not overlap; a compile-time check ensures that. */
+/* An emitter has only those variants that its GLSL lists. They do not overlap; a compile-time check ensures that. */
 #define LISTED(trait) | KD_TRAIT_##trait
 #define WORD(number, name) [number] = KD_TRAIT_PRESENT KD_TRAITS_##name(LISTED),
 static void traits_are_listed(void **state)

@@ -32,7 +32,7 @@ static void refuse(struct kd_accuracy_request asked_accuracy, bool float64, cons
         fail_msg("\"%s\" is not in \"%s\"", part, error.message);
 }
 
-/* A scene's words and the engines are two lists in the same order. */
+/* The words of a scene and the engines are two lists in the same order. */
 static void words_are_names(void **state)
 {
     (void)state;
@@ -81,7 +81,7 @@ static void profiles(void **state)
     assert_true(kd_accuracy_request_needs_device(&asked_accuracy));
 }
 
-/* A finer tolerance never gets a row with a larger error, nor a coarser one a slower row. */
+/* A finer tolerance never selects a row with a larger error, and a coarser tolerance never selects a slower row. */
 static void tolerances(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* A format is found by its name, media type, file extension and first bytes; adding one to the table is sufficient. */
+/* Tests that a format is found by its name, media type, file extension and first bytes, and that a new row in the table
+ * is sufficient to add a format. */
 #include "image/webp.h"
 #include "fake_formats.h"
 
@@ -133,7 +134,7 @@ static int shows(const struct kd_plan *plan)
     return n;
 }
 
-/* For a picture, the plan exposes, renders and reads back, and does not measure light. For light alone, it measures and
+/* A plan for a picture exposes, renders and reads back, and does not measure light. A plan for light alone measures and
  * makes no picture. */
 static void a_plan_is_for_what_is_carried(void **state)
 {

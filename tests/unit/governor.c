@@ -1,5 +1,5 @@
-/* Tests of the governor and its ladder, on machines that are steady, noisy, temporarily loaded, recorded, and
- * adversarial. */
+/* Tests of the governor and its ladder of qualities, on simulated machines that are steady, noisy, temporarily loaded,
+ * recorded, or adversarial. */
 #include "governor_recorded.h"
 #include "governor_simulation.h"
 
@@ -24,7 +24,7 @@ static void some_scene(struct kd_scene *scene)
     kd_scene_smooth(scene);
     scene->image.width = 1 + (int32_t)(uniform() * uniform() * 3000);
     scene->image.height = 1 + (int32_t)(uniform() * uniform() * 2000);
-    scene->image.samples = (int32_t)(uniform() * 9); /* 0: as many as each pixel needs */
+    scene->image.samples = (int32_t)(uniform() * 9); /* 0: as many rays as each pixel needs */
     scene->accuracy.orders = 1 + (int32_t)(uniform() * 8);
     scene->accuracy.profile = (int32_t)(uniform() * 5);
     scene->accuracy.steps = uniform() < 0.2 ? 8 : 0;
@@ -143,8 +143,7 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     }
     assert_int_equal(ladder.rungs[4].quality.width, 640);
     assert_int_equal(ladder.rungs[4].quality.height, 360);
-    asked.camera.projection = KD_PROJECTION_RING; /* the picture has as many photon rings, one above the other, as
-                                                   * were requested */
+    asked.camera.projection = KD_PROJECTION_RING; /* the picture has as many photon rings (image orders) as requested */
     asked.accuracy.orders = 7;
     kd_ladder_make(&asked, &bounds, &ladder);
     for (size_t i = 0; i < ladder.n_rungs; i++)
@@ -182,7 +181,8 @@ static void adaptive_pictures_move_with_one_ray(void **state)
 
 /* Steady machines */
 
-/* After half a minute nothing changes, the target is met if possible, and no quality is wasted. */
+/* After half a minute nothing changes any more. The target is met if possible, and quality is not lower than
+ * necessary. */
 static void settles_on_a_steady_machine(void **state)
 {
     (void)state;
@@ -263,7 +263,7 @@ static void begins_where_it_is_told_to_expect(void **state)
     assert_true(true_cost(&s, s.governor.paces[1].rung, false) <= 33 || s.governor.paces[1].rung == last_rung(&s));
 }
 
-/* A drag on a slow machine reacts soon. */
+/* During a drag on a slow machine the governor reacts soon. */
 static void two_slow_frames_are_enough(void **state)
 {
     (void)state;
@@ -390,8 +390,8 @@ static void another_kind_of_scene_begins_anew(void **state)
     }
 }
 
-/* A user drags the number of particles to and fro across a power of two. Small drags keep what was measured; a
- * change by more than a factor of two drops it, and later changes are compared with the new number. */
+/* A user drags the number of particles to and fro across a power of two. After small changes the measurements are kept.
+ * A change by more than a factor of two discards them, and later changes are compared with the new number. */
 static void drags_across_an_octave_go_on(void **state)
 {
     (void)state;
@@ -501,7 +501,7 @@ static void what_refinement_measured_is_believed(void **state)
     /* a first estimate that is much too low is corrected, too */
     begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 180, .reused = 6, .pixels = 4 });
     change(&s, true);
-    /* Nothing was rendered while the camera moved. The governor learns from one frame without a cached lens map that
+    /* Nothing was rendered while the camera moved. From one frame without a cached lens map the governor learns that
      * frames must trace rays. */
     s.now += 1000;
     frame(&s);
@@ -572,7 +572,8 @@ static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, co
     return (struct kd_frame_cost) { .rays_ms = ms / 2, .pixels_ms = ms / 2, .total_ms = ms };
 }
 
-/* A machine like slow_after_each_climb, which also forces the governor down a rung at a time when it does not climb. */
+/* A machine like slow_after_each_climb that also slows down at a time when the governor does not climb, and so forces
+ * it down a rung. */
 static struct kd_frame_cost greedy(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
@@ -620,9 +621,9 @@ static struct kd_frame_cost restless(const struct simulation *s, const struct kd
     return c;
 }
 
-/* Bounds the number n of failed climbs. The wait doubles after each, so that 3 s (2^n - 1) <= T. Before the first
- * wait there may be one more failed climb for each rung. Each failed climb causes at most a descent and a climb of
- * the whole ladder. */
+/* Bounds the number of changes within a time T by the number n of failed climbs. The wait doubles after each failed
+ * climb, so that 3 s (2^n - 1) <= T. Before the first wait there may be one more failed climb for each rung. Each
+ * failed climb causes at most a descent and a climb of the whole ladder. */
 static void assert_settles(machine *adversary, struct truth truth, int hours)
 {
     struct simulation s;
@@ -798,7 +799,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         assert_true(frame(&s)); /* the frame is rendered at once, at the present rung */
         const bool final = s.last.final, slow = s.now > changed + 150;
         struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
-        if (!slow) { /* the shown quality is the one in use */
+        if (!slow) { /* the quality shown is the quality in use */
             assert_int_equal(turn.quality.width, s.last.width);
             assert_int_equal(turn.quality.samples, s.last.samples);
         }
@@ -843,12 +844,12 @@ static void a_change_breaks_into_refinement(void **state)
     struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
     assert_true(turn.refining && turn.wait_ms == 0 && turn.quality.samples == 1 &&
                 turn.quality.profile == KD_PROFILE_BALANCED);
-    /* The refinement was not reported, so it is offered again. */
+    /* The refinement was not reported as rendered, so it is offered again. */
     assert_true(kd_governor_decide(&s.governor, s.now + 50).refining);
     change(&s, true);
     struct kd_frame_decision next = kd_governor_decide(&s.governor, s.now);
     assert_true(!next.refining && next.wait_ms == 0 && next.quality.scale < 1);
-    /* The old frame arrives late. It is no longer requested, so it does not count as a measurement. */
+    /* The old frame arrives late. Its scene is no longer requested, so the frame does not count as a measurement. */
     struct kd_pace pace = s.governor.paces[1];
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .rays_ms = 9e5, .total_ms = 9e5 });
     assert_same_pace(&pace, &s.governor.paces[1]);
@@ -884,8 +885,8 @@ static void time_keeps_the_rays_at_the_curve(void **state)
     assert_true(dragged.rung && dragged.quality.critical == 2);
 }
 
-/* In a drag there are fewer rays near the critical curve and fewer stars, on any rung but the first. While time
- * advances, and at rest, all are there. */
+/* In a drag there are fewer rays near the critical curve and fewer stars, on every rung except the first. While time
+ * advances, and at rest, the full numbers are used. */
 static void a_drag_has_fewer_rays_at_the_curve(void **state)
 {
     (void)state;
@@ -940,7 +941,7 @@ static void what_measures_nothing_is_not_counted(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         kd_governor_frame(&s.governor, s.now, &turn, &bad[i]);
     assert_same_pace(&pace, &s.governor.paces[1]);
-    /* Another ladder that happens to start on the same rung: the ceiling of the old ladder does not apply. */
+    /* Another ladder happens to start on the same rung. The ceiling that was found on the old ladder does not apply. */
     s.asked.image.width = 1300;
     change(&s, true);
     assert_int_equal(s.governor.paces[1].rung, turn.rung);
@@ -990,9 +991,9 @@ static void whatever_happens_the_answer_is_sound(void **state)
     }
 }
 
-/* A starry view whose azimuth changes. In the frames of a session 7.2 ms of the rays' time did not depend on the
- * picture's size; frames do not report this part. Other load slowed the view down for a while. When that load ends,
- * the view must regain the size that meets the target. */
+/* A starry view whose azimuth changes. In the frames of a recorded session 7.2 ms of the rays' time did not depend on
+ * the picture's size; frames do not report this part separately. Other load slowed the view down for a while. When that
+ * load ends, the view must regain the size that meets the target. */
 static struct kd_frame_cost starry(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     const double pixels = 1e-3 * scene->image.width * scene->image.height,
@@ -1152,8 +1153,8 @@ static void wide_frames_come_back_where_much_stays(void **state)
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5);
 }
 
-/* Half the width is kept while such a frame takes no longer than the patience, and given up when it takes longer. It
- * returns when such a frame would meet the patience again, or when the scene changes its kind. */
+/* Half the width is kept while such a frame takes no longer than the patience, and given up when it takes longer. The
+ * width returns when such a frame would meet the patience again, or when the scene changes its kind. */
 static void wide_frames_give_way_to_slowness(void **state)
 {
     (void)state;

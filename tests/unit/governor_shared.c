@@ -32,7 +32,7 @@ static double rate(const struct sharer *s, double ms) { return 1e3 * (double)s->
 
 static uint32_t rung(const struct sharer *s) { return s->sim.governor.paces[1].rung; }
 
-/* A session beside resting ones is served as if it were alone. */
+/* A session beside sessions at rest is served as if it were alone. */
 static void alone_is_as_it_was(void **state)
 {
     (void)state;
@@ -44,7 +44,7 @@ static void alone_is_as_it_was(void **state)
             open_device(&d, sharers, 3);
             d.alone = !told;
             join(&d, 0, "one", noisy(sky), 8, 0, INFINITY);
-            for (int i = 1; i < 3; i++) { /* pictures that came to rest long ago */
+            for (int i = 1; i < 3; i++) { /* the last frames of these sessions were long ago */
                 join(&d, i, i == 1 ? "one" : "another", sky, 8, -1, with_others ? -0.5 : -1);
                 d.sharers[i].due = with_others ? -1 : INFINITY;
             }
@@ -87,8 +87,8 @@ static void tell(const char *what, int n, const struct device *d, const struct s
                   (unsigned long long)sum->seen);
 }
 
-/* A session that does not know its share keeps a picture that takes 30 ms, and loses frames: with eight sessions
- * each has 4 a second. If sessions know their shares, all have the same rate (at least 12 a second with eight
+/* A session that does not know its share keeps a picture that takes 30 ms, and loses frames: with eight sessions each
+ * gets 4 frames a second. If sessions know their shares, all have the same rate (at least 12 a second with eight
  * sessions), and quality is stable. */
 static void many_keep_moving(void **state)
 {
@@ -112,7 +112,7 @@ static void many_keep_moving(void **state)
         }
 }
 
-/* All sessions keep moving also with noise of 15 % and spikes. */
+/* All sessions also keep moving with noise of 15 % and with spikes. */
 static void noise_divides_nobody(void **state)
 {
     (void)state;
@@ -178,7 +178,7 @@ static void who_waits_is_not_taken_for_resting(void **state)
     }
 }
 
-/* One governor that knows its share */
+/* Tests of one governor that knows its share. */
 
 static void with_share(struct simulation *s, double share, enum pattern pattern, double ms)
 {
@@ -198,8 +198,8 @@ static void a_ceiling_of_less_is_none(void **state)
     assert_true(s.last.final);
 }
 
-/* However often other sessions come, a climb that ends because of them does not count as failed, and the wait before
- * the next climb does not grow. */
+/* A climb that ends because other sessions come does not count as failed, however often they come. The wait before the
+ * next climb does not grow. */
 static void climbs_that_others_end_are_not_in_vain(void **state)
 {
     (void)state;
@@ -235,8 +235,8 @@ static void a_stall_is_shared(void **state)
 
 /* Coming and going */
 
-/* When the other sessions leave, a session regains within two and a half seconds the quality that it had alone. In
- * the seconds after others come, all sessions have their frames. */
+/* When the other sessions leave, a session regains within two and a half seconds the quality that it had alone. In the
+ * seconds after other sessions come, all sessions receive their frames. */
 static void others_come_and_go(void **state)
 {
     (void)state;
@@ -287,7 +287,8 @@ static void strokes_of_another_are_not_seen(void **state)
 
 /* Unused time is lent */
 
-/* A session with a small demand takes no more than this demand from the others, whatever its rate of requests. */
+/* A session with a small demand takes no more than this demand from the other sessions, whatever its rate of
+ * requests. */
 static void who_asks_for_little_gets_little(void **state)
 {
     (void)state;
@@ -303,7 +304,7 @@ static void who_asks_for_little_gets_little(void **state)
         print_message("another asks after %.0f ms: %.1f and %.1f frames/s, a share of %.2f, scale %g\n", pause,
                       rate(one, 60e3), rate(&d.sharers[1], 60e3), one->sim.governor.share, one->sim.last.scale);
         assert_true(rate(one, 60e3) > 22 && one->seen <= 2 && one->sim.governor.share > 0.55);
-        assert_true(pause < 200 || one->sim.last.scale == 0.625); /* as it is alone */
+        assert_true(pause < 200 || one->sim.last.scale == 0.625); /* the same rate as alone */
     }
 }
 

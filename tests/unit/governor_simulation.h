@@ -1,5 +1,5 @@
-/* Simulates a session with a governor, on a machine made of formulas: when which scene is requested, what frames
- * cost, and which quality is chosen. */
+/* Simulates a session with a governor, on a machine whose costs are formulas. The simulation gives the times of
+ * requests, the cost of each frame, and the chosen quality. */
 #ifndef KD_TESTS_GOVERNOR_SIMULATION_H
 #define KD_TESTS_GOVERNOR_SIMULATION_H
 
@@ -24,7 +24,7 @@ struct simulation;
 /* Cost of a frame of this scene on the machine. */
 typedef struct kd_frame_cost machine(const struct simulation *s, const struct kd_scene *scene, bool reused);
 
-/* A machine with costs by rays, by pixels and fixed; plus noise and spikes. */
+/* A machine whose frames have a cost by rays, a cost by pixels and a fixed cost, with noise and spikes. */
 struct truth {
     /* ms of a frame of the scene as requested: to trace its rays, to reuse their lens map, and for its pixels */
     double traced, reused, pixels;
@@ -40,7 +40,8 @@ struct simulation {
     struct truth truth;
     machine *cost;
     double now;
-    uint64_t frames, changes, climbs;           /* changes: of rung, of both kinds of frames; climbs: those upwards */
+    /* changes: changes of rung, of both kinds of frames; climbs: changes upwards */
+    uint64_t frames, changes, climbs;
     double last_change, sum, load, least_pause; /* least_pause: shortest time between a change and the next climb */
     uint64_t summed;
     uint32_t lens;             /* counter of the scene's lens map */
@@ -186,7 +187,7 @@ static inline double true_cost(const struct simulation *s, uint32_t rung, bool r
 
 static inline struct truth some_truth(void)
 {
-    double all = exp(log(3) + uniform() * log(1000)); /* 3 ms to 3 s, as requested */
+    double all = exp(log(3) + uniform() * log(1000)); /* milliseconds of a frame as requested: 3 ms to 3 s */
     double fixed = uniform() < 0.5 ? 0 : exp(7 * uniform()), hidden = uniform() < 0.5 ? 0 : 30 * uniform() * uniform();
     double rays = all * (0.3 + 0.6 * uniform());
     return (struct truth) { .traced = rays,

@@ -28,8 +28,8 @@ def main(program, flags):
     }
     if any("FORTIFY_SOURCE=" in f for f in flags):
         found["fortified"] = re.search(r"__\w+_chk\b", symbols.replace("__stack_chk_fail", ""))
-    # Landing pads are counted instead, because the linker marks no program: Debian's C library does not mark its own
-    # start files.
+    # Landing pads are counted. The program has no mark that could be read instead, because Debian's C library does not
+    # mark its start files and the linker then marks no program.
     with open(program, "rb") as f:
         code = f.read()
     if any("cf-protection" in f for f in flags):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every header compiles alone: it includes what it uses.
+"""Checks that every header compiles alone, that is, includes what it uses.
 
 headers.py SRC COMPILER... -- FLAG...
 """

@@ -1,4 +1,4 @@
-/* Histograms for /metrics: the bucket of a duration, and the cost of counting one. */
+/* Tests of histograms for /metrics: the bucket of a duration, and the cost of counting one. */
 #include "base/clock.h"
 #include "server/http/histogram.h"
 #include "server/http/request_id.h"

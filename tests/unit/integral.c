@@ -1,5 +1,5 @@
-/* Visibilities of maps with known transforms: a uniform disk's is 2 J1(x)/x, a thin ring's J0(x), a Gaussian's a
- * Gaussian (Thompson, Moran & Swenson 2017, table 2.1), and a point's a phase. */
+/* Tests of visibilities, for maps whose transforms are known: a uniform disk (2 J1(x)/x), a thin ring (J0(x)), a
+ * Gaussian (a Gaussian) (Thompson, Moran & Swenson 2017, table 2.1), and a point (a phase). */
 #include "integral/fourier.h"
 #include "integral/pictures.h"
 #include "integral/request.h"
@@ -46,7 +46,7 @@ static double a_disk(double x, double y) { return hypot(x, y) < 21 ? 1 : 0; }
 static double a_ring(double x, double y) { return exp(-pow((hypot(x, y) - 24) / 1.5, 2) / 2); }
 static double a_gaussian(double x, double y) { return exp(-(x * x / (2 * 49.) + y * y / (2 * 144.))); }
 
-/* Effect of averaging over pixels, sinc(u pixel) sinc(v pixel). The map contains this effect; a sum over points at
+/* Effect of averaging over pixels, sinc(u pixel) sinc(v pixel). The map contains this effect, but a sum over points at
  * the pixels' centres does not. */
 static double pixel_turns(double u, double v)
 {
@@ -160,15 +160,15 @@ static void test_baselines(void **state)
     assert_int_equal(kd_integral_pictures(&r), 1);
     assert_int_equal(kd_integral_rows(&r), 2);
     kd_integral_request_finish(&r);
-    /* With a scene, a spectrum becomes that of its volume. */
+    /* With a scene, the spectrum is that of the scene's volume. */
     ask(&r, KD_INTEGRAL_SPECTRUM,
         "{\"frequencies_hz\":[1e11,2e11,3e11],\"preset\":\"riaf\",\"scene\":{\"camera\":{\"inclination_deg\":30}}}");
     assert_int_equal(r.what, KD_INTEGRAL_VOLUME);
     assert_int_equal(kd_integral_pictures(&r), 6);
     near(kd_integral_scene(&r, 3).volume.frequency_ghz, 200, 1e-9);
     kd_integral_request_finish(&r);
-    /* Matter that is normalised to a flux has this flux at the scene's frequency, and is the same matter at all
-     * other frequencies. */
+    /* Matter that is normalised to a flux has this flux at the scene's frequency. At all other frequencies it is the
+     * same matter. */
     ask(&r, KD_INTEGRAL_SPECTRUM,
         "{\"frequencies_hz\":[1e11,2e11],\"preset\":\"riaf\",\"scene\":{\"volume\":{\"normalise_to_jy\":2,\"frequency_"
         "ghz\":230}}}");

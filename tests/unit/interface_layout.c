@@ -1,5 +1,5 @@
-/* Layouts agree between C and kernels. Offsets and types of the members of push constants and buffers in the SPIR-V are
- * compared with offsetof. */
+/* Tests that layouts agree between C and kernels. Offsets and types of the members of push constants and buffers in the
+ * SPIR-V are compared with offsetof. */
 #include "render/view/layout.h"
 #include "render/emit/emitter.h"
 
@@ -59,7 +59,7 @@ static const uint32_t *next(const struct spirv *s, size_t *at, uint32_t opcode, 
     return NULL;
 }
 
-/* The struct as laid out in a buffer. A struct that variables use as well exists a second time, without offsets. */
+/* The struct as laid out in a buffer. If variables use the struct as well, it occurs a second time, without offsets. */
 static uint32_t struct_called(const struct spirv *s, const char *name)
 {
     size_t at = 5;

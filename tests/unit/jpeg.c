@@ -26,7 +26,7 @@ static uint8_t *picture(uint32_t width, uint32_t height)
     return pixels;
 }
 
-/* libjpeg's errors end the program, so that the test fails. */
+/* An error of libjpeg ends the program, so that the test fails. */
 static uint8_t *decode(const uint8_t *file, size_t size, uint32_t width, uint32_t height)
 {
     struct jpeg_decompress_struct info;

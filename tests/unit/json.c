@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 /* The linker redirects the module's own calls here (--wrap). */
-static int left = -1; /* allocations before one fails; -1: none does */
+static int left = -1; /* number of allocations before one fails; -1: none fails */
 void *__real_realloc(void *old, size_t size);
 void *__wrap_realloc(void *old, size_t size);
 

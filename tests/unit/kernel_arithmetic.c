@@ -1,7 +1,7 @@
 /* Tests that kernels restrict what a driver may do with their arithmetic. Vulkan 1.2 lets a driver fuse, reorder and
  * expand floating-point operations unless they are decorated NoContraction, and behave as if NaN and infinity did not
- * exist (no kernel uses SignedZeroInfNanPreserve). Pictures cannot show this on a driver that does neither, so the
- * SPIR-V is inspected. This is done before and after shaders/compile.py inlines the functions. */
+ * exist (no kernel uses SignedZeroInfNanPreserve). On a driver that does neither, pictures cannot show this, so the
+ * SPIR-V is inspected. The inspection is done before and after shaders/compile.py inlines the functions. */
 #include <stdint.h>
 
 #define KD_SPIRV_PLAIN
@@ -112,7 +112,7 @@ static void count(const struct spirv *s, const char *name, int *all, int *precis
     }
 }
 
-/* at least ten functions still have the names that are searched */
+/* at least ten functions still have the searched names */
 static void what_must_not_be_reordered(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Layers by name: the words of image.layers agree with the table, invalid requests are refused with their field, and
- * NPY has the numbers. */
+/* Tests of layers by name: the words of image.layers agree with the table, an invalid request is refused with the
+ * field's name, and NPY files hold the numbers. */
 #include "scene_support.h"
 
 #include "image/npy.h"
@@ -184,7 +184,7 @@ static void what_cannot_be_is_refused(void **state)
     }
 }
 
-/* A picture format takes one layer, and NPY takes all. A table of rows takes none, and its plan has none. */
+/* A picture format takes one layer, and NPY takes all. A table of rows takes no layers, and its plan has none. */
 static void formats_take_what_they_hold(void **state)
 {
     (void)state;
@@ -206,7 +206,7 @@ static void formats_take_what_they_hold(void **state)
     assert_true(plan.picture.n_layers == 0 && plan.picture.rgb && !plan.picture.radiance);
 }
 
-/* Layers that are not requested are not in the plan. Requested ones are, in its bytes and its quantities. */
+/* Layers that are not requested are not in the plan. Requested layers are included in its bytes and quantities. */
 static void plans_have_what_is_asked_for(void **state)
 {
     (void)state;
@@ -223,7 +223,7 @@ static void plans_have_what_is_asked_for(void **state)
     assert_int_equal(more.cost.host_bytes - plan.cost.host_bytes, 3 * 4 * 1280 * 720);
     struct kd_scene empty = scene_of("{\"image\":{\"layers\":[\"r\"]},\"disk\":{\"model\":\"none\"}}");
     assert_int_equal(kd_plan_make(&empty, &c, &plan, NULL), KD_OK);
-    assert_int_equal(plan.lens.orders, 3); /* rays are traced although nothing shines */
+    assert_int_equal(plan.lens.orders, 3); /* rays are traced although the scene has no light */
 }
 
 /* A synthetic frame gives records in the order of the words, each number at its place. */

@@ -1,4 +1,4 @@
-/* Legends: the numbers at a bar, and their layout. */
+/* Tests of legends: the numbers at a bar, and their layout. */
 #include "image/font.h"
 #include "image/legend.h"
 
@@ -33,7 +33,7 @@ static void letters_have_shapes(void **state)
     assert_true(kd_font_dot('L', 0, 0) && !kd_font_dot('L', 4, 0) && kd_font_dot('L', 4, 6));
 }
 
-/* Text is read letter by letter, also if it is no UTF-8. */
+/* Text is read letter by letter, even if it is not valid UTF-8. */
 static void text_has_letters(void **state)
 {
     (void)state;
@@ -89,8 +89,8 @@ static void numbers_are_round(void **state)
     check_labels(&(struct kd_map_scale) { 1e-3, 10, true }, 24, "0.001 0.01 0.1 1 10");
     check_labels(&(struct kd_map_scale) { 1.03, 1.05, true }, 18, "1.03 1.04 1.05");
     check_labels(&(struct kd_map_scale) { 4, 4, false }, 18, "4");
-    check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, ""); /* an invalid scale gets no numbers, and no long
-                                                                  * search for them */
+    /* an invalid scale gets no numbers, and the search for numbers ends at once */
+    check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, "");
     check_labels(&(struct kd_map_scale) { -1, 2, true }, 18, "");
     check_labels(&(struct kd_map_scale) { 1, INFINITY, true }, 18, "1");
 }

@@ -1,4 +1,4 @@
-/* Tests of the table of lessons, with clocks set back. */
+/* Tests of the table of lessons, whose clocks are set back by the test. */
 #include "base/clock.h"
 #include "server/lesson/lesson.h"
 

@@ -62,8 +62,8 @@ static void webp_pixels(void **state)
     assert_true(before < 1.5);
 }
 
-/* The peak of memory while noise is encoded, measured in a process of its own, is within the bound and not far below
- * it. */
+/* The peak of memory while noise is encoded is within the stated bound and not far below it. It is measured in a
+ * separate process. */
 static void webp_memory(void **state)
 {
     enum { SIDE = 1200 };

@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""A parameter of the hole is known to few files: those whose formulas depend on it, and the list of parameters.
+"""Checks that few files name a parameter of the hole: those whose formulas depend on it, and the list of parameters.
 
 metric_files.py ROOT     exit 1 if more than MOST files of src and shaders name the charge, or if docs/adding-a-metric.md
                          has other numbers; the files are printed
 
 A formula is a line that computes with the charge, or a branch for holes beyond Kerr's. All other files pass the hole on
-as a value, or make their rows, cards, keys and messages of the list in spacetime/parameters.h, without a name of a
-parameter. A file names the charge if its code does, or a field of it in a string; sentences and comments do not count.
+as a value, or generate their rows, FITS cards, keys and messages from the list in spacetime/parameters.h, without
+naming a parameter. A file names the charge if its code does, or a field of it in a string; sentences and comments do
+not count.
 """
 
 import pathlib
@@ -21,7 +22,7 @@ FORMULA = re.compile(
     r"|\bBEYOND_KERR [?&|]|\(BEYOND_KERR\b"  # GLSL
     r"|\bcharge2 [*/+-]|[-+*/] ?(?:cam\.|hole\.)?charge2\b(?!,)|-= (?:cam\.)?charge2\b"
     r"|[-+] q2 \*|\ba2 \+ q2\b"
-    r"|\bq2? = [\w.>-]*hole(?:->|\.)q\b"  # a local name of the charge
+    r"|\bq2? = [\w.>-]*hole(?:->|\.)q\b"  # a local variable with the charge
 )
 NAME = re.compile(
     r"\bcharge2?\b|\bkd_hole_(?:charged|is_charged|charge2)\b"
@@ -38,7 +39,7 @@ TOLD = re.compile(r"formulas of (\d+) files.*?named in (\d+) files", re.S)
 
 
 def code(text):
-    """The text without comments, and without strings that are no field's name."""
+    """The text without comments, and without strings that are not names of fields."""
     kept = lambda string: string[0] if FIELD.fullmatch(string[0]) else '""'
     return STRING.sub(kept, COMMENT.sub(" ", text))
 

@@ -1,4 +1,4 @@
-/* NPY headers: those of NumPy, our own, and everything that must be refused. */
+/* Tests of NPY headers: those of NumPy, those that kerrd writes, and damaged ones, which must be refused. */
 #include "image/npy.h"
 
 #include <setjmp.h>
@@ -178,7 +178,7 @@ static void damaged(void **state)
     free(file.data);
 }
 
-/* The first equals numpy.save's byte for byte. */
+/* The first header equals numpy.save's byte for byte. */
 static void written(void **state)
 {
     (void)state;

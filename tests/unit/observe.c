@@ -1,5 +1,5 @@
-/* Tests of observations. chi^2 of a model ring for M87* as it was observed (data/eht), from both files of one
- * observation, is compared with numbers by ehtim 1.3.2. Also tests searches for size, orientation and position, the
+/* Tests of observations. chi^2 of a model ring is computed for an observation of M87* (data/eht), from both of its
+ * files, and compared with numbers by ehtim 1.3.2. Also tests searches for size, orientation and position, the
  * scattering kernel, and damaged files. */
 #include "observe/align.h"
 #include "observe/scattering.h"
@@ -175,9 +175,9 @@ static void sources_model(void *user, double size, double angle_deg, double (*ou
     sources_at(((const struct sources *)user)->c, size, angle_deg, out);
 }
 
-/* The observation is replaced by a model of known size, angle, position and flux. The search must find these from a
- * model of another size and angle: without noise to 1e-4, from all data and from closures alone. A search for the size
- * beyond its bounds must end there and say so. */
+/* The observation is replaced by a model of known size, angle, position and flux. The search starts from a model of
+ * another size and angle, and must find these values: to 1e-4 without noise, from all data and from closures alone. A
+ * search whose size lies beyond the bounds must end at the bound and report it. */
 static void test_size_angle_and_position_are_found(void **state)
 {
     (void)state;
@@ -483,8 +483,8 @@ static void test_a_table_that_is_shorter_than_its_rows(void **state)
     free(data);
 }
 
-/* A file that is cut anywhere is an error, except where the missing part is not read. Nothing beyond the end is read
- * (the sanitizers watch). */
+/* A file that is cut anywhere is an error, except where the missing part is not read. Sanitizers detect a read beyond
+ * the end. */
 static void test_files_that_are_cut(void **state)
 {
     (void)state;

@@ -139,8 +139,8 @@ static void lets_go_before_infinity(void **state)
         fail_msg("t %.15g, Mino time %.15g, r %.15g, stated %.2g", a.t, a.mino, a.r, a.stated);
 }
 
-/* If r_max is far away, the first search for the end takes steps that are too long for the whirl. With these values the
- * body once fell through the circle instead of whirling. Expected values are by the quadrature of
+/* If r_max is far away, the first search for the end takes steps that are too long for the whirl. With these values, in
+ * an earlier version, the body fell through the circle instead of whirling. Expected values are from the quadrature of
  * tests/oracle/whirl_reference.py, from r_max to the whirl and back, with nodes that crowd towards infinity as well. */
 static void ends_where_r_max_is_far(void **state)
 {

@@ -1,5 +1,5 @@
-/* Tests of panoramas on the host: which ones are made ahead of requests, and that this does not take memory from
- * those that were requested. */
+/* Tests of panoramas on the host: which panoramas are made ahead of requests, and that this does not evict panoramas
+ * that were requested. */
 #include "image/png.h"
 #include "render/device/panoramas.h"
 #include "render/sky/milky_way_file.h"
@@ -90,8 +90,8 @@ static void is_there_when_it_is_asked_for(void **state)
     kd_panoramas_finish(&all);
 }
 
-/* A panorama that is made ahead takes only a free place, and never evicts a requested one. Its own place is given to
- * a requested panorama. */
+/* A panorama that is made ahead of requests uses only a free entry, and never evicts a requested one. A requested
+ * panorama may evict it. */
 static void has_a_free_place_only(void **state)
 {
     struct kd_panoramas all;
@@ -109,12 +109,13 @@ static void has_a_free_place_only(void **state)
     ahead(&all, "b");
     ahead(&all, "c");
     assert_int_equal(fetch(&all, "d", KD_OK), 1);
-    assert_int_equal(fetch(&all, "b", KD_OK) + fetch(&all, "c", KD_OK), 0); /* "a" is gone, because it was the oldest */
+    /* "a" was evicted, because it was the oldest */
+    assert_int_equal(fetch(&all, "b", KD_OK) + fetch(&all, "c", KD_OK), 0);
     kd_panoramas_finish(&all);
 }
 
-/* A failure to make a panorama ahead is not reported. The next request tries again and gets the result of this
- * attempt. */
+/* If making a panorama ahead fails, this is not reported. The next request tries again and reports the result of its
+ * own attempt. */
 static void what_fails_is_tried_again(void **state)
 {
     struct kd_panoramas all;

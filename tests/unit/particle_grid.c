@@ -1,5 +1,5 @@
-/* Tests that the guiding radii of particles are dense enough for the rows of their grid, however the particles are
- * distributed. */
+/* Tests that the guiding radii of particles are dense enough for the rows of the particles' grid, for all distributions
+ * of the particles. */
 #include "render/emit/particles.h"
 
 #include "physics/spacetime/kerr.h"
@@ -32,8 +32,8 @@ static void spread(const struct kd_scene *scene, const struct kd_particle_grid *
     }
 }
 
-/* The shares are those of 250 000 radii within the Poisson error of a row of 10 000 particles, the longest possible
- * row. With only 4096 radii some rows stay empty even for ten million particles, and rings of light appear. */
+/* The shares equal those of 250 000 radii within the Poisson error of a row of 10 000 particles, which is the longest
+ * possible row. With only 4096 radii some rows stay empty even for ten million particles, and rings of light appear. */
 static void no_row_shows_single_radii(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* Tests that the table of passes is consistent: every pass occurs in some plan, and some pass measures every cost
- * figure. The same is tested for the emitters that have a cost figure. */
+ * figure. The same is tested for emitters with a cost figure. */
 #include "render/accuracy/table.h"
 #include "render/emit/emitter.h"
 #include "render/frame/frame.h"
@@ -118,7 +118,7 @@ static void each_is_in_a_plan_and_each_figure_learned(void **state)
             fail_msg("no pass is measured for \"%s\"", kd_figures[i].word);
 }
 
-/* Each emitter with buffers of its own names the function or the pass that fills them. A pass that it names exists. */
+/* Each emitter with buffers of its own names the function or the pass that fills them. A named pass exists. */
 static void emitters_are_prepared(void **state)
 {
     (void)state;

@@ -24,7 +24,8 @@ static void close_to(const char *what, double x, double y, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* Each integral takes some five steps with a few roundings each, and all terms are positive, so the bound is 2e-15. */
+/* Each integral takes some five steps with a few roundings each, and all terms are positive. The bound is therefore
+ * 2e-15. */
 static void symmetric(void **state)
 {
     (void)state;
@@ -113,8 +114,8 @@ static void legendre(void **state)
     }
 }
 
-/* Tests F(am(u)|m) = u down to 1 - m = 1e-15. There K is 19, so that a small error in the modulus would show. The
- * rounding of K itself is worth K/u relative to u. */
+/* Tests F(am(u)|m) = u down to 1 - m = 1e-15. There K is 19, so that a small error in the modulus would be visible. The
+ * rounding of K contributes K/u times the machine epsilon, relative to u. */
 static void jacobi(void **state)
 {
     (void)state;

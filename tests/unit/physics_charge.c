@@ -1,5 +1,5 @@
-/* Light about charged holes: the closed form compared with an integration by steps, with the first-order equations as
- * Carter wrote them, and with spherical photon orbits from R = R' = 0. */
+/* Tests of light about charged holes. The closed form is compared with an integration by steps, with the first-order
+ * equations as Carter wrote them, and with spherical photon orbits from R = R' = 0. */
 #include "physics/null/null_bend.h"
 #include "physics/null/null_course.h"
 #include "physics/null/null_radial.h"
@@ -166,7 +166,7 @@ static void crossings(void **state)
     assert_true(met > 400);
 }
 
-/* The smallest charge changes no bit; the largest, with spin, leaves no number undefined. */
+/* The smallest charge changes no bit of the results. With the largest charge and spin no number is undefined. */
 static void extremes(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* The equatorial plane of charged holes: small oscillations about circular orbits, potentials, the bending of light and
- * the embedded plane, compared with the metric, with orbits in closed form, and with integrals to 40 digits
- * (tests/oracle/charge_reference.py). */
+/* Tests of the equatorial plane of charged holes: small oscillations about circular orbits, potentials, the bending of
+ * light and the embedded plane. They are compared with the metric, with orbits in closed form, and with integrals to 40
+ * digits (tests/oracle/charge_reference.py). */
 #include "physics/null/deflection.h"
 #include "physics/orbit/orbit_bound.h"
 #include "physics/spacetime/embedding.h"

@@ -1,5 +1,6 @@
-/* Neutral matter and observers about charged holes: circular orbits, the flux of thin disks, photon orbits, the
- * critical curve and frames, compared with numbers from the metric alone (tests/oracle/charge_reference.py). */
+/* Tests of neutral matter and observers about charged holes: circular orbits, the flux of thin disks, photon orbits,
+ * the critical curve and frames. They are compared with numbers from the metric alone
+ * (tests/oracle/charge_reference.py). */
 #include "physics/disk/thin_disk.h"
 #include "physics/null/critical.h"
 #include "physics/null/null_geodesic.h"
@@ -61,7 +62,7 @@ static void whole_disk(void **state)
     assert_true(worst[0] < 1e-15 && worst[1] < 2e-15 && worst[2] < 2e-15 && worst[3] < 3e-15);
 }
 
-/* The bound of each number is its change from one double r to the next, because r is rounded to a double. */
+/* The allowed error of each number is its change from one double r to the next, because r is rounded to a double. */
 static void orbits(void **state)
 {
     (void)state;
@@ -102,7 +103,7 @@ static void small_charges(void **state)
     }
 }
 
-/* Plunging gas has the redshift of the circular orbit at the ISCO, and u.u = -1 inside. */
+/* Plunging gas has the redshift of the circular orbit at the ISCO; inside, its velocity has u.u = -1. */
 static void plunge(void **state)
 {
     (void)state;
@@ -114,8 +115,8 @@ static void plunge(void **state)
         const double r0 = kd_kerr_isco(&hole);
         near(kd_disk_redshift_plunging(&hole, r0, 0.5, 9, true), kd_disk_redshift(&hole, r0, 0.5), 1e-7,
              "g at the ISCO", e->a, e->q, r0);
-        /* For the principal photon, lambda = a and eta = 0, g depends on W = E (1 + a^2 w^2) - a L w^2 and w' = -u^r
-         * alone. */
+        /* For the principal photon (lambda = a, eta = 0), g depends only on W = E (1 + a^2 w^2) - a L w^2 and w' =
+         * -u^r. */
         for (int k = 1; k < 8; k++) {
             const double r = hole.outer + (r0 - hole.outer) * k / 8, w = 1 / r;
             const double en = kd_kerr_energy(&hole, r0), j = kd_kerr_momentum(&hole, r0) - e->a * en;
@@ -232,7 +233,7 @@ static void curve(void **state)
                                  o.cos_theta, k, side > 0 ? "outside" : "inside");
                     seen++;
                 }
-                if (!isinf(o.radius)) { /* the direction is that of the light with these labels */
+                if (!isinf(o.radius)) { /* this is the direction of the light with these labels */
                     const struct kd_vantage at = { o.hole, o.radius, o.cos_theta, c.sine };
                     struct kd_covector photon = { 1, -p.alpha, p.beta, 0 };
                     const double r = o.radius, l = -p.alpha * at.s, a = e->a, q2 = e->q * e->q,

@@ -118,7 +118,7 @@ static struct kd_orbit_place followed(const struct kd_orbit *o, const struct kd_
 }
 
 /* Bound orbits are followed for somewhat more than a radial period by the closed form and by both integrators. If the
- * orbit is closer to the separatrix than to 0, it magnifies the errors of all three, also those of the rounded
+ * orbit is closer to the separatrix than to 0, the errors of all three are magnified, including those of the rounded
  * constants from which the oracle starts. */
 static void bound_orbits(void **state)
 {
@@ -141,7 +141,7 @@ static void bound_orbits(void **state)
     }
 }
 
-/* Bodies that fall or fly off from a place with a velocity that an observer there measures. */
+/* Bodies that fall in or fly off. They start at a place with a velocity that an observer there measures. */
 static void free_motion(void **state)
 {
     (void)state;

@@ -94,9 +94,9 @@ static double radiance(double wavelength, double temperature)
     return c1l / pow(wavelength, 5) / (exp(c2 / (wavelength * temperature)) - 1);
 }
 
-/* A second quadrature: the colour-matching functions interpolated linearly, their product with the radiance sampled
- * ten times as finely. The two sums differ by the curvature within a step: the radiance changes by 5 % a step at
- * 2000 K, and both peaks of x-bar and that of z-bar are narrow. */
+/* A second quadrature: the colour-matching functions interpolated linearly, and their product with the radiance is
+ * sampled ten times as finely. The two sums differ by the curvature within a step: the radiance changes by 5 % a step
+ * at 2000 K, and both peaks of x-bar and that of z-bar are narrow. */
 static struct kd_colour_xyz second_opinion(double temperature)
 {
     struct kd_colour_xyz c = { 0, 0, 0 };

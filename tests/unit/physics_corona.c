@@ -1,5 +1,5 @@
-/* Tests of coronae and of their echoes: on the axis compared with the lamp, in flat space with closed forms, and with
- * photons that are spread evenly over the source's sky and integrated in Kerr-Schild coordinates
+/* Tests of coronae and of their echoes. On the axis a corona is compared with the lamp; in flat space with closed
+ * forms; elsewhere with photons that are spread evenly over the source's sky and integrated in Kerr-Schild coordinates
  * (tests/oracle/kerr_schild.h). */
 #include "physics/disk/corona.h"
 #include "physics/disk/echo.h"
@@ -228,7 +228,8 @@ static const struct {
 enum { PHOTONS = 12000 };
 static struct photon photons[PHOTONS];
 
-/* Relative error of a count of n photons. Evenly spread points have a smaller error than the root of n of random ones.
+/* Relative error of a count of n photons. Evenly spread points have a smaller error than the square root of n that
+ * random ones have.
  */
 static double scatter(int n) { return 0.003 + 3 * pow(n, -0.75); }
 

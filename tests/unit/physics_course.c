@@ -60,8 +60,8 @@ static void check_neighbours(const struct kd_null_ray *ray, const struct kd_null
         say(ray, "angle between neighbours at order", p->order, apart, 0.03, 0.005);
 }
 
-/* The path's crossings must be those of the reference integration. Along the way the errors of both grow to about ten
- * DBL_EPSILON times the condition number, which the closed form's error estimates contain. */
+/* The path's crossings must be those of the reference integration. Along the way the errors of both methods grow to
+ * about ten DBL_EPSILON times the condition number, which is part of the closed form's error estimates. */
 static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
 {
     static struct kd_null_place places[MOST];
@@ -155,8 +155,8 @@ static void from_nearby(void **state)
     assert_true(compared > 1000);
 }
 
-/* Any place of a path lies on the ray. A ray in closed form that starts there with the same constants has the same
- * crossings ahead, with the same azimuths and delays, except for the part already covered. */
+/* Every place of a path lies on the ray. A ray in closed form that starts from the place with the same constants has
+ * the same remaining crossings. Their azimuths and delays are those of the first ray minus the part already covered. */
 static void between_crossings(void **state)
 {
     static struct kd_null_place places[MOST];

@@ -64,9 +64,10 @@ static void against_the_oracle(void **state)
 static const double spins[] = { 0, 1e-12, 1e-6, 0.1, 0.5, 0.9, 0.998, 0.999999, 1 - 1e-12 };
 static const double cosines[] = { 1, 1 - 1e-15, 0.9563, 0.5, 0.1736, 1e-8, 0, -0.5, -1 };
 
-/* a = 0: a circle of radius sqrt(27) about the middle, gamma = pi, half an orbit in a time of 3 sqrt(3) pi. Seen
- * from the pole: a circle, whose radius at a = 1 is 2 + 2 sqrt(2), of orbits at 1 + sqrt(2) (Gralla & Lupsasca 2020,
- * arXiv:1910.12873). From the equator: from -2 to 7 at a = 1, and 2 sqrt(27) high at any spin. */
+/* Known values. At a = 0: a circle of radius sqrt(27) about the middle, gamma = pi, half an orbit in a time of 3
+ * sqrt(3) pi. Seen from the pole: a circle, which at a = 1 has the radius 2 + 2 sqrt(2) and shows the orbits at 1 +
+ * sqrt(2) (Gralla & Lupsasca 2020, arXiv:1910.12873). Seen from the equator: the curve extends from -2 to 7 at a = 1,
+ * and is 2 sqrt(27) high at any spin. */
 static void published_shapes(void **state)
 {
     (void)state;
@@ -80,7 +81,7 @@ static void published_shapes(void **state)
             near(fabs(x.delta), M_PI, 2e-15, "delta", 0, k);
             near(x.tau, root27 * M_PI, 1e-14, "tau", 0, k);
         }
-    double e = 1e-12; /* e is 1 - a. Seen from the pole, all results depend smoothly on it */
+    double e = 1e-12; /* e is 1 - a. Seen from the pole, all results depend smoothly on e */
     struct kd_critical pole = curve_of(1 - e, 1, INFINITY, KD_OBSERVER_STATIC);
     struct kd_critical_point p = kd_critical_at(&pole, 1);
     near(p.rho, 2 + 2 * sqrt(2), 2 * e, "rho over the pole", 1, 1);

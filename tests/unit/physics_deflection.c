@@ -38,8 +38,8 @@ static void critical(void **state)
     close_to("critical", -1, 0, kd_deflection_critical(kd_hole(-most)), 7, 1e-14);
 }
 
-/* The errors are within those of the header. The closest approach is a root that becomes double on the critical ray, so
- * that near it the root changes as a square root. */
+/* The errors are within those of the header. The closest approach is a root that becomes double on the critical ray.
+ * Near that ray its error is therefore a square root of the rounding. */
 static void angles(void **state)
 {
     (void)state;
@@ -53,7 +53,7 @@ static void angles(void **state)
 }
 
 /* Light turns where V = 1/b, with the effective potential of Bardeen, Press & Teukolsky, which does not use the
- * roots of R; for a = 0 also the middle root of r^3 - b^2 r + 2 b^2 = 0 by Vieta's formula. */
+ * roots of R; for a = 0 the radius is also the middle root of r^3 - b^2 r + 2 b^2 = 0, by Vieta's formula. */
 static void farthest(void **state)
 {
     (void)state;

@@ -52,8 +52,8 @@ static double luminosity(function flux, function weight, double a)
 static double one(const struct kd_hole *hole, double r) { return (void)hole, (void)r, 1; }
 
 /* The energy radiated by both faces, E times the energy in the gas's frame, is what the gas loses on its way in: 1 -
- * E(ISCO) (Page & Thorne 1974, eq. 10b). The bound is the quadrature's: at a = 0.9999 the flux rises within 0.1 of
- * the ISCO. The Newtonian disk, by the virial theorem, releases 1/(2 r_in). */
+ * E(ISCO) (Page & Thorne 1974, eq. 10b). The bound is the quadrature's error: at a = 0.9999 the flux rises within 0.1
+ * of the ISCO. By the virial theorem the Newtonian disk releases 1/(2 r_in). */
 static void luminosity_is_the_efficiency(void **state)
 {
     (void)state;
@@ -192,8 +192,8 @@ static void plunging_at_both_ends(void **state)
     }
 }
 
-/* The reference is the same physics in grams with Newton's G, which is known to 2.2e-5. T is proportional to M^(-1/4).
- * The fourth root of the flux adds no error. */
+/* The reference has the same physics in grams, with Newton's G, which is known to 2.2e-5. T is proportional to
+ * M^(-1/4). The fourth root of the flux adds no error. */
 static void temperature_in_kelvin(void **state)
 {
     (void)state;

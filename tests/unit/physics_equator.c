@@ -47,9 +47,9 @@ static void frequencies(void **state)
                1e-14 * pow(r, -1.5));
 }
 
-/* The reference is geodesics of small eccentricity by elliptic functions. By the shear their azimuth runs ahead of its
- * mean. The orbit starts at periastron, r = r0 (1 - e cos kappa t), so that phi lags by shear r0 e sin(kappa t)/kappa.
- * This holds to first order in e over the distance to the ISCO. */
+/* The reference is geodesics of small eccentricity by elliptic functions. Because of the shear their azimuth deviates
+ * from uniform motion. The orbit starts at periastron, r = r0 (1 - e cos kappa t), so that phi lags by shear r0 e
+ * sin(kappa t)/kappa. This holds to first order in e over the distance to the ISCO. */
 static void shear(void **state)
 {
     (void)state;
@@ -69,7 +69,7 @@ static void shear(void **state)
                 within("swing of phi", a, r, at.phi - f.phi * at.t, swing * sin(f.r * at.t), 1e-4 * fabs(swing));
             }
         }
-    for (double a = 0; a < 0.9985; a += 0.002) /* the whole range of spins of disks */
+    for (double a = 0; a < 0.9985; a += 0.002) /* the whole range of spins that a disk may have */
         assert_true(kd_epicyclic_radial(kd_hole(a), kd_kerr_isco(kd_hole(a))) == 0);
 }
 

@@ -57,7 +57,8 @@ static struct loss radiated(double a, double e)
     return sum;
 }
 
-/* The rates of a and e follow from the losses by E = -eta/(2a) and L = eta sqrt(a (1 - e^2)). */
+/* The rates of a and e follow from the losses of energy and angular momentum, with E = -eta/(2a) and L = eta sqrt(a (1
+ * - e^2)). */
 static void rates(void **state)
 {
     (void)state;
@@ -86,8 +87,8 @@ static void time_by_quadrature(void **state)
     }
 }
 
-/* Peters 1964: a circular orbit lasts a^4/(4 beta). For e -> 1 an orbit lasts 768/425 (1 - e^2)^(7/2) times as long,
- * and the next term is smaller by sqrt(1 - e^2). */
+/* Peters 1964: a circular orbit lasts a^4/(4 beta). For e -> 1 an orbit lasts 768/425 (1 - e^2)^(7/2) times as long as
+ * the circle; the next term is smaller by the factor sqrt(1 - e^2). */
 static void limits(void **state)
 {
     (void)state;
@@ -151,8 +152,8 @@ static void chirp(void **state)
             close_to("df/dt", tau, 0, slope, want, 1e-5);
             double a = pow(M_PI * f, -2.0 / 3);
             close_to("tau", a, 0, kd_inspiral_time(eta, a, 0), tau, 1e-13);
-            /* Isaacson's flux, 2 (pi f h)^2/(32 pi) each for h+ and hx face-on; over all directions (1 + c^2)^2/4 +
-             * c^2 averages to 4/5, of a face-on value of 2 */
+            /* Isaacson's flux, face-on 2 (pi f h)^2/(32 pi) for each of h+ and hx. The factor (1 + c^2)^2/4 + c^2 is 2
+             * face-on and has the mean 4/5 over all directions */
             double strain = kd_inspiral_strain(eta, f, 1e9),
                    flux = pow(2 * M_PI * f * strain, 2) / (32 * M_PI) * 2 * 0.4;
             close_to("power", a, 0, flux * 4 * M_PI * 1e18, kd_inspiral_power(eta, a, 0), 1e-12);

@@ -87,8 +87,8 @@ static void numbers_in_print(void **state)
 }
 
 /* E and L of circular orbits both have their minimum at the ISCO. At 5 % of the distance to the photon orbit on either
- * side, they differ from it by a hundred thousand ulp. The slope there is a symmetric difference of step h, whose error
- * is h^2 times the third derivative. */
+ * side, E and L differ from the minimum by a hundred thousand ulp. The slope there is a symmetric difference of step h,
+ * whose error is h^2 times the third derivative. */
 static void the_isco_is_the_minimum(void **state)
 {
     (void)state;
@@ -104,7 +104,7 @@ static void the_isco_is_the_minimum(void **state)
             double h = 1e-3 * gap,
                    slope = (functions[i](kd_hole(a), r + h) - functions[i](kd_hole(a), r - h)) / (2 * h);
             double bend = (left + right - 2 * at) / (step * step);
-            /* slope/(bend * gap) is the offset of the minimum as a share of the gap. */
+            /* slope/(bend * gap): offset of the minimum from the ISCO, as a fraction of the gap */
             if (!(fabs(slope) < 1e-5 * bend * gap))
                 fail_msg("a = %g: the slope of %s at the ISCO is %g", a, i ? "L" : "E", slope);
         }

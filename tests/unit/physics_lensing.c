@@ -34,7 +34,7 @@ static void against_the_oracle(void **state)
         double d = kd_lensing_edge(&c, &p, e->order, e->source);
         if (!(fabs(d / e->distance - 1) < 4e-14 + 1e-16 / sqrt(1 - e->spin)))
             fail_msg("row %zu: %.17g, not %.17g", i, d, e->distance);
-        /* kd_lensing_source of d is the source. |d ln r/d ln d| is at most some 10, except at infinity and at the
+        /* kd_lensing_source must invert d. |d ln r/d ln d| is at most about 10, except at infinity and at the
          * horizon */
         double r = kd_lensing_source(&c, &p, e->order, d);
         if (e->source == 6 && !(fabs(r / 6 - 1) < 1e-12))
@@ -89,9 +89,9 @@ static void rays_agree(void **state)
     }
 }
 
-/* From order to order d falls by a factor that tends to e^-gamma, at any source radius; the difference from that
- * limit falls by about the same factor, or is of order d. The test goes to n = 30, where d is 1e-41 at a = 0 and still
- * has all its digits. Near a = 1 the limit is reached only at high orders. */
+/* From order to order d falls by a factor that tends to e^-gamma, at any source radius. The difference from the limit
+ * falls by about the same factor, or is of order d. The test goes to n = 30, where d is 1e-41 at a = 0 and still has
+ * all its digits. Near a = 1 the limit is reached only at high orders. */
 static void demagnification(void **state)
 {
     (void)state;

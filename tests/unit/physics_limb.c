@@ -1,5 +1,6 @@
-/* Tests of the laws of limb darkening: the scattering atmosphere against closed integrals in 30 digits
- * (tests/oracle/scattering_reference.py), the flux of each law, and what a distant ring sends to each inclination. */
+/* Tests of the laws of limb darkening: the scattering atmosphere is compared with closed integrals in 30 digits
+ * (tests/oracle/scattering_reference.py). Also tested: the flux of each law, and the light that a distant ring sends to
+ * each inclination. */
 #include "physics/disk/disk_spectrum.h"
 #include "physics/disk/limb.h"
 #include "physics/disk/line_profile.h"
@@ -80,8 +81,8 @@ static double flux_of(double r, double mu, enum kd_limb law)
 }
 
 /* A ring of 1e5 M is nearly at rest in flat space: it sends f(cos i) times the light of an isotropic one to each
- * inclination. The rest is aberration, v^2 = 1e-5, and bending, 1/r. Over all inclinations, by Gauss's rule, the sums
- * agree: light is conserved. */
+ * inclination. The remaining differences are aberration, v^2 = 1e-5, and the bending of light, 1/r. Over all
+ * inclinations, by Gauss's rule, the sums agree: light is conserved. */
 static void test_distant_ring(void **state)
 {
     static const double at[4] = { 0.0694318442029737, 0.330009478207572, 0.669990521792428, 0.930568155797026 },

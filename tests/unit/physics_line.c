@@ -57,10 +57,10 @@ static double redshift(const struct kd_hole *hole, double r, double lambda)
 }
 
 /* A ray that is integrated backwards from the place of a ring's image meets the ring, with the same redshift and the
- * same angle to the normal. The reference's cosine of this angle is |p_z| over the energy in the gas's frame.
- * Interpolation leaves an error of 3e-4 of r at 75 degrees and a = 0.998, and almost none elsewhere. mu = g sqrt(eta)/r
- * has that error of r and, where light grazes the disk, twice that of beta. g depends on the place through alpha alone,
- * which the reference is given too, so that only rounding is left. */
+ * same angle to the normal. The reference's cosine of this angle is |p_z| over the energy in the gas's frame. The
+ * interpolation error is 3e-4 of r at 75 degrees and a = 0.998, and almost 0 elsewhere. mu = g sqrt(eta)/r has that
+ * error of r and, where light grazes the disk, twice the error of beta. g depends on alpha alone, and the reference has
+ * the same alpha. The error of g is therefore rounding. */
 static void test_rings_are_where_rays_lead(void **state)
 {
     static const double holes[][2] = { { 0, 0 }, { 0.9, 0 }, { 0.998, 0 }, { -0.7, 0 }, { 0, 0.95 }, { 0.6, -0.79 } },
@@ -90,8 +90,8 @@ static void test_rings_are_where_rays_lead(void **state)
         }
 }
 
-/* The nodes of the table lie where rays meet their ring, although most are found from one ray and one step whose result
- * is not checked. The error is within 5e-7 of r up to 80 degrees, 3e-6 at 85, and 2e-5 next to edge-on. */
+/* The nodes of the table lie where rays meet their ring. Most nodes are found from one ray and one step whose result is
+ * not checked. The error is within 5e-7 of r up to 80 degrees, 3e-6 at 85, and 2e-5 next to edge-on. */
 static void test_nodes(void **state)
 {
     static const double holes[][2] = { { 0, 0 },      { 0.9, 0 },  { 0.998, 0 }, { 0.99999, 0 },
@@ -143,7 +143,7 @@ static void test_next_to_edge_on(void **state)
     }
 }
 
-/* From below the disk looks as from above; within three degrees of edge on there is no table. */
+/* The disk looks the same from below as from above. Within three degrees of edge-on there is no table. */
 static void test_inclinations(void **state)
 {
     static struct kd_disk_image other;
@@ -286,7 +286,7 @@ static void test_told_error(void **state)
     }
 }
 
-/* Splitting bins, or adding edges beyond the line, changes nothing. */
+/* Splitting bins, or adding edges beyond the line, does not change the result. */
 static void test_bins_add_up(void **state)
 {
     double coarse[41], fine[81], few[40], many[80];

@@ -64,9 +64,9 @@ static void crossings(void **state)
     }
 }
 
-/* The error estimates must not be so large that any error passes. Errors of direct images are a few roundings. Those of
- * the next order are up to a hundred times larger, because half a turn near the photon sphere multiplies them by up to
- * e^pi. The estimates grow in proportion. */
+/* The error estimates must not be so large that they allow any error. Errors of direct images are a few roundings.
+ * Those of the next order are up to a hundred times larger, because half a turn near the photon sphere multiplies them
+ * by up to e^pi. The estimates grow in proportion. */
 static void accuracy(void **state)
 {
     (void)state;
@@ -181,9 +181,9 @@ static void the_axis(void **state)
     within(0, 0, "phi on the axis", fmin(fabs(on - left), fabs(on - right)), 1e-8);
 }
 
-/* A ray that leaves and comes back to the observer's radius is split in two: delays and azimuths of the outward
- * start continue those of the inward one. A crossing seen from far away equals that seen from nearby plus the way
- * between the observers. */
+/* A ray that leaves and comes back to the observer's radius is split in two: delays and azimuths of the outward start
+ * continue those of the inward one. A crossing seen from far away has the azimuth and delay seen from nearby, plus
+ * those of the path between the two observers. */
 static void observers_along_a_ray(void **state)
 {
     (void)state;
@@ -236,8 +236,8 @@ static void principal_rays(void **state)
     assert_true(p.fate == KD_NULL_ESCAPED && p.crossings == 0 && p.sky_u == 0.5 && fabs(p.sky_phi) == 0);
     centre.outward = false;
     assert_int_equal(kd_null_trace(&centre).fate, KD_NULL_CAPTURED);
-    /* lambda = a sin^2, eta = -(a cos^2)^2: theta constant, dphi/dr = a/Delta outwards, subtracted because the ray
-     * is followed backwards */
+    /* lambda = a sin^2, eta = -(a cos^2)^2: theta is constant and dphi/dr = a/Delta outwards; the azimuth is subtracted
+     * because the ray is followed backwards */
     double a = 0.9, s = sqrt(0.75), plus = 1 + sqrt(1 - a * a), minus = 1 - sqrt(1 - a * a);
     struct kd_null_ray principal = {
         .hole = kd_hole_of(a), .radius = 10, .cos_theta = 0.5, .alpha = -a * s, .orders = 3, .outward = true
@@ -259,8 +259,8 @@ static void principal_rays(void **state)
     within(0, 0, "phi in the plane", fabs(p.sky_phi + turn), 1e-14);
 }
 
-/* Rays near the critical curve have all 32 orders. Each half turn takes the same time, until the error has grown to the
- * distance from the photon sphere. All numbers are finite, and the estimates grow. */
+/* Rays near the critical curve have all 32 orders. Each half turn takes the same time until the error has grown to the
+ * distance from the photon sphere. All numbers are finite, and the error estimates grow. */
 static void many_orders(void **state)
 {
     (void)state;
@@ -326,7 +326,7 @@ static void neighbours(void **state)
     }
 }
 
-/* A ray on the critical curve to the last bits is still traced, and marked as one whose fate is uncertain. */
+/* A ray that is on the critical curve to the last bits is still traced, and is marked as having an uncertain fate. */
 static void exactly_critical(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Light about holes whose horizons are close to each other, where integrals over 1/(r - r+) and 1/(r - r-) agree in
- * many digits, and their difference is that over 1/Delta. The reference is a quadrature in 38 digits. */
+/* Light about holes whose horizons are close to each other, where the integrals over 1/(r - r+) and 1/(r - r-) agree in
+ * many digits. Their difference gives the integral over 1/Delta. The reference is a quadrature in 38 digits. */
 #include "null_close.h"
 
 #include "physics/math/carlson.h"

@@ -50,9 +50,9 @@ static void say(const struct kd_null_ray *ray, const char *what, int n, double g
              got, want, fabs(got - want), allowed);
 }
 
-/* The reference has an error of 1e-12 a step in a coordinate that is 1e6 at first, some 1e-11 on arrival. Errors of
- * both methods grow along the way by the condition number, which the estimates contain, times about ten DBL_EPSILON.
- * `start` is the error of the reference's start. Returns whether the two had anything to compare. */
+/* The reference has an error of 1e-12 a step in a coordinate that is 1e6 at first, some 1e-11 on arrival. Along the way
+ * the errors of both methods grow to about ten DBL_EPSILON times the condition number, which is part of the estimates.
+ * `start` is the error of the reference's start. Returns false if there was no crossing to compare. */
 static void compare(const struct kd_null_ray *ray, struct ks_photon photon, double start)
 {
     struct kd_null_path p = kd_null_trace(ray);
@@ -175,7 +175,7 @@ static struct kd_null_ray from_afar(const struct kd_hole *hole, double u, double
 
 static int charged_rays = 150;
 
-/* The closed form about charged holes loses no digit: its r and its phi are off by at most 1e-13 (1 + kappa), also
+/* The closed form about charged holes loses no digit: its errors of r and phi are at most 1e-13 (1 + kappa), also
  * where the horizons are within 1e-4 M of each other. kappa is the condition number for the labels, here by a
  * difference of 1e-6. The reference is in long double, for observers at 1000 M, since infinity has no exact start. */
 static void charged_to_the_last_digits(void **state)

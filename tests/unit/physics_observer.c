@@ -24,7 +24,8 @@ typedef long double vector[4], matrix[4][4];
 static void metric(const struct kd_vantage *at, matrix g)
 {
     long double a = at->hole.a, r = at->r, u = at->u, s = at->s, sigma = r * r + a * a * u * u;
-    /* r^2 - 2r + a^2 would cancel near the horizon. sqrtl makes this more accurate than the code's double */
+    /* r^2 - 2r + a^2 would cancel near the horizon. With sqrtl this form is more accurate than the double of the code
+     * under test */
     long double root = sqrtl((1 - a) * (1 + a)), delta = (r - 1 - root) * (r - 1 + root);
     vector time = { [T] = 1, [PHI] = -a * s * s }, turn = { [T] = -a, [PHI] = r * r + a * a };
     for (int i = 0; i < 4; i++)
@@ -64,7 +65,7 @@ static void raise_index(matrix g, const vector p, vector x)
 
 static long double dot(const vector p, const vector x) { return p[0] * x[0] + p[1] * x[1] + p[2] * x[2] + p[3] * x[3]; }
 
-/* Covariant components in Boyer-Lindquist coordinates. */
+/* Components are covariant, in Boyer-Lindquist coordinates. */
 static void lower(const struct kd_vantage *at, const struct kd_covector *p, vector out)
 {
     long double root = sqrtl((1 - (long double)at->hole.a) * (1 + (long double)at->hole.a));
@@ -92,7 +93,7 @@ static const struct kd_observer_motion motions[] = {
     { .observer = KD_OBSERVER_VELOCITY, .velocity = { -0.9, 0, 0.3 } },
 };
 
-/* Calls `each` for places just outside the limit of where the observer can be, and up to a million times as far. */
+/* Calls `each` for places from just outside the limit of where the observer can be to a million times as far out. */
 typedef void check(const struct kd_observer_motion *m, const struct kd_vantage *at, const struct kd_tetrad *frame);
 static void everywhere(check *each)
 {
@@ -155,7 +156,8 @@ static void slope(const struct kd_vantage *at, matrix out)
             out[i][j] = (g[0][i][j] - 8 * g[1][i][j] + 8 * g[2][i][j] - g[3][i][j]) / (12 * h);
 }
 
-/* The radial force on a body that stays at its radius and latitude, 1/2 u^i u^j d_r g_ij, relative to its size. */
+/* The radial force on a body that stays at its radius and latitude, 1/2 u^i u^j d_r g_ij, divided by the size of its
+ * terms. */
 static double force(const struct kd_vantage *at, const vector up)
 {
     matrix d;
@@ -382,7 +384,7 @@ static double square_gamma(const struct kd_observer_motion *m, const struct kd_v
 }
 
 /* Components survive the conversion into the frame and back, and a photon is seen in the direction from which it comes.
- * This holds also for a frame whose axes are mixed by rotations. */
+ * The same is tested for a frame whose axes are mixed by rotations. */
 static void back_and_forth_at(const struct kd_observer_motion *m, const struct kd_vantage *at,
                               const struct kd_tetrad *frame)
 {

@@ -97,8 +97,8 @@ static void places_are_the_quadratures(void **state)
     }
 }
 
-/* Both methods agree with the quadratures. The steps are so many that only rounding remains, including that of the
- * constants. */
+/* Both methods agree with the quadratures. There are so many steps that the only error is rounding, including the
+ * rounding of the constants. */
 static void paths_are_the_quadratures(void **state)
 {
     (void)state;
@@ -182,7 +182,7 @@ static void yoshida_does_not_drift(void **state)
                   yoshida.worst, yoshida.slope, nystroem.worst, nystroem.slope);
     assert_true(yoshida.worst <= 1e-13);
     assert_true(fabs(yoshida.slope) * 1000 <= 1e-15);
-    /* shows that the fit finds growth where the drift grows */
+    /* shows that the fit finds growth when the drift grows */
     assert_true(nystroem.slope * 1000 > 0.5 * nystroem.worst);
 }
 
@@ -212,8 +212,8 @@ static void first_integrals_stay(void **state)
     }
 }
 
-/* C. Will 2014, Living Rev. Relativity 17, 4, table 5: 42.98'' per century; elements of Mercury's orbit as given
- * there. */
+/* Advance of Mercury's perihelion: C. Will 2014, Living Rev. Relativity 17, 4, table 5: 42.98'' per century; elements
+ * of Mercury's orbit as given there. */
 static void mercury_advances(void **state)
 {
     (void)state;
@@ -477,7 +477,7 @@ static void lanes_are_paths(void **state)
 }
 
 /* The separatrix is p = 6 + 2e for Schwarzschild's hole (C. Cutler, D. Kennefick & E. Poisson 1994, Phys. Rev. D 50,
- * 3816), r_isco for circles, 2 r_mb for parabolas. */
+ * 3816), r_isco for circles, and 2 r_mb for parabolas. */
 static void separatrix(void **state)
 {
     (void)state;

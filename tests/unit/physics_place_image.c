@@ -1,6 +1,6 @@
 /* Tests of images of places. Places in the equatorial plane of a spinning hole are compared with rays in closed form,
- * which cross the plane there. Places off the plane of a hole without spin are compared with the same rays in a plane
- * that is rotated to be the equator's. */
+ * which cross the plane there. For a hole without spin, places off the plane are compared with the same rays after a
+ * rotation that moves the place into the equatorial plane. */
 #include "physics/null/null_geodesic.h"
 #include "physics/null/place_image.h"
 

@@ -28,7 +28,8 @@ static double within(const char *what, const struct kd_hole *hole, double r, dou
     return off;
 }
 
-/* Near a = 1 the ISCO and the horizons draw together, so that their distances have fewer digits. */
+/* Near a = 1 the ISCO and the horizons are close to each other, so that the distances between them have fewer
+ * digits. */
 static void from_the_metric(void **state)
 {
     (void)state;

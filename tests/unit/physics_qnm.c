@@ -99,9 +99,9 @@ static void public_tables(void **state)
     close_to("omega", 2, 2, 0, 0.68, found(2, 2, 0, 0.68).omega, 0.5239751042900845 - 0.08151262363119974 * I, 1e-13);
 }
 
-/* In the whole domain each mode is one curve, without a jump to a neighbouring one. A walk in steps so fine that it
- * cannot change curves meets every value that kd_qnm finds individually, and a walk back returns to the start. Most
- * neighbours are 1e-2 away. */
+/* In the whole domain each mode is one curve, without a jump to a neighbouring one. The spin is increased in steps so
+ * small that the mode cannot change to another curve. Every value on the way equals the one that kd_qnm finds
+ * individually, and the way back ends at the start. Most neighbouring modes are 1e-2 away. */
 static void one_branch(void **state)
 {
     (void)state;

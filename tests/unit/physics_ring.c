@@ -39,7 +39,7 @@ static struct kd_ring_image_point image_of(double a, double q, double i_deg, dou
     return point;
 }
 
-/* The constants of the ray follow from the place of the image, and so does g; all agree to 1e-12. */
+/* The constants of the ray follow from the place of the image, and with them g. All agree to 1e-12. */
 static void without_spin(void **state)
 {
     (void)state;
@@ -81,8 +81,8 @@ static void with_spin(void **state)
         }
 }
 
-/* Every point of every ring has images, an odd number of them, because two appear or vanish together at a caustic.
- * Several of one order occur only at high inclination, of order 0 only nearly edge-on. */
+/* Every point of every ring has an odd number of images, because two images appear or vanish together at a caustic.
+ * Several images of one order occur only at high inclination, and several of order 0 only nearly edge-on. */
 static void everywhere(void **state)
 {
     static const double spins[] = { 0, 0.5, -0.9, 0.998 }, inclinations[] = { 0, 0.01, 20, 60, 80, 89 };
@@ -109,7 +109,8 @@ static void everywhere(void **state)
     assert_true(several > 0);
 }
 
-/* Height and distance are as accurate as r - r+. At 1 - a = 1e-12 this has an error of 1e-16 over a range of 1e-6. */
+/* Height and distance are as accurate as r - r+. At 1 - a = 1e-12, r - r+ has an error of 1e-16 over a range of
+ * 1e-6. */
 static void embedding(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of the sky that observers see, compared with frames and rays in Kerr-Schild coordinates: which directions are
- * dark, the shift of light from the others, its smallest and largest value, and the size of the dark disk. */
+/* Tests of the sky that observers see, compared with frames and rays in Kerr-Schild coordinates. Tested are the dark
+ * directions, the shift of light from all others, its smallest and largest value, and the size of the dark disk. */
 #include "kerr_schild.h"
 #include "physics/null/sky_view.h"
 #include "physics/spacetime/kerr.h"

@@ -1,4 +1,4 @@
-/* Tests of tidal disruption, compared with published numbers and tested for consistency. */
+/* Tests of tidal disruption: comparison with published numbers, and consistency of the functions with each other. */
 #include "physics/waves/tidal.h"
 #include "physics/spacetime/kerr.h"
 #include "physics/math/quadrature.h"
@@ -38,7 +38,7 @@ static void in_print(void **state)
     close_to("beta", kd_tidal_penetration(t, kd_tidal_radius(t) / 2), 2, 1e-15);
 }
 
-/* The substitution t = t_fb/x^3 maps the tail to (0, 1). */
+/* The substitution t = t_fb/x^3 maps the tail of the integral to (0, 1). */
 static double arrival(double x, double y, const void *context)
 {
     const struct kd_tidal *t = context;
@@ -47,7 +47,7 @@ static double arrival(double x, double y, const void *context)
     return kd_tidal_fallback_rate(*t, first / (x * x * x)) * 3 * first / pow(x, 4);
 }
 
-/* Half of the star returns. */
+/* Half of the star's mass returns. */
 static void half_the_star(void **state)
 {
     (void)state;

@@ -192,8 +192,8 @@ static void it_ends_where_a_camera_can_be_at_last(void **state)
     }
 }
 
-/* Observers that stay at one radius: by the metric their proper time advances as it should. Other properties of each
- * kind are tested too. */
+/* Observers that stay at one radius: the rate of their proper time is compared with the metric. Other properties of
+ * each kind are tested too. */
 static void others_stay_and_go_round(void **state)
 {
     (void)state;

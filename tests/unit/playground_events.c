@@ -8,9 +8,9 @@
 
 #include <stdio.h>
 
-/* Two equal bodies far from the hole spiral together. The loss is amplified A times, and the distance enlarged A^(2/5)
- * times, so that the ratio of attraction and loss is the same. The time from d0 to d1 is T(d0) - T(d1), by P. C. Peters
- * 1964, eq. 5.10, in physics/waves/inspiral.c. */
+/* Two equal bodies far from the hole spiral together. The loss of energy is amplified A times and the distance is
+ * A^(2/5) times as large, so that the ratio of attraction to loss is unchanged. The time from d0 to d1 is T(d0) -
+ * T(d1), by P. C. Peters 1964, eq. 5.10, in physics/waves/inspiral.c. */
 static void pairs_spiral_in_as_peters_says(void **state)
 {
     (void)state;
@@ -49,8 +49,8 @@ static void pairs_spiral_in_as_peters_says(void **state)
     }
 }
 
-/* A light body and the hole spiral together as Peters says, far out in the hole's potential, which differs from
- * Newton's by 2/r^2 there. */
+/* A light body spirals towards the hole by Peters's formula, far out, where the hole's potential differs from Newton's
+ * by 2/r^2. */
 static void spiral_in(double mass, double amplification)
 {
     struct kd_playground_params params = playground_quiet();
@@ -83,8 +83,8 @@ static void a_body_spirals_into_the_hole_as_peters_says(void **state)
     spiral_in(0.3, 3e4);
 }
 
-/* Near the hole the power is Peters', (32/5) m^2 (1 + m)/r^5 for a circle, and the rate of the inspiral is his times
- * (r - 2)^3/(r^2 (r - 6)). */
+/* Near the hole the power is that of Peters, (32/5) m^2 (1 + m)/r^5 for a circle. The rate of the inspiral is Peters's
+ * rate times (r - 2)^3/(r^2 (r - 6)). */
 static void near_the_hole_it_is_his_power_and_another_pace(void **state)
 {
     (void)state;
@@ -98,7 +98,7 @@ static void near_the_hole_it_is_his_power_and_another_pace(void **state)
     playground_advance(p, 50);
     assert_true(fabs(p->spent.radiated / (p->t * 6.4 * m * strength / pow(r0, 5)) - 1) < 5e-3);
     double r = r0, expected = 0;
-    for (double x = r0 - 0.005; x > r1; x -= 0.01) /* dt/dr by his rate, 64/5 m (1 + m)/r^3, and the factor */
+    for (double x = r0 - 0.005; x > r1; x -= 0.01) /* dt/dr by Peters's rate, 64/5 m (1 + m)/r^3, and the factor */
         expected += 0.01 * pow(x, 3) / (12.8 * strength) * x * x * (x - 6) / pow(x - 2, 3);
     while (r > r1 && p->t < 2 * expected) {
         playground_advance(p, expected / 1000);
@@ -151,7 +151,7 @@ static void mergers_keep_mass_and_momentum(void **state)
         p, (struct kd_playground_body) { .mass = 3e-4, .radius = 0.5, .x = { 1e5, 5, 0.1 }, .v = { 0.01, -0.2, 0 } });
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-4, .radius = 0.3, .x = { 1e5, -5, 0 }, .v = { 0, 0.3, 0.01 } });
-    /* The bodies are so fast that they touch only within a step, and at no step's end. */
+    /* The bodies are so fast that they touch only within a step, and not at the end of any step. */
     playground_put(
         p, (struct kd_playground_body) { .mass = 1e-5, .radius = 0.01, .x = { -1e5, -5, 0 }, .v = { 0, 0.99, 0 } });
     playground_put(
@@ -174,8 +174,9 @@ static void mergers_keep_mass_and_momentum(void **state)
     kd_playground_destroy(p);
 }
 
-/* The slope of the rate at which debris comes back, by least squares over the decade that begins at twice the time of
- * the first piece. The counting does not use Kepler's law. Half of the debris is bound. */
+/* The logarithmic slope of the rate at which debris comes back, by least squares over the decade of time that begins at
+ * twice the return time of the first piece. The returns are counted without Kepler's law. Half of the debris is
+ * bound. */
 static void debris_comes_back_as_the_fifth_third_power(void **state)
 {
     (void)state;
@@ -350,8 +351,8 @@ static void four_thousand_at_one_point(void **state)
     }
 }
 
-/* Debris far out moves by the same distance however short the strides are. In single precision neither its place nor
- * its velocity would change at all. */
+/* Debris far out moves by the same distance however short the strides are. In single precision, neither its place nor
+ * its velocity would change. */
 static void far_debris_moves(void **state)
 {
     (void)state;
@@ -438,7 +439,7 @@ static void the_least_stars(void **state)
 }
 
 /* A series without end keeps rows at equal distances from the beginning, however long it gets. In files the last row is
- * the present. */
+ * the present state. */
 static void series_of_no_end_are_even(void **state)
 {
     (void)state;

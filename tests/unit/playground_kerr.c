@@ -160,9 +160,9 @@ static void circles_go_round_evenly(void **state)
     }
 }
 
-/* If the budget ends within a stride, all bodies are where they were at its beginning, at one common time. Further
- * calls bring them to the same bits as a single call with enough budget, also through a snapshot. A call takes at most
- * the budget's number of steps, however long a stride is. */
+/* If the budget ends within a stride, all bodies are where they were at the beginning of the stride, at one common
+ * time. After further calls, also from a snapshot, the state equals bit by bit that of a single call with enough
+ * budget. A call takes at most the budget's number of steps, however long a stride is. */
 static void bodies_are_at_one_time(void **state)
 {
     (void)state;
@@ -174,7 +174,7 @@ static void bodies_are_at_one_time(void **state)
     struct kd_playground_progress progress;
     struct kd_error error = { 0 };
     playground_advance(p, 2000);
-    q->params.budget = 37; /* far less than a stride takes */
+    q->params.budget = 37; /* less than a stride takes */
     for (int k = 0; q->t < 2000; k++) {
         const double t = q->t, x = q->bodies[2].x[0];
         kd_playground_advance(q, 2000 - q->t, &progress);
@@ -227,7 +227,7 @@ static void bodies_are_at_one_time(void **state)
     kd_playground_destroy(q);
 }
 
-/* The playground's time has a largest value, and reaching it is reported. No snapshot may exceed it. */
+/* The playground's time has a largest value. Reaching it is reported, and no snapshot may exceed it. */
 static void time_has_an_end(void **state)
 {
     (void)state;

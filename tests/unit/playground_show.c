@@ -1,5 +1,5 @@
-/* The contents of pictures of a playground: bodies in the metric's coordinates, and debris on a grid whose total is
- * that of the pieces. */
+/* Tests of the contents of pictures of a playground: bodies in the metric's coordinates, and debris on a grid whose
+ * total equals that of the pieces. */
 #include "playground_support.h"
 
 #include "playground/debris.h"
@@ -189,7 +189,7 @@ static void a_star_is_shown(void **state)
     struct kd_playground *p = playground_read("{\"preset\":\"disruption\"}");
     struct kd_playground_params looks = p->params;
     struct kd_error error = { 0 };
-    playground_advance(p, 2600); /* now a part of the star is left */
+    playground_advance(p, 2600); /* from now on only a part of the star is left */
     const double rate = p->rate;
     looks.debris_depth = 3;
     looks.debris_temperature_k = 7000;

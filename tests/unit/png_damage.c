@@ -1,5 +1,5 @@
-/* PNG files that are cut, altered or inconsistent give KD_EINVAL and a message, and never a crash or a leak (the
- * sanitizers watch). */
+/* Tests that PNG files that are cut, altered or inconsistent give KD_EINVAL and a message, and never a crash or a leak
+ * (sanitizers detect these). */
 #include "image/png.h"
 
 #include <setjmp.h>
@@ -31,7 +31,7 @@ static void sample(struct kd_buffer *file, int depth)
     assert_int_equal(kd_png_encode(&params, file, NULL), KD_OK);
 }
 
-/* Decodes from a block of exactly that size, so that a read past the end is noticed. */
+/* Decodes from a block of exactly that size, so that a sanitizer detects a read past the end. */
 static enum kd_status decode_exact(const uint8_t *data, size_t size)
 {
     uint8_t *copy = malloc(size ? size : 1);
@@ -67,7 +67,7 @@ static void every_cut_is_refused(void **state)
     }
 }
 
-/* Every chunk has a checksum, so that a flipped bit anywhere after the lengths must be noticed. */
+/* Every chunk has a checksum, so a flipped bit anywhere after the lengths must be detected. */
 static void every_flipped_bit_is_refused(void **state)
 {
     (void)state;
@@ -193,8 +193,8 @@ static void text_is_limited(void **state)
     free(body);
 }
 
-/* libpng would skip such a chunk with a warning, but it might be the one with the scene. So the file is refused and not
- * read without it. */
+/* libpng would skip such a chunk with a warning. The chunk may be the one with the scene, so the file is refused
+ * instead of being read without it. */
 static void no_text_is_lost_in_silence(void **state)
 {
     (void)state;

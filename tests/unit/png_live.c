@@ -1,5 +1,5 @@
-/* Live frames by every engine that was built in: pixels compared with what libpng decodes; each chunk and checksum
- * tested with zlib. */
+/* Tests of live frames by every engine that was built in: pixels are compared with what libpng decodes, and each chunk
+ * and checksum is tested with zlib. */
 #include "base/parallel.h"
 #include "image/png.h"
 #include "image/png_live.h"
@@ -144,7 +144,7 @@ static struct kd_png_live *encoder(enum kd_deflate_engine engine)
     return live;
 }
 
-/* One encoder for all frames, so that anything left over from a large frame would show in a small one. */
+/* One encoder is used for all frames, so that anything left over from a large frame would show in a small one. */
 static void pixels_survive(void **state)
 {
     (void)state;
@@ -184,8 +184,8 @@ static void inflate_all(const struct kd_buffer *stream, const uint8_t *data, siz
     free(back);
 }
 
-/* For every engine and level, concatenated pieces are one stream, whatever kinds of blocks they end with, and the
- * sums of the pieces combine to that of the whole. */
+/* For every engine and level, concatenated pieces form one stream, whatever kind of block each piece ends with. The
+ * checksums of the pieces combine to the checksum of the whole. */
 static void pieces_are_one_stream(void **state)
 {
     (void)state;

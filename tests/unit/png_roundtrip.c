@@ -1,4 +1,5 @@
-/* kd_png_decode reads back what kd_png_encode writes; other colour types, written by libpng itself, come out as RGB. */
+/* Tests that kd_png_decode reads back what kd_png_encode writes, and that other colour types, written by libpng itself,
+ * are read as RGB. */
 #include "base/parallel.h"
 #include "image/png.h"
 
@@ -73,8 +74,8 @@ static void fill_picture(uint8_t *pixels, uint32_t width, uint32_t height, size_
             *pixels++ = (uint8_t)(y % 300 < 100 ? random_bits() >> 28 : y % 300 < 200 ? i * y >> 6 : 0);
 }
 
-/* A picture of several strips is the same file on any number of threads, and has the right pixels; The same holds for
- * rows so long that each is a strip. */
+/* A picture of several strips is the same file on any number of threads, and has the right pixels. The same holds for
+ * rows so long that each row is a strip. */
 static void strips_survive(uint32_t width, uint32_t height, int depth, int level)
 {
     static const unsigned threads[] = { 1, 2, 3, 7, 0 };
@@ -180,7 +181,7 @@ static void text_survives(void **state)
     kd_buffer_finish(&file);
 }
 
-/* A round trip cannot notice bytes swapped in both directions; an uncompressed file can. */
+/* A round trip cannot detect bytes that are swapped both in writing and in reading; an uncompressed file can. */
 static void sixteen_bits_are_big_endian(void **state)
 {
     (void)state;
@@ -371,7 +372,7 @@ static void every_colour_type_is_read(void **state)
     }
 }
 
-/* Printed, not asserted: the cost of the live view for every frame. */
+/* Prints, without asserting, the time that the live view needs to encode a frame. */
 static void time_of_a_live_frame(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of external programs that are run: how they end, along with their children, what they output, and how
- * idleness is noticed. */
+/* Tests of running external programs: how they and their children end, their output, and how an idle program is
+ * detected. */
 #include "base/program.h"
 
 #include <fcntl.h>
@@ -27,8 +27,8 @@ static struct kd_program start(const char *script)
 
 static void doze(void) { nanosleep(&(struct timespec) { .tv_nsec = 1000000 }, NULL); }
 
-/* Checks that the process whose number is the last word of the output has ended: it is gone, or a zombie that its
- * new parent has not reaped yet. */
+/* Checks that the process whose number is the last word of the output has ended: it no longer exists, or is a zombie
+ * that its new parent has not reaped yet. */
 static void expect_gone(const struct kd_program *p)
 {
     char path[64], state = 0;
@@ -106,7 +106,7 @@ static void test_its_group_ends_with_it(void **state)
     expect_gone(&p);
 }
 
-/* Time passes only in the numbers given to the functions. */
+/* Time passes only by the numbers that are given to the functions. */
 static void test_one_that_does_nothing(void **state)
 {
     (void)state;

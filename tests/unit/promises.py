@@ -5,8 +5,8 @@ promises.py ROOT PROGRAM     exit 1 naming each that does not hold. Exit 77: the
 
 - PROGRAM is linked with the libraries below alone. A new one needs a line with its use: an archive library that serves
   one format of many, or codecs that nothing uses, cost users tens of megabytes.
-- SECURITY.md names a private way to report, and each address of the maintainers in the packages has a valid form and
-  is explained there, so that nobody waits for an answer from an address that does not exist.
+- SECURITY.md names a private way to report vulnerabilities. Each maintainer's address in the packages has a valid form
+  and is explained in SECURITY.md, so that nobody waits for an answer from an address that does not exist.
 - README.md states how long the tests take and that scripts/test names the skipped ones, as docs/testing.md explains
   at length.
 """

@@ -1,5 +1,5 @@
-/* Tests of kd_pulse, which distinguishes a thread that hangs from one that works, and from a process that was stopped
- * for a while. */
+/* Tests of kd_pulse, which tells a thread that hangs from a thread that works, and from a process that was stopped for
+ * a while. */
 #include "server/render/pulse.h"
 
 #include <setjmp.h>
@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#define DEADLINE_MS 20u /* deadline of a submission, which is the longest time between two calls of kd_pulse */
+#define DEADLINE_MS 20u /* deadline of a submission: the longest allowed time between two calls of kd_pulse */
 
 static void sleep_ms(double ms) { nanosleep(&(struct timespec) { .tv_nsec = (long)(1e6 * ms) }, NULL); }
 

@@ -1,5 +1,5 @@
-/* Tests of quantities by name: every table is consistent, requests are read or refused with the reason, ranges nest,
- * and all formats of an answer agree. */
+/* Tests of quantities by name: every table is consistent, requests are read or refused with the reason, ranges may be
+ * nested, and all formats of an answer agree. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

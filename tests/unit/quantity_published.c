@@ -154,8 +154,8 @@ static void energy_is_conserved(void **state)
     }
 }
 
-/* A face-on ring at a = 0 has g = sqrt(1 - 3/r) all round; the formula of flat space agrees there, and lensing makes
- * no difference. */
+/* A face-on ring at a = 0 has g = sqrt(1 - 3/r) all round. The formula for straight rays gives the same, because
+ * lensing does not change g face-on. */
 static void face_on(void **state)
 {
     (void)state;
@@ -163,7 +163,7 @@ static void face_on(void **state)
     published("g", ASK("redshift", "g", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
     published("g of order 1", ASK("redshift", "g_1", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
     published("g_flat", ASK("redshift", "g_flat", "spin=0", "inclination_deg=0", "r=6", "phi_deg=70"), want, 1e-15);
-    /* Seen from below everything is upside down with the same colours. */
+    /* Seen from below, the picture is upside down and has the same colours. */
     double above = ASK("redshift", "g", "inclination_deg=70", "phi_deg=200"),
            below = ASK("redshift", "g", "inclination_deg=110", "phi_deg=200");
     published("g from below", below, above, 1e-12);

@@ -36,7 +36,7 @@ def erlang_c(n, load):
 
 
 def waits(n, load, count, draw, seed, maxconn=1, limit=10**9, retries=5, patience=math.inf):
-    """Seconds that pieces of work waited beyond their own time, by number, and the statuses of the answers. All pieces
+    """Seconds that each piece of work waited beyond its own time, and the statuses of the answers. All pieces
     have the same estimated time, so that the scheduler cannot know which are short.
     """
     rng, env = random.Random(seed), simpy.Environment()
@@ -60,7 +60,7 @@ def exponential(rng):
 class Queues(unittest.TestCase):
     def near(self, found, expected):
         """The mean is within four standard errors, which are estimated from the means of thirty batches because
-        successive waits are correlated. The standard error must be small, else the test could not fail."""
+        successive waits are correlated. The standard error must be small; otherwise the test could not fail."""
         size = len(found) // 30
         batches = [statistics.mean(found[k * size : (k + 1) * size]) for k in range(30)]
         error = statistics.stdev(batches) / math.sqrt(len(batches))
@@ -136,7 +136,7 @@ class Shares(unittest.TestCase):
         self.assertAlmostEqual(picture / refinement, 2, delta=0.1)
 
     def test_clients_have_the_same(self):
-        """Clients have equal shares, also if one of them requests much more."""
+        """Clients have equal shares, even if one of them requests much more."""
         had = self.served([("picture", 0.02, "a")] * 5 + [("picture", 0.01, "b")] * 2, 40)
         self.assertAlmostEqual(sum(had[:5]) / sum(had[5:]), 1, delta=0.05)
 
@@ -156,8 +156,8 @@ class Shares(unittest.TestCase):
         self.assertAlmostEqual(ended["long"], 2.03, delta=1e-6)
 
     def test_a_frame_is_as_the_governor_says(self):
-        """The figures of governor.h: 33 ms alone; two sessions 23 ms each, every 47; eight sessions 7.5 ms each, every
-        60."""
+        """The figures of governor.h. One session: frames of 33 ms. Two sessions: frames of 23 ms each, every 47 ms.
+        Eight sessions: frames of 7.5 ms each, every 60 ms."""
         habits = queueing.Habits(fill=1, floor=0, full=1)
         for n, milliseconds in ((1, 33), (2, 23.3), (8, 7.5)):
             self.assertAlmostEqual(1e3 * queueing.frame_seconds(habits, n), milliseconds, delta=0.1)

@@ -101,8 +101,8 @@ static void redshift(void **state)
 }
 
 /* Radii fall until the turning point and rise after it. If the next crossing is nearer the hole, the ray is still on
- * its way in (so that the photon leaves outwards). If the last crossing was nearer, the ray is on its way out. Rays
- * close to the critical curve cross the plane on both parts, always inside the ISCO at a = 0. */
+ * its way in, that is, the photon leaves outwards. If the crossing before was nearer, the ray is on its way out. Rays
+ * close to the critical curve cross the plane on both parts of the path; at a = 0 they do so always inside the ISCO. */
 static void redshift_knows_the_turning_point(void **state)
 {
     (void)state;
@@ -202,8 +202,8 @@ static struct ks_path seen_by(const struct kd_rays_params *p, const double *look
 }
 
 /* Every kind of observer, in all directions. The reference starts from a velocity that contains the square root of the
- * radial potential, which is 0 where an observer stays or circles. This leaves an error of 1e-8, which grows by a
- * factor of up to 23 with each order. */
+ * radial potential. For an observer at constant radius the potential is 0, and its root has an error of 1e-8, which
+ * grows by a factor of up to 23 with each order. */
 static void observers_that_move(void **state)
 {
     static const double looks[][2] = { { 3, 2 },  { -21, 13 }, { 40, -33 },  { -75, 5 },

@@ -1,5 +1,5 @@
-/* Tests of reading whole files: a file that is not regular does not block the reader, and a file that is too large
- * does not fill its memory. */
+/* Tests of reading whole files: a file that is not regular does not block the reader, and a file that is too large is
+ * not read into memory. */
 #include "base/read.h"
 #include "base/replace.h"
 

@@ -1,5 +1,5 @@
-/* Tests of writing whole files: the order in which things reach the disk, and the fate of files left by killed
- * processes. */
+/* Tests of writing whole files: the order of the operations on the disk, and the removal of files that killed processes
+ * left behind. */
 #include "base/replace.h"
 
 #include <dirent.h>
@@ -21,7 +21,7 @@
 
 static char folder[] = "/tmp/kerrd-replace-XXXXXX";
 
-/* The calls made, in order: "file" and "folder" for the two kinds of fsync, and "rename". The linker directs the
+/* The calls made, in order: "file" and "folder" for the two kinds of fsync, and "rename". The linker redirects the
  * calls here. */
 static char calls[200];
 static int folder_sync_errno; /* errno of fsync of a folder; 0: it succeeds */
@@ -108,8 +108,8 @@ static void make(const char *name, int64_t age_s)
 
 static bool there(const char *name) { return !access(path_of(name), F_OK); }
 
-/* Only old temporary files of kerrd are removed: a recent one may be in use by another process, and others belong to
- * someone else. */
+/* Only old temporary files of kerrd are removed. A recent one may be in use by another process, and others do not
+ * belong to kerrd. */
 static void test_leftovers(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of images of stars in the rim of the shadow, against the lens equation of Schwarzschild and against rays
- * integrated in Kerr-Schild coordinates. */
+/* Tests of images of stars in the rim of the shadow. They are compared with the lens equation of Schwarzschild and with
+ * rays integrated in Kerr-Schild coordinates. */
 #include "kerr_schild.h"
 #include "render/sky/rim_images.h"
 #include "render/view/camera.h"
@@ -69,7 +69,7 @@ static double swept(double b)
 
 static const double closest = 5.19615242270663188; /* b of the critical curve */
 
-/* The tangent of the angle from the hole's centre at which a ray is seen whose b exceeds the critical b by `above`. */
+/* The tangent of the angle from the hole's centre for a ray whose b exceeds the critical b by `above`. */
 static double tangent(double above)
 {
     const double s = closest * (1 + above) * sqrt(1 - 2 / RADIUS) / RADIUS;

@@ -1,4 +1,4 @@
-/* Tests of the place on the sky from which rays next to the critical curve come. It is compared with integration in
+/* Tests of the places on the sky from which rays next to the critical curve come. They are compared with integration in
  * Kerr-Schild coordinates, and with the closed form for each ray of the rim. */
 #include "kerr_schild.h"
 #include "render/view/camera.h"

@@ -1,5 +1,5 @@
-/* Documents that must be refused, each with the JSON pointer and reason expected; and good documents with random
- * damage. */
+/* Tests of documents that must be refused, each with the expected JSON pointer and reason; and of good documents with
+ * random damage. */
 #include "scene_support.h"
 
 #include "document/scan.h"
@@ -195,7 +195,7 @@ static void every_prefix_is_refused(void **state)
     free(text);
 }
 
-/* Texts that would cost a careless parser its stack, its memory or its time. */
+/* Texts that would make a careless parser use too much stack, memory or time. */
 static void bombs_are_refused(void **state)
 {
     (void)state;
@@ -373,7 +373,7 @@ static void random_damage_is_harmless(void **state)
         free(text);
         free(good);
     }
-    assert_true(accepted > 100 && refused > 1000); /* both outcomes must occur often enough */
+    assert_true(accepted > 100 && refused > 1000); /* both outcomes, valid and refused, must occur often enough */
 }
 
 int main(void)

@@ -324,8 +324,8 @@ static enum kd_field_nature nature_of(const char *section, const char *name)
     return kd_field_pages[kd_field_find(section, name) - kd_fields].nature;
 }
 
-/* Each group on the page has at least one field that is shown at once, so that no group opens empty. Some known fields
- * have the right nature. */
+/* Each group on the page has at least one field that is shown at once, so that no opened group is empty. Some known
+ * fields have the right nature. */
 static void natures_and_groups(void **state)
 {
     (void)state;

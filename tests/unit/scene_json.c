@@ -98,7 +98,7 @@ static void patches(void **state)
         assert_int_equal(kd_scene_patch(&scene, wrong[i], strlen(wrong[i]), &error), KD_EINVAL);
         assert_memory_equal(&scene, &before, sizeof scene);
     }
-    assert_int_equal(support_parse(&scene, "{\"time\":null}", NULL), KD_EINVAL); /* a document has no null */
+    assert_int_equal(support_parse(&scene, "{\"time\":null}", NULL), KD_EINVAL); /* a document contains no null */
 }
 
 static struct kd_scene of(const char *text)
@@ -440,7 +440,7 @@ static void hash_feels_each_field(void **state)
     char original[65], hash[65], seen[KD_FIELD_COUNT][65];
     kd_scene_defaults(&defaults);
     assert_int_equal(kd_scene_hash(&defaults, hash), KD_OK);
-    /* fill every list, so that its elements have fields to change; this itself changes the hash */
+    /* fills every list, so that its elements have fields to change; this itself changes the hash */
     for (size_t i = 0; i < KD_SECTION_COUNT; i++)
         if (kd_sections[i].most)
             kd_section_resize(&defaults, &kd_sections[i], kd_sections[i].most);
@@ -459,7 +459,7 @@ static void hash_feels_each_field(void **state)
         default: value = kd_row_holds(field, value + 1) ? value + 1 : value - 1;
         }
         if (field->kind == KD_KIND_ASSET)
-            assert_int_equal(kd_field_store(&scene, field, last, /* any hash will do */
+            assert_int_equal(kd_field_store(&scene, field, last, /* any value serves as the hash */
                                             &(struct kd_value) { KD_VALUE_STRING, 0, original }, NULL),
                              KD_OK);
         else
@@ -525,8 +525,8 @@ static void locale_does_not_matter(void **state)
     free(text);
 }
 
-/* Counts how often the reader of a large document lets other work go first while it reads and frees the document. A
- * high number shows that its pieces are short. Also measures the share of the thread's time that the longest piece
+/* Counts how often the reader of a large document yields to other work while it reads and frees the document. A high
+ * number shows that its pieces are short. Also measures the fraction of the thread's time that the longest piece
  * took. */
 static unsigned pauses;
 static double last_s, longest_s, longest_share;
@@ -599,7 +599,7 @@ static void long_strings_are_read_in_pieces(void **state)
     assert_int_equal(*last->valuestring, '"');
     assert_string_equal(last->valuestring + 1, x);
     cJSON_Delete(root);
-    /* no string of the document is confused with the placeholder of a long one, whatever its escapes are */
+    /* no string of the document is mistaken for the placeholder of a long string, whatever its escapes are */
     snprintf(text, all, "{\"\\u0001\":\"\\u0001\",\"\\u00ff\":\"\\u00ff\",\"long\":\"%s\"}", x);
     root = read_large(text, strlen(text), &error);
     assert_string_equal(root->child->string, "\x01");
@@ -609,7 +609,7 @@ static void long_strings_are_read_in_pieces(void **state)
     assert_string_equal(cJSON_GetObjectItemCaseSensitive(root, "long")->valuestring, x);
     cJSON_Delete(root);
     assert_null(read_large("{\"a\":\"\xff\"}", 9, &error));
-    /* an error is reported by its place in the whole document */
+    /* the place of an error is given relative to the whole document */
     static const char wrong[] = "{\"long\":\"%s\",\"b\":{]}";
     size_t of_short = 0, of_long = 0;
     for (int i = 0; i < 2; i++) {
@@ -623,8 +623,8 @@ static void long_strings_are_read_in_pieces(void **state)
     free(x);
 }
 
-/* Escapes of every kind, at every distance from the border of a piece, give what cJSON makes of them in a short
- * string; however many there are, other work goes first in between. */
+/* Escapes of every kind, at every distance from the border of a piece, are decoded as cJSON decodes them in a short
+ * string. However many there are, the reader yields to other work in between. */
 static void long_strings_with_escapes_are_read_in_pieces(void **state)
 {
     (void)state;
@@ -647,11 +647,11 @@ static void long_strings_with_escapes_are_read_in_pieces(void **state)
         assert_memory_equal(all + length * i, one, length);
     cJSON_Delete(root);
     free(text);
-    /* otherwise glibc would fill the memory, which is not the reader's work, in one long piece */
+    /* otherwise glibc would fill the memory in one long piece, which is not the reader's work */
     mallopt(M_PERTURB, 0);
     const size_t many = (size_t)12 << 20;
     text = malloc(2 * many + 10);
-    for (size_t shift = 0; shift < 2; shift++) { /* only escapes, beginning at an even and at an odd place */
+    for (size_t shift = 0; shift < 2; shift++) { /* only escapes, which begin at an even and at an odd place */
         end = text + sprintf(text, "%s[\"", shift ? " " : "");
         for (size_t i = 0; i < many; i++, end += 2)
             memcpy(end, "\\n", 2);

@@ -1,4 +1,4 @@
-/* Tests that links hold scenes: each preset and each change comes back unchanged, and the link is short. */
+/* Tests that links hold scenes: each preset and each change is read back unchanged, and the link is short. */
 #include "scene_support.h"
 
 #include "scene/difference.h"
@@ -149,7 +149,8 @@ static void minus_zero_has_a_link(void **state)
     free(link);
 }
 
-/* No field can shorten a list, so that a link to a shorter list is based on another preset or on the default scene. */
+/* Fields of a link cannot shorten a list, so a link to a shorter list is based on another preset or on the default
+ * scene. */
 static void a_shorter_list_has_another_base(void **state)
 {
     (void)state;
@@ -207,7 +208,7 @@ static void changes_are_told(void **state)
     }
 }
 
-/* A preview shows as much of the sky from top to bottom as a picture of 16:9. tan(fov/2) and the width grow by
+/* A preview shows the same vertical part of the sky as a picture of 16:9. tan(fov/2) and the width grow by
  * (1200/630)/(16/9). */
 static void a_preview_is_as_high(void **state)
 {

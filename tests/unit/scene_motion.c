@@ -1,4 +1,4 @@
-/* Tests of what moves by itself in a live session, and when it has come to rest. */
+/* Tests of motion without user input in a live session, and of its end. */
 #include "scene_support.h"
 
 #include "qnm_reference.h"
@@ -74,7 +74,7 @@ static void it_ends_when_it_cannot_be_seen(void **state)
             continue;
         for (int k = 0; k < 4; k++) {
             struct kd_scene scene = struck(k & 1 ? q->a : -q->a, amplitudes[k / 2]);
-            double decay = 1000 / -q->im, low = 0, high = decay; /* moves at low, is at rest at high */
+            double decay = 1000 / -q->im, low = 0, high = decay; /* moves at `low`, is at rest at `high` */
             while (high - low > 1e-3) {
                 double middle = (low + high) / 2;
                 scene.top.time = 1000 + middle;
@@ -87,8 +87,8 @@ static void it_ends_when_it_cannot_be_seen(void **state)
     }
 }
 
-/* An infalling observer moves until the last place where a camera can be, whatever the scene shows. An orbiting one
- * counts as moving only if something in the scene is not axially symmetric. */
+/* An infalling observer moves until the last place where a camera can be, whatever the scene shows. An orbiting
+ * observer counts as moving only if something in the scene is not axially symmetric. */
 static void an_observer_goes_on_by_its_own_clock(void **state)
 {
     (void)state;

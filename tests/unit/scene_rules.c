@@ -145,8 +145,8 @@ static const struct rule rules[] = {
       "is 8.9 M; it must be at least camera.r, 9 M" },
     { "{\"camera\":{\"r\":9,\"observer\":\"infall\",\"infall_from\":10,\"infall_energy\":1}}", "/camera/infall_energy",
       "camera.infall_energy is 1 with camera.infall_from 10 M; it must be \"rest\"" },
-    /* At a = 0, E^2 = 1 - 2/r for a body at rest; with L, (1 - 2/r) (1 + L^2/r^2): 25/36 at r = 4, L = 2.5. A
-     * marginally bound body turns back if |L| > 4. */
+    /* At a = 0, E^2 = 1 - 2/r for a body at rest, and (1 - 2/r) (1 + L^2/r^2) with angular momentum L: 25/36 at r = 4,
+     * L = 2.5. A marginally bound body turns back if |L| > 4. */
     { "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":8,\"observer\":\"infall\",\"infall_energy\":0.86}}",
       "/camera/infall_energy", "at camera.r 8 M with this angular momentum it must be at least 0.866025" },
     { "{\"spacetime\":{\"spin\":0},\"camera\":{\"r\":8,\"observer\":\"infall\",\"infall_energy\":0.8661}}", NULL,

@@ -1,6 +1,6 @@
 /* Tests of the two eyes of a stereo pair. Cameras and places are compared with Euclidean geometry in Cartesian
- * coordinates. It holds far from the hole, and at any radius for observers who fall from rest at infinity towards a
- * hole without spin, whose space is flat (Painleve 1921, Gullstrand 1922). */
+ * coordinates. The comparison is valid far from the hole. For observers who fall from rest at infinity towards a hole
+ * without spin it is valid at any radius, because their space is flat (Painleve 1921, Gullstrand 1922). */
 #include "scene_support.h"
 
 #include "render/output/wcs.h"

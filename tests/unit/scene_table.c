@@ -1,5 +1,5 @@
-/* Tests of the code for scenes with another table of fields (table/scene/fields.h). The code treats lists of this table
- * as it treats spots. Assets are names until they are resolved. */
+/* Tests of the code for scenes with another table of fields (table/scene/fields.h). Lists of this table must be treated
+ * as spots are. Assets are names until they are resolved. */
 #include "cli/asset_options.h"
 #include "cli/cli.h"
 #include "image/png.h"
@@ -132,7 +132,7 @@ static void assets_are_resolved(void **state)
     char hashes[2][65];
     int asked = 0;
     const struct kd_assets assets = { .find = find, .allowed = "null and sky", .user = &asked };
-    assert_int_equal(kd_scene_to_json(&scene, &text), KD_EINVAL); /* a name does not identify the content */
+    assert_int_equal(kd_scene_to_json(&scene, &text), KD_EINVAL); /* a name alone does not identify the content */
     kd_buffer_finish(&text);
     assert_int_equal(kd_scene_hash(&scene, hashes[0]), KD_EINVAL);
     assert_int_equal(kd_scene_validate(&scene, &error), KD_EINVAL);

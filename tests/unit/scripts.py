@@ -156,7 +156,7 @@ class Scripts(unittest.TestCase):
                     self.assertEqual((done.returncode, bool(done.stdout)), (77, True), done)
 
     def test_help_needs_nothing(self):
-        """--help needs nothing installed, not even by scripts/setup."""
+        """--help works without any installed package, even without scripts/setup."""
         with tempfile.TemporaryDirectory() as alone:
             script = shutil.copy(SCRIPTS / "test", alone)
             for options in (["--help"], ["-h"], ["--clang", "--help"]):

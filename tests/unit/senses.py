@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Checks that the sense of a circular orbit is decided only by kd_observer_sense() of physics/spacetime/observer.h.
 
-senses.py SRC     exit 1 naming every other place of SRC that compares an observer with one of the circular orbits by
-    name, after proving that it finds some
+senses.py SRC     exit 1 naming every other place of SRC that compares an observer by name with one of the circular
+orbits, after proving that planted ones are found
 """
 
 import pathlib

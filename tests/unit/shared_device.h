@@ -1,7 +1,7 @@
-/* A simulation of sessions that share a device. Each has a governor, and a viewer who requests the next frame some time
- * after the last. The budget divides the device's time among them, shares.h decides whose turn it is, and the costs of
- * frames are those of governor_simulation.h. Events are processed in the order of their times. A frame has the device
- * until it is done, a refinement for 40 ms at a time. */
+/* A simulation of sessions that share a device. Each session has a governor, and a viewer who requests the next frame
+ * some time after the last. The budget divides the device's time among the sessions, shares.h chooses the next session,
+ * and governor_simulation.h gives the costs of frames. Events are processed in the order of their times. A frame has
+ * the device until it is done, a refinement for 40 ms at a time. */
 #ifndef KD_TESTS_SHARED_DEVICE_H
 #define KD_TESTS_SHARED_DEVICE_H
 
@@ -36,9 +36,9 @@ struct device {
     int n;
     struct kd_shares shares;
     struct kd_budget budget;
-    struct sharer *served; /* the sharer that has the device; NULL: nobody */
+    struct sharer *served; /* the sharer that is using the device; NULL: none */
     double now, until, slice;
-    bool alone; /* governors do not learn of each other */
+    bool alone; /* governors are not told of each other */
 };
 
 static void open_device(struct device *d, struct sharer *sharers, int n)
@@ -100,8 +100,7 @@ static void request(struct device *d, struct sharer *s)
     s->turn = kd_governor_decide(&sim->governor, d->now);
     if (s->turn.wait_ms > 0) {
         double next = next_drag(s, d->now);
-        s->due = fmin(d->now + s->turn.wait_ms, next) + 1e-6; /* later by rounding, so that it is not before that
-                                                               * time */
+        s->due = fmin(d->now + s->turn.wait_ms, next) + 1e-6; /* rounded upwards, so that it is not before that time */
         return;
     }
     struct kd_scene scene;

@@ -192,7 +192,7 @@ static void a_picture_beside_living_sessions(void **state)
     assert_true(worst <= 300 && live_worst <= 200);
 }
 
-/* Within one client and class, short pieces of work go before long ones, but not for ever. */
+/* Within one client and class, short pieces of work go before long ones, but long ones do not wait for ever. */
 static void short_first(void **state)
 {
     (void)state;
@@ -208,11 +208,12 @@ static void short_first(void **state)
         turn(&b);
     }
     assert_false(isnan(long_one->began));
-    assert_true(long_one->began >= 5000 && long_one->began <= 4 * 5000); /* it must not begin before its own length, nor
-                                                                          * end after four times its length */
+    /* the long piece must not begin before its own length has passed, nor end after four times its length */
+    assert_true(long_one->began >= 5000 && long_one->began <= 4 * 5000);
 }
 
-/* A client cannot save up time by being away or blocked, and does not pay for having been alone. */
+/* A client cannot save up time while it is away or blocked, and does not pay later for time that it used while
+ * alone. */
 static void no_savings_and_no_debts(void **state)
 {
     (void)state;
@@ -249,8 +250,8 @@ static void a_class_that_was_barred(void **state)
             const double before = other->served, waited = b.now;
             while (other->served <= before)
                 assert_non_null(turn(&b));
-            /* The bound is a sum: 200 ms, the time until its own share is due between two slices of the other class, a
-             * slice of the other class in progress, and the rounding to one slice. */
+            /* The bound is a sum of four times: 200 ms; the time until the class's own share is due between two slices
+             * of the other class; a slice of the other class in progress; and the rounding to one slice. */
             assert_true(b.now - waited <= 200 + SLICE * (weight[i] / weight[k]) + 3 * SLICE);
         }
 }
@@ -275,7 +276,7 @@ static void coming_and_going(void **state)
     assert_true(taken <= 10000 + 100 && steady->served >= 10000 - 100);
 }
 
-/* If there are more clients than the table can distinguish, some share a place, and all are served. */
+/* If there are more clients than table entries, some clients share an entry, and all are served. */
 static void more_clients_than_places(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* Tests of the scale of the sky drawn on a picture: lengths and places measured in its pixels. */
+/* Tests of the angular scale and of the beam that are drawn on a picture: lengths and places are measured in its
+ * pixels. */
 #include "image/legend.h"
 #include "image/sky_scale.h"
 

@@ -48,7 +48,8 @@ static void a_busy_machine(void **state)
     }
 }
 
-/* After one long submission, as when a kernel is compiled, the next few submissions are shorter, within bounds. */
+/* After one long submission, as when a kernel is compiled, the next few submissions are shorter, but not shorter than a
+ * limit. */
 static void one_that_is_long(void **state)
 {
     (void)state;
@@ -58,7 +59,7 @@ static void one_that_is_long(void **state)
     assert_true(run(&pace, 40, 1, NS) > 0.8 * KD_SLICE_MS);
 }
 
-/* Short work, and work whose time is unknown, must not change the measured pace of the device. */
+/* Short work, and work whose time is unknown, must not change the measured speed of the device. */
 static void what_says_nothing(void **state)
 {
     (void)state;

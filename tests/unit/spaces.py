@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that a second build makes only what has changed, even if a folder of the path has a space in its name.
+"""Checks that a second build rebuilds only what has changed, even if the name of a folder in the path contains a space.
 
 spaces.py SHADERS
 

@@ -1,5 +1,4 @@
-/* Tests of images of stars with maps of the sky that are made up here, and of the names of stars by published
- * places. */
+/* Tests of images of stars, with synthetic maps of the sky; and of the names of stars, with published places. */
 #include "render/sky/star_images.h"
 #include "render/sky/star_names.h"
 #include "render/sky/star.h"
@@ -101,8 +100,8 @@ static void a_plain_camera(void **state)
     }
 }
 
-/* A map that shows the same sky in both halves of the picture shows each star twice, the second time mirrored. There
- * are no images among rays that do not escape, nor between rays that are too far apart. */
+/* A map that shows the same sky in both halves of the picture shows each star twice, the second time mirrored. No image
+ * is found among rays that do not escape, or between rays that are too far apart. */
 static void doubles_and_holes(void **state)
 {
     (void)state;
@@ -150,8 +149,8 @@ static bool folded_exactly(const void *of, double x, double y, struct kd_vec *ou
     return true;
 }
 
-/* Both images of a star next to the caustic are found, one of them mirrored, however close to each other. There is none
- * beyond the caustic. */
+/* Both images of a star next to the caustic are found, one of them mirrored, however close to each other. Beyond the
+ * caustic there is no image. */
 static void pairs_that_merge(void **state)
 {
     (void)state;

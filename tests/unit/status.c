@@ -1,5 +1,5 @@
-/* Tests of sequences of steps that can fail. Each step is taken at most once, and none after a failed step. Resources
- * are released in both cases. */
+/* Tests of sequences of steps that can fail. Each step is executed at most once, and no step after a failed one.
+ * Resources are released in both cases. */
 #include "base/error.h"
 
 #include <setjmp.h>
@@ -14,7 +14,7 @@
 
 struct walk {
     int fails;          /* the step that fails; N_STEPS: none */
-    int taken[N_STEPS]; /* number of times that each step was taken */
+    int taken[N_STEPS]; /* number of times that each step was executed */
     int unref;
 };
 
@@ -67,7 +67,7 @@ static void errors_can_be_shown(void **state)
     assert_int_equal(error.message[sizeof error.message - 2], '?');
 }
 
-/* A pointer names a place with RFC 6901's escapes: if it is cut, no escape is cut in half. */
+/* A pointer names a place, with the escapes of RFC 6901. If the pointer is cut, it is not cut within an escape. */
 static void pointers_are_cut_between_escapes(void **state)
 {
     (void)state;

@@ -1,7 +1,8 @@
-/* Tests that an integral that nobody waits for any more ends at once, at any point of its computation, and leaves no
- * incomplete result in a cache. kd_pause returns true from its Nth call on, for many N. Images and tables of a hole are
- * cached, so each N has a hole whose spin differs by 1e-9. Afterwards some of these integrals are computed without
- * interruption. Their values must be those of an integral that was never interrupted. */
+/* Tests that an integral ends at once when its result is no longer needed, at any point of its computation, and leaves
+ * no incomplete result in a cache.
+ * kd_pause returns true from its Nth call on, for many N. Images and tables of a hole are cached, so each N has a hole
+ * whose spin differs by 1e-9. Afterwards some of these integrals are computed without interruption. Their values must
+ * be those of an integral that was never interrupted. */
 #include "base/pause.h"
 #include "integral/request.h"
 #include "integral/run.h"

@@ -1,5 +1,5 @@
-/* Tests of a sweep's axes: values, ranges, the order of scenes, names, refusals; and of the order that lets scenes
- * share lens maps. */
+/* Tests of a sweep's axes: values, ranges, the order of scenes, names and refusals; and of the order in which scenes
+ * can share lens maps. */
 #include "render/accuracy/table.h"
 #include "render/output/gather.h"
 #include "render/plan/plan.h"
@@ -220,7 +220,7 @@ static void those_that_share_a_lens_map_follow_one_another(void **state)
     unsigned changes = 0;
     char seen[24] = "";
     (void)state;
-    /* the deadline has passed already, so that only one piece is done */
+    /* the deadline has already passed, so only one piece is done */
     assert_int_equal(kd_sweep_order_go_on(&order, s, 0), KD_OK);
     assert_null(order.frames);
     assert_int_equal(kd_sweep_order_go_on(&order, s, INFINITY), KD_OK);
@@ -237,7 +237,7 @@ static void those_that_share_a_lens_map_follow_one_another(void **state)
     kd_sweep_free(s);
 }
 
-/* A shared lens map is paid for once. */
+/* The cost of a shared lens map is counted once. */
 static void what_is_shared(void **state)
 {
     struct kd_sweep_order order = { 0 };

@@ -4,8 +4,8 @@
 tags.py SRC SHADERS     exit 1 naming every tag that has two meanings in C and GLSL together
 
 A tag is the name of a struct, enum or union. Declarations with the same text have one meaning, because C and GLSL
-expand the same lists of interface.h. A function may have the name of a tag that its declaration mentions, such as one
-that makes this struct.
+expand the same lists of interface.h. A function may have the name of a tag that occurs in its declaration, such as a
+function that makes this struct.
 """
 
 import collections

@@ -176,8 +176,8 @@ static enum kd_slice_result compute_for_a_client(struct kd_scheduler_job *job)
     return KD_SLICE_LAST;
 }
 
-/* A job whose client has left is told so at its next pause and at all later ones; jobs after it on the same threads,
- * and those without a client, are not. */
+/* If a job's client has left, the job's next pause and all later ones report this. Pauses of later jobs on the same
+ * threads, and of jobs without a client, do not. */
 static void test_a_turn_that_nobody_waits_for_ends(void **state)
 {
     (void)state;

@@ -206,7 +206,7 @@ static struct kd_timeline turning(size_t n, enum kd_interpolation by, double *tu
     return t;
 }
 
-/* The shortest of nine measurements of this thread's time, since other processes may be running. */
+/* The shortest of nine measurements of this thread's time is taken, because other processes may be running. */
 static double seconds_of(const struct kd_timeline *t, int frames)
 {
     double least = INFINITY;
@@ -221,8 +221,8 @@ static double seconds_of(const struct kd_timeline *t, int frames)
     return least;
 }
 
-/* Angles go the shorter way from key to key, and their turns add up from the first key on. Nevertheless a frame needs
- * only the keys next to it. */
+/* Angles go the shorter way from key to key, and their turns add up from the first key on. Even so, the time of a frame
+ * depends only on the neighbouring keys. */
 static void a_great_many_keys(void **state)
 {
     (void)state;

@@ -102,9 +102,10 @@ static double light_of(const void *user, double r, double g, double mu)
     double emitted = p->emissivity == KD_LINE_LAMPPOST                  ? kd_lamppost_at(&q->lamp, r)
                      : p->emissivity == KD_LINE_POWER || r < p->break_r ? pow(r / p->break_r, -p->index)
                                                                         : pow(r / p->break_r, -p->outer_index);
-    double limb = p->limb == KD_LIMB_LAOR         ? 1 + 2.06 * mu
-                  : p->limb == KD_LIMB_HAARDT     ? log(1 + 1 / mu)
-                  : p->limb == KD_LIMB_SCATTERING ? kd_limb_at(p->limb, mu) /* physics_limb.c tests this law */
+    double limb = p->limb == KD_LIMB_LAOR     ? 1 + 2.06 * mu
+                  : p->limb == KD_LIMB_HAARDT ? log(1 + 1 / mu)
+                  /* this emission law is tested by physics_limb.c */
+                  : p->limb == KD_LIMB_SCATTERING ? kd_limb_at(p->limb, mu)
                                                   : 1;
     return emitted * limb * g * g * g * (p->energy ? g : 1);
 }

@@ -1,4 +1,4 @@
-/* Tests that a build that watches its threads aborts when a thread breaks a rule, and only then. Each rule is broken
+/* Tests that a build that checks its threads aborts when a thread breaks a rule, and only then. Each rule is broken
  * once, in a process of its own. */
 #include "base/watch.h"
 

@@ -1,6 +1,6 @@
-/* A table of fields of another scene than kerrd's, used instead of src/scene/fields.h when tests/unit/scene_table.c
- * is compiled: two lists of different lengths with rows of each kind, and assets in a section, in lists and in the
- * document itself. */
+/* A table of fields of a scene other than kerrd's. It is used instead of src/scene/fields.h when
+ * tests/unit/scene_table.c is compiled. It has two lists of different lengths with rows of each kind, and assets in a
+ * section, in lists and in the document itself. */
 #ifndef KD_SCENE_FIELDS_H
 #define KD_SCENE_FIELDS_H
 
