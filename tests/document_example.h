@@ -103,7 +103,7 @@ static const struct kd_row tea_rows[] = {
 #undef AT
 static const struct kd_document tea_document = { tea_rows, sizeof tea_rows / sizeof *tea_rows, 0, "host|guests", NULL };
 
-/* A document with objects in objects, a list and a former name of an element, whose typed names are paths. */
+/* A document with nested objects, a list, and a former name of an element. Typed names are paths. */
 struct tray {
     double weight_g;
     uint32_t plates;

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/* Restarts the program with a heap that counts a freed block at once: malloc otherwise counts blocks cached for a
- * thread as allocated. First statement of main. */
+/* Restarts the program with a heap whose count excludes a freed block at once; otherwise malloc counts blocks cached
+ * for a thread as allocated. Must be the first statement of main. */
 static inline void kd_held_begin(char **argv)
 {
     if (!getenv("GLIBC_TUNABLES") && !setenv("GLIBC_TUNABLES", "glibc.malloc.tcache_count=0", 1))

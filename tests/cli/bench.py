@@ -42,8 +42,8 @@ class Accuracy(unittest.TestCase):
         cls.cache = folder.name
         cls.before = serve(cls.cache, "v1/accuracy")
         files = [os.path.join(folder.name, name) for name in ("table.json", "table.md")]
-        # Meson makes malloc fill freed memory, which takes most of the time with the buffers of a thousand submissions.
-        # So the filling is switched off here.
+        # Meson makes malloc fill freed memory. With the buffers of a thousand submissions this would take most of the
+        # time, so the filling is switched off here.
         done = run(
             "bench",
             "accuracy",
@@ -169,8 +169,8 @@ class Accuracy(unittest.TestCase):
         self.assertIn("damaged", problem["detail"])
 
     def test_planned_by(self):
-        """A plan looks up a tolerance in the device's table, which the renderer owns. Freed memory is filled, so
-        that a use after free would be noticed."""
+        """A plan looks up a tolerance in the device's table, which the renderer owns. Freed memory is filled, so that a
+        use after free would be detected."""
         done = run(
             "plan",
             "--set",

@@ -84,8 +84,8 @@ class Compare(Case):
         self.assertAlmostEqual(closures["chi2"]["closure_phase"], best["chi2"]["closure_phase"], delta=1e-6)
 
     def test_size_and_angle_that_fit_best(self):
-        """The search finds the size and the angle of the sky: a camera that is rolled and a hole whose mass is
-        different give the same chi^2 as the size and the angle that were solved for."""
+        """The search finds the size and the angle on the sky. A scene with a rolled camera and another mass gives the
+        same chi^2 as the size and the angle that were found."""
         options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "96", "--average-s", "600"]
         options += ["--check", "none"]
         found = self.told(*options, "--solve", "flux,size,position_angle")
@@ -105,7 +105,7 @@ class Compare(Case):
         for one in (0.97, 1.03):
             other = self.told(*options, "-s", f"spacetime.mass_msun={mass * size * one}", "--solve", "position_angle")
             self.assertGreater(self.total(other), self.total(scaled))
-        # a value that a search does not vary stays as it was
+        # a value that a search does not vary is unchanged
         plain, flux = self.told(*options), self.told(*options, "--solve", "flux")
         self.assertEqual(plain["values"], flux["values"])
         self.assertEqual(plain["values"]["size"], 1)
@@ -124,7 +124,7 @@ class Compare(Case):
         self.assertNotEqual(found["values"]["shift_east_uas"], 0)
         self.assertLess(found["chi2"]["visibility"], plain["chi2"]["visibility"])
         self.assertAlmostEqual(found["chi2"]["amplitude"] / plain["chi2"]["amplitude"], 1, delta=1e-9)
-        # means over bins that lack a baseline at some times do not quite form closed triangles
+        # means over bins in which a baseline is missing at some times do not quite form closed triangles
         self.assertAlmostEqual(found["chi2"]["closure_phase"] / plain["chi2"]["closure_phase"], 1, delta=1e-3)
         columns = found["columns"]
         rows = [i for i, product in enumerate(columns["product"]) if product.startswith("visibility")]
@@ -139,7 +139,8 @@ class Compare(Case):
         self.assertAlmostEqual(chi2 / found["chi2"]["visibility"], 1, delta=1e-9)
 
     def test_a_set_that_cannot_be_rendered(self):
-        """An error that only rendering finds names its set too: this torus has no such flux at any density."""
+        """An error that only rendering finds also names its set: this torus does not have the requested flux at any
+        density."""
         request = {"preset": "torus", "pixels": 32, "average_s": 600, "sets": [{}, {"volume.normalise_to_jy": 1e6}]}
         with open(self.path("sets.json"), "w", encoding="utf-8") as file:
             json.dump(request, file)
@@ -183,9 +184,9 @@ class Compare(Case):
         self.assertAlmostEqual(scattered["chi2"]["closure_phase"] / plain["chi2"]["closure_phase"], 1, delta=1e-9)
 
     def test_a_simulated_observation(self):
-        """Without noise chi^2 is 0 to the file's single precision. With noise it is 1 within its error. The files of
-        both forms have the visibilities of the answer; other seeds give other noise. All other bytes of the uvfits are
-        unchanged, and none of the measured light remains."""
+        """Without noise chi^2 is 0 to the file's single precision. With noise it is 1 within its error. Files of both
+        formats have the visibilities of the answer; another seed gives other noise. In the uvfits all other bytes
+        are unchanged, and none of the measured visibilities remain."""
         options = ["-p", "riaf", "--pixels", "32", "--check", "none", "--flux-jy", "0.6"]
         seen = ["--observation", compared.UVFITS, *options]
         told = json.loads(self.good("observe", *seen, "--seed", "3"))
@@ -230,7 +231,7 @@ class Compare(Case):
             self.bad(2, words, "observe", *given)
 
     def test_columns_as_npz(self):
-        """numpy.savez's members: numbers as float64, words as UTF-32, and the rest of the answer."""
+        """The members of a file by numpy.savez: numbers as float64, words as UTF-32, and the rest of the answer."""
         options = ["--observation", compared.CSV, *compared.THIN, "--pixels", "32", "--average-s", "600"]
         told = self.told(*options)
         self.good("compare", *options, "-o", self.path("a.npz"))

@@ -1,5 +1,5 @@
-"""The requests to kerrd compare and the results of ehtim 1.3.2 for them (tests/cli/ehtim_chi2.json):
-tests/cli/ehtim_reads.py runs ehtim, tests/cli/compare.py does not need it."""
+"""The requests to kerrd compare and the results of ehtim 1.3.2 for them (tests/cli/ehtim_chi2.json).
+tests/cli/ehtim_reads.py runs ehtim; tests/cli/compare.py works without it."""
 
 import json
 import pathlib

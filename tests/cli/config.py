@@ -12,7 +12,7 @@ from support import KERRD
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CLEAN = {name: value for name, value in os.environ.items() if not name.startswith("KERRD_")}
-# For each option a value that is allowed and one that is not, as text and as in the file.
+# For each option an allowed value and a refused one, as text and as in the file.
 GOOD = {
     "listen": ("127.0.0.2", "127.0.0.2"),
     "port": ("9", 9),

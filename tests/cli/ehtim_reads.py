@@ -58,8 +58,8 @@ class Ehtim(support.Case):
 
     def test_visibilities(self):
         """kerrd visibility is compared with ehtim's direct transform of the file, whose phase centre is the centre of
-        the picture too. ehtim 1.3.2 transforms by exp(+2 pi i), kerrd by exp(-2 pi i), so that each result is the
-        complex conjugate of the other."""
+        the picture too. ehtim 1.3.2 transforms with exp(+2 pi i), kerrd with exp(-2 pi i). The results are therefore
+        complex conjugates."""
         code = """
 import json, sys
 import ehtim, numpy
@@ -191,8 +191,8 @@ print(json.dumps({"flux_jy": float(image.total_flux()), "linear": float(abs(imag
             self.assertAlmostEqual(found[name] / value, 1, delta=1e-5, msg=name)
 
     def test_chi2(self):
-        """kerrd compare is compared with ehtim's chisq for the same picture and the same observation. Also ehtim must
-        still give the numbers that tests/cli/compare.py uses where ehtim is not installed."""
+        """kerrd compare is compared with ehtim's chisq for the same picture and the same observation. Also, ehtim must
+        still give the stored numbers that tests/cli/compare.py uses without ehtim."""
         code = """
 import json, sys
 import ehtim
@@ -243,8 +243,8 @@ print(json.dumps(told))
     def test_scattering(self):
         """At each baseline of the observation, the ratio of scattered to unscattered amplitude is the kernel of ehtim's
         ScatteringModel, with its exact phase structure function. ehtim 1.3.2 uses the one-element array that scipy's
-        minimize returns as a number, which numpy 2.4 refuses. Here minimize is replaced by one that searches more
-        finely and returns a number."""
+        minimize returns as if it were a number, which numpy 2.4 refuses. Here minimize is replaced by a function that
+        searches more finely and returns a number."""
         code = """
 import json, sys
 import numpy, ehtim.scattering.stochastic_optics as optics
@@ -301,7 +301,7 @@ print(json.dumps({"n": [len(read.data), len(given.data), len(ours)], "off": floa
         self.assertEqual((found["polarised"], found["same"]), (0, [True] * 4))
 
     def test_the_python_client(self):
-        """kerrd.to_ehtim gives the same as ehtim's reader for the file of the same picture."""
+        """kerrd.to_ehtim gives the same image as ehtim's reader for the file of the same picture."""
         code = """
 import json, pathlib, sys
 import ehtim, numpy

@@ -1,5 +1,5 @@
-"""Tests of files of numbers. They are equal to the bit in NPY, NPZ, FITS and EXR, as numpy, astropy and OpenEXR read
-them. Also units, world coordinates, and the embedded scene."""
+"""Tests of files of numbers. The numbers in NPY, NPZ, FITS and EXR are equal to the bit, as read by numpy, astropy and
+OpenEXR. Also tests units, world coordinates, and the embedded scene."""
 
 import json
 import math
@@ -111,8 +111,8 @@ class Files(support.Case):
             self.bad(2, words, "render", "--from", self.path("cut." + end), "-o", self.path("d.png"))
 
     def test_red_green_and_blue_come_first_in_an_exr_file(self):
-        """OpenImageIO sorts channels without regard to case, those without a layer first, and shows the first three of
-        a file."""
+        """OpenImageIO sorts channels without regard to case, with those outside any layer first, and shows the first
+        three channels of a file."""
         path = self.shot("a.exr", layers=["r", "g", "rgb"])
         names = OpenEXR.File(path, separate_channels=True).channels()
         order = {"r": 0, "g": 1, "b": 2}
@@ -133,7 +133,7 @@ class Files(support.Case):
             self.assertTrue(numpy.allclose(numbers, before.channels()[name].pixels, rtol=1e-4, equal_nan=True), name)
         scene, written = (json.loads(file.header()["kerrd:scene"]) for file in (now, before))
         self.assertEqual(scene.pop("version"), written.pop("version"))
-        # fields that were added since then have their defaults
+        # fields that were added later have their defaults
         self.assertEqual(scene["polarization"].pop("rotation"), "shcherbakov")
         self.assertEqual(scene["disk"].pop("atmosphere"), "isotropic")
         self.assertEqual(scene["disk"].pop("frequency_ghz"), 230)
@@ -238,7 +238,7 @@ class Files(support.Case):
             self.assertGreater(abs(units[i].data).max(), 0)
             numpy.testing.assert_allclose(units[i].data[::-1] / factor, arrays[layers[i]], rtol=1e-4, atol=1e-12)
         self.assertEqual([header[key] for key in ("TELESCOP", "OBJECT")], ["kerrd", "SGRA"])
-        place = [266.4168371, -29.0078106]  # the position that a preset of Sagittarius A* has
+        place = [266.4168371, -29.0078106]  # the position of Sagittarius A* that its preset has
         self.assertEqual([header[key] for key in ("OBSRA", "OBSDEC")], place)
         self.assertEqual([unit.header[key] for unit in units for key in ("CRVAL1", "CRVAL2")], place * len(units))
         self.assertNotIn("MJD", header)
@@ -254,8 +254,8 @@ class Files(support.Case):
         )
 
     def test_a_disk_at_one_frequency_in_janskys(self):
-        """A disk alone at one frequency is written like a source of radio waves, with its polarisation. Light of all
-        frequencies is not, nor is light in front of a sky."""
+        """A disk alone at one frequency is written like a radio source, with its polarisation. Light of all frequencies
+        is not, and neither is a disk in front of a sky."""
         band = ["--set", "disk.band=frequency", "--set", "disk.frequency_ghz=3e5"]
         self.good(
             "render", *band, "--set", "polarization.model=scattering", "--size", "48x40", "-o", self.path("a.fits")
@@ -278,7 +278,7 @@ class Files(support.Case):
 
     def test_a_radio_source_begins_with_janskys(self):
         """Without image.layers the file contains janskys, so that ehtim reads a preset's file directly. With
-        image.layers it contains the given layers."""
+        image.layers it contains the listed layers."""
         hot = ["render", "-p", "riaf", "--size", "24x20"]
         polarised = ["--set", "polarization.model=transfer"]
         jansky, stokes = "jy_per_pixel", ["stokes_q", "stokes_u", "stokes_v"]

@@ -1,7 +1,7 @@
 """Tests of films by the command line.
 
-Frames equal those of `kerrd render`, with one exposure; the folder of frames and its continuation; refusals. With
-FFMPEG=real (suite `film`) also the output of the program ffmpeg, as ffprobe and ffmpeg read it.
+Tested are: frames, which equal those of `kerrd render`, with one exposure; the folder of frames and its continuation;
+refusals. With FFMPEG=real (suite `film`) the output of the program ffmpeg is also read by ffprobe and ffmpeg.
 """
 
 import json
@@ -24,7 +24,9 @@ except ImportError as missing:
     print(f"left out: {missing}; scripts/setup --browser installs it")
     sys.exit(77)
 
-PSNR = 46  # in dB; 50 was measured. The loss comes from 4:2:0 at edges of colours, and from H.264 at its quality.
+# in dB; the measured value was 50. The loss is caused by 4:2:0 at edges of colours, and by H.264 at its quality
+# setting.
+PSNR = 46
 REAL = os.environ.get("FFMPEG") == "real"
 SIZE = {"width": 96, "height": 54}
 TURN = {
@@ -264,7 +266,7 @@ class Pictures(Case):
         self.assertLess(off.max(), 2)
 
     def test_motion_blur_by_options(self):
-        """Samples and shutter given on the command line; with one sample the frame is the picture itself."""
+        """Samples and shutter are given on the command line. With one sample the frame equals the picture itself."""
         plain = {k: v for k, v in self.BLURRED.items() if k != "motion_blur"}
         self.film("a.zip", plain)
         self.film("b.zip", self.BLURRED, "--samples", "1")
@@ -370,7 +372,7 @@ class Pictures(Case):
             "preset": "white-dwarf",
             "debris_per_body": 200,
             "budget": 40,
-        }  # too few sub-steps to reach the time of the next frame
+        }  # this budget of sub-steps does not reach the time of the next frame
         request = {"playground": document, "every": 200, "frames": 4, "scene": {"image": SIZE}}
         self.film("a.zip", request, "--state", self.path("kept"))
         whole = self.read("a.zip")

@@ -1,4 +1,4 @@
-"""Tests of volume.model "grid". The torus sampled by docs/examples/torus_grid.py is compared with the torus itself,
+"""Tests of volume.model "grid". The torus sampled by docs/examples/torus_grid.py is compared with the analytic torus,
 also polarised. Other tests: a flow with a vertical field, and files that are refused."""
 
 import json
@@ -250,7 +250,7 @@ class Grid(Case):
             self.assertLess(off, 0.01)
 
     def test_what_uses_it(self):
-        """Other commands that use a grid: a density from a flux, a spectrum and a pixel."""
+        """Tests other commands that use a grid: the density for a flux, a spectrum, and a pixel."""
         asset = self.sampled(48, 24)
         told = json.loads(
             run(

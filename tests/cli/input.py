@@ -61,7 +61,7 @@ class Usage(Case):
         self.bad(2, "it must be at most 1279", "scene", "--tile", "1280x720+1+0")
 
     def test_assets(self):
-        """No field refers to these assets. tests/cli/render.py tests an asset that is shown."""
+        """The scene does not refer to these assets. tests/cli/render.py tests an asset that is shown."""
         picture = self.path("a.png")
         chunk = lambda kind, data: (
             struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -167,7 +167,8 @@ class Usage(Case):
 
 
 class Names(Case):
-    """The suffix of a file's name determines its format, or is an error, so that no format is mistaken for another."""
+    """The suffix of a file's name determines the format. An unknown suffix is an error, so that no format is mistaken
+    for another."""
 
     def test_a_name_that_ends_as_another_format_does(self):
         table, tabled = ["a.h5", "a.csv.gz", "a.fit", "a.txt", "a.xlsx", "a.png"], ["--output"]
@@ -294,7 +295,7 @@ class Files(Case):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_limit_of_the_size_of_a_file(self):
-        """If the file would grow beyond the limit no partial file is left."""
+        """If the file would grow beyond the limit, no partial file remains."""
 
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))

@@ -102,7 +102,7 @@ class Manual(Case):
 
 class Installed(Case):
     def test_places(self):
-        """The pages and completions are installed where Debian looks for them, below the prefix."""
+        """Manual pages and completions are installed where Debian searches for them, below the prefix."""
         build = MADE.parents[2]
         places = json.loads(
             subprocess.run(["meson", "introspect", "--installed", build], capture_output=True, check=True).stdout
@@ -172,8 +172,8 @@ class Examples(Case):
 
 class Words(Case):
     def test_words_of_help(self):
-        """The words that --help lists as a|b|c are those that the program accepts. A wrong word is refused, and the
-        message lists each of them."""
+        """The words that --help lists as a|b|c are exactly those that the program accepts. A wrong word is refused, and
+        the message lists the accepted words."""
         seen = 0
         for context in contexts():
             for option, argument in told(context).items():
@@ -270,7 +270,7 @@ class Bash(Case):
             fields.add(name[:-1])
         self.assertIn("camera.inclination_deg", fields)
         self.assertGreater(len(fields), 100)
-        # all fields have the document's names except elements of lists, which the document does not name
+        # all fields have the document's names, except elements of lists, which the document does not name
         for field in fields:
             self.assertIn(f'"{field.split(".")[-1]}"', document) if ".0." not in field else None
         self.assertEqual(self.complete("kerrd scene --set camera.incl"), ["camera.inclination_deg="])

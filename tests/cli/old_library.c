@@ -1,4 +1,4 @@
-/* Preloaded, so that the program takes the C library for that of Debian 11 (tests/cli/render.py). */
+/* Preloaded: makes the program believe that the C library is that of Debian 11 (tests/cli/render.py). */
 const char *gnu_get_libc_version(void);
 
 const char *gnu_get_libc_version(void) { return "2.31"; }

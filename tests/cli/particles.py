@@ -1,4 +1,4 @@
-"""Tests of kerrd particles: the array, selections from it, and refusals."""
+"""Tests of kerrd particles: the array of particles, selections from it, and refusals."""
 
 import math
 import os

@@ -65,8 +65,8 @@ class Playground(Case):
         self.assertLess(separations[-1], 0.5 * separations[0])
 
     def test_all_that_happens_is_told(self):
-        """If there are more events than are stored at once, none is lost as long as they are written during the
-        motion. If a single sub-step has more, the lost ones are reported."""
+        """If there are more events than are stored at once, none is lost as long as they are written while the motion
+        goes on. If a single sub-step has more events, the lost ones are reported."""
         events, document = self.path("events.ndjson"), self.path("many.json")
         ring = [
             {
@@ -143,7 +143,8 @@ class Playground(Case):
         self.assertTrue(all(math.isnan(row["separation"]) for row in rows[len(falling) :]))
 
     def test_rows_between_sub_steps(self):
-        """Between its sub-steps a circle at 20 M stays a circle: h+ is 4 m v^2 cos(2 phi), as with short steps."""
+        """A circular orbit at 20 M stays a circle between its long sub-steps: h+ is 4 m v^2 cos(2 phi), as with short
+        steps."""
         path, document = self.path("circle.csv"), self.path("circle.json")
         speed = math.sqrt(20) / 18
         with open(document, "w") as file:

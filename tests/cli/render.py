@@ -108,7 +108,7 @@ class Pictures(Case):
         self.assertFalse(os.path.exists(self.path("c.jpg")) or os.path.exists(self.path("c.webp")))
 
     def test_panoramas(self):
-        """Each kind of file has what viewers of photographs need to turn a picture into a view all round."""
+        """Each kind of file has the metadata by which viewers of photographs recognise a picture of all directions."""
         scene = (
             "--set",
             "camera.r=20",
@@ -132,7 +132,7 @@ class Pictures(Case):
                 self.assertEqual(tuple(int(found[GPANO + one]) for one in names), area, name)
 
     def test_the_eht_style(self):
-        """False colours, with scales where there is room. Options given after the style override it."""
+        """False colours, with scales where there is room. Options given after the style override the style."""
         eht = "--preset", "m87", "--set", "style.name=eht", "--set", "image.samples=1"
         self.good("render", *eht, "--size=320x180", "-o", self.path("a.png"))
         style = json.loads(text(self.read("a.png"))[b"kerrd:scene"])["style"]
@@ -256,8 +256,8 @@ class Pictures(Case):
             self.assertEqual(self.read(name), self.read("a.fits"), name)
 
     def test_a_limit_of_the_size_of_a_file(self):
-        """A picture that would exceed the limit is an error, not a signal, and leaves no partial file. A driver that
-        keeps memory in a file cannot be used."""
+        """A picture that would exceed the limit is an error, not a signal, and leaves no partial file. The test is not
+        possible with a driver that keeps memory in a file."""
 
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
@@ -280,8 +280,8 @@ class Pictures(Case):
         self.assertIn(b'"spin":0.1,', text(other)[b"kerrd:scene"])
 
     def test_layers_are_numbers(self):
-        """NumPy's header and records are read by hand. Values are NaN where there is no disk, and the picture's light
-        equals that of the layer."""
+        """NumPy's header and records are read by this test itself. Values are NaN where there is no disk, and the
+        picture's light equals that of the layer."""
         self.good("render", *SMALL, "--set", "image.layers=r,rgb,intensity", "-o", self.path("a.npy"))
         file = self.read("a.npy")
         (length,) = struct.unpack("<H", file[8:10])
@@ -463,7 +463,8 @@ class Pictures(Case):
         names = [line.split()[0] for line in self.good("presets").decode().splitlines()]
         plans = {self.good("plan", *SMALL, "--preset", name) for name in names}
         self.assertGreater(len(names), 10)
-        self.assertGreater(len(plans), len(names) / 2)  # presets that differ only in what shines have the same plan
+        # presets that differ only in their light sources have the same plan
+        self.assertGreater(len(plans), len(names) / 2)
         self.assertTrue(all(json.loads(plan)["rays"] > 0 for plan in plans))
         self.good("render", *SMALL, "--preset", "luminet1979", "-o", self.path("a.png"))
 
@@ -598,7 +599,7 @@ class Devices(Case):
         self.assertEqual(*pixels)
 
     def test_own_driver(self):
-        """Where the system has no driver, the one beside the program is used, unless the environment names drivers."""
+        """If the system has no driver, the driver beside the program is used, unless the environment names drivers."""
         program, lavapipe, manifest, none = self.own_driver()
 
         def draw(**more):
@@ -624,7 +625,8 @@ class Devices(Case):
             os.remove(link)
 
     def test_own_c_library(self):
-        """Where the system's C library is too old for this driver, the program starts anew within the driver's."""
+        """If the system's C library is too old for this driver, the program restarts itself with the driver's C
+        library."""
         if "OLD_LIBRARY" not in os.environ:
             self.skipTest("a sanitizer must be the first library")
         program, lavapipe, manifest, none = self.own_driver()

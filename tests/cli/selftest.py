@@ -1,5 +1,5 @@
-"""Tests of kerrd doctor --selftest: the table, the same as JSON, and its exit codes. tests/gpu/test_selftest.c tests
-that a wrong number is noticed."""
+"""Tests of kerrd doctor --selftest: the table, its form as JSON, and the exit codes. tests/gpu/test_selftest.c tests
+that a wrong number is detected."""
 
 import json
 import re

@@ -33,7 +33,7 @@ NAMES = [name for name in UNITS if name not in ("r", "theta", "time")]
 
 
 def ring(lump):
-    """A ring of gas, whose density has a lump at the azimuth `lump`; None: it is the same all round."""
+    """A ring of gas whose density has a lump at the azimuth `lump`; None: the ring is uniform."""
     r = numpy.geomspace(2.5, 20, ROWS)[:, None, None]
     theta = ((numpy.arange(COLUMNS) + 0.5) * numpy.pi / COLUMNS)[:, None]
     phi = numpy.arange(LAYERS) * 2 * numpy.pi / LAYERS
@@ -54,7 +54,7 @@ def ring(lump):
 
 class Series(Case):
     def file(self, name, frames, time=None, **header):
-        """Writes frames, each a dictionary of arrays; without times, the first of them alone."""
+        """Writes frames, each a dictionary of arrays; without times, only the first of them."""
         places, _ = ring(None)
         arrays = frames[0] if time is None else {key: numpy.stack([one[key] for one in frames]) for key in NAMES}
         times = {} if time is None else {"time": numpy.array(time, float)}
@@ -69,7 +69,8 @@ class Series(Case):
         return self.told(*args)["flux_jy"]
 
     def test_between_frames(self):
-        """Where the density grows by the same factor everywhere, it has the geometric mean between two frames."""
+        """Where the density grows by the same factor everywhere, the density between two frames is their geometric
+        mean."""
         _, one = ring(1.0)
         frames = [{**one, "density": one["density"] * factor} for factor in (1, 4, 2)]
         series = self.file("series.npz", frames, (10, 20, 30))
@@ -110,8 +111,8 @@ class Series(Case):
         )
 
     def test_light_curves(self):
-        """A lump that goes round: a curve in slow light is not the curve in fast light, and both repeat after a turn.
-        A flux that the scene asks for is that of the middle of the series, so that the curve keeps its shape."""
+        """A lump orbits the hole. The light curves with and without slow light differ, and both repeat after a turn. If
+        the scene is normalised to a flux, the middle of the series has this flux, so that the curve keeps its shape."""
         times, period = numpy.linspace(0, 300, 31), 100
         frames = [ring(2 * numpy.pi * t / period)[1] for t in times]
         series = self.file("series.npz", frames, times)

@@ -1,5 +1,5 @@
-"""Tests of completions in zsh and fish themselves, and of manual pages in mandoc and man. Suite `shells`: scripts/setup
---shells installs these programs."""
+"""Tests of completions in zsh and fish themselves, and of manual pages in mandoc and man. They are the suite `shells`;
+scripts/setup --shells installs the programs."""
 
 import fcntl
 import os
@@ -57,7 +57,8 @@ print ready >> $CAPTURE
 
 
 class Completes:
-    """Tests for each shell, by its own complete(line). folder_completed: how the shell writes a completed folder."""
+    """Tests for each shell, by the method complete(line) of the subclass. folder_completed: how the shell writes a
+    completed folder."""
 
     def test_commands(self):
         self.assertEqual(self.complete("kerrd ren"), ["render"])
@@ -120,7 +121,7 @@ class Zsh(Completes, Case):
             os.execvpe("zsh", ["zsh", "-o", "no_global_rcs", "-i"], env)
         fcntl.ioctl(
             self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 1000, 200, 0, 0)
-        )  # smaller, because the shell would otherwise ask whether to show that many
+        )  # a smaller number, because the shell would otherwise ask whether to show so many proposals
         self.reader = threading.Thread(target=self.drain, daemon=True)
         self.reader.start()
         self.addCleanup(self.end)

@@ -41,8 +41,8 @@ class Sky(support.Case):
                 self.assertLess(places.length(where), TEXEL, (name, off))
 
     def test_the_panorama_and_the_catalogue_are_aligned(self):
-        """At the catalogue's stars the panorama is far brighter than elsewhere. In the centre of the summed stars it is
-        as bright as a picture of the catalogue."""
+        """At the catalogue's stars the panorama is far brighter than elsewhere. At the centre of the summed
+        surroundings of stars it is as bright as a picture of the catalogue."""
         for row in places.aligned(self.seen, places.shown(support.KERRD, None, *places.STARS_ALONE)):
             self.assertGreater(row.peak, 10, row)
             self.assertLess(places.length(row.panorama), 0.1, row)

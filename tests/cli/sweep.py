@@ -73,8 +73,8 @@ class Sweep(support.Case):
         return units
 
     def test_planned(self):
-        """The plan's figures for all scenes together agree with the sweep: scenes, lens maps, and the time, in which
-        shared maps count once."""
+        """The plan's figures for all scenes together agree with the sweep: the number of scenes, the number of lens
+        maps, and the time, in which a shared map is counted once."""
         plan = json.loads(self.good("plan", *SCENE, "--set", "image.layers=" + ",".join(LAYERS), *ARGUMENTS))
         self.assertEqual((plan["scenes"], plan["lens_maps"]), (self.stats["scenes"], self.stats["lens_maps_traced"]))
         self.assertEqual({path: [str(value) for value in values] for path, values in plan["axes"].items()}, AXES)
@@ -165,7 +165,8 @@ class Sweep(support.Case):
         self.assertIn("differ from scene to scene", str(header["COMMENT"]))
 
     def test_cards_leave_out_what_of_the_source_is_swept(self):
-        """A property of the source that is swept is on the axis. One that is the same in all scenes has a card."""
+        """A property of the source that the sweep varies is on the axis. A property that is the same in all scenes has
+        a card."""
         cards = {
             "source.name": ["OBJECT"],
             "source.ra_deg": ["OBSRA"],
@@ -220,8 +221,8 @@ class Sweep(support.Case):
         return json.loads(done.stderr)
 
     def test_a_cube_of_a_radio_source_has_the_layers_that_are_asked_for(self):
-        """A cube has the requested layers. It does not have janskys instead of the picture, as a FITS file has, because
-        with a sky these are undefined."""
+        """A cube has the requested layers. Unlike a FITS file of one picture, it does not have janskys instead of the
+        picture, because with a sky these are undefined."""
         for name in ("a.fits", "a.npz"):
             sky = ["-x", "sky.model=none,grid"]
             done = support.run("sweep", "-p", "riaf", "--size", "12x12", *sky, "-o", self.path(name))
@@ -273,7 +274,8 @@ class Sweep(support.Case):
             pixels = [[0] * axis + [j] + [0] for j in range(3)]
             self.assertEqual((world.wcs.ctype[axis], str(world.wcs.cunit[axis])), ("FREQ-TAB", "Hz"))
             self.assertEqual([*world.all_pix2world(pixels, 0)[:, axis]], [f * 1e9 for f in given])
-            # the primary coordinates 1, 2, 3 are in the header itself; only those of key F are in a table of the file
+            # the primary coordinates 1, 2, 3 are in the header itself; only the coordinates with the key F are in a
+            # table of the file
             first = WCS(units[name].header)
             self.assertEqual([*first.all_pix2world(pixels, 0)[:, axis]], [1, 2, 3])
             self.assertEqual([*first.celestial.wcs.ctype], [*world.celestial.wcs.ctype])

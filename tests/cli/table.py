@@ -1,5 +1,5 @@
-"""Tests of kerrd table. The file is a FITS file in the format of OGIP memo 92-009, its spectra are those of kerrd line,
-an interrupted table is continued, and profiles between the nodes are near those of kerrd line."""
+"""Tests of kerrd table. The file is a FITS file in the format of OGIP memo 92-009. Its spectra are those of kerrd line,
+an interrupted table is continued, and interpolated profiles are near those of kerrd line."""
 
 import json
 import os
@@ -97,7 +97,8 @@ class Table(support.Case):
             self.assertLess(off, 3e-6, nodes[k])
 
     def test_charge_is_an_axis(self):
-        """The axis of the charge comes after that of the spin, and each of its values has the image of its hole."""
+        """The axis of the charge comes after that of the spin. For each charge the image of the disk is that of the
+        charged hole."""
         axes = "charge=0,0.8", "inclination_deg=40,50", "index=2,3"
         self.good(
             "table", *(f"-x{axis}" for axis in axes), "-s", "spin=0.5", "-s", "bins=50", "-o", self.path("q.fits")

@@ -1,5 +1,5 @@
-"""Tests of kerrd rays --trace: one ray step by step and as a path, equal in all formats. The case of its roots is
-compared with numpy's."""
+"""Tests of kerrd rays --trace: one ray step by step and as a path, equal in all formats. The roots of its radial
+potential are compared with numpy's."""
 
 import csv
 import io

@@ -1,5 +1,5 @@
-"""Tests of kerrd view in a simulated terminal. It answers like kitty, like a terminal with sixel, like one with
-neither, or not at all. The pictures sent to it are decoded again."""
+"""Tests of kerrd view in a simulated terminal. The terminal answers like kitty, like a terminal with sixel, like a
+terminal without either, or not at all. The pictures that it receives are decoded."""
 
 import base64
 import fcntl
@@ -151,7 +151,7 @@ class View(Case):
 
     def test_kitty_before_sixel(self):
         self.assertEqual(kitty(Terminal(*SMALL, answer=KITTY[:12] + SIXEL).sent)[1], self.rendered(*SMALL))
-        # kitty's answer comes after that of sixel, and so too late
+        # kitty's answer comes after the answer about sixel, and is therefore ignored
         shown = Terminal(*SMALL, answer=SIXEL + KITTY[:12])
         self.assertIn(b"\x1bP", shown.sent)
 
@@ -162,8 +162,8 @@ class View(Case):
         self.assertEqual((width, height, rest), (192, 108, b"\n"))
         _, _, wanted = pixels(self.rendered("--size", "192x108"))
         self.assertNotIn(None, [pixel for row in rows for pixel in row])
-        # A palette of 256 colours of this picture, dithered, in steps of 1/100. The steps contribute 2.55 / 2, the
-        # palette the rest.
+        # The error of a palette of 256 colours of this picture, dithered, with components in steps of 1/100. The steps
+        # contribute 2.55 / 2, and the palette the rest.
         errors = [abs(a - b) for mean, want in zip(block_means(rows), block_means(wanted)) for a, b in zip(mean, want)]
         self.assertLess(max(errors), 12)
         self.assertLess(sum(errors) / len(errors), 2)
@@ -216,7 +216,7 @@ class View(Case):
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(160, 384)), (160, 90))
         self.assertEqual(
             self.size(*wide, answer=KITTY, pixels=(640, 96)), (163, 92)
-        )  # one of 24 lines stays free for the next output
+        )  # one of the 24 lines stays free for the next output
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(640, 384), columns=0, rows=0), (320, 180))
         self.assertEqual(self.size(*SMALL, "--enlarge", answer=KITTY, pixels=(128, 384)), (128, 72))
         self.assertEqual(self.size("--size", "100x1", answer=KITTY, pixels=(20, 384)), (20, 1))

@@ -128,8 +128,8 @@ class Visibility(Case):
             self.assertAlmostEqual(part, all_, delta=1e-5)
 
     def test_spectra(self):
-        """The flux of a picture, and that of a sphere in flat space: R = 100 GM/c^2, where the hole is too small to
-        bend its light, and far too thin to absorb. F = j V/D^2, with j by Pandya's fit."""
+        """The flux of a picture is compared with that of a sphere in flat space. With R = 100 GM/c^2 the hole is too
+        small to bend the sphere's light, and the matter is too thin to absorb. F = j V/D^2, with j by Pandya's fit."""
         self.good(
             "render", "-p", "riaf", "--size", "48x48", "-o", self.path("a.png"), "--set", "camera.inclination_deg=45"
         )
@@ -192,7 +192,7 @@ class Visibility(Case):
             self.assertAlmostEqual(jy / self.thin_sphere(radius, n, field, hz), 1, delta=0.01)
 
     def test_a_spectrum_of_a_given_flux(self):
-        """The density that gives 2 Jy at the scene's 223 GHz holds at all frequencies: the spectrum equals that of a
+        """The density that gives 2 Jy at the scene's 223 GHz is used at all frequencies: the spectrum equals that of a
         scene with this density."""
         settings = ("--set", "camera.inclination_deg=45", "--set", "volume.normalise_to_jy=2")
         told = json.loads(
@@ -261,7 +261,7 @@ class Visibility(Case):
         told = json.loads(self.good("visibility", self.write("b.json", json.dumps(asked))))
         self.assertAlmostEqual(told["values"]["flux_jy"] / integral["flux_jy"][2], 1, delta=4e-4)
         columns = told["columns"]
-        for i in range(2):  # the light of its only order is the whole light
+        for i in range(2):  # the light of the only order is all of the light
             mine, its = (columns["amplitude"][2 * i + k] for k in range(2))
             self.assertAlmostEqual(mine / its, 1, delta=1e-4)
         self.assertAlmostEqual(columns["amplitude"][0] / told["values"]["flux_jy"], 1, delta=1e-5)

@@ -129,8 +129,8 @@ def smaller_job(path, value):
 
 
 def body(path, value, sound):
-    """Makes a body smaller. sound: the body is valid by the schema. In an invalid body only pictures are made
-    smaller, because a list that is too long must stay too long."""
+    """Makes a body smaller. sound: the body is valid by the schema. In an invalid body only pictures are made smaller:
+    a list that is invalid because it is too long must stay too long."""
     if not isinstance(value, dict):
         return
     if sound:

@@ -28,7 +28,8 @@ import known  # noqa: E402
 # what earlier cases created
 KEPT = 24
 ENDLESS = ("multipart/x-mixed-replace", "application/x-kerrd-frames")
-# Headers of HTTP itself, and of caches, proxies and browsers, which any answer may have. openapi.json names all others.
+# Headers of HTTP itself, and of caches, proxies and browsers, which any answer may have. openapi.json names all other
+# headers.
 OF_ANY = {
     "date",
     "connection",
@@ -106,7 +107,7 @@ def delete(base, path, token):
 
 
 def remember(case, response):
-    """Remembers what a case created, and deletes the oldest of its kind if there are more than needed."""
+    """Records what a case created. If there are more resources of a kind than needed, deletes the oldest."""
     try:
         one = response.json()
         path = f"{case.operation.path}/{one.get('id') or one['sha256']}", one["token"]

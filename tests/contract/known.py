@@ -1,5 +1,5 @@
-"""Failures of schemathesis' checks that are due to the protocol. Each is known by some operations, one check and a text
-in the answer, and has its reason here. Any other failure fails the run."""
+"""Failures of schemathesis' checks that are due to the protocol. Each is recognised by operations, a check and a text
+in the answer, and its reason is stated here. Any other failure fails the run."""
 
 import pathlib
 import re
@@ -32,7 +32,7 @@ RULES = [
 BEFORE = re.compile("(?:" + "|".join(words(one) for one in AMONG) + ")", re.DOTALL)
 RANGE = re.compile(
     r'\w+ is "[^"]*(:\d+|\.\.\.)"(, a range [^;]+)?; '
-)  # a range, as messages quote it: long ones are truncated
+)  # a range as messages quote it; long ranges are truncated
 
 
 def together(label, sentence):
@@ -70,9 +70,9 @@ def refused(label, problem):
         return None
     if (
         problem.get("type") == "urn:kerrd:problem:too-large"
-    ):  # the request needs more than this server, on this device, does for one request
+    ):  # the request needs more than this server, on this device, allows for one request
         return "more than this server does"
-    # a CSV file is a text, and a schema can say no more about it
+    # a CSV file is a text, and a schema cannot describe its content
     if problem.get("type") == "urn:kerrd:problem:invalid-asset":
         return "the bytes of an asset"
     if problem.get("type") == "urn:kerrd:problem:idempotency-key-reused":
@@ -145,7 +145,7 @@ def why(failure, case, response):
         urllib.parse.urlsplit(response.request.url).query, keep_blank_values=True
     ):
         return "a parameter that is not in the request"
-    # OpenAPI 3.1 has one schema for the whole stream, as a text; schemathesis applies it to each event.
+    # OpenAPI 3.1 has one schema for the whole stream, which is a text. schemathesis applies this schema to each event.
     if (
         failure.title == "SSE event violates schema"
         and status == 200

@@ -22,7 +22,7 @@ OBSERVER = (
 HOLE = "charge is %.16g M; with spin %.16g its magnitude must be below %.9g M"
 
 # Fields of a scene that depend on each other. A document is applied over a preset, and a patch over the present scene.
-# So a member that is missing in the request still has a value, which counts.
+# A member that is missing in the request therefore still has a value, and the rules apply to this value.
 SCENE = (
     "there is no %s.%zu: the list has %zu element%s, and the next free index is %zu",
     "%s is an old name of %s.%zu, and cannot be used with %s",
@@ -453,7 +453,7 @@ TOGETHER = [
     ),
     ("GET /v1/physics/(shadow|sky)$", ("there is no critical curve for this observer",)),
     ("GET /v1/physics/", ("the ranges make more than %d points together",)),
-    # The refusal of a scene of a sweep, or of one between two keyframes, inside a message of its own.
+    # The refusal of one scene of a sweep, or of a scene between two keyframes, inside another message.
     (
         "POST /v1/(jobs|plan)",
         (

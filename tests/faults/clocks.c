@@ -1,5 +1,5 @@
-/* Preloaded: puts clocks ahead when a test says so (control.h), for the program and the libraries it is linked with.
- * Timed waits on such a clock still last as long as without the fault. */
+/* Preloaded: sets clocks ahead when a test requests it (control.h), for the program and the libraries that it is linked
+ * with. Timed waits on such a clock still last as long as without the fault. */
 #include "control.h"
 
 #include <dlfcn.h>

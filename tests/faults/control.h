@@ -10,11 +10,11 @@
 
 enum { KD_FAULT_BLOCKS = 1 << 16, KD_FAULT_STACKS = 1 << 12 };
 
-/* Operations on files, for files_mask. */
+/* Kinds of operations on files, for files_mask. */
 enum {
     KD_FAULT_OPEN = 1,   /* an existing file or folder */
     KD_FAULT_CREATE = 2, /* creates a file or a folder */
-    KD_FAULT_WRITE = 4,  /* writes to a regular file; the operations below are on such files, too */
+    KD_FAULT_WRITE = 4,  /* writes to a regular file; the operations below are also on regular files */
     KD_FAULT_READ = 8,
     KD_FAULT_SYNC = 16, /* folders too */
     KD_FAULT_RENAME = 32,
@@ -26,8 +26,8 @@ struct kd_faults {
     _Atomic int64_t fail_for;    /* number of successive failures; 0 counts as 1 */
     _Atomic int64_t allocations; /* number of allocations since the start */
     _Atomic int64_t failed;      /* number of failed allocations */
-    /* 1: record each stack of an allocation in `stacks`. Another value except 0: fail_at counts only allocations by
-     * that stack. */
+    /* 0: no effect. 1: each stack of an allocation is recorded in `stacks`. Any other value: fail_at counts only
+     * allocations with this stack. */
     _Atomic int64_t by_stack;
     /* failed allocations that libmicrohttpd requested, after which it closes the connection */
     _Atomic int64_t by_library;
@@ -43,9 +43,9 @@ struct kd_faults {
     _Atomic int64_t files_waiting;  /* number of threads blocked by files_slow */
     _Atomic int64_t wall_s;         /* offset of the wall clock, s */
     _Atomic int64_t steady_ms;      /* offset of the monotonic clock, ms */
-    _Atomic int64_t steady_step_ms; /* its increase at each reading */
-    _Atomic int64_t looks;          /* readings of a clock that was ahead */
-    _Atomic int64_t live;           /* number of blocks not freed, with the details: */
+    _Atomic int64_t steady_step_ms; /* increase of the monotonic clock's offset at each reading */
+    _Atomic int64_t looks;          /* number of readings of a clock that was ahead */
+    _Atomic int64_t live;           /* number of blocks not freed; details follow */
     struct kd_fault_block {
         _Atomic uint64_t at; /* address of the block; 0: free slot */
         /* Caller: the number of the object << 48, 0 for the program, and the return address within it. */
@@ -58,10 +58,10 @@ struct kd_faults {
     } stacks[KD_FAULT_STACKS];
 };
 
-extern struct kd_faults *kd_faults; /* never NULL: without a file, a default that injects nothing */
+extern struct kd_faults *kd_faults; /* never NULL: if there is no file, a default that injects no fault */
 
-/* True if code at this address belongs to the program, or to a library it is linked with except the C library; false
- * for a driver that it loads. *where: as in `blocks`. */
+/* True if code at this address belongs to the program, or to a library that it is linked with, except the C library.
+ * False for a driver that the program loads. *where: as in `blocks`. */
 bool kd_fault_ours(const void *caller, uint64_t *where);
 
 /* Counts down to the next failure; true if this operation must fail. */

@@ -1,6 +1,5 @@
-"""Damaged files and full disks.
-
-What a server keeps is cut off, emptied, zeroed or filled with noise; a small tmpfs fills up, and another is read-only.
+"""Tests with damaged files and full disks. The files of a server are cut off, emptied, zeroed or filled with noise. A
+small tmpfs is filled up, and another is read-only.
 
 damage.py FAULTS SERVER                 a file of each kind
 KD_WHOLE=1 damage.py FAULTS SERVER      every file
@@ -33,7 +32,7 @@ NEW = {
 
 
 class Damage(state.Case):
-    """A server starts, continues with what it can read, and changes nothing else."""
+    """A server starts, continues with the files that it can read, and changes no other file."""
 
     def setUp(self):
         super().setUp()
@@ -107,8 +106,8 @@ class Damage(state.Case):
             return f.read()
 
     def outcome(self, name, unseen):
-        """A word for the effect on the thing that the file belongs to; everything else must be unchanged. unseen: only
-        a reader of the content can find the damage, as by the checksums of a PNG."""
+        """A word for the effect on the resource that the file belongs to; all others must be unchanged. unseen: the
+        damage can be detected only by a reader of the content, for example by the checksums of a PNG."""
         with open(os.path.join(self.folder, "told"), "wb") as told:
             server = self.start(by=lambda *options: daemon.Daemon("--log", 1, *options, stderr=told))
         word = "whole"
@@ -146,10 +145,10 @@ class Damage(state.Case):
 
 
 class Disk(state.Case):
-    """The server has a file system of its own, which other processes reach through the server's process."""
+    """The server has a file system of its own. Other processes reach it through the server's process."""
 
     def in_a_namespace(self, script, *options):
-        """A server started after a line of shell, in a mount namespace of its own; None if namespaces are not
+        """A server that is started after a line of shell, in a mount namespace of its own. None if namespaces are not
         permitted."""
         wrap = (
             ["unshare", "--mount", "--propagation", "private"]
@@ -195,7 +194,7 @@ class Disk(state.Case):
 
     def test_it_is_read_only(self):
         """A folder that cannot be written cannot be the state folder, and the server says so at the start. If the
-        folder becomes unwritable later, the server continues, and refuses jobs until it can store them."""
+        folder becomes unwritable later, the server continues to run, and refuses jobs until it can store them."""
         script = (
             f"mount -t tmpfs none {self.folder} && mkdir {self.folder}/state && mount -o remount,ro none {self.folder}"
         )

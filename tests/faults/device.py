@@ -128,8 +128,8 @@ class Drawing:
         )
 
     def judge(self, done, n):
-        """A word for how it ended. Either the old file is unchanged or the new one is complete, there are no other
-        files, and no memory leaked."""
+        """A word for how the program ended. Either the old file is unchanged or the new one is complete. There are no
+        other files, and no memory leaked."""
         case = self.case
         case.assertEqual(os.listdir(self.folder), ["a.png"], n)
         with open(self.out, "rb") as f:
@@ -227,7 +227,7 @@ class Command(unittest.TestCase):
                 faults.record(errno.errorcode[number], "kerrd render", outcomes, count + 1)
 
     def test_a_cache_that_is_read_only(self):
-        """The server cannot store what it learns about a device, and nothing else suffers. The disk needs a mount
+        """The server cannot store what it learns about a device; nothing else is affected. The disk needs a mount
         namespace, which some machines do not permit to users."""
         wrap = (
             ["unshare", "--mount", "--propagation", "private"]
@@ -244,7 +244,7 @@ class Command(unittest.TestCase):
         faults.record("EROFS", "kerrd render, caches of a device", ["whole picture"])
 
     def test_a_machine_that_was_held(self):
-        """A machine that was suspended: ten minutes between two readings of the monotonic clock are not taken for a
+        """A machine was suspended: ten minutes between two readings of the monotonic clock must not be mistaken for a
         lost device."""
         clocks = self.one.faults
         clocks.set("steady_step_ms", 600_000)
@@ -258,8 +258,8 @@ class Command(unittest.TestCase):
         )
 
     def test_pipes(self):
-        """If nobody reads the picture, kerrd ends by SIGPIPE without a message, as other tools do. If nobody reads its
-        messages, it still makes the picture."""
+        """If the reader of the picture closes the pipe, kerrd ends by SIGPIPE without a message, as other tools do. If
+        only its messages have no reader, it still writes the picture."""
         read, write = os.pipe()
         os.close(read)
         done = self.one.draw("-o", "-", stdout=write)
@@ -285,7 +285,7 @@ class Command(unittest.TestCase):
         )
 
     def test_caches(self):
-        """A cache of the device can be made again, and is made again after damage."""
+        """A cache of the device is made again after damage."""
         folder = os.path.join(CACHES.name, "kerrd")
         names = sorted(os.listdir(folder))
         self.assertTrue([name for name in names if name.endswith(".pipelines")], names)

@@ -1,6 +1,6 @@
 """Disks that are full, fail, or are slow, with a renderer without a device.
 
-An accepted request is completed when there is room again. A refused one leaves nothing behind.
+An accepted request is completed when there is room again. A refused request leaves no files.
 
 disk.py FAULTS SERVER                 some operations of each series
 KD_WHOLE=1 disk.py FAULTS SERVER      all of them
@@ -59,8 +59,8 @@ class Case(state.Case):
         return str(answer.status)
 
     def reached(self, word, failed):
-        """The word for an outcome if more operations have failed than `failed`. If none has, everything must be as
-        usual."""
+        """The word for an outcome if more operations have failed than `failed`. If no further operation has failed, the
+        outcome must be the usual one."""
         if self.faults.files_failed > failed:
             return word
         self.assertIn(word, ("whole", "started"))
@@ -72,7 +72,7 @@ class Operations(Case):
 
     def sweep(self, scenario, number, mask, ask):
         """Lets the n-th operation fail for each n. ask(server, number) returns a word. A failure that does not affect
-        the answer must be in the log; otherwise it was overlooked."""
+        the answer must be logged; otherwise the program has ignored it."""
         told = open(os.path.join(self.folder, "told"), "w+", encoding="utf-8")
         self.addCleanup(told.close)
         server = self.start("--log", 1, by=lambda *options: self.faults.start(*options, stderr=told))
@@ -128,7 +128,7 @@ class Operations(Case):
                 self.assertEqual(self.sweep("PUT /v1/assets", number, mask, put).stop(), 0)
 
     def test_a_job_to_its_end(self):
-        """An accepted job ends with the right bytes, and has them after a restart."""
+        """An accepted job ends with the right bytes, and still has them after a restart."""
         for number, mask in FAULTS:
             with self.subTest(errno.errorcode[number]):
                 accepted, good = [], []
@@ -154,7 +154,7 @@ class Operations(Case):
                 server = self.sweep("a job from POST to its result", number, mask, run)
                 self.assertEqual(server.stop(), 0)
                 server = self.start()
-                for job in accepted[-60:]:  # the last 60, because the server keeps 64
+                for job in accepted[-60:]:  # only the last 60 are compared, because the server keeps 64
                     self.assertEqual(
                         (self.status(job, server)["state"], self.frames_of(job, server)), ("done", good[0])
                     )
@@ -206,15 +206,15 @@ class Operations(Case):
 
 
 class Scarce(Case):
-    """A resource that runs out for a while."""
+    """A resource that is exhausted for a while."""
 
     def refused(self, server, status, word):
         problem = self.assertProblem(self.job(server), status, word)
         self.assertNotIn(self.folder, problem["detail"])
 
     def test_an_asset_without_a_place(self):
-        """An asset that could not be written does not exist, is not counted, and leaves nothing behind. It can be
-        uploaded later."""
+        """An asset that could not be written does not exist, is not counted, and leaves no file. It can be uploaded
+        later."""
         server = self.start(by=self.faults.start)
         put = lambda: server.request("PUT", "/v1/assets", assets.png(seed=1), {"Content-Type": "image/png"})
         for number, mask in ((errno.ENOSPC, faults.WRITE), (errno.EMFILE, faults.OPEN | faults.CREATE)):
@@ -296,8 +296,8 @@ class Scarce(Case):
             self.assertEqual(server.stop(), 0)
 
     def test_one_exposure_is_kept_before_it_is_used(self):
-        """All frames of a film have one exposure, which is measured first. The job waits until its record is written,
-        because after a restart a different one might be measured."""
+        """All frames of a film have one exposure, which is measured first. The job waits until the record of the
+        exposure is written, because after a restart a different exposure might be measured."""
         server = self.start(by=self.faults.start)
         scene = {"image": SCENE["image"], "time": 20, "style": {"exposure": "auto"}}
         # three renames when the job is accepted, and one for the record of its attempt

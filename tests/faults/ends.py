@@ -1,5 +1,4 @@
-"""Descriptors run out, and clients and readers of pipes disappear, with a renderer without a device.
-
+"""Tests that run out of descriptors, and whose clients or readers of pipes disappear, with a renderer without a device.
 ends.py FAULTS SERVER
 """
 
@@ -19,8 +18,8 @@ BIG = {"image": {"width": 800, "height": 600, "samples": 2}, "time": 5}  # 1.4 M
 
 class Descriptors(state.Case):
     def test_none_is_left(self):
-        """While no descriptor is left, connected clients are answered and new ones get an error with the reason. Nothing that was
-        accepted is lost, and everything works when there are some again."""
+        """While no descriptor is left, connected clients are answered and new ones get an error with the reason. No
+        accepted work is lost, and everything works when descriptors are available again."""
         server = self.start()
         held = [http.client.HTTPConnection("127.0.0.1", server.port, timeout=600) for _ in range(3)]
 
@@ -34,12 +33,12 @@ class Descriptors(state.Case):
         paths = ("/healthz", "/metrics", "/v1/render?" + daemon.SMALL)
         good = [
             ask(connection, "GET", path.replace("/metrics", "/readyz")) for connection, path in zip(held, paths)
-        ]  # metrics are requested for the first time when no descriptor is left
+        ]  # the metrics are requested for the first time while no descriptor is left
         job = self.make({"scenes": [{**SCENE, "time": 50}] * 20}, server=server)
         self.assertTrue(daemon.eventually(lambda: self.status(job, server)["finished"]))
         limits = resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE)
-        # The minimum over some moments, because at some of them a frame of the job is being written, whose descriptor
-        # is soon closed.
+        # The minimum of several readings, because during some of them a frame of the job is being written, and its
+        # descriptor is soon closed.
         least = min(server.open_files() for _ in range(50) if not time.sleep(0.01))
         resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (least - 1, limits[1]))
         outcomes = []
@@ -82,7 +81,8 @@ class Descriptors(state.Case):
 
 class Clients(state.Case):
     def test_a_client_goes_away_in_the_middle_of_an_answer(self):
-        """For each kind of answer: nothing remains of it, and the next one is complete."""
+        """For each kind of answer: after the client disappears no resource of it remains, and the next answer is
+        complete."""
         server = self.start()
         session = server.post("/v1/sessions", {**BIG, "motion": {"time_rate": 10}}).json()
         job = self.make({"scenes": [{**BIG, "time": 1 + i} for i in range(6)]}, server=server)
@@ -131,7 +131,7 @@ class Clients(state.Case):
                             got += more
                             s.settimeout(2)
                     except TimeoutError:
-                        pass  # ignored, because the stream has nothing more to send for now
+                        pass  # ignored, because the stream has no more data to send now
                     if taken > 1:
                         self.assertRegex(got, rb"^HTTP/1.1 (200|202|204) ")
                     outcomes.append(

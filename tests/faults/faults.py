@@ -1,8 +1,8 @@
-"""Programs under test whose memory, files, descriptors and clocks fail on request (control.h), and a ledger of the
-outcomes.
+"""Runs programs under test whose memory, files, descriptors and clocks fail on request (control.h), and keeps a record
+of the outcomes.
 
-With KD_WHOLE=1 each n of a series fails instead of some. KD_LEDGER=FILE appends what was tried, one JSON object a line,
-for run.py. With KD_FAULTS_TELL=1 the program prints where an allocation failed.
+With KD_WHOLE=1 each n of a series fails instead of some. With KD_LEDGER=FILE each trial is appended to the file as a
+line of JSON, for run.py. With KD_FAULTS_TELL=1 the program prints where an allocation failed.
 """
 
 import collections
@@ -64,14 +64,14 @@ class Faults:
         struct.pack_into("<q", self.map, 8 * FIELDS.index(name), value)
 
     def memory(self, n, count=1):
-        """Lets the n-th allocation from now on fail, counted from 0, and those after it, `count` in all."""
+        """Makes the n-th allocation from now on fail, counted from 0, and those after it: `count` allocations in all."""
         self.set("fail_at", -1)
         self.set("fail_for", count)
         self.before, self.counted = self.allocations, None
         self.set("fail_at", n)
 
     def files(self, mask, errno, n=0, count=ALWAYS):
-        """As memory(), for operations on files."""
+        """Like memory(), for operations on files."""
         self.set("files_at", -1)
         self.set("files_mask", mask)
         self.set("files_errno", errno)
@@ -79,7 +79,7 @@ class Faults:
         self.set("files_at", n)
 
     def mend(self):
-        """Lets nothing fail any more. If `memory` was called before, `counted` is then the number of allocations that
+        """No more failures from now on. If `memory` was called before, `counted` is then the number of allocations that
         could have failed."""
         if self.counted is None:
             self.counted = self.allocations - self.before
@@ -145,8 +145,8 @@ def some(count, most):
 
 
 def record(kind, scenario, outcomes, points=None):
-    """Records the outcomes of faults. outcomes: number of times for each word; points: number of places that were
-    possible."""
+    """Records the outcomes of faults. outcomes: number of times for each word; points: number of places at which a
+    fault was possible."""
     outcomes = collections.Counter(outcomes)
     tried = sum(outcomes.values())
     print(

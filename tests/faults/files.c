@@ -1,4 +1,4 @@
-/* Preloaded: lets the program's own file operations fail when a test says so (control.h). */
+/* Preloaded: makes the program's own file operations fail when a test requests it (control.h). */
 #include "control.h"
 
 #include <dirent.h>

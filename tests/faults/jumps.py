@@ -1,7 +1,5 @@
-"""Clocks that jump, with a renderer without a device.
-
-The wall clock jumps by hours and days, back and forth. The monotonic clock, which nobody sets, jumps by ten minutes, as
-where a virtual machine was suspended.
+"""Tests with clocks that jump, with a renderer without a device. The wall clock jumps by hours and days, back and
+forth. The monotonic clock, which cannot be set, jumps by ten minutes, as if a virtual machine had been suspended.
 
 jumps.py FAULTS SERVER
 """

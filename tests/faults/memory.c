@@ -1,5 +1,5 @@
-/* Preloaded: lets allocations fail when a test says so (control.h), for the program and the libraries it is linked
- * with, but not for a Vulkan driver or the dynamic loader. A thread that cannot be started counts as a failed
+/* Preloaded: makes allocations fail when a test requests it (control.h), for the program and the libraries that it is
+ * linked with, but not for a Vulkan driver or the dynamic loader. A thread that cannot be started counts as a failed
  * allocation. */
 #include "control.h"
 
@@ -33,7 +33,7 @@ static struct object {
 static size_t n_objects;
 static bool tells; /* KD_FAULTS_TELL is set: print the stack of each failed allocation */
 
-/* Memory for allocations made before the real functions are known; dlsym itself makes some. */
+/* Memory for allocations that are made before the real functions are known: dlsym itself allocates. */
 static _Alignas(16) unsigned char early[EARLY];
 static _Atomic size_t early_used;
 static void *(*real_malloc)(size_t), *(*real_calloc)(size_t, size_t), *(*real_realloc)(void *, size_t);
@@ -114,7 +114,7 @@ bool kd_fault_ours(const void *caller, uint64_t *where)
     return false;
 }
 
-/* Hash of the stack, of frames in our objects; above 1. */
+/* Hash of the stack of return addresses in our objects; always above 1. */
 static int64_t stack_number(void)
 {
     void *frames[DEEPEST];
@@ -138,10 +138,10 @@ static void note_stack(int64_t number, uint64_t where)
         atomic_fetch_add(&s->count, 1);
         return;
     }
-    abort(); /* more stacks than slots */
+    abort(); /* there are more stacks than slots */
 }
 
-/* True if this allocation counts, when only one stack is counted. */
+/* True if this allocation is counted, for the case that only one stack is counted. */
 static bool of_stack(uint64_t where)
 {
     const int64_t wanted = atomic_load(&kd_faults->by_stack), number = wanted ? stack_number() : 0;

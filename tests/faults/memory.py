@@ -1,7 +1,7 @@
 """Lets every allocation of a request fail once, with a renderer without a device.
 
-The answer is a problem of status 5xx or the whole document, nothing leaks, and the server then answers the same request
-as before.
+The answer must be a problem of status 5xx or the whole document, and nothing may leak. Afterwards the server must
+answer the same request as before.
 
 memory.py FAULTS SERVER                 some allocations of each request
 KD_WHOLE=1 memory.py FAULTS SERVER      all of them
@@ -124,8 +124,8 @@ class Memory(sweep.Case):
         self.sweep(self.owned("/v1/sessions"), 201, "POST /v1/sessions")
 
     def test_a_change_of_a_session(self):
-        """A change that was answered has happened. One that was refused has happened completely or not at all, because
-        the missing memory may have been that of the answer."""
+        """A change that was answered with success has happened. A change that was refused has happened completely or
+        not at all, because the allocation that failed may have been that of the answer."""
         session = self.server.post("/v1/sessions", {**IMAGE, "time": 1}).json()
         at, owner = f"/v1/sessions/{session['id']}", {"Authorization": "Bearer " + session["token"]}
         turn = [20]
@@ -154,7 +154,7 @@ class Memory(sweep.Case):
         self.puts("a grid", lambda seed: assets.grid(seed / 1024), "application/x-npz")
 
     def test_pictures_of_assets(self):
-        """A scene that refers to a picture or a grid is never called wrong because memory was short."""
+        """A scene that refers to a picture or a grid is never called invalid because memory was short."""
         for data, kind, scene in (
             (assets.png(32, 16), "image/png", lambda asset: {"sky": {"model": "image", "image": asset}}),
             (assets.grid(0.5), "application/x-npz", lambda asset: GRID | {"volume": {"model": "grid", "grid": asset}}),

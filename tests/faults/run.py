@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes each fault of each series happen, and writes the outcomes into docs/faults.md.
+"""Injects each fault of each series, and writes the outcomes into docs/faults.md.
 
 tests/faults/run.py [BUILD]                 all of them, some half an hour on two cores; BUILD: build/
 tests/faults/run.py --keep FOLDER [BUILD]   the same; results are kept in the folder, and the next run with this folder

@@ -1,5 +1,4 @@
-"""Makes each allocation of a request fail once, and checks the answer, what is left behind, and a repetition of the
-request."""
+"""Makes each allocation of a request fail once, and checks the answer, leaks, and a repetition of the request."""
 
 import collections
 import http.client
@@ -27,8 +26,8 @@ def shape(document):
 
 
 def plain(answer):
-    """The answer without what a job or a session says about its frame. The frame may have failed for lack of memory, or
-    may be done already."""
+    """The answer without the state of a job's or a session's frame, because the frame may have failed for lack of
+    memory, or may be done already."""
     document = answer.json()
     return (
         {

@@ -1,6 +1,5 @@
-"""Lets calls of Vulkan fail, one by one, beneath a running server (vulkan_table.c).
-
-Each failure must end in a clear error, in the same bytes as without it, or in exit code 3.
+"""Makes calls of Vulkan fail, one by one, below a running server (vulkan_table.c). Each failure must end in a clear
+error, in the same bytes as without a failure, or in exit code 3.
 
 python3 vulkan.py build/tests/faults/kerrd_vulkan_faults --full [OPTION...]
 
@@ -198,7 +197,8 @@ def wanted(answer, statuses=(200,)):
     raise Refused(f"{answer.status} {problem['type'].rsplit(':', 1)[1]}: {problem['detail']}")
 
 
-# Each scenario returns bytes that are compared. The server is new, and its device has only been opened.
+# Each scenario returns bytes that are compared. It starts with a new server, whose device has been opened and not yet
+# used.
 
 
 def render(server):
@@ -367,7 +367,7 @@ def live(server, scenario, faults, fault, same):
     except Refused as refused:
         got, outcome = None, f"error {refused}"
     if faults.get("injected"):
-        faults.disarm()  # disarmed, because the fault might otherwise come when the server stops
+        faults.disarm()  # no longer armed, because the fault might otherwise occur while the server stops
     if same is not None and got is not None and got != same:
         raise Broken("other bytes than without the fault")
     if outcome:  # the next request must work as if nothing had happened
@@ -383,7 +383,7 @@ def live(server, scenario, faults, fault, same):
 
 
 def to_its_end(server, scenario, faults, fault, same):
-    """As live(), for a fault that may also happen while the server stops."""
+    """Like live(), for a fault that may also occur while the server stops."""
     try:
         outcome, got = live(server, scenario, faults, fault, same)
         code = stop(server)
@@ -424,7 +424,8 @@ def starts_not(faults):
 
 
 def one(scenario, fault=None, same=None):
-    """A server with that fault: the outcome, the bytes, whether the fault occurred, and the number of calls."""
+    """Starts a server with the given fault. Returns the outcome, the bytes, whether the fault occurred, and the number
+    of calls."""
     faults, server = Faults(), None
     try:
         faults.set(incoherent=scenario.incoherent)
@@ -450,11 +451,11 @@ def one(scenario, fault=None, same=None):
         faults.close()
 
 
-CACHE = tempfile.TemporaryDirectory()  # the pipeline cache, and what is known about the device
+CACHE = tempfile.TemporaryDirectory()  # the pipeline cache, and the stored results about the device
 
 
 def kind_of(scenario, fault, outcome, injected):
-    """A word for an outcome, if it is one that this fault may have."""
+    """A word for an outcome, if this fault may have that outcome."""
     name, _, code = fault
     word = "error" if outcome.startswith("error") else outcome
     if not injected:

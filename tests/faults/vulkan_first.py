@@ -50,7 +50,7 @@ class Case(unittest.TestCase):
 
 class Vulkan(Case):
     def test_first_calls(self):
-        """With one server, each request gets as far as the entry point that fails."""
+        """With a single server: each request gets as far as the entry point that fails."""
         server, told = self.start(), {}
         for name in (
             "CreateBuffer",
@@ -135,7 +135,7 @@ class Vulkan(Case):
             self.faults.arm(name, n, DEVICE)
             with concurrent.futures.ThreadPoolExecutor(2) as pool:
                 for one in [pool.submit(ask, server, view) for ask in (picture, job_of, picture)]:
-                    # a refusal is permitted; any other unsuccessful answer raises Broken
+                    # a refusal is permitted; any other answer without success raises Broken
                     with contextlib.suppress(Refused):
                         one.result()
             reached += self.faults.get("injected")
@@ -181,11 +181,11 @@ class Vulkan(Case):
 
 
 class Long(Case):
-    """A call that never returns: clients notice only that the process ends."""
+    """A call never returns: clients notice only that the process ends."""
 
     def test_a_driver_that_hangs(self):
-        """The device that hangs is the one that compiles a picture's kernels or, if they are compiled, the one that
-        renders it."""
+        """The device that hangs is the one that compiles a picture's kernels. If the kernels are compiled already, it
+        is the one that renders the picture."""
         for there in (False, True):
             with self.subTest(there=there):
                 server = self.start("--device-timeout", 1)

@@ -92,9 +92,9 @@ enum { ENTRIES(NAME) N_ENTRIES };
 struct control {
     /* The call of this entry at which the countdown reaches 0 returns the code and is not made; negative: none. */
     _Atomic int64_t entry, countdown, code;
-    _Atomic int64_t injected;   /* number of injected failures */
+    _Atomic int64_t injected;   /* number of failures injected so far */
     _Atomic int64_t lost;       /* a lost device reports so at every call that can, until another device is created */
-    _Atomic int64_t dead;       /* 1: after the next lost device none can be created */
+    _Atomic int64_t dead;       /* 1: after the next loss of the device no device can be created */
     _Atomic int64_t hang;       /* 1: submissions never complete; 2: the next submission does not return */
     _Atomic int64_t incoherent; /* 1 at the start: memory as on devices whose host must flush it */
     _Atomic int64_t calls[N_ENTRIES];
@@ -103,8 +103,8 @@ struct control {
 };
 static struct control unused = { .entry = -1 }, *control = &unused;
 
-/* The driver's functions: the same for all devices open at a time. The loader unloads the driver with the last of
- * them and may load it elsewhere later. */
+/* The driver's functions: the same for all devices open at a time. The loader unloads the driver with the last of these
+ * devices, and may load it at another address later. */
 #define REAL(name, parameters, arguments) static _Atomic(PFN_vk##name) real_##name;
 ENTRIES(REAL)
 #define REAL_END(name, parameters, arguments, object, maker) static _Atomic(PFN_vk##name) real_##name;

@@ -99,7 +99,7 @@ static enum kd_status read_file(struct kd_settings *settings, const char *text, 
     return kd_settings_read_file(settings, path, error);
 }
 
-/* Environment variables may hold any bytes, as file names do; a JSON document is UTF-8. */
+/* Environment variables may hold any bytes, as file names do. A JSON document must be UTF-8. */
 static bool is_utf8(const struct kd_settings *settings)
 {
     bool valid = true;

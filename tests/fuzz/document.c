@@ -4,7 +4,7 @@
 #include "../document_example.h"
 #include "document/tree.h"
 
-/* Checks that a row accepts the numbers of a range that it accepts. */
+/* If a row accepts a range, it must accept the numbers of the range. */
 static void check_range(const char *name, const char *text)
 {
     const struct kd_row *row = kd_document_find(&tea_document, name);

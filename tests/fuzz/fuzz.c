@@ -93,7 +93,7 @@ void kd_fuzz_json(const struct kd_buffer *text)
     cJSON_Delete(root);
 }
 
-/* Reimplements kd_row_holds, which is under test, from the row of scene/table.h. */
+/* Implements kd_row_holds, which is under test, a second time from the row of scene/table.h. */
 static bool allows(const struct kd_row *field, double value)
 {
     double most = field->most;

@@ -34,10 +34,10 @@ bool kd_fuzz_next(const uint8_t **data, size_t *size, struct kd_fuzz_text *out);
 /* Checks an error: it has a status, a one-line message in UTF-8, and a JSON pointer (RFC 6901) or none. */
 void kd_fuzz_refused(enum kd_status status, const struct kd_error *error);
 
-/* Checks that each field of the scene has a value that its row allows. */
+/* Checks that each field of the scene has a value that its row permits. */
 void kd_fuzz_fields(const struct kd_scene *scene);
-/* As kd_fuzz_fields. Also checks that the canonical document reads back as the same scene with the same hash, and that
- * the scene has a plan or an error. */
+/* Like kd_fuzz_fields. Also checks that the canonical document reads back as the same scene with the same hash, and
+ * that the scene has a plan or an error. */
 void kd_fuzz_sound(const struct kd_scene *scene);
 
 /* Capacity of a typical device, for plans. */

@@ -1,5 +1,5 @@
-/* Fuzz target: the head of a request. Its parts come line by line: target, base path, Accept, Accept-Encoding,
- * If-None-Match, Content-Type, Host, X-Request-Id, Last-Event-ID. All lines are optional. */
+/* Fuzz target: the head of a request. Each line of the input is a part of it: target, base path, Accept,
+ * Accept-Encoding, If-None-Match, Content-Type, Host, X-Request-Id, Last-Event-ID. All lines are optional. */
 #include "fuzz.h"
 
 #include "base/utf8.h"
@@ -44,7 +44,7 @@ static void check_target(const char *raw, const struct kd_base_path *base)
     kd_target_finish(&target);
 }
 
-/* A request whose beginning is recognised as a health check must be a health check as a whole. */
+/* If the beginning of a request is recognised as a health check, the whole request must be a health check. */
 static void check_begins(const char *raw, const struct kd_base_path *base)
 {
     struct kd_buffer line = { 0 };
@@ -60,7 +60,7 @@ static void check_begins(const char *raw, const struct kd_base_path *base)
     kd_buffer_finish(&line);
 }
 
-/* Blanks round a list, and an empty entry, change nothing. */
+/* Blanks round a list, and an empty entry, do not change the result. */
 static void check_accept(const char *accept, const char *encoding)
 {
     static const char *const types[] = { "image/png", "application/json", "text/csv", "application/x-npy" };
@@ -105,8 +105,8 @@ static void check_others(const char *etag, const char *type, const char *host)
     CHECK(!kd_host_listed("", hosts), "no host is one");
 }
 
-/* A request's own id is used if a log and a header can hold it, otherwise a new one is made. A number is accepted
- * only in canonical form. */
+/* A request's own id is used if it may be written in a log and a header; otherwise a new one is made. A number is
+ * accepted only in canonical form. */
 static void check_numbers(const char *id, const char *event)
 {
     static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-._+/=";

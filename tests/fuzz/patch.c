@@ -1,13 +1,13 @@
-/* Fuzz target: a scene, a line "---" and a merge patch (RFC 7396). Applying a patch twice equals applying it once,
- * equals patching the document, and a refused patch changes nothing. */
+/* Fuzz target: a scene, a line "---" and a merge patch (RFC 7396). Applying a patch twice gives the same scene as
+ * applying it once, and as patching the document. A refused patch changes nothing. */
 #include "fuzz.h"
 
 #include "scene/table.h"
 
 #include <cjson/cJSON.h>
 
-/* True if a patch has members with a meaning beyond RFC 7396: a style sets other fields, an object for a list
- * changes its elements, and an old name of an element is a member of its own. */
+/* True if a patch has members with a meaning beyond RFC 7396: a style sets other fields, an object in place of a list
+ * changes the list's elements, and an old name of an element is a member of its own. */
 static bool is_special(const cJSON *patch)
 {
     bool special = false;

@@ -1,5 +1,6 @@
-/* Fuzz target: the scene in a picture, PNG, JPEG, WebP, FITS, OpenEXR or NPZ, as for --from; and a PNG's pixels and
- * texts, which read back the same after writing. Input that is not a picture is wrapped into one as its scene. */
+/* Fuzz target: the scene in a picture file (PNG, JPEG, WebP, FITS, OpenEXR or NPZ), as for --from. Also a PNG's pixels
+ * and texts, which must read back the same after writing. Input that is not a picture is wrapped into one as its
+ * scene. */
 #include "fuzz.h"
 
 #include "image/jpeg.h"

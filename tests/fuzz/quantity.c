@@ -34,7 +34,7 @@ static void evaluate(const struct kd_quantity_request *request)
     kd_quantity_answer_finish(&answer);
 }
 
-/* Takes the next NAME=VALUE; *value points into it. False if nothing is left. */
+/* Takes the next NAME=VALUE. *value points into it. Returns false if no input is left. */
 static bool next(const uint8_t **data, size_t *size, struct kd_fuzz_text *line, char **value)
 {
     static char none[] = "";

@@ -44,7 +44,7 @@ def sanitized():
 
 
 def replay(build):
-    """Exit code: 1 if an input in BUILD/crash still fails, or if there is none, because then the run failed for
+    """Exit code: 1 if an input in BUILD/crash still fails. Also 1 if there is no input, because the run then failed for
     another reason."""
     paths = sorted(path for path in (build / "crash").glob("*-*") if path.suffix != ".log")
     found = not paths

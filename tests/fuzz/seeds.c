@@ -1,6 +1,6 @@
 /* Writes seeds and dictionaries of the targets from kerrd's own tables with kerrd's own writers, so that they stay up
- * to date. kd_fuzz_seeds OUT makes OUT/TARGET/NAME and OUT/TARGET.dict, the same each time. Seeds that cannot be made
- * from tables are in tests/fuzz/corpus. */
+ * to date. kd_fuzz_seeds OUT writes OUT/TARGET/NAME and OUT/TARGET.dict, with the same bytes each time. Seeds that
+ * cannot be made from tables are in tests/fuzz/corpus. */
 #include "fuzz.h"
 
 #include "scene/difference.h"
@@ -325,7 +325,7 @@ static void write_grid(bool series)
     kd_zip_destroy(zip);
     put("assets", series ? "series.npz" : "grid.npz", "", file.data, file.size);
     put("assets", series ? "series" : "grid", "grid", records.data, records.size);
-    for (uint8_t way = 1; way < 8 && !series; way++) { /* ways of assets.c: each for the array r */
+    for (uint8_t way = 1; way < 8 && !series; way++) { /* values of `ways` in assets.c: each for the array r */
         const size_t at = (size_t)(3 + sizeof header - 1);
         char name[16];
         records.data[at] = (uint8_t)(1 + 14 * way);

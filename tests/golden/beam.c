@@ -1,5 +1,6 @@
 /* Tests the diameter of the ring in pictures of M87* and Sgr A* through a beam of 20 microarcseconds. It is compared
- * with that of the picture without beam, convolved here in double precision, and with the measured one. */
+ * with the diameter in the picture without a beam, convolved here in double precision, and with the measured
+ * diameter. */
 #include "studio.h"
 
 #include <math.h>
@@ -149,8 +150,8 @@ static void the_ring_of_m87(void **state)
     the_ring_of("m87", 42, 3); /* EHT Collaboration 2019, ApJL 875, L1 */
 }
 
-/* The style's picture is the same in false colour: brightness corresponds to the lightness L* of its colours (CIE
- * 1976), 100 being white. */
+/* The picture in the style's false colours gives the same result: brightness corresponds to the lightness L* of its
+ * colours (CIE 1976), where 100 is white. */
 static void the_style_shows_it_by_lightness(void **state)
 {
     (void)state;

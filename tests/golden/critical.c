@@ -24,7 +24,8 @@ static struct kd_frame shot(const struct kd_scene *base, int samples, int critic
     return studio_render(&scene);
 }
 
-struct distance { double rms, mean, elsewhere; }; /* at the curve; elsewhere: the largest error in other pixels */
+/* largest errors: in pixels at the curve, and elsewhere in other pixels */
+struct distance { double rms, mean, elsewhere; };
 
 /* Compares linear light with another picture's. */
 static struct distance distance(const struct kd_frame *a, const struct kd_frame *b,
@@ -65,8 +66,8 @@ static struct kd_scene view(const char *json, double exposure)
     "\"camera\":{\"r\":25,\"inclination_deg\":75,\"fov_deg\":60,\"yaw_deg\":4,\"pitch_deg\":-3,\"roll_deg\":20}"
 #define FAST "\"spacetime\":{\"spin\":0.998}"
 
-/* Tests each way of making a lens map. Along a rim rays have many distances from the curve, so that a pixel's error
- * falls as one over their number instead of its square root. */
+/* Tests each way of making a lens map. Along a rim the rays of a pixel have many distances from the curve. The pixel's
+ * error therefore falls as 1/n with their number n, instead of 1/sqrt(n). */
 static void against_many_rays(void **state)
 {
     (void)state;
@@ -112,7 +113,8 @@ static void against_many_rays(void **state)
     }
 }
 
-/* When the additional rays are switched off, they cost nothing: no rays, and the picture is the same to the byte. */
+/* When the additional rays are switched off, they cost nothing: no rays are traced, and the picture is the same to the
+ * byte. */
 static void off(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Appearance of the gas. Its angle of emission is compared with Kerr-Schild geodesics and the metric. Turbulence
- * conserves the flux, rotates as gas on orbits does, and is the same picture for the same seed. */
+/* Tests of the appearance of the gas. Its angle of emission is compared with Kerr-Schild geodesics and the metric.
+ * Turbulence conserves the flux, rotates as gas on orbits does, and gives the same picture for the same seed. */
 #include "photon.h"
 #include "studio.h"
 
@@ -34,7 +34,8 @@ static double orbit_omega(double a, double r)
     return 0.5 * (low + high);
 }
 
-/* Cosine of the angle to the plane's normal in the gas's frame: the photon's momentum along it over its energy. */
+/* Cosine of the angle to the plane's normal in the gas's frame: the component of the photon's momentum along the
+ * normal, divided by the photon's energy. */
 static double cosine(const struct ks_photon *p, const struct ks_path *path)
 {
     double r = path->r[0], omega = orbit_omega(p->a, r);
@@ -111,9 +112,9 @@ static double sum_of(const struct kd_scene *scene)
     return sum;
 }
 
-/* Averaged over seeds, an opaque turbulent disk has the light of the smooth one: turbulence redistributes light
- * without adding or removing any. This holds for each number of octaves. Each seed deviates by some percent, and the
- * mean by the error that their scatter implies. */
+/* Averaged over seeds, an opaque turbulent disk has the light of the smooth one: turbulence redistributes light without
+ * adding or removing any. This holds for each number of octaves. Each seed deviates by some percent, and the mean by
+ * the error that follows from the scatter of the seeds. */
 static void flux_is_kept(void **state)
 {
     (void)state;
@@ -240,8 +241,8 @@ static struct kd_scene from_above(void)
 }
 
 /* Two hundred seeds are independent patterns: each wave of their mean has a two-hundredth of their power. A common
- * ring, seam or lattice would remain. Over n waves the ratio scatters by sqrt(1/n); waves of a real map occur twice,
- * and neighbours are correlated over some 4. */
+ * ring, seam or lattice would remain. Over n waves the ratio scatters by sqrt(1/n). In a real map each wave occurs
+ * twice, and neighbours are correlated over some 4. */
 static void nothing_in_common(void **state)
 {
     (void)state;
@@ -323,7 +324,7 @@ static void nothing_winds_up(void **state)
 }
 
 /* Almost edge-on, the gas varies as much from seed to seed with one ray a pixel as with 64: unresolved structure has
- * faded to its mean. Without that it would vary by more than half as much again. */
+ * faded to its mean. Without this fading the gas would vary by more than half as much again. */
 static void one_ray_varies_as_many(void **state)
 {
     (void)state;

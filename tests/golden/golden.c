@@ -1,15 +1,15 @@
 /* Compares small pictures with the committed ones.
  *
  *     golden DIR            compare
- *     golden --quick DIR    without those whose kernels SwiftShader compiles for half a minute each
+ *     golden --quick DIR    without the pictures whose kernels SwiftShader compiles for half a minute each
  *     golden --long DIR     only these
  *     golden --update DIR   write them anew
  *
  * A name after DIR selects that picture.
  *
- * A reference holds its exposure in its scene. Auto exposure is quantised to an eighth of a stop: on another device
- * a pixel at the edge of a bin may move it, and every pixel with it. So the exposure found is compared on its own,
- * and the pixels at the exposure of the reference. */
+ * A reference file has a fixed exposure in its scene. Automatic exposure is quantised to an eighth of a stop: on
+ * another device one pixel at the edge of a bin may change the exposure, and with it every pixel. Therefore the
+ * automatic exposure is compared separately, and the pixels are compared at the exposure of the reference. */
 #include "studio.h"
 
 #include "image/png.h"
@@ -38,7 +38,7 @@ static const struct shot {
       "{\"spacetime\":{\"spin\":0.7,\"charge\":0.6},\"camera\":{\"r\":30,\"observer\":\"infall\"},\"sky\":{\"model\":"
       "\"grid\"}," SIZE "}" },
     { "gargantua", "gargantua", "{" SIZE "}" },
-    { "m87", "m87", "{\"image\":{\"width\":400,\"height\":225}}" }, /* large enough for its scales */
+    { "m87", "m87", "{\"image\":{\"width\":400,\"height\":225}}" }, /* large enough for the scales that are drawn */
     { "sgra", "sgra", "{\"image\":{\"width\":400,\"height\":225}}" },
     { "luminet1979", "luminet1979", "{" SIZE "}" },
     { "edge-on", "edge-on", "{" SIZE "}" },
@@ -116,8 +116,8 @@ static const struct shot {
 };
 #define SHOTS (sizeof shots / sizeof *shots)
 
-/* Each sky for each observer: the picture is aberrated and shifted; for an infalling observer it is in coordinates of
- * its own. */
+/* Each sky for each observer. The observer's motion aberrates and shifts the picture; an infalling observer has
+ * coordinates of its own. */
 #define SKY(name, model, fields) { name, "{\"model\":\"" model "\"," fields "}" }
 static const struct {
     const char *name, *json;
@@ -208,7 +208,7 @@ static enum kd_status read_file(const char *path, struct kd_buffer *out)
     return status;
 }
 
-/* The reference as a frame, with the exposure that its scene pins. */
+/* The reference as a frame, with the exposure that is fixed in its scene. */
 static enum kd_status read_reference(const char *path, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_buffer file = { 0 };

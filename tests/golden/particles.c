@@ -1,4 +1,5 @@
-/* A disk of particles equals the smooth one on average: rings of the picture, seen from the pole, for each order. */
+/* Tests that a disk of particles equals the smooth disk on average. Rings of the picture, seen from the pole, are
+ * compared for each order. */
 #include "studio.h"
 
 #include <math.h>
@@ -35,10 +36,11 @@ static struct kd_frame shoot(const char *model, int seed, double epicycles, doub
                         FIELD, model, seed, epicycles, index, PIXELS, PIXELS);
 }
 
-/* The disk from 8 to 14 M appears directly at 9 to 15 M, and by light round the back at 5.2 to 6.5. A ring that
- * shows the fraction s of 300 000 particles has a Poisson error of 1/sqrt(300 000 s): for the quarters of the direct
- * image 0.4 %, for order 1, where the whole disk is seen, 0.2 %. The bound is three of these. (Order 1 is eight
- * pixels wide, and sixteen rays a pixel are enough to see all particles. For order 2 sixteen are too few.) */
+/* The disk from 8 to 14 M appears directly at 9 to 15 M, and by light that goes round the back of the hole at 5.2 to
+ * 6.5 M. A ring that shows the fraction s of 300 000 particles has a Poisson error of 1/sqrt(300 000 s): for the
+ * quarters of the direct image 0.4 %, for order 1, where the whole disk is seen, 0.2 %. The bound is three of these.
+ * (Order 1 is eight pixels wide, and sixteen rays a pixel are enough to see all particles. For order 2 sixteen are too
+ * few.) */
 static void the_mean_is_the_smooth_disk(void **state)
 {
     (void)state;

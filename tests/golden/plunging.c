@@ -1,6 +1,6 @@
-/* Tests of the appearance of the gas that falls from the ISCO: its density, redshift and delay. Rays are from the
- * closed form in double precision, redshifts from contraction with the metric, and densities from the flow of
- * particles. */
+/* Tests of the appearance of the gas that falls from the ISCO: its density, redshift and delay. For comparison, rays
+ * are computed by the closed form in double precision, redshifts by contraction with the metric, and densities from the
+ * flow of particles. */
 #include "studio.h"
 
 #include "contraction.h"
@@ -148,10 +148,10 @@ static void redshift_of_light(void **state)
             assert_true(judged[sense][k] > 500);
 }
 
-/* Face-on, without redshift: the optical depth of thin gas, ring by ring, is that of the flow, which is the rate of
- * particles through a circle of 2 pi r at u^r over the particles per area of the disk at its edge. Parcels are few:
- * Poisson error of 10 000 for each seed. Depths are below 0.05, since clumpy gas shines less than even gas, by half
- * the depth. */
+/* Face-on, without redshift: the optical depth of thin gas, ring by ring, is that of the flow: the rate of particles
+ * through a circle of 2 pi r at u^r, divided by the number of particles per area of the disk at its edge. The error is
+ * the Poisson error of 10 000 parcels for each seed. Depths are below 0.05, since clumpy gas shines less than even gas,
+ * by half the depth. */
 static void surface_density(void **state)
 {
     (void)state;
@@ -200,9 +200,9 @@ static void surface_density(void **state)
     }
 }
 
-/* Slow light: a pixel of the stream is as in a fast-light picture of the emission time, for far and near observers. The
- * two do not agree to the last step, because parcels at other places between nodes of the grid are blurred
- * differently. */
+/* Slow light: a pixel of the stream equals the pixel of a picture without slow light at the emission time, for far and
+ * near observers. The two differ in the last steps, because parcels at other places between the nodes of the grid are
+ * blurred differently. */
 static void delay_of_light(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Properties of any picture, without a reference: symmetries, averages, reproducibility. */
+/* Tests of properties that any picture has, without a reference: symmetries, averages, reproducibility. */
 #include "studio.h"
 
 #include <math.h>
@@ -58,7 +58,7 @@ static void the_approaching_side_is_left(void **state)
 }
 
 /* Each of these pairs has the same rays in another order, up to the last bits. A step of 8 bits is 256 steps of the
- * 16-bit values compared here. The disk fades at its edges, and nothing else is sharp. */
+ * 16-bit values compared here. The disk fades at its edges, and nothing else in the picture is sharp. */
 static void symmetries(void **state)
 {
     (void)state;
@@ -94,13 +94,14 @@ static void symmetries(void **state)
         double d = difference(&a, &b, pairs[i].flip);
         if (!(d <= 1))
             fail_msg("%s: off by %g/255", pairs[i].what, d);
-        assert_true(light_between(&a, 0, a.width) > 1); /* tests that the picture is not black, by its total light */
+        assert_true(light_between(&a, 0, a.width) > 1); /* checks that the picture is not black, by its total light */
         kd_frame_finish(&a);
         kd_frame_finish(&b);
     }
 }
 
-/* A camera turned clockwise by a quarter has its right-hand side down: a pixel on the right shows what was below. */
+/* A camera that is turned clockwise by a quarter turn has its right-hand side below: a pixel on the right shows what
+ * was below. */
 static void a_quarter_turn(void **state)
 {
     (void)state;
@@ -119,8 +120,8 @@ static void a_quarter_turn(void **state)
     }
 }
 
-/* When the symmetry is broken the pictures differ, so that the pairs above are not equal merely because they are
- * blank. */
+/* When the symmetry is broken the pictures differ. This shows that the pairs above are not equal merely because they
+ * are blank. */
 static void asymmetries(void **state)
 {
     (void)state;
@@ -223,8 +224,8 @@ static struct shape shape_of(const struct kd_frame *f)
     return s;
 }
 
-/* From r = 1000 a disk of 20 M has a perspective of 2 %, and light is bent by another 0.2 %: 3 % in shape. Half a
- * picture height is 0.0115 rad there. */
+/* From r = 1000 a disk of 20 M has a perspective of 2 %, and light is bent by another 0.2 %. The tolerance of the shape
+ * is therefore 3 %. Half a picture height is 0.0115 rad there. */
 static void far_away_is_infinity(void **state)
 {
     (void)state;
@@ -251,8 +252,8 @@ static void far_away_is_infinity(void **state)
     }
 }
 
-/* Fully transparent gas leaves the sky of a scene without a disk. Rays are followed from another crossing on, and
- * the grid's lines are sharp: one pixel in 200 may differ. */
+/* Fully transparent gas leaves the sky of a scene without a disk. Rays are followed from another crossing on, and the
+ * grid's lines are sharp, so one pixel in 200 may differ. */
 static void a_transparent_disk(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* The shadow, compared with its outline in closed form, and the blackness inside. */
+/* Tests of the shadow, compared with its outline in closed form, and of the blackness inside. */
 #include "studio.h"
 
 #include <math.h>
@@ -48,8 +48,8 @@ static double half_height(const double *alpha, const double *beta, int n, double
     return -1;
 }
 
-/* Every ray inside the outline is black; every ray outside sees the sky, which is nowhere black. A margin of a
- * twentieth of M is left out: the polygon and single precision err by some 1e-4. */
+/* Every ray inside the outline is black; every ray outside sees the sky, which is nowhere black. A margin of 0.05 M is
+ * left out; the errors of the polygon and of single precision are some 1e-4. */
 static void the_shadow_has_bardeens_outline(void **state)
 {
     (void)state;

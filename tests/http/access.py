@@ -167,8 +167,8 @@ class Roles(Access):
             for path, body in QUESTIONS.items():
                 with self.subTest(path):
                     answer = self.ask("POST", path, body, own(token))
-                    # the asset and the lesson that these name do not exist here, so that they are refused after
-                    # access was granted
+                    # the asset and the lesson with these names do not exist, so they are refused only after access was
+                    # granted
                     absent = {"/v1/compare": 422, "/v1/observe": 422, f"/v1/lessons/{ID}/hands": 404}
                     self.assertEqual(answer.status, absent.get(path, 200), answer.body)
 
@@ -187,8 +187,8 @@ class Roles(Access):
                 )
 
     def test_the_table_has_no_other_change(self):
-        """Each operation of /openapi.json only reads, or only computes an answer, or is among those that need the
-        role."""
+        """Each operation of /openapi.json either only reads, or only computes an answer, or is among those that require
+        a role."""
         seen = set()
         for path, operations in self.ask("GET", "/openapi.json", headers=own(VIEW)).json()["paths"].items():
             for method in operations.keys() - {"get"}:
@@ -196,7 +196,7 @@ class Roles(Access):
         self.assertEqual(seen, set(CHANGES) | {("POST", path.split("?")[0]) for path in QUESTIONS})
 
     def test_openapi_tells_it(self):
-        """openapi.json says by the same table which operations answer 401 and 403, and which role they need."""
+        """openapi.json states, from the same table, which operations answer 401 and 403, and which role they need."""
         document = self.ask("GET", "/openapi.json", headers=own(VIEW)).json()
         schemes = document["components"]["securitySchemes"]
         self.assertEqual(
@@ -271,7 +271,7 @@ class Beside(Access):
 
 
 class Shares(Access):
-    """Shares are by token, not by the address of a request."""
+    """Shares of device time are counted by token, not by the address of a request."""
 
     more = ("--sessions", 4, "--client-share", 50, "--client-device-seconds", 1)
     OTHER = "other-0123456789abcdef"

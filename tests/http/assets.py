@@ -1,5 +1,5 @@
-"""Tests of assets: what is accepted, who may delete it, limits and shares, and what a restart finds. Pictures are
-made here, with zlib only."""
+"""Tests of assets: what is accepted, who may delete it, limits and shares, and what a restart finds. Pictures are made
+here with zlib alone."""
 
 import concurrent.futures
 import hashlib
@@ -118,13 +118,13 @@ class LongDirectories(Case):
         return b"PK\3\4" + bytes(26) + (b"PK\1\2" + bytes(42)) * self.MANY + ends  # the file begins with a member
 
     def put_when_there_is_room(self, data):
-        """A client may send two such bodies at once: the others wait."""
+        """A client may send two such bodies at once; further ones wait."""
         while (answer := self.put(data, "application/x-npz")).status in (429, 503):
             time.sleep(0.1)
         return answer
 
     def cost(self, data, words):
-        """Processor time of the server for five such files at once. Meanwhile another client gets a picture."""
+        """The processor time of the server for five such files at once. Meanwhile another client requests a picture."""
         before = self.daemon.processor_s()
         with concurrent.futures.ThreadPoolExecutor(5) as pool:
             puts = [pool.submit(self.put_when_there_is_room, data) for _ in range(5)]
@@ -139,7 +139,7 @@ class LongDirectories(Case):
         many = self.directory()
         # work that a server does only once is not counted as cost
         self.daemon.get("/v1/render?image.width=320&image.height=180")
-        plain = self.cost(bytes(len(many)), "not a")  # this body is refused by its first bytes
+        plain = self.cost(bytes(len(many)), "not a")  # this body is refused because of its first bytes
         self.assertLess(self.cost(many, "at most 1024 members; it has 700000"), 2 * plain + 0.5)  # 0.5 s: 50 ticks
 
 
@@ -257,7 +257,7 @@ class Assets(Case):
         self.assertEqual(self.daemon.get(ASSETS).json()["assets"], 0)
 
     def test_a_series_of_grids(self):
-        """Time moves the picture of a series, and no picture of one grid."""
+        """Time changes the picture of a series of grids, and does not change the picture of a single grid."""
         for times, more, moves in (
             ((), {}, ["moves_with_azimuth"]),
             ((-5, 0, 5), {"frames": 3, "times": [-5, 5]}, ["moves_with_time", "moves_with_azimuth"]),
@@ -357,8 +357,8 @@ class Assets(Case):
         )
         elsewhere = (
             data[:-18] + b"\1\0" + data[-16:]
-            # this directory says that it is on another disk; members could only be found by reading and inflating from
-            # the front
+            # this directory claims to be on another disk; its members could only be found by reading and inflating the
+            # file from the start
         )
         self.assertIn(
             "it is split over several disks",
@@ -391,8 +391,8 @@ class Assets(Case):
         self.assertProblem(self.put(png(), **{"Sec-Fetch-Site": "cross-site"}), 403, "cross-site")
 
     def test_many_at_once(self):
-        """A client that uploads the same bytes as others at the same time gets 201 for the first upload, or waits, or
-        gets 200 for existing bytes."""
+        """A client that uploads the same bytes as others at the same time gets 201 for the first upload. Otherwise it
+        waits, or gets 200 because the bytes exist already."""
         picture, answers = png(300, 300, seed=9), []
         threads = [threading.Thread(target=lambda: answers.append(self.put(picture))) for _ in range(6)]
         for thread in threads:
@@ -435,7 +435,7 @@ class Limits(Case):
 
 
 class Shares(Case):
-    """A client has its share of the space, and the rest is left to others."""
+    """A client can use its share of the space. The rest stays available to others."""
 
     options = ("--assets", 4, "--client-share", 50)
 
@@ -487,7 +487,8 @@ class Sky(Case):
         self.assertEqual(server.post("/v1/render", scene).status, 200)
         again = self.put(sky, server=server)
         self.assertEqual((again.status, "token" in again.json()), (200, False), "nobody can delete it")
-        # Other assets are evicted for new ones a second after their last use; the photograph is not.
+        # Other assets are evicted to make room for new ones a second after their last use. The photograph is not
+        # evicted.
         for seed in range(3):
             self.assertTrue(daemon.eventually(lambda seed=seed: self.put(png(seed=seed), server=server).status == 201))
         self.assertEqual(server.get(ASSETS).json()["sky"], told["sky"])
@@ -495,7 +496,7 @@ class Sky(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_a_store_that_is_full(self):
-        """After a restart all assets count as just used. One of them is evicted nevertheless."""
+        """After a restart all assets count as just used. Even so, one of them is evicted to make room."""
         with tempfile.TemporaryDirectory() as state:
             server = daemon.Daemon("--drain-ms", 10, "--assets", 2, "--state", state)
             self.addCleanup(server.process.kill)
@@ -510,7 +511,8 @@ class Sky(Case):
             self.assertEqual(server.stop(), 0)
 
     def test_an_asset_of_a_client_stays(self):
-        """A file that is no photograph of the sky, and that a client has stored before, is refused and not removed."""
+        """A client has stored a file that is not a photograph of the sky before it is given as the operator's. The file
+        is refused and not removed."""
         with tempfile.TemporaryDirectory() as state:
             server = daemon.Daemon("--drain-ms", 10, "--state", state)
             self.addCleanup(server.process.kill)
@@ -600,11 +602,11 @@ class State(Case):
             with open(path(i, kind), "wb") as f:
                 f.write(data)
 
-        write(0, "png", png(seed=9))  # the file has other bytes than its name says
+        write(0, "png", png(seed=9))  # the file's bytes do not have the hash that is its name
         write(1, "png", b"")
         write(2, "json", b'{"format":2}')
         write(3, "json", b'{"format":1,"token":"0","created":1}')
-        os.remove(path(4, "json"))  # killed between the two files
+        os.remove(path(4, "json"))  # the server was killed between writing the two files
         os.remove(path(5, "png"))
         os.symlink(path(6, "png"), path(5, "png"))
         left = path(6, "png") + ".kerrd-aB3dE6"
@@ -687,7 +689,7 @@ class State(Case):
 
 
 class Scenes(Case):
-    """Scenes that refer to an asset, in every way a scene can be given."""
+    """Scenes that refer to an asset, by every way in which a request can give a scene."""
 
     def scene(self, image):
         return {"image": {"width": 32, "height": 18}, "sky": {"model": "image", "image": image}}
@@ -734,7 +736,7 @@ class Scenes(Case):
         self.delete(asset)
 
     def test_others_go_on_while_one_is_read(self):
-        """Reading the assets takes until a picture without an asset has been rendered. If reading held the device, this
+        """The asset is read until a picture without an asset has been rendered. If the reading blocked the device, this
         picture would never be rendered."""
         scene, answers = self.scene(self.made(png(64, 32, 9))["sha256"]), []
         scene["sky"]["seed"] = 4711

@@ -1,4 +1,4 @@
-"""Two servers behind HAProxy, with the configuration of docs/examples: one is killed without clients noticing;
+"""Two servers behind HAProxy, with the configuration of docs/examples: one server is killed, and no client notices;
 sessions stay on their server. balanced.py KERRD serve"""
 
 import concurrent.futures

@@ -109,8 +109,8 @@ class Below(daemon.Case):
 
 
 class Health(unittest.TestCase):
-    """Health requests are recognised by their first bytes and are answered even when no other request is, with the base
-    path and without it."""
+    """A health request is recognised by its first bytes. With the base path and without it, it is answered even when no
+    other request is."""
 
     def test_while_connections_are_at_their_limit(self):
         base = "/" + "long/" * 39 + "tail"  # 200 characters
@@ -123,7 +123,7 @@ class Health(unittest.TestCase):
             for target in ("/healthz", base + "/healthz", base + "/metrics?x", base + "/readyz"):
                 with self.subTest(target[-12:]), server.connect(10) as slow:
                     text = f"GET {target} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode()
-                    # the first bytes do not show yet that it is a health request
+                    # the first bytes do not yet show that this is a health request
                     for cut in (3, 9, len(text) - 33, len(text)):
                         slow.sendall(text[:cut])
                         text = text[cut:]
@@ -142,7 +142,7 @@ class Health(unittest.TestCase):
 
 class Without(daemon.Case):
     def test_openapi_is_beside_what_it_describes(self):
-        """If a proxy removes a prefix, only relative addresses work."""
+        """If a proxy removes the prefix, only relative addresses work."""
         self.assertEqual(self.daemon.get("/openapi.json").json()["servers"], [{"url": "."}])
 
     def test_where_there_is_no_path(self):

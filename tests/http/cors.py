@@ -1,4 +1,4 @@
-"""Tests of pages of other origins: which may use the server and read its answers, and the answers to preflight
+"""Tests of pages of other origins: which of them may use the server and read its answers, and the answers to preflight
 requests."""
 
 import pathlib
@@ -173,7 +173,8 @@ class Listed(Case):
             "true",
         )
         self.assertProblem(self.preflight("/no/such"), 404, "not-found")
-        plain = self.ask("OPTIONS", "/v1/render", GOOD)  # not a preflight: no browser asks for permission here
+        # not a preflight: a browser does not ask for permission with this request
+        plain = self.ask("OPTIONS", "/v1/render", GOOD)
         self.assertEqual((plain.status, plain.header("Access-Control-Allow-Methods")), (204, None))
         self.assertProblem(self.preflight("/v1/render", Host="elsewhere.example"), 400, "bad-request")
 

@@ -50,8 +50,8 @@ class Daemon:
         self.process = subprocess.Popen(
             [*COMMAND, "--port", "0", *map(str, options)], stdout=subprocess.PIPE, stderr=stderr, env=env
         )
-        # A process that a failed test leaves behind would keep the reader of our output waiting. Killing one that has
-        # ended does nothing.
+        # A process that a failed test leaves behind would keep the pipe of our output open, and its reader would wait.
+        # Killing a process that has ended does nothing.
         atexit.register(self.process.kill)
         line = self.process.stdout.readline().decode()
         match = re.fullmatch(r"kerrd: listening on http://127\.0\.0\.1:(\d+)(\S*)/\n", line)
@@ -80,7 +80,7 @@ class Daemon:
                 try:
                     connection.send(body)
                 except OSError:
-                    pass  # the server refused before everything was sent
+                    pass  # the server refused the request before all of it was sent
             got = connection.getresponse()
             return Answer(got.status, got.getheaders(), got.read(), target)
         finally:
@@ -94,7 +94,8 @@ class Daemon:
         return self.request("POST", target, body, {k.replace("_", "-"): v for k, v in headers.items()})
 
     def raw(self, data, timeout=600):
-        """Sends bytes, reads until the server closes or the answer is complete; None if there is no answer."""
+        """Sends bytes, and reads until the server closes the connection or the answer is complete. Returns None if
+        there is no answer."""
         with self.connect(timeout) as s:
             try:
                 s.sendall(data)
@@ -175,7 +176,7 @@ def eventually(condition, timeout=240):
 
 
 class Case(unittest.TestCase):
-    """Tests that share one daemon, which must be running after each and exit with 0 after all."""
+    """Tests that share one daemon. It must be running after each test, and exit with 0 at the end."""
 
     options = ()
 
@@ -210,7 +211,7 @@ class Owned(Case):
     """Tests of resources that have an address on the server, belong to the holder of a token, and are deleted after
     the test."""
 
-    kind = made = None  # kind: such as '/v1/sessions'; made: the status of a creation
+    kind = made = None  # kind: such as '/v1/sessions'. made: the status of a successful creation
 
     def setUp(self):
         self.opened = []
@@ -245,8 +246,8 @@ class Owned(Case):
         return (server or self.daemon).get(self.at(one)).json()
 
     def delayed(self, job, server=None):
-        """The first status that says why the job waits. Callers use this one answer, because the job may run again a
-        second later."""
+        """The first status that says why the job waits. Callers must use this answer, because a second later the job
+        may run again."""
         seen = []
         self.assertTrue(eventually(lambda: seen.append(self.status(job, server)) or "delayed" in seen[-1]), seen[-3:])
         return seen[-1]

@@ -21,8 +21,8 @@ exec {curl} --fail-with-body --silent --show-error "${{@//:8080/:{port}}}"
 """
 FENCED = re.compile(r"^```sh\n(.*?)^```$", re.M | re.S)
 COMMAND = r"(?:kerrd|curl|python|pip|meson|podman|docker|kubectl|sudo|systemctl|systemd-analyze|export|scripts/\S+|bench/\S+|tests/\S+|venv/\S+)(?= |$)"
-# Commands that are shown but not run here, by the beginning of the line, with the reason. An entry that occurs in no
-# document is an error, and must be deleted here.
+# Commands that are shown but not run here, by the beginning of the line, with the reason. If an entry no longer occurs
+# in any document, the test fails until the entry is deleted here.
 LEFT_OUT = {
     "scripts/": "installs packages, or builds and tests for minutes",
     "bench/": "measures for minutes",
@@ -144,7 +144,7 @@ class Documents(unittest.TestCase):
             self.assertTrue(pathlib.Path(self.folder.name, file).stat().st_size, file)
 
     def test_every_document_with_commands_is_here(self):
-        """Commands that are left out are still shown in some document."""
+        """Each left-out command must still occur in some document."""
         documents = [ROOT / "README.md", *sorted(ROOT.glob("docs/**/*.md"))]
         shown = {document.relative_to(ROOT).as_posix(): list(blocks(document.read_text())) for document in documents}
         run = {name for name, found in shown.items() if any(commands(block) for block in found)}

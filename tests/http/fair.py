@@ -1,9 +1,9 @@
-"""A short run of bench/fairness.py: beside everything that one client can request, another one is served.
+"""A short run of bench/fairness.py: a client is served while another client requests everything that it can.
 
 The bounds are multiples of the time of the same picture on the idle server, measured in the same run. Waiting for the
 other client's work would take much longer: its shortest work, the 4K picture, takes some thousand times as long as our
-picture. So the test passes on a machine that is ten times slower, or shared by many, and fails if one piece of work
-holds the device.
+picture. Therefore the test passes on a machine that is ten times slower or shared by many, and fails if one piece of
+work blocks the device.
 """
 
 import http.client
@@ -54,8 +54,8 @@ class Fair(unittest.TestCase):
         bound = lambda solo: max(2000, SLOWER * solo)
         beside = fairness.run_one(daemon.COMMAND[0], "all of these", 3)
         if max(beside["picture_ms"]) >= bound(statistics.median(alone["picture_ms"])):
-            # Measured again, because work that holds the device would delay a picture both times, and other processes
-            # only now and then.
+            # Measured a second time: work that blocks the device delays a picture both times, but other processes only
+            # now and then.
             beside = fairness.run_one(daemon.COMMAND[0], "all of these", 3)
         solo = statistics.median(alone["picture_ms"])
         print(
@@ -79,8 +79,8 @@ class Fair(unittest.TestCase):
 
 class Pixel(unittest.TestCase):
     def test_a_pixel_beside_a_long_picture_of_the_same_client(self):
-        """The pixel waits only for the slice that is under way: some 150 ms if nothing else runs, six times its time
-        alone. The limit is 1.5 s, ten times that, or on a slow machine 30 times its time alone."""
+        """The pixel waits only for the slice that is being computed. It takes some 150 ms, six times its time alone, if
+        nothing else runs. The limit is 1.5 s or, on a slow machine, 30 times its time alone."""
         server = fairness.Server(daemon.COMMAND[0])
         self.addCleanup(server.stop)
         size, source = (640, 360), "127.0.0.1"
@@ -130,7 +130,7 @@ class NewKernels(unittest.TestCase):
 
     def test_pictures_whose_kernels_are_there_come_before_one_that_waits_for_them(self):
         """Compiling a jet's kernels takes more than a dozen seconds. Meanwhile many pictures of another client are
-        rendered. If each compilation held the device, there would be only one between two kernels."""
+        rendered. If each compilation blocked the device, only one picture would be rendered between two kernels."""
         server, _ = self.serve()
         if "llvmpipe" not in server.get("/v1/device").json()["name"]:
             self.skipTest("this driver compiles kernels as their pipelines are made")

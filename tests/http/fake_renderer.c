@@ -2,16 +2,17 @@
  * the real ones.
  *
  * The scene's time selects the behaviour. t >= 0 takes t milliseconds, in slices of 10, and 30 times as long with
- * several rays a pixel. -1 loses the device, which can be reopened if it is called "mends"; -1.5 only the first
- * time; -2 runs out of memory; -3 fails. The exposure "auto" alternates between 1 stop and -1. Rays on the device
- * cross once, at 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each
- * takes a millisecond.
+ * several rays a pixel. -1 loses the device, which can be reopened if its name is "mends"; -1.5 loses it only the first
+ * time; -2 runs out of memory; -3 fails. The exposure "auto" alternates between 1 stop and -1. Rays on the device cross
+ * once, at 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a
+ * millisecond.
  *
- * The picture of a sky of seed 4711 is being decoded until another picture is rendered. Kernels of a sky of seed
- * 4712, and of rays with steps 20, are being compiled until then, for at most a minute; a sky of seed 4713 turns out
- * to lack them once its picture has begun. Each compilation is reported as a kilobyte more of kernels; on a device
- * called "miscompiles" each fails. A device called "compiles" is busy with a small picture of a preset, as with a
- * kernel, until five other pictures have been rendered meanwhile; it fails after a minute without them. */
+ * The picture of a sky of seed 4711 is being decoded until another picture is rendered. Kernels of a sky of seed 4712,
+ * and of rays with steps 20, are being compiled until then, but for a minute at most. For a sky of seed 4713, the lack
+ * of kernels is found only after its picture has begun. Each compilation is reported as a kilobyte more of kernels; on
+ * a device called "miscompiles" each compilation fails. On a device called "compiles", a small picture of a preset
+ * takes until five other pictures have been rendered, as if a kernel were compiled. It fails if they are not rendered
+ * within a minute. */
 #include "base/clock.h"
 #include "render/device/accuracy_store.h"
 #include "render/device/rest.h"
@@ -93,7 +94,7 @@ void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash) { (vo
 
 void kd_renderer_assets_stop(struct kd_renderer *renderer) { (void)renderer; }
 
-/* Reports through one FIFO that a thread plans, and waits for a byte in the other. */
+/* Reports through one FIFO that a thread is planning, and waits for a byte in the other FIFO. */
 static void wait_at_gate(void)
 {
     char byte = 0;
@@ -104,8 +105,8 @@ static void wait_at_gate(void)
     close(may);
 }
 
-/* Called by every planning thread: a device called "held" blocks the thread. A device called "gated", once it has
- * rendered a picture, blocks it until the test lets it go on. */
+/* Called by every planning thread. A device called "held" blocks the thread. A device called "gated" blocks the thread
+ * after it has rendered a picture, until the test releases it. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out)
 {
     if (renderer->held)
@@ -130,7 +131,7 @@ enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_b
     return kd_buffer_printf(out, "{\"name\":\"fake\"}\n");
 }
 
-/* A device called "measured" has a table. A device called "slow" reports only after a while that it has none. */
+/* A device called "measured" has an accuracy table. A device called "slow" reports after a delay that it has none. */
 enum kd_status kd_renderer_accuracy_json(const struct kd_renderer *renderer, struct kd_buffer *out,
                                          struct kd_error *error)
 {
@@ -158,7 +159,7 @@ const char *kd_renderer_driver(const struct kd_renderer *renderer)
     return "a \"driver\" \\ of no device";
 }
 
-/* Each rest of the renderer is reported as one more byte of kernels. */
+/* Each time the renderer becomes idle is reported as one more byte of kernels. */
 static _Atomic unsigned rests, compilations;
 
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error)
@@ -297,7 +298,7 @@ static enum kd_status mishap(double time, struct kd_error *error)
     return time < 0 && time != -1.5 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
 }
 
-/* Explains a pixel: light of a quarter, the same for the pixel and for all rays, and no emitters. */
+/* Explains a pixel: light of a quarter, equal for the pixel and for all rays, and no emitters. */
 static struct kd_probed_pixel *tell(const struct kd_plan *plan)
 {
     const uint32_t side = plan->lens.side;
@@ -329,8 +330,8 @@ static struct kd_probed_pixel *tell(const struct kd_plan *plan)
     return told;
 }
 
-/* Black linear light, and maps of constant brightness: 1, and half of it for image order 1; with three samples a side
- * the maps are black, too. */
+/* Black linear light, and maps of constant brightness: 1, and 1/2 for image order 1. With three samples a side the maps
+ * are black too. */
 static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_frame *out,
                                   struct kd_error *error)
 {

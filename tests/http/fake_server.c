@@ -1,6 +1,6 @@
-/* The HTTP service in front of the linked renderer: fake_server [--NAME VALUE]... with the numbers of struct
- * kd_server_params by name, --listen, --public-url, --host and --cors-origin (once each), --token-file,
- * --share-key, --sky and --device. */
+/* The HTTP service with the renderer that it is linked with: fake_server [--NAME VALUE]... NAME is a number of struct
+ * kd_server_params, or --listen, --public-url, --host and --cors-origin (once each), --token-file, --share-key, --sky
+ * or --device. */
 #include "base/log.h"
 #include "server/server.h"
 
@@ -80,7 +80,7 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
 
 int main(int argc, char **argv)
 {
-    /* one client gets the whole share, because most tests reach a limit from one address */
+    /* one client may use the whole share, because most tests reach a limit from one address */
     struct kd_server_params params = { .client_share = 100 };
     struct kd_error error;
     const char *hosts[2] = { NULL, NULL }, *origins[2] = { NULL, NULL }, *embeds[2] = { NULL, NULL };

@@ -69,7 +69,7 @@ class Films(Case):
         return open_files
 
     def hanging(self):
-        """Returns a server, a client that waits for a film, and the number of the process that never finishes it."""
+        """Returns a server, a client that waits for a film, and the process id of an ffmpeg that never ends."""
         server, job, _ = self.film_of(HANGS, {"scenes": [SCENE] * 2}, None)
         client = server.connect()
         self.asked = self.at(job, "/result?format=mp4")
@@ -79,12 +79,12 @@ class Films(Case):
         return server, client, int(pid.read_text())
 
     def gone(self, number):
-        """True if the process is gone, or is a zombie until its new parent reaps it."""
+        """True if the process has ended, or is a zombie that its new parent has not yet reaped."""
 
         def ended():
             try:
                 return ") Z " in pathlib.Path(f"/proc/{number}/stat").read_text()
-            except OSError:  # the process may end while the file is open
+            except OSError:  # the process may end while the file is being read
                 return True
 
         self.assertTrue(daemon.eventually(ended))
@@ -281,8 +281,8 @@ class Kept(Films):
         self.ended(server)
 
     def test_a_kill_leaves_no_half_of_it(self):
-        """The server is killed while ffmpeg works. A half copied film is put beside it, as by a kill while the output
-        is copied."""
+        """The server is killed while ffmpeg works. The test also puts a half copied film beside it, as left by a kill
+        while the output was copied."""
         state = self.folder / "state"
         server, job, _ = self.film_of(HANGS, self.FRAMES, None, ("--state", state))
         client = server.connect()

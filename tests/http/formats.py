@@ -47,7 +47,7 @@ class Formats(daemon.Case):
             self.assertEqual(self.daemon.get(RENDER, Accept=kind, If_None_Match=other.header("ETag")).status, 200)
 
     def test_what_it_needs_is_planned(self):
-        """Only this format makes the plan measure light, whatever the exposure."""
+        """only for this format does the plan measure light, whatever the exposure"""
         for exposure in ("auto", "1"):
             body = self.daemon.get(f"{RENDER}&time=5&style.exposure={exposure}", Accept=FAKE).body
             line, scene = body.split(b"\n", 1)

@@ -20,7 +20,7 @@ class Guard(daemon.Case):
     options = ("--host", "holes.example", "--header-ms", 1000, "--body-ms", 1000)
 
     def assertRefused(self, answer, status, word):
-        """The request is refused by kerrd or, if libmicrohttpd 1.0 notices the fault before it calls kerrd, as invalid
+        """The request is refused by kerrd, or, if libmicrohttpd 1.0 notices the fault before it calls kerrd, as invalid
         HTTP."""
         self.assertIsNotNone(answer, "no answer")
         if answer.status == 400:
@@ -239,7 +239,7 @@ class Sizes(daemon.Case):
 
     def test_a_body_of_just_the_limit(self):
         """A body of exactly the limit is accepted: of a scene, and of a job, whose limit is four times as large. POST
-        /v1/plan accepts the latter, too."""
+        /v1/plan accepts the larger one too."""
         small = '{"image": {"width": 2, "height": 2}}'
         self.assertEqual(self.daemon.post("/v1/render", small + " " * ((1 << 20) - len(small))).status, 200)
         self.assertProblem(self.daemon.post("/v1/render", "{}" + " " * ((1 << 20) - 1)), 413, "body-too-large")

@@ -1,5 +1,5 @@
 """The header of an answer fits into the buffers of proxies, whatever the scene shows: nginx accepts 4096 bytes by
-default. daemon.py checks the bound for the answers of all tests; this file tests the scenes with the longest
+default. daemon.py checks this bound for the answers of all tests; this file adds the scenes with the longest
 headers."""
 
 import json
@@ -114,7 +114,7 @@ class Richest(unittest.TestCase):
             self.assertLessEqual(set(names), set(self.known))
 
     def test_the_longest_that_a_request_can_make_it(self):
-        """The part of an answer that repeats the request's own words is bounded, or the request is refused."""
+        """An answer repeats at most a bounded part of the request's own words; otherwise the request is refused."""
         long = "x" * 6000
         for target in (
             "/?access=" + long,

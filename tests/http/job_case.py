@@ -1,4 +1,4 @@
-"""Helpers shared by tests of jobs. In the fake renderer's scenes `time` is how many milliseconds a frame takes."""
+"""Helpers shared by tests of jobs. In the fake renderer's scenes, `time` is the duration of a frame in milliseconds."""
 
 import json
 import struct

@@ -1,4 +1,4 @@
-"""Tests of jobs across servers: one server ends, by itself or by a signal, and the next one uses the same folder."""
+"""Tests of jobs across servers: one server ends, normally or by a signal, and the next one uses the same folder."""
 
 import io
 import json
@@ -63,7 +63,7 @@ class State(Case):
                 self.assertEqual(server.stop(), 0)
 
     def test_a_film_goes_on(self):
-        """The frames of this film depend on those before. After a restart the film is the same as without one."""
+        """Each frame of this film depends on the frames before. After a restart the film is the same as without one."""
         film = {
             "playground": {"preset": "white-dwarf", "debris_per_body": 500},
             "every": 20,
@@ -88,7 +88,7 @@ class State(Case):
         self.assertEqual(len({frame["snapshot"] for frame in told[0]}), 8)
 
     def test_a_film_whose_bodies_end_the_server_makes_way(self):
-        """The server ends at once while the film's bodies move towards a frame, which would take half an hour."""
+        """The server ends at once while the film's bodies are moved towards a frame, which would take half an hour."""
         server = self.start()
         film = {
             "playground": {"preset": "swarm", "h_max": 1e-3, "budget": 1000000},
@@ -103,7 +103,7 @@ class State(Case):
             with open(os.path.join(self.folder, "jobs", job["id"], "job.json"), encoding="utf-8") as file:
                 return json.load(file)["attempts"]
 
-        # the end of the first server does not count as a failed attempt, because it had finished a frame
+        # the end of the first server does not count as a failed attempt, because this server had finished a frame
         for count in range(4):
             self.assertTrue(daemon.eventually(lambda: attempts() == count), attempts())
             server.process.send_signal(signal.SIGKILL)
@@ -135,8 +135,8 @@ class State(Case):
                 return {scene_of(z.read(n))["style"]["exposure"] for n in z.namelist()}
 
         self.assertEqual(found(job), {-1})
-        # these frames are from a version that gave each frame its own exposure, so the remaining frames get their own,
-        # too
+        # these frames are from a version that gave each frame its own exposure, so the remaining frames also get their
+        # own
         path = os.path.join(self.folder, "jobs", other["id"])
         self.assertEqual(server.stop(), 0)
         with open(os.path.join(path, "job.json"), encoding="utf-8") as file:
@@ -233,7 +233,7 @@ class State(Case):
         self.assertTrue(daemon.eventually(lambda: self.status(job, server)["fraction"] > 0))
         begun = time.monotonic()
         self.assertEqual(server.stop(), 0)
-        self.assertLess(time.monotonic() - begun, 15)  # the frame, which takes 30 s, was dropped
+        self.assertLess(time.monotonic() - begun, 15)  # the unfinished frame, which takes 30 s, was discarded
         self.assertEqual(os.listdir(self.folder), [])
 
 

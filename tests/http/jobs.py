@@ -1,5 +1,5 @@
 """Tests of jobs: requests, progress by polling and as events, results in every form, ends, limits. In the fake
-renderer's scenes `time` is how many milliseconds a frame takes."""
+renderer's scenes, `time` is the duration of a frame in milliseconds."""
 
 import http.client
 import io
@@ -15,7 +15,7 @@ import zipfile
 import daemon
 from job_case import IMAGE, SCENE, SLOW, Case, scene_of, size, text_of
 
-# The numbers that test_smooth expects, by scipy.interpolate:
+# The numbers that test_smooth expects were computed with scipy.interpolate:
 #   x, y = [0, 10, 15, 40, 50], [10, 20, 80, 75, 75]
 #   d = PchipInterpolator(x, y).derivative()(x); d[0] = d[-1] = 0; CubicHermiteSpline(x, y, d)
 SMOOTH = {
@@ -104,8 +104,9 @@ class Jobs(Case):
         )  # fields with words change in steps, too; the exposure 0 is the mean of the alternating 1 and -1
 
     def test_exposure(self):
-        """Frames between keyframes share one exposure, the median of nine, which their scenes and the job state. Each
-        frame has its own if the job says so. Frames of lists and axes have their own unless the job says otherwise."""
+        """Frames between keyframes share one exposure: the median of nine, which their scenes and the job state. If the
+        job requests it, each frame has its own exposure. Frames of lists and axes have their own exposures unless
+        the job requests otherwise."""
         keys = {"scene": {"image": IMAGE}, "keyframes": [{"frame": 29, "scene": {"camera": {"azimuth_deg": 29}}}]}
         pair = [{"image": IMAGE}] * 2
         for asked, told, shown in (
@@ -397,7 +398,7 @@ class Jobs(Case):
         waiting = self.status(second)
         self.assertEqual((waiting["state"], waiting["place"], waiting["remaining_s"]), ("waiting", 1, None))
         self.assertEqual(self.delete(first).status, 204)
-        self.until(second, "done")  # the job that was running, for half a minute, was dropped
+        self.until(second, "done")  # the running job, which would take half a minute, was stopped
 
     def test_delete(self):
         job, other = self.make({"scene": SLOW}), self.make({"scene": SLOW})
@@ -452,7 +453,7 @@ class Jobs(Case):
             time.sleep(0.2)
             begun = time.monotonic()
             self.until(self.make({"scenes": [{**SCENE, "time": 200}] * 2}), "done", timeout=600)
-            self.assertGreater(time.monotonic() - begun, 1)  # the job does not overtake the others either
+            self.assertGreater(time.monotonic() - begun, 1)  # this job does not overtake the other jobs either
         finally:
             over.set()
             for t in threads:
@@ -465,7 +466,7 @@ class Jobs(Case):
             answer = self.daemon.get(self.at(job, "/preview.png"))
             if answer.status == 409:  # no frame exists yet
                 self.assertFalse(seen)
-            # this is the first frame; it is given until a part of the second has been rendered
+            # this is the first frame; it is returned until a part of the second has been rendered
             elif answer.header("Kerrd-Rows") is None:
                 self.assertFalse(seen)
                 self.assertEqual(answer.body, self.daemon.get(self.at(job, "/result?format=png&frame=0")).body)
@@ -726,7 +727,7 @@ class Quota(Case):
 
 
 class Gate:
-    """Stops every thread of a server when it begins to plan."""
+    """Stops every thread of a server at the moment when the thread begins to plan."""
 
     def __init__(self, test):
         folder = tempfile.mkdtemp()

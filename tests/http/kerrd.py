@@ -84,8 +84,9 @@ class Limits(unittest.TestCase):
 
 class Stop(unittest.TestCase):
     def test_large_renders_that_are_accepted_end_with_the_server(self):
-        """Eight pictures of some seconds each, and a second of waiting for them: each request gets an answer, and the
-        server ends. Only the order of events is tested, so that a slow machine takes longer but passes."""
+        """The server is stopped during eight pictures of some seconds each, and waits a second for them. Each request
+        gets an answer, and the server ends. Only the order of events is tested, so that a slow machine takes longer but
+        passes."""
         large = "/v1/render?image.width=1920&image.height=1080&image.samples=4&accuracy.profile=high&time="
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-seconds", 1, stderr=log)
@@ -296,7 +297,7 @@ class Kerrd(unittest.TestCase):
             float(told["jy"]) / janskys, 1, delta=1e-3
         )  # both pictures have more rays in the pixels of the critical curve
         self.assertIsNone(self.daemon.get(TARGET).header("Kerrd-Flux"))
-        # The density gives exactly the requested flux in a picture like this one.
+        # With this density, a picture like this one has exactly the requested flux.
         looked_for = (
             "/v1/render?preset=riaf&image.width=128&image.height=128&image.critical_factor=1&volume.normalise_to_jy=1"
         )
@@ -307,7 +308,7 @@ class Kerrd(unittest.TestCase):
         self.assertEqual((problem.status, problem.json()["pointer"]), (422, "/volume/normalise_to_jy"))
 
     def test_a_picture_of_the_sky(self):
-        """The picture is rendered by a request, and by a job as by the command line. Each file names the photograph's
+        """The picture is rendered by a request, by a job, and by the command line. Each file names the photograph's
         author."""
         chunk = lambda kind, data: (
             struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -398,7 +399,7 @@ class Kerrd(unittest.TestCase):
         return "f64" in self.daemon.get("/v1/device").json()["precision"]
 
     def device_rays(self):
-        """Rays that the device traces as accurately as it can."""
+        """Rays that the device traces with its highest accuracy."""
         return {"engine": "mino-rkn6", "precision": "f64" if self.has_float64() else "f32"}
 
     def interrupt(self):
@@ -420,7 +421,7 @@ class Kerrd(unittest.TestCase):
             with self.subTest(scene):
                 if scene.get("accuracy") and not self.has_float64():
                     self.skipTest("the device has no double precision")
-                for _ in range(5):  # on a fast or busy machine no picture may come in between
+                for _ in range(5):  # on a fast or busy machine there may be no picture in between
                     job, between = self.daemon.post("/v1/jobs", {"scene": scene}).json(), 0
                     while (status := self.daemon.get("/v1/jobs/" + job["id"]).json())["state"] == "running":
                         self.interrupt()
@@ -658,7 +659,7 @@ class Kerrd(unittest.TestCase):
         one, other = (self.open({"image": {"width": 160, "height": 90}}) for _ in range(2))
         frames = []
         self.assertTrue(self.drag(one, lambda *frame: frames.append(frame) or len(frames) == 12))
-        for sampled, quality in frames:  # with the best quality all frames have all rays
+        for sampled, quality in frames:  # at the best quality, frames have all rays
             self.assertEqual(sampled, 768 if "final=1" in quality else 192)
         over = threading.Event()
         thread = threading.Thread(target=self.drag, args=(other, lambda *_: over.is_set()))
@@ -1063,7 +1064,7 @@ class Kerrd(unittest.TestCase):
             self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
     def test_a_sweep_that_is_killed_goes_on(self):
-        """The result has the same bytes as without the kill."""
+        """The result has the same bytes as a run without a kill."""
         scene = {"image": {"width": 400, "height": 225, "layers": ["rgb", "g"]}}
         asked = {"scene": scene, "axes": {"style.exposure": [0, 1], "spacetime.spin": "0:0.9:0.1"}, "output": "cube"}
 
@@ -1097,7 +1098,8 @@ class Kerrd(unittest.TestCase):
                 again,
             )
             self.assertTrue(daemon.eventually(lambda: server.get(killed).json()["state"] == "done"))
-            missing = {number % 10 for number in range(20) if number not in have}  # spins; a kill loses the last 0.5 s
+            # number of spins; a kill loses the work of the last 0.5 s
+            missing = {number % 10 for number in range(20) if number not in have}
             self.assertEqual(server.get(killed).json()["lens_maps_traced"], traced + len(missing))
             for at in killed, whole:
                 for end, expected in files.items():

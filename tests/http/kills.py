@@ -1,4 +1,4 @@
-"""Servers killed at random under load: each job that was accepted ends with the right bytes.
+"""Kills servers at random times under load, and checks that each accepted job ends with the right bytes.
 
     kills.py SERVER [OPTION...]         5 kills
     KD_KILLS=30 kills.py SERVER         as many as that
@@ -20,7 +20,7 @@ SEED = int(os.environ.get("KD_SEED", time.time_ns() & 0xFFFFFFFF))
 
 
 def request(n):
-    """A job of 1 to 6 frames, some 10 to 60 ms each; all requests differ."""
+    """A job of 1 to 6 frames of some 10 to 60 ms each. All requests differ."""
     scene = {
         "image": {"width": 32 + n % 7, "height": 18},
         "style": {"exposure": 1},
@@ -31,8 +31,7 @@ def request(n):
 
 class Kills(state.Case):
     def pour(self, server, accepted, rest, stop):
-        """Requests jobs until the server is killed, as many at once as it accepts. Those answered with 202 were
-        accepted."""
+        """Requests jobs until the server is killed, always as many as it accepts. Jobs answered with 202 were accepted."""
         while not stop.is_set():
             try:
                 n = rest[-1]

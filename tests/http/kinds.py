@@ -1,5 +1,5 @@
 """Tests of session frames in the format requested, of simultaneous patches, and of short answers. In the fake
-renderer's scenes `time` is how many milliseconds a frame takes."""
+renderer's scenes, `time` is the duration of a frame in milliseconds."""
 
 import json
 import struct
@@ -69,8 +69,8 @@ class Kinds(daemon.Owned):
         self.assertEqual((width, height), (64, 36))
 
         def gone(k):
-            """True if the pixels are gone, so that no other quality can be made. Otherwise each try makes a file of
-            another quality; a frame keeps at most five."""
+            """True if the frame's pixels have been freed, so that no other quality can be encoded. Otherwise each
+            attempt encodes a file of another quality; a frame keeps at most five."""
             time.sleep(2**k)
             return self.get(session, f"last={k + 1}").header("Content-Type") == "image/png"
 

@@ -1,4 +1,4 @@
-"""Tests of lessons: a teacher's session that pupils follow, questions, and who chose what."""
+"""Tests of lessons: a teacher's session that pupils follow, questions, and the pupils' answers."""
 
 import json
 
@@ -214,7 +214,7 @@ class Lessons(daemon.Case):
         self.assertEqual((told["link"], told["about"], told["hands"][0]["name"]), (8000 * "è", 1000 * "€", 80 * "𝄞"))
 
     def test_limits(self):
-        """One client may have three quarters of 16 lessons. A lesson may have 64 pupils."""
+        """One client may use three quarters of the 16 lessons. A lesson may have 64 pupils."""
         for _ in range(12):
             self.begin()
         problem = self.assertProblem(self.daemon.post("/v1/lessons", {"session": self.session["id"]}), 429, "quota")

@@ -36,7 +36,7 @@ def signed(address, signer="website", key=KEY, ends=HOUR, budget_ms=None):
 
 
 class Head(html.parser.HTMLParser):
-    """Addresses in a page, by what refers to them."""
+    """The addresses in a page, by the element that refers to them."""
 
     def __init__(self, text):
         super().__init__()
@@ -79,11 +79,11 @@ class Links(access.Access):
                 for ask in (self.works, lambda link: self.ask("HEAD", link)):
                     self.assertEqual(ask(signed(target)).status, 200)
                 self.assertProblem(self.ask("GET", target), 401, "unauthorized")
-        # a visitor without access would not learn that there is no such job
+        # an answer without access does not reveal that there is no such job
         self.assertProblem(self.ask("GET", signed(f"/v1/jobs/{access.ID}/result")), 404, "not-found")
 
     def test_it_opens_nothing_else(self):
-        """A signature opens its own address by GET, and is no token."""
+        """A signature gives access to its own address by GET, and is not a token."""
         link = signed(RENDER)
         tail = link.split("?")[1]
         for method, target in (
@@ -177,7 +177,7 @@ class Links(access.Access):
         self.works(signed(RENDER))
 
     def test_a_client_that_leaves_is_charged(self):
-        """The picture of a client that has left is charged once it ends, like any other."""
+        """The picture of a client that has left is charged to the link when it ends, like any other picture."""
         link = signed(RENDER + "&time=5000", budget_ms=1)  # a picture of the fake renderer takes `time` ms
 
         def metrics():
@@ -189,7 +189,7 @@ class Links(access.Access):
         self.assertTrue(daemon.eventually(lambda: self.ask("GET", link).status == 403))
 
     def test_a_restart(self):
-        """With a state folder a budget that is spent stays spent, even if the server is killed."""
+        """With a state folder, a spent budget stays spent, even if the server is killed."""
         link = signed(RENDER, budget_ms=1)
         with tempfile.TemporaryDirectory() as folder:
             for kept in (True, False):
@@ -214,7 +214,7 @@ class Links(access.Access):
             self.assertIn("link-budgets is not a file of link budgets; remove it", failed.stderr)
 
     def test_other_sites(self):
-        """A page of another site shows a picture by a link, and by no other address."""
+        """A page of another site shows a picture by a link, and by no address without one."""
         foreign = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "no-cors", "Sec-Fetch-Dest": "image"}
         answer = self.works(signed(RENDER), **foreign)
         self.assertEqual(answer.header("Cross-Origin-Resource-Policy"), "cross-origin")
@@ -236,7 +236,7 @@ class Links(access.Access):
                 self.assertTrue(age - 300 <= one <= age, said)
 
     def test_the_page_of_a_shared_scene(self):
-        """All that the page shows works for the visitor for whom the link was made."""
+        """Everything that the page shows works for the visitor for whom the link was made."""
         page = self.works(signed(f"/s/{CODE}"))
         head = Head(page.body.decode()).found
         base = "http://localhost"
@@ -247,7 +247,7 @@ class Links(access.Access):
         self.assertNotIn("script", head)
 
     def test_no_token_counts_as_wrong(self):
-        """A link that is not valid neither locks out a client, nor can it try a token."""
+        """An invalid link does not lock out a client, and cannot be used to try tokens."""
         for _ in range(50):
             self.refused(signed(RENDER, key=OTHER), "does not belong")
         self.assertEqual(self.ask("GET", "/v1/device", headers=access.own(access.VIEW)).status, 200)
@@ -273,7 +273,7 @@ class Shares(access.Access):
 
 
 class WithoutTheKey(access.Access):
-    """A server from whose file the key was removed takes none of its links."""
+    """A server whose file no longer contains the key refuses all links made with it."""
 
     @classmethod
     def lines(cls):

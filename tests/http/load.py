@@ -1,4 +1,4 @@
-"""Tests of load: a full queue, clients that vanish, many at once, and nothing left behind."""
+"""Tests of load: a full queue, clients that disconnect, many clients at once, and that no resources remain afterwards."""
 
 import concurrent.futures
 import json

@@ -16,7 +16,7 @@ MADE = re.compile(r"[0-9a-f]{32}")
 
 class Logs(unittest.TestCase):
     def lines(self, asks, *options):
-        """The lines that the server logs while `asks` sends it requests."""
+        """The lines that the server logs while `asks` sends requests to it."""
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-ms", 10, "--log", 2, "--log-format", "json", *options, stderr=log)
             self.addCleanup(server.process.kill)

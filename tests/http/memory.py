@@ -13,8 +13,8 @@ import daemon
 
 SLACK = 192 << 10  # bytes that may remain: pages of the heap that a thread touches for the first time
 
-# malloc returns blocks of 64 KiB and more to the system at once, and all threads share one heap. Otherwise the heap's
-# own behaviour would hide a leak.
+# Settings of malloc: blocks of 64 KiB and more are returned to the system at once, and all threads share one heap.
+# Otherwise the heap's own behaviour would hide a leak.
 ENVIRONMENT = {
     **os.environ,
     "MALLOC_ARENA_MAX": "1",
@@ -37,5 +37,6 @@ def held(server):
 
 
 def comes_back(server, before):
-    """True if the server's memory returns to what it was before, which happens once its last connection is closed."""
+    """True if the server's memory returns to its previous size, which happens once the server's last connection is
+    closed."""
     return daemon.eventually(lambda: held(server) - before <= SLACK, 10)

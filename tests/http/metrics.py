@@ -166,8 +166,8 @@ class Metrics(daemon.Case):
         self.assertEqual(value["kerrd_device_lost"], 0)
 
     def test_what_is_kept_after_a_rest(self):
-        """After each period of activity the renderer stores its state once. The fake renderer reports this as an
-        additional byte of kernels."""
+        """Whenever the renderer becomes idle, it stores its state once. The fake renderer reports this as an additional
+        byte of kernels."""
         server = daemon.Daemon("--rest-ms", 200)
         self.addCleanup(server.stop)
 

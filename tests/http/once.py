@@ -124,7 +124,7 @@ class Once(Case):
             self.assertEqual(self.ask(path, STILL, "").status, 200)
 
     def test_many_at_once_make_one(self):
-        """Each request is answered with the one resource, or told to wait for it."""
+        """Each request either is answered with the one resource, or is told to wait for it."""
         for path, (status, body, _) in KINDS.items():
             with concurrent.futures.ThreadPoolExecutor(8) as pool:
                 answers = list(pool.map(lambda _, p=path, b=body: self.ask(p, b, '"many"'), range(8)))

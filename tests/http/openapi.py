@@ -72,8 +72,8 @@ class OpenApi(daemon.Case):
                         yield from below(f"{method} {path} {kind}", media["schema"])
 
     def test_nothing_is_left_open(self):
-        """Each schema has a type; each list has the type of its items; each object has its members, and says that there
-        are no others."""
+        """Each schema has a type. Each list states the type of its items. Each object lists its members and forbids
+        others."""
         # Exceptions: documents with a description of their own; members that clients give back unchanged; contents that
         # depend on the type of a job's output.
         free = {
@@ -129,7 +129,8 @@ class OpenApi(daemon.Case):
             self.assertEqual(self.daemon.get("/web/" + name.replace("/", "%2F")).status, 200, name)
 
     def test_what_the_schema_refuses_and_the_server_too(self):
-        """Each group of documents is refused by both, except the last one, which both accept."""
+        """Each group of documents is refused by both the schema and the server, except the last group, which both
+        accept."""
         orbit, bound = {"case": "isco"}, {"p": 10, "e": 0.1}
         state = {"r": 10, "theta_deg": 90, "phi_deg": 0}
         constants = {"energy": 0.96, "angular_momentum": 4, "carter": 0}
@@ -543,8 +544,8 @@ class OpenApi(daemon.Case):
                     self.assertTrue(status in (200, 201, 202) if good else status == 422, status)
 
     def test_what_is_refused_for_its_form_is_told(self):
-        """For each operation, whether or not the resource of its path exists, the document lists each status that a
-        malformed request gets."""
+        """For each operation the document lists each status that a malformed request gets, whether or not the resource
+        of its path exists."""
         lines = {
             "a length of 26 digits": "Content-Length: " + 26 * "9",
             "a length that is none": "Content-Length: x",
@@ -591,7 +592,8 @@ class OpenApi(daemon.Case):
                 body = "{}" if method in ("post", "patch", "put") else None
                 with self.subTest(f"{method} {path}"):
                     answer = self.daemon.request(method.upper(), at + "?nosuch=1", body, owner)
-                    told = None if path == "/v1/rays" else "/nosuch"  # rays have no parameters beside a document
+                    # lists of rays have no query parameters beside a document
+                    told = None if path == "/v1/rays" else "/nosuch"
                     self.assertEqual((answer.status, answer.json().get("pointer")), (422, told), answer.body)
                     operations += 1
         self.assertGreater(operations, 50)
@@ -601,7 +603,7 @@ class OpenApi(daemon.Case):
             self.assertEqual(self.daemon.request("PATCH", f"{at}?{query}", "{}", owner).status, 200, query)
 
     def said(self, method, target, line):
-        """The status of a request with this line in its header."""
+        """The status of a request whose header has this additional line."""
         hosted = "" if line.startswith("Host:") else "Host: localhost\r\n"
         with socket.create_connection(("127.0.0.1", self.daemon.port), timeout=600) as connection:
             connection.sendall(
@@ -759,7 +761,7 @@ class OpenApi(daemon.Case):
         self.assertEqual([one.circular for one in many.orbits], [False, True])
 
     def use_what_is_kept(self, package, base, call, models, small):
-        """Creates a session and a job, changes the one and waits for the other, and deletes both with their tokens."""
+        """Creates a session and a job, changes the session and waits for the job, and deletes both with their tokens."""
         session = call("post_sessions", body=models.KerrdSceneVersion1.from_dict(small))
         job = call("post_jobs", body=models.PostJobsBodyType0(scene=models.KerrdSceneVersion1.from_dict(small)))
 

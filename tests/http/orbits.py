@@ -234,7 +234,7 @@ class Orbits(daemon.Case):
         self.assertLess(time.monotonic() - start, 5)
         for s in streams:
             s.close()
-        # the requests ended when their clients left, so that four are accepted again
+        # the requests ended when their clients disconnected, so four new ones are accepted
         self.assertTrue(daemon.eventually(lambda: all(self.post(GENERIC).status == 200 for _ in range(4))))
 
     def test_the_queue_is_bounded(self):
@@ -268,7 +268,7 @@ class Orbits(daemon.Case):
         for t in threads:
             t.join()
         body = json.dumps({"orbits": [{"p": 8, "e": 0.5}] * 3000, "duration": {"periods": 1000}}).encode()
-        with self.daemon.connect(60) as s:  # the client requests the whole answer, but leaves before it comes
+        with self.daemon.connect(60) as s:  # the client requests the whole answer, but disconnects before it arrives
             s.sendall(
                 b"POST /v1/orbits HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n"
                 % len(body)

@@ -35,8 +35,8 @@ class Zamo:
         )
 
     def hole(self):
-        """The direction in which light is seen that moves outwards along the principal null direction, k = ((r^2 +
-        a^2)/Delta, 1, 0, a/Delta)."""
+        """The direction in which outgoing light of the principal null congruence is seen, k = ((r^2 + a^2)/Delta, 1, 0,
+        a/Delta)."""
         t = (self.r**2 + self.a**2) / self.delta
         local = self.lapse * t
         return -sqrt(self.sigma / self.delta) / local, 0, -self.round * (self.a / self.delta - self.omega * t) / local
@@ -154,7 +154,7 @@ class Paths(Case):
 
     def looks(self, camera, looks, keyframes=(), spin=0.9):
         """Compares the directions that the job has written with those by the formulas, for four frames on the way
-        inwards with a turn."""
+        inwards with a turn of the camera."""
         keys = [{"frame": 3, "scene": {"camera": {"r": camera["r"] / 2, "azimuth_deg": 30}}, **dict(keyframes)}]
         return self.cameras({**camera, "yaw_deg": 77, "pitch_deg": -11}, keys, spin, look_at=looks)
 

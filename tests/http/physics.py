@@ -69,8 +69,8 @@ class Physics(daemon.Case):
             self.assertAlmostEqual(values[name], exact, delta=1e-14 * exact)
 
     def test_charge(self):
-        """Quantities of a charged hole have the charge as a parameter, and tell that real holes have next to none. Other
-        quantities refuse it by name."""
+        """Quantities of a charged hole have the charge as a parameter, and state that real holes have almost none.
+        Other quantities refuse the parameter by name."""
         told = {one["name"]: one["sentence"] for one in self.daemon.get("/v1/approximations").json()["approximations"]}
         charged = {
             "kerr",
@@ -518,7 +518,7 @@ class Limits(daemon.Case):
 
 
 class Integrals(daemon.Case):
-    """POST /v1/line and similar integrals."""
+    """Tests of POST /v1/line and the other integrals."""
 
     def post(self, name, document, **headers):
         return self.daemon.post("/v1/" + name, document, **headers)
@@ -567,7 +567,8 @@ class Integrals(daemon.Case):
 
     def test_coronae(self):
         """The line of a ring has the energies of the ring's echo. A narrow layer or slab around the ring gives the same
-        line and continuum. Far from the hole the continuum is that of flat space, and `strength` is 2 cos i."""
+        line and continuum as the ring. Far from the hole the continuum is that of flat space, and `strength` is 2 cos
+        i."""
         hole = {"spin": 0.9, "inclination_deg": 40, "outer": 200, "bins": 30}
         ring = {**hole, "emissivity": "ring", "corona_radius": 6, "height": 3, "motion": "corotating"}
         line = self.post("line", ring).json()
@@ -620,7 +621,8 @@ class Integrals(daemon.Case):
 
     def test_charge(self):
         """The disk is that of the charged hole. Face-on, without spin, each ring has one energy, 1/u^t = sqrt(1 - 3/r +
-        2 Q^2/r^2), so that the line ends at that of the ISCO, which is the root of r^3 - 6 r^2 + 9 Q^2 r - 4 Q^4."""
+        2 Q^2/r^2). The line therefore ends at the energy of the ISCO, whose radius is the root of r^3 - 6 r^2 + 9 Q^2 r
+        - 4 Q^4."""
         told = {one["name"]: one["sentence"] for one in self.daemon.get("/v1/approximations").json()["approximations"]}
         q, isco = 0.9, 4.51374504671510329
         hole = {"spin": 0, "charge": q}
@@ -685,8 +687,8 @@ class Integrals(daemon.Case):
 
     def test_light_that_returns(self):
         """The light that arrives, over all directions and frequencies, agrees with the escaping share of the luminosity
-        of /v1/physics/returning. That is the share that escapes at once if returning light is ignored, and the share
-        that escapes in the end if the disk absorbs it."""
+        of /v1/physics/returning. If returning light is ignored, this is the share that escapes at once. If the disk
+        absorbs it, this is the share that escapes in the end."""
         nodes = ((0.0694318442, 0.1739274226), (0.3300094782, 0.3260725774), (0.6699905218, 0.3260725774))
         nodes += ((0.9305681558, 0.1739274226),)
         asked = {"spin": 0.9, "outer": 1e4, "frequencies": 150, "frequency_min_hz": 1e13, "frequency_max_hz": 1e20}
@@ -773,8 +775,8 @@ class Integrals(daemon.Case):
             self.assertAlmostEqual(m * n / total, e, delta=3e-4)  # tolerance: g varies by 1.7 % over a bin
 
     def test_visibilities_of_a_bright_rectangle(self):
-        """The fake renderer's maps have uniform brightness. Their transform is the product of two sums of a geometric
-        row, sin(n x)/(n sin x)."""
+        """The fake renderer's maps have uniform brightness. Their transform is the product of two geometric series,
+        each sin(n x)/(n sin x)."""
         # for a baseline u, x is this times u
         pixel = math.pi * 1e9 * 56 / 32 * 6.5e9 * 1476.625 / (16.8e6 * 3.0856775814913673e16)
         rows = lambda n, x: 1 if x == 0 else math.sin(n * x) / (n * math.sin(x))
@@ -980,7 +982,8 @@ class Integrals(daemon.Case):
         self.assertEqual((missing["status"], missing["pointer"]), (422, "/observation"))
 
     def test_edge_on(self):
-        """Lines next to edge on go on from those of the table, and those of lamps and rings have a continuum."""
+        """Lines next to edge-on continue those that are computed with the table. Lines of lamps and rings have a
+        continuum."""
         for more in ({}, {"emissivity": "lamppost", "height": 4}, {"emissivity": "ring", "height": 4}):
             lines = [
                 self.post("line", {**more, "spin": 0.9, "inclination_deg": i}).json()

@@ -1,4 +1,4 @@
-"""Tests of live playgrounds: their documents, pace, changes, steps, packed places, events, files, limits and ends."""
+"""Tests of live playgrounds: their documents, speed, changes, steps, packed positions, events, files, limits and ends."""
 
 import concurrent.futures
 import hashlib
@@ -193,7 +193,7 @@ class Playground(daemon.Owned):
         self.assertTrue(daemon.eventually(lambda: self.status(play)["t"] > going["t"] + 50))
 
     def test_steps_are_those_of_the_command_line(self):
-        """Steps equal those of the command line to the bit, however the time is divided, and also after a change."""
+        """Steps give the same bits as the command line, however the time is divided into steps, also after a change."""
         kerrd = os.environ["KERRD"]
         for document in (
             {"preset": "disruption", "debris_per_body": 2000},
@@ -721,8 +721,7 @@ class Limits(daemon.Owned):
         self.opened.clear()
 
     def test_pictures_after_a_break(self):
-        """A client that comes back to a playground at rest, and names the last frame that it had, gets this picture
-        again."""
+        """A client returns to a playground at rest and names the last frame that it had. It gets this picture again."""
         play = self.make({"paused": True, "scene": {"image": {"width": 64, "height": 36}}})
         number = 0
         while (answer := self.daemon.get(self.at(play, f"/frame.png?after={number}&wait_ms=1000"))).status == 200:
@@ -754,7 +753,8 @@ class Limits(daemon.Owned):
 
 
 class Sessions(daemon.Owned):
-    """Pictures of playgrounds are sessions, and count towards their number and towards the playgrounds' memory."""
+    """Pictures of playgrounds are sessions. They count towards the number of sessions and towards the playgrounds'
+    memory."""
 
     kind, made = "/v1/playground", 201
     options = ("--playgrounds", 4, "--sessions", 2, "--client-share", 50, "--session-ms", 60000)
@@ -804,8 +804,8 @@ class Stopping(unittest.TestCase):
 
 
 class Films(job_case.Case):
-    """Tests of jobs whose frames show a playground as it evolves. In the fake renderer's scenes `time` is how many
-    milliseconds a frame takes; the playground's time is added to it."""
+    """Tests of jobs whose frames show a playground as it evolves. In the fake renderer's scenes, `time` is the duration
+    of a frame in milliseconds; the playground's time is added to it."""
 
     STAR = {"preset": "white-dwarf", "debris_per_body": 500}
     TURNED = {"camera": {"azimuth_deg": 90}}
@@ -871,8 +871,8 @@ class Films(job_case.Case):
         self.assertEqual(self.daemon.get(self.at(job, "/result?format=csv")).body.count(b"\n"), 4)
 
     def test_deleted_while_its_bodies_move(self):
-        """The job is deleted while its bodies move, which would take half an hour and longer. Pictures are made
-        meanwhile, and another film after it."""
+        """The job is deleted while its bodies are moved, which would take half an hour or longer. Pictures are rendered
+        meanwhile, and another film afterwards."""
         job = self.make(
             {
                 "playground": {"preset": "swarm", "h_max": 1e-3, "budget": 1000000},

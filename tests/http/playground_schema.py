@@ -37,7 +37,7 @@ class PlaygroundSchema(daemon.Owned):
         )
 
     def events(self, play, rest):
-        """The first event of each kind until a tick."""
+        """The first event of each kind, up to a tick."""
         s = self.daemon.connect(20)
         self.addCleanup(s.close)
         s.sendall(

@@ -1,4 +1,4 @@
-"""Requests that are not valid HTTP: each gets one problem document, or the connection is closed.
+"""Tests of requests that are not valid HTTP: each gets one problem document, or the connection is closed.
 
 Each request is sent alone on a connection, after a valid request on a connection that is kept alive, and while uploads
 are under way.
@@ -90,8 +90,8 @@ REFUSED = {
 
 
 def read_all(s, patience):
-    """Reads until the server closes the connection, or until nothing has come for `patience` seconds. Returns the
-    bytes, and whether it closed."""
+    """Reads until the server closes the connection, or until nothing has arrived for `patience` seconds. Returns the
+    bytes, and whether the server closed the connection."""
     got = b""
     s.settimeout(patience)
     try:

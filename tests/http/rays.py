@@ -130,7 +130,8 @@ class Requests(daemon.Case):
         self.assertIn(f"line {lines.count(chr(10))}", self.assertProblem(self.post(lines[:-3]), 400)["detail"])
 
     def test_observers_are_refused_in_the_same_words(self):
-        """Rays and physics refuse an observer in the same sentences as a scene, with their own names of the fields."""
+        """Rays and physics refuse an observer with the same sentences as a scene, but with their own names of the
+        fields."""
         table = (
             ({"r": 9, "velocity_phi": 0.8, "velocity_r": 0.7}, "velocity"),
             ({"r": 1.5}, "static"),
@@ -393,7 +394,7 @@ class Requests(daemon.Case):
 
 
 class Device(daemon.Case):
-    """Requests for an engine of the device take turns with renders."""
+    """Requests for an engine that runs on the device take turns with renders."""
 
     options = ("--queue", 2)
 

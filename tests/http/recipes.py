@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The recipes of docs/architecture.md: a parameter of orbits and of integrals, a quantity, an option of `kerrd serve`
-and a route take at most two places each. One of each is added to a copy of the sources; what changes is compiled and
-linked, and the program and the server then know them.
+"""Tests the recipes of docs/architecture.md: to add a parameter of orbits or of integrals, a quantity, an option of
+`kerrd serve` or a route takes changes at two places at most. One of each is added to a copy of the sources. The changed
+files are compiled and linked, and the additions must then work in the program and the server.
 
 recipes.py SOURCE BUILD
 """
@@ -76,7 +76,7 @@ RECIPES = {
     ],
 }
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
-# Lists that change no struct: only their tables are compiled again.
+# Lists that change no struct: only the files with their tables have to be compiled again.
 ALONE = {"server/http/routes.def": {"server/routes.c"}, "quantity/meson.build": {"quantity/table.c"}}
 
 
@@ -111,7 +111,7 @@ def dependents(copy, changed):
 
 
 def command_of(file):
-    """The compiler's arguments for a file below src; those of a file beside it if it is new."""
+    """The compiler's arguments for a file below src. A new file gets the arguments of a neighbouring file."""
     entries = {}
     for entry in json.loads((BUILD / "compile_commands.json").read_text()):
         path = pathlib.Path(entry["directory"], entry["file"]).resolve()

@@ -1,5 +1,5 @@
-"""Refusals give back all memory that they took: every route with bodies and queries that it refuses, and assets that
-are damaged or beyond each limit.
+"""Tests that refusals free all memory that they took: every route, with bodies and queries that it refuses, and assets
+that are damaged or beyond each limit.
 
     refusals.py SERVER              each kind a few times
     REPEATS=200 refusals.py SERVER  the long run"""
@@ -17,7 +17,7 @@ import daemon
 import memory
 
 REPEATS = int(os.environ.get("REPEATS", "2"))
-# Repetitions of the kinds that take memory: enough for a leak of 32 KiB each time to exceed memory.SLACK.
+# Repetitions of the requests that take memory. They are enough for a leak of 32 KiB each time to exceed memory.SLACK.
 OFTEN = max(REPEATS, 8)
 OF_EACH_READER = {
     "header is cut",
@@ -49,8 +49,8 @@ OF_EACH_READER = {
     "post /v1/sessions, long",
     "post /v1/playground, long",
 }
-# repetitions before the first measurement, in which memory is allocated that stays allocated, and heaps reach their
-# size
+# repetitions before the first measurement: in these, memory is allocated that stays allocated, and heaps grow to their
+# final size
 WARM = 2
 NPZ = "application/x-npz"
 UVFITS = "application/x-uvfits"
@@ -83,7 +83,7 @@ def packed(members, method=zipfile.ZIP_STORED):
 
 
 def set_entry(data, name, at, value):
-    """Changes a field of a member's entry in the directory."""
+    """Changes a field in the directory entry of a ZIP member."""
     entry = data.index(b"PK\1\2")
     while data[entry + 46 : entry + 46 + len(name)] != name:
         entry = data.index(b"PK\1\2", entry + 4)
@@ -180,7 +180,7 @@ def observations():
 
 
 def routes(document):
-    """Requests that each operation of the document refuses."""
+    """For each operation of the document, requests that it refuses."""
     known = dict(name="nobody", id="0123456789abcdef", sha256="0" * 64, code="AwA", file="nobody")
     bad = {
         "broken": b'{"a":',
@@ -215,14 +215,14 @@ class Refusals(daemon.Case):
         cls.daemon = daemon.Daemon("--drain-ms", 10, env=memory.ENVIRONMENT)
 
     def hold(self, kinds, least, repeats=REPEATS):
-        """Each kind is refused, and the server holds no more memory after the last time than after the first."""
+        """Each request is refused, and after the last time the server holds no more memory than after the first."""
         told, refused, grown = memory.is_told(self.daemon), 0, []
         for name, request in kinds:
             status = [self.daemon.request(*request).status for _ in range(WARM)][0]
             if not 400 <= status < 500:
                 continue  # this route accepts the request
             refused += 1
-            self.daemon.get("/v1/assets")  # the last request is over when the next one is answered
+            self.daemon.get("/v1/assets")  # the previous request has ended when the next one is answered
             before = memory.held(self.daemon)
             for _ in range(repeats):
                 self.assertEqual(self.daemon.request(*request).status, status, name)

@@ -20,8 +20,8 @@ class Rows(daemon.Case):
     options = ("--host", "holes.example")
 
     def talk(self, *lines, body="", patience=20):
-        """Sends a request, and reads until the connection ends, because of `Connection: close` or by the server's
-        decision. Returns bytes."""
+        """Sends a request, and reads until the server ends the connection, because of `Connection: close` or by itself.
+        Returns the bytes."""
         with self.daemon.connect(patience) as s:
             data = "\r\n".join(lines) + "\r\n\r\n" + body
             s.sendall(data.encode("latin-1"))
@@ -199,7 +199,7 @@ class Rows(daemon.Case):
     def chunk_extensions(self):
         library = ctypes.CDLL("libmicrohttpd.so.12")
         library.MHD_get_version.restype = ctypes.c_char_p
-        # such a version refuses extensions of chunks that hold data
+        # such a version refuses chunk extensions that contain data
         refuses = library.MHD_get_version().startswith(b"1.0.")
         for body, status in (
             ('1;a\r\n{\r\n1;b="c;d"\r\n}\r\n0\r\n\r\n', 400 if refuses else 200),
@@ -219,7 +219,7 @@ class Rows(daemon.Case):
             for _ in range(2):
                 s.sendall(f"GET {PRESETS} HTTP/1.1\r\n{HOST}\r\n\r\n".encode())
                 self.assertEqual(daemon.read_answer(s).status, 200)
-        # since `talk` returns, the connection has ended
+        # the connection has ended, since `talk` has returned
         self.assertStatus(self.talk(f"GET {PRESETS} HTTP/1.0", HOST).replace("HTTP/1.0", "HTTP/1.1", 1), 200)
 
     def pipelining(self):

@@ -196,7 +196,7 @@ class Routes(daemon.Case):
         self.assertEqual(self.daemon.get("/v1/presets/m87-EHT").status, 404)
 
     def test_a_small_picture_of_a_preset(self):
-        """The picture is rendered only once, however many clients request it at the same time, and then stored."""
+        """The picture is rendered only once and then stored, however many clients request it at the same time."""
         before = self.settled()["kerrd_thumbnails_rendered_total"]
         with concurrent.futures.ThreadPoolExecutor(8) as many:
             answers = list(
@@ -227,8 +227,8 @@ class Routes(daemon.Case):
         self.assertEqual(self.daemon.get("/v1/presets/edge-on/thumbnail.png?width=9").status, 422)
 
     def test_small_pictures_are_kept_for_later_servers(self):
-        """Small pictures are stored in the folder of the device's files. A damaged file, or one of something else, is
-        rendered anew."""
+        """Small pictures are stored in the folder of the device's files. A file that is damaged, or that holds
+        something else, is rendered again."""
         target = "/v1/presets/edge-on/thumbnail.png"
 
         def ask():
@@ -312,7 +312,8 @@ class Routes(daemon.Case):
         self.assertIn("camera.inclination_deg", names)
 
     def test_the_table_of_routes(self):
-        """/docs and docs/routes.md have the same cells; /openapi.json has these operations, with these statuses."""
+        """/docs and docs/routes.md have the same table cells. /openapi.json has the operations and statuses of these
+        tables."""
         page = self.daemon.get("/docs")
         self.assertEqual(page.header("Content-Type"), "text/html; charset=utf-8")
         self.assertIn("default-src 'none'", page.header("Content-Security-Policy"))
@@ -496,7 +497,7 @@ def slice_ns(thread):
 
 class Prompt(daemon.Case):
     def test_health_asks_for_short_turns(self):
-        """The front thread and the thread of the health routes request short slices. No other thread does, because
+        """The front thread and the thread of the health routes request short time slices. No other thread does, because
         short slices for all threads would have no effect."""
         if slice_ns(os.getpid()) is None:
             self.skipTest("this kernel tells no slices")

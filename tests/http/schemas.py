@@ -13,8 +13,8 @@ class Schemas:
         return [f"{'/'.join(map(str, e.absolute_path))}: {e.message[:300]}" for e in judge.iter_errors(value)]
 
     def of(self, method, path, status=200):
-        """The schema of a JSON answer. DELETE and similar methods have none. A bare {"type": "object"} is too weak, and
-        counts as an error."""
+        """The schema of a JSON answer. DELETE and similar methods have none. A bare {"type": "object"} is too weak and
+        is treated as an error."""
         schema = self.document["paths"][path][method]["responses"][str(status)]["content"]["application/json"]["schema"]
         assert schema != {"type": "object"}, f"{method} {path} has no schema"
         return schema

@@ -1,5 +1,5 @@
 """Tests of live sessions: requests for frames, streams with readers of every kind, patches, tokens, limits and ends.
-In the fake renderer's scenes `time` is how many milliseconds a frame takes."""
+In the fake renderer's scenes, `time` is the duration of a frame in milliseconds."""
 
 import http.client
 import itertools
@@ -200,7 +200,7 @@ class Sessions(daemon.Owned):
         self.assertProblem(self.patch(session, "{}", **{"Content-Type": "text/plain"}), 415)
 
     def test_what_varies(self):
-        """The state names what varies for the emitters of the scene, whether or not time runs."""
+        """The state lists what varies for each emitter of the scene, whether or not time runs."""
         session = self.open()
         self.assertEqual(self.status(session)["varies"], [])
         for patch, varies in (
@@ -350,7 +350,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(self.assertProblem(self.strike(session), 422, "invalid-scene")["pointer"], "/style/ringdown")
 
     def test_a_ring_dies_away(self):
-        """Frames are made during the ringdown, one more after it, and then the session rests."""
+        """Frames are rendered during the ringdown, and one more after it. Then the session is at rest."""
         session = self.open(
             {**SCENE, "time": 0, "motion": {"time_rate": 9}}
         )  # frames take less than 33 ms, so that the last one is not refined
@@ -543,7 +543,7 @@ class Sessions(daemon.Owned):
         for _ in range(5):
             session = self.open(
                 {"image": {"width": 4000, "height": 3000}, "time": 60}
-            )  # encoding the first frame takes long
+            )  # encoding the first frame takes a long time
             self.patch(session, {"image": {"width": 64, "height": 36}, "time": 0})  # encoding this frame is quick
             self.assertEqual(self.frame(session, 1).header("Kerrd-Revision"), "2")
             time.sleep(0.2)
@@ -617,7 +617,7 @@ class Sessions(daemon.Owned):
         self.assertOnRain(json.loads(found[1]))
         self.assertEqual(self.patch(session, {"motion": {"proper_time_rate": 100}}).json()["revision"], 2)
         self.assertTrue(daemon.eventually(lambda: self.status(session)["scene"]["camera"]["r"] == 0.01))
-        self.patch(session, {"camera": {"r": 8}, "motion": {"proper_time_rate": 0.05}})  # the fall is repeated
+        self.patch(session, {"camera": {"r": 8}, "motion": {"proper_time_rate": 0.05}})  # the fall starts again
         self.assertGreater(self.assertOnRain(self.status(session)), self.WHOLE / 2)
         self.assertNotIn("clock", self.patch(session, {"camera": None, "motion": None}).json())
 
@@ -675,8 +675,8 @@ class Sessions(daemon.Owned):
         )
 
     def test_a_path_is_looked_along_by_the_workers(self):
-        """Parsing and checking the longest path takes tens of milliseconds. Workers do it and not the thread that
-        serves everybody; the answer reports how long they took."""
+        """Parsing and checking the longest path takes tens of milliseconds. Workers do this, and not the thread that
+        serves all clients. The answer reports how long they took."""
         session = self.open(SCENE)
         keys = [{"at": i + 1, "scene": {"camera": {"azimuth_deg": i % 360}}} for i in range(999)]
         answer = self.follow(session, {"keyframes": keys})
@@ -863,7 +863,7 @@ class Sessions(daemon.Owned):
         self.assertEqual(parts[0].strip(), b"")
         for part in parts[1:4]:
             self.assertTrue(part.startswith(b"\x89PNG") and part.endswith(b"IEND\xaeB`\x82\r\n"), part[:20])
-        # the header of the next part comes with the frame, not with the next frame
+        # the header of the next part is sent with this frame, not with the next one
         self.assertTrue(re.search(rb"IEND\xaeB`\x82\r\n--kerrd\r\nContent-Type: image/png\r\n\r\n", body))
 
     @staticmethod
@@ -1019,8 +1019,8 @@ class Sessions(daemon.Owned):
             self.assertEqual(set(self.exposures(s, 5)), {0.25})
 
     def test_slow_reader_gets_the_newest(self):
-        """A reader that stalls gets the frames that are in the kernel's buffers, and then the newest frame, because
-        there is no queue in between."""
+        """A reader that stalls gets first the frames that are in the kernel's buffers, and then the newest frame: there
+        is no queue in between."""
         session = self.open({**NOISE, "sky": {"model": "grid"}, "motion": {"azimuth_rate_deg": 10}})
         with self.stream(session, "/frames", "application/x-kerrd-frames") as s:
             s.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1 << 18)
@@ -1094,15 +1094,17 @@ class Sessions(daemon.Owned):
         self.assertIn("it must be at most 600 s", problem["detail"])
         self.assertEqual(self.status(session)["scene"]["image"]["width"], 64)
 
-    # By their plan, full frames of these scenes would take half a second or two. So coarser frames with one ray a pixel
-    # come first; these take `time` ms, and the last step takes 30 times as long. An answer that must not wait for the
-    # last step has a part of its time as its limit, so that the bound holds on a busy machine.
+    # By the plan's estimate, full frames of these scenes would take half a second to two seconds. Coarser frames with
+    # one ray a pixel therefore come first. These take `time` ms, and the last step takes 30 times as long. For an
+    # answer that must not wait for the last step the limit is a fraction of that step's time, so that the test passes
+    # on a busy machine.
     COARSE = {"image": {"width": 400, "height": 300, "samples": 2, "critical_factor": 1}, "time": 1000}
     LONG = {"image": {"width": 800, "height": 600, "samples": 2, "critical_factor": 1}, "time": 100}
     SOON = 20  # s
 
     def refining(self, scene, samples=2):
-        """A session in the middle of its step to this number of samples, and the connection that waits for it."""
+        """A session in the middle of its refinement to this number of samples, and the connection that waits for the
+        refined frame."""
         session, number = self.open(scene), 0
         while True:
             answer = self.frame(session, number)

@@ -130,7 +130,8 @@ class Share(Case):
         )
 
     def test_a_link_keeps_the_pair(self):
-        """Two pictures side by side: the link has what differs on the right, in one spelling, and both pictures."""
+        """Two pictures side by side: the link contains the fields that differ on the right, in one spelling, and the
+        page shows both pictures."""
         ready = (
             ({"spacetime": {"spin": 0}}, {"spacetime.spin": "0.998"}),
             ({"spacetime": {"spin": 0, "charge": 0}}, {"spacetime.spin": "0", "spacetime.charge": "0.950"}),
@@ -317,7 +318,7 @@ class Share(Case):
                     self.assertLess(len(answer.body), 1500)
 
     def test_nothing_of_a_link_reaches_the_page_as_it_stands(self):
-        """The page contains the values of the scene, and not the text of the link, so that each number has one
+        """The page contains the values of the scene instead of the text of the link, so that each number has one
         spelling."""
         path = "/s/" + code_of("spacetime.spin=0.50000000000000000000001&camera.r=%33%30")
         self.assertEqual(self.page(path).open, "../#preset=default&spacetime.spin=0.5&camera.r=30")
@@ -385,7 +386,7 @@ class Below(Case):
 
 
 class Embedded(Case):
-    """Scenes are shown in frames of the listed pages only."""
+    """Scenes are shown in frames of listed pages only."""
 
     options = ("--embed-origin", "https://blog.example,http://localhost:99")
 

@@ -10,7 +10,7 @@ import time
 import daemon
 
 RENDER = "/v1/render?" + daemon.SMALL
-# The renderer's estimate for these is 1 us a ray, 6.6 s; their actual duration is `time`, in slices of 10 ms.
+# The renderer's estimate for these pictures is 1 us a ray, 6.6 s; their actual duration is `time`, in slices of 10 ms.
 LONG = "/v1/render?image.width=1280&image.height=1280&image.samples=2&accuracy.profile=high&time=%d"
 
 
@@ -62,8 +62,8 @@ class Device(Case):
         self.assertRaises(BlockingIOError, first.recv, 1)
 
     def test_beside_living_sessions_a_picture_has_its_turn(self):
-        """A picture gets its turn, and so does a frame of a job, although sessions of the same client use all the time
-        that they can get."""
+        """A picture gets its turn, and so does a frame of a job, even if sessions of the same client use all the
+        remaining time."""
         sessions = [
             self.daemon.post(
                 "/v1/sessions",
@@ -135,7 +135,7 @@ class Kernels(Case):
 
     def test_a_picture_that_waits_for_its_kernels_holds_nobody(self):
         """A second picture that needs the same kernels does not compile them again. The time spent waiting for kernels
-        is reported separately from the time in the queue. A client that has left leaves nothing behind."""
+        is reported separately from the time in the queue. After a client has disconnected, none of its work remains."""
         gone = self.begin(self.NEW, "127.0.0.3")
         self.daemon.reaches("renders_unfinished", 1)
         daemon.vanish(gone)
@@ -154,11 +154,12 @@ class Kernels(Case):
             self.assertGreater(self.kernels(answer), 0)
         self.assertEqual(self.kernels(self.ask("127.0.0.1", "GET", self.NEW + "&time=1")), 0)
         compiled = self.daemon.metrics()['kerrd_kept_bytes{kind="kernels"}'] // 1024
-        self.assertLessEqual(compiled, 2)  # one for the client that has left, and one for the first of the others
+        # one compilation for the client that has disconnected, and one for the first of the others
+        self.assertLessEqual(compiled, 2)
 
     def holds_nobody(self, ask):
-        """Checks that others are served until its kernels are ready, which is when another client's picture has been
-        rendered."""
+        """Checks that other clients are served until the picture's kernels are ready, that is, until another client's
+        picture has been rendered."""
         own = daemon.Daemon()
         self.addCleanup(own.stop)
         s = own.connect()
@@ -181,7 +182,7 @@ class Kernels(Case):
         self.holds_nobody(ask + b"Content-Length: %d\r\n\r\n%s" % (len(body), body))
 
     def test_a_picture_that_comes_to_lack_a_kernel_holds_nobody(self):
-        """A short picture starts again, a picture in a lane continues. Both report how long they waited."""
+        """A short picture starts again; a picture in a lane continues. Both report how long they waited."""
         for target in (RENDER, LONG % 0):
             with self.subTest(target):
                 ask = f"GET {target}&sky.seed=4713 HTTP/1.1\r\nHost: localhost\r\n\r\n".encode()
@@ -205,7 +206,7 @@ class Kernels(Case):
         self.assertEqual(daemon.read_answer(again).status, 200)
 
     def test_what_cannot_be_compiled_holds_nobody(self):
-        """The picture still gets its turn, in which the kernel's failure is reported. Nothing waits for ever, in the
+        """The picture still gets its turn, in which the kernel's failure is reported. Nothing waits for ever in the
         queue or in a lane of long pictures, and the kernel is not compiled again and again."""
         own = daemon.Daemon("--device", "miscompiles")
         self.addCleanup(own.stop)
@@ -219,7 +220,7 @@ class Kernels(Case):
 
     def test_the_kernels_of_a_views_pixels_are_compiled_ahead(self):
         """The kernels for the explanation of a pixel are compiled as soon as the view has its last frame, before anyone
-        requests a pixel. Meanwhile pictures whose kernels are there are rendered, and a picture that lacks a kernel
+        requests a pixel. Meanwhile pictures whose kernels are compiled are rendered, and a picture that lacks a kernel
         waits."""
         own = daemon.Daemon()
         self.addCleanup(own.stop)
@@ -235,7 +236,7 @@ class Kernels(Case):
         self.addCleanup(s.close)
         s.sendall(f"GET {self.NEW} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
         own.reaches("renders_unfinished", 1)
-        answer = own.get(RENDER)  # until then the fake compiles
+        answer = own.get(RENDER)  # until then the fake renderer compiles
         self.assertEqual((answer.status, self.kernels(answer)), (200, 0))
         self.assertEqual(daemon.read_answer(s).status, 200)
 
@@ -270,14 +271,14 @@ class Kernels(Case):
 
 
 class Allowance(Case):
-    """Here a client may use one second of the device's time in a minute. Both the time used and the estimates of
-    accepted work count."""
+    """Here a client may use one second of device time in a minute. Both the time used and the estimates of accepted
+    work are counted."""
 
     options = ("--client-device-seconds", 1, "--queue", 16, "--client-share", 50)
     SMALL = {"image": {"width": 32, "height": 18}}
 
     def refused(self, source, method, target, body=None):
-        """The seconds after which a refused client may try again."""
+        """The seconds after which a refused client may try again, from the answer."""
         answer = self.ask(source, method, target, body)
         detail = self.assertProblem(answer, 429, "quota")["detail"]
         seconds = int(answer.header("Retry-After"))
@@ -501,8 +502,8 @@ class Dawdling(Announced):
     options = ("--body-ms", 1500)
 
     def test_a_body_that_dawdles_is_cut(self):
-        """If a body arrives slowly, the request is refused after the time for a small body, whatever its Content-Length
-        and however much of it has arrived."""
+        """If a body arrives slowly, the request is refused after the time limit of a small body, whatever its
+        Content-Length and however much of it has arrived."""
         s = self.announce(3000000)
         answer = daemon.read_answer(s)
         self.assertProblem(answer, 408, "timeout")
@@ -563,14 +564,14 @@ class Connections(Case):
         return answer.status == 429
 
     def test_a_client_that_has_all_its_connections_shuts_nobody_else_out(self):
-        """Others are served whether the client's connections have begun a request or are kept alive after one."""
+        """Other clients are served, whether this client's connections have begun a request or are kept alive after one."""
         for begin in (b"GET /v1/presets HTTP/1.1\r\nHost: loc", b"GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n\r\n"):
             with self.subTest(begin):
                 before = self.daemon.open_files()
                 self.hold(begin)
                 self.assertEqual({self.ask("127.0.0.2", "GET", "/v1/presets").status for _ in range(20)}, {200})
-                # Of 200 simultaneous connections some are turned away before they count as this client's. The client
-                # tries until it has as many connections as it may have.
+                # Of 200 simultaneous connections, some are refused before they count as this client's. The client tries
+                # again until it has as many connections as it may have.
                 self.assertTrue(daemon.eventually(lambda: self.hold(begin, 20) or self.refused()))
                 self.doCleanups()
                 self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= before))

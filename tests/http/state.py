@@ -1,5 +1,5 @@
-"""Tests of the state folder: what a start finds there, stops, repeated failures, and what is left behind. tests/faults
-tests full disks and clocks that jump."""
+"""Tests of the state folder: what a start finds there, stops, repeated failures, and what remains. tests/faults tests
+full disks and clocks that jump."""
 
 import io
 import json
@@ -58,8 +58,7 @@ class Case(job_case.Case):
 
 class Leftovers(Case):
     def test_what_a_kill_has_left_half_written(self):
-        """Half-written files are removed at the next start, and files of others stay. The same holds at the end of a
-        job."""
+        """Half-written files are removed at the next start and at the end of a job. Files that are not kerrd's stay."""
         server = self.start()
         job = self.make({"scenes": [SCENE] * 2}, server=server)
         self.until(job, "done", server)
@@ -105,7 +104,7 @@ class Stops(Case):
         server.process.kill()
         server.wait()
         server = self.start()
-        self.until(second, "done", server)  # the second job goes first, because the first has a failed attempt
+        self.until(second, "done", server)  # the second job runs first, because the first one has a failed attempt
         self.assertEqual(self.status(first, server)["state"], "running")
         self.assertEqual(server.stop(), 0)
         self.write(first, "job.json", json.dumps({**self.record(first), "attempts": 7}))
@@ -119,7 +118,7 @@ class Stops(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_the_frames_of_a_large_sweep_are_put_in_order_first(self):
-        """Putting the frames in order takes a while after a start. Meanwhile the job says so and the server answers."""
+        """Sorting the frames takes some time after a start. Meanwhile the job says so, and the server answers requests."""
         server = self.start()
         axes = {"camera.inclination_deg": "1:100:1", "spacetime.spin": "0:0.95:0.05", "style.exposure": "0:4:1"}
         job = self.make({"scene": {"image": {"width": 2, "height": 2}, "time": 30000}, "axes": axes}, server=server)
@@ -288,7 +287,8 @@ class Foreign(Case):
         waiting = self.status(running, server)
         self.assertEqual(waiting["state"], "waiting", waiting)
         self.assertIn("cannot read the request", waiting["delayed"])
-        self.until(self.make({"scene": SCENE}, server=server), "done", server)  # the unreadable job blocks no other
+        # the unreadable job does not block other jobs
+        self.until(self.make({"scene": SCENE}, server=server), "done", server)
         self.assertEqual(server.stop(), 0)
         self.write(running, "request.json", asked)
         server = self.start()
@@ -331,7 +331,7 @@ class Scarce(Case):
 
 
 class Remains(Case):
-    """Without a state folder jobs are kept in TMPDIR."""
+    """Without a state folder, jobs are stored in TMPDIR."""
 
     def setUp(self):
         super().setUp()

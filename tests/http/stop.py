@@ -29,10 +29,10 @@ class Stop(unittest.TestCase):
         server.terminate()
         self.assertTrue(daemon.eventually(lambda: server.get("/readyz").status == 503, 0.9))
         self.assertEqual(server.get("/healthz").status, 200)
-        # the request is still accepted, until load balancers have noticed the stop
+        # requests are still accepted until load balancers have noticed the stop
         late = in_background(server.get, RENDER + "&time=1")
         server.reaches("renders_unfinished", 3)
-        time.sleep(1.2)  # by then the drain is over, and the first render is under way
+        time.sleep(1.2)  # by then this waiting time is over, and the first render is in progress
         refused = server.get(RENDER)
         self.assertEqual(refused.status, 503)
         self.assertEqual(refused.json()["type"], "urn:kerrd:problem:stopping")
@@ -42,8 +42,8 @@ class Stop(unittest.TestCase):
         self.assertEqual(server.wait(10), 0)
 
     def test_the_rest_is_ended(self):
-        """Work that takes longer than the server waits gets an answer, for each kind of work. The log says how long the
-        server waits."""
+        """Work that takes longer than the server waits is ended with an answer, for each kind of work. The log states
+        how long the server waits."""
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-ms", 50, "--drain-s", 1, stderr=log)
             rays = {
@@ -102,7 +102,7 @@ class Stop(unittest.TestCase):
 
     def test_a_device_that_is_opened_again(self):
         server = daemon.Daemon("--device", "mends", "--drain-ms", 10)
-        # takes 6 s in slices; a picture that is half done starts again
+        # the picture takes 6 s in slices; if it is interrupted, it starts again
         beside = in_background(server.get, RENDER + "&time=200&image.samples=2")
         self.assertTrue(daemon.eventually(lambda: server.metrics()["kerrd_renders_unfinished"]))
         session = server.post("/v1/sessions", {"image": {"width": 64, "height": 36}, "time": 5}).json()
@@ -117,7 +117,7 @@ class Stop(unittest.TestCase):
         for told in (
             "missed its deadline",
             "reopened 3 times",
-        ):  # a request that loses the device twice gets an error, and the fourth loss ends the server
+        ):  # a request that loses the device twice gets an error, and the fourth loss of the device ends the server
             answer = server.get(RENDER + "&time=-1")
             self.assertEqual((answer.status, answer.json()["type"]), (500, "urn:kerrd:problem:device-lost"))
             self.assertIn(told, answer.json()["detail"])

@@ -1,4 +1,4 @@
-"""Tests of sweeps: jobs with axes, the files they give, and the estimate of POST /v1/plan."""
+"""Tests of sweeps: jobs with axes, the resulting files, and the estimate of POST /v1/plan."""
 
 import contextlib
 import io
@@ -12,8 +12,8 @@ from job_case import IMAGE, Case, scene_of
 
 class Sweeps(Case):
     def test_a_sweep(self):
-        """Scenes are numbered with the axes in the given order, the last one fastest, whatever the order in which they
-        are rendered."""
+        """Scenes are numbered in the given order of the axes, with the last axis varying fastest, whatever the order in
+        which they are rendered."""
         asked = {
             "scene": {"image": IMAGE},
             "axes": {"style.exposure": [0, 1], "spacetime.spin": "0:0.9:0.3", "sky.model": ["none", "grid"]},
@@ -48,8 +48,8 @@ class Sweeps(Case):
         self.assertEqual((head.status, head.header("Content-Type"), head.body), (200, "application/zip", b""))
 
     def test_lens_maps_are_the_outermost_loop(self):
-        """The fake renderer keeps one lens map. Scenes that share it are rendered one after the other, although their
-        axis is the outermost one here."""
+        """The fake renderer keeps only one lens map. Scenes that share a lens map are rendered one after the other,
+        although their axis is the outermost one here."""
         job = self.make(
             {
                 "scene": {"image": IMAGE},
@@ -262,8 +262,8 @@ class Plans(Case):
         return self.daemon.metrics()["kerrd_turns_unfinished"]
 
     def test_others_are_answered_meanwhile(self):
-        """The thread that accepted the plan answers others while the scenes are planned. As many plans run at once as
-        there are workers."""
+        """The thread that accepted the plan answers other requests while the scenes are planned. As many plans run at
+        once as there are workers."""
         few = pair(MOST["scene"], **{**MOST["axes"], "spacetime.spin": "0:0.9:0.1"})
         with contextlib.ExitStack() as stack:
             largest = self.begin_the_largest(stack)
@@ -286,7 +286,7 @@ class Plans(Case):
         self.assertEqual((plan["scenes"], plan["lens_maps"]), (10000, 1000))
 
     def test_a_client_that_leaves(self):
-        """A plan ends when its client leaves, which tearDown checks."""
+        """A plan ends when its client disconnects, which tearDown checks."""
         for _ in range(2):
             with contextlib.ExitStack() as stack:
                 largest = self.begin_the_largest(stack)

@@ -33,7 +33,7 @@ def free_port():
 
 
 class Proxies:
-    """A subclass for each proxy is below."""
+    """There is a subclass for each proxy below."""
 
     file = program = ()
 
@@ -220,8 +220,8 @@ class Proxies:
         self.assertTrue([name for name in names if name.startswith("debris.")], names)
 
     def test_the_page(self):
-        """A browser opens the page with stars, jets and a spot. The page asks for the token, and shows a live view and
-        which approximations it uses."""
+        """A browser opens the page with stars, jets and a spot. The page asks for the token, shows a live view, and
+        lists the approximations in use."""
         try:
             api = importlib.import_module("playwright.sync_api")
         except ImportError as missing:

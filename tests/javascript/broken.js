@@ -7,8 +7,9 @@ import { Client, JobFailed, Problem } from 'kerr-hole/client';
 const open = [];
 after(() => open.forEach(server => (server.closeAllConnections?.(), server.close())));
 
-// A server that gives these answers one after the other. Each is [status, headers, body], or null for a connection that
-// breaks; a body of null breaks off. The last answer is repeated. asked: the requests that came.
+// A server that gives these answers one after the other. Each answer is [status, headers, body], or null for a
+// connection that breaks. With a body of null the connection breaks in the middle of the body. The last answer is
+// repeated. asked: the requests that came.
 async function answering(...answers) {
   const asked = [];
   const server = createServer(async (request, response) => {

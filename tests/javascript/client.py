@@ -1,5 +1,5 @@
-"""Tests the client of the npm package by Node.js: against the real server, against one that breaks, and as
-docs/javascript.md shows it. client.py KERRD ROOT"""
+"""Tests the client of the npm package with Node.js: with the real server, with a server that breaks connections, and by
+the examples of docs/javascript.md. client.py KERRD ROOT"""
 
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""The npm package as `npm pack` makes it, without npm."""
+"""Builds the npm package as `npm pack` does, without npm."""
 
 import json
 import pathlib
@@ -8,7 +8,7 @@ import tempfile
 
 
 def make(root, folder):
-    """Puts the package of the tree ROOT into FOLDER/node_modules, and makes FOLDER one of ES modules."""
+    """Puts the package of the tree ROOT into FOLDER/node_modules, and makes FOLDER a package of ES modules."""
     described = json.loads((root / "packaging/npm/package.json").read_text())
     with tempfile.TemporaryDirectory() as tree:
         source = pathlib.Path(tree, "packaging/npm")

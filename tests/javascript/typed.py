@@ -22,7 +22,7 @@ OPTIONS = {
     "strict": True,
     "noEmit": True,
 }
-# The part of Node.js's types that the examples use. All of them are 2 MB.
+# The part of Node.js's types that the examples use. The complete types would take 2 MB.
 NODE = """\
 declare module 'node:fs/promises' {
   export function writeFile(name: string, data: Uint8Array): Promise<void>;

@@ -1,4 +1,4 @@
-// Forms that people write, and forms that must be errors: types.py compiles this and runs nothing.
+// Code as users write it, and code that must be refused: typed.py compiles this file and does not run it.
 import { Client, Job, JobFailed, Picture, Problem, Session } from 'kerr-hole/client';
 import type { Operations, PresetName, Scene, Session as SessionStatus } from 'kerr-hole/api';
 

@@ -1,5 +1,5 @@
-"""The dashboard and the alerts name only metrics that a server has. Each expression is parsed, and each name and label
-in it is searched for in /metrics.
+"""Checks that the dashboard and the alerts name only metrics that a server has. Each expression is parsed, and each
+name and label in it is searched for in /metrics.
 
 dashboard.py FOLDER SERVER...
 """
@@ -17,7 +17,7 @@ promql = daemon.needed("promql_parser")
 parser = daemon.needed("prometheus_client.parser")
 FOLDER = pathlib.Path(sys.argv.pop(1)).resolve()
 EVERYWHERE = {"job", "instance"}  # labels that the scrape adds
-SCRAPE = {"up"}  # and a metric that the scrape itself makes
+SCRAPE = {"up"}  # and a metric that the scrape itself produces
 
 
 def expressions(node):
@@ -139,7 +139,7 @@ class Dashboard(unittest.TestCase):
             self.assertIn(topic, titles)
 
     def test_what_the_dashboard_leaves_out_is_meant(self):
-        """The dashboard has each of our metrics except these."""
+        """The dashboard shows each of kerrd's metrics, except these."""
         out = {
             "kerrd_requests",
             "kerrd_thumbnails_rendered",

@@ -1,5 +1,4 @@
-/* Made by tests/oracle/stokes_reference.py: the light of a uniform length of matter, and its effect on light from
- * behind. */
+/* Made by stokes_reference.py: what comes of a length of matter that is the same all along. */
 struct stokes_reference { double light[3], depth, takes[3], turns[3], passes[4], gives[4]; };
 #define STOKES_BEHIND { 1.0, 0.5, -0.400000006, 0.600000024 }
 static const struct stokes_reference stokes_references[] = {

@@ -4,8 +4,8 @@
 
 enum whirl_fate { WHIRL_BOUND, WHIRL_PLUNGE, WHIRL_ESCAPE };
 
-/* beside: relative difference of L from the L of the whirl. The integrals are from r = `from` to the horizon (t and phi
- * are infinite and given as 0), or back to r = 100, or, for bound orbits, over a radial period. */
+/* beside: how far L is from that of the whirl, relative. From r = `from` to the horizon (t and phi infinite, given as 0), back to
+ * r = 100, or, bound, a radial period. */
 struct whirl_reference {
     double spin, energy, momentum, beside, from;
     enum whirl_fate fate;

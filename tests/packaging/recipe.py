@@ -1,5 +1,5 @@
-"""Checks what other places make of kerrd: conda's recipe has the version, the libraries and the packages of this
-source, and the notebook for Colab runs with this tree's client and program.
+"""Checks packaging for other sites: conda's recipe has the version, the libraries and the packages of this source, and
+the notebook for Colab runs with this tree's client and program.
 
 recipe.py SOURCE KERRD
 """
@@ -48,7 +48,7 @@ class Recipe(unittest.TestCase):
         self.assertEqual(f"kerrd {RECIPE['context']['version']}\n", said)
 
     def test_libraries(self):
-        """Each library that Meson requires, and no other."""
+        """The recipe names each library that Meson requires, and no other."""
         found = set()
         for path in (SOURCE / "meson.build", *(SOURCE / "src").rglob("meson.build")):
             for name, rest in re.findall(r"dependency\('([^']+)'([^)\n]*)", path.read_text()):
@@ -80,7 +80,7 @@ class Recipe(unittest.TestCase):
 
 class Colab(unittest.TestCase):
     def test_it_runs(self):
-        """Lines for IPython install packages; the other lines are run in one interpreter, as a kernel does."""
+        """Lines for IPython install packages. The other lines are run in one interpreter, as a kernel does."""
         notebook = json.loads((SOURCE / "docs/examples/notebooks/colab.ipynb").read_text())
         cells = ["".join(cell["source"]) for cell in notebook["cells"] if cell["cell_type"] == "code"]
         lines = "\n".join(cells).splitlines()

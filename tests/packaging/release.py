@@ -77,7 +77,7 @@ class Release(unittest.TestCase):
         self.assertEqual(subprocess.run(verify, capture_output=True, timeout=600).returncode, 0)
 
     def test_a_second_build_that_differs(self):
-        """By an xz that writes other bytes each time."""
+        """The test uses an xz that writes other bytes each time."""
         tools = self.folder / "tools"
         tools.mkdir()
         (tools / "xz").write_text("#!/bin/sh\ncat > /dev/null\ncat /proc/sys/kernel/random/uuid\n")

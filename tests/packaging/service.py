@@ -29,14 +29,14 @@ class Unit(unittest.TestCase):
         figure = re.search(r"Overall exposure level for kerrd.service: ([\d.]+)", said)[1]
         self.assertLessEqual(float(figure), MOST, said)
         if not self.analyze("--version")[1].startswith("systemd 252 "):
-            return  # the documents have the figure of Debian 12
+            return  # the documents state the figure of Debian 12
         for name in ("security", "operations"):
             self.assertEqual(
                 re.findall(r"([\d.]+) of 10\b", pathlib.Path(ROOT, f"docs/{name}.md").read_text()), [figure], name
             )
 
     def test_systemd_takes_it(self):
-        """The program of this build replaces the installed one, which may be missing."""
+        """The program of this build takes the place of the installed one, which may be missing."""
         text = re.sub(r"^ExecStart=\S+", f"ExecStart={KERRD}", UNIT.read_text(), flags=re.M)
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "kerrd.service")

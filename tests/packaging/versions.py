@@ -1,5 +1,5 @@
-"""Tests that there is one version. All files that name it agree; scripts/version notices one that does not, and sets
-and releases versions; the program and its service report it.
+"""Tests that there is a single version. All files that name it agree, scripts/version detects a file that does not, and
+sets and releases versions. The program and its service report this version.
 
 versions.py ROOT KERRD SERVER
 """

@@ -346,7 +346,7 @@ class Blocking(Case):
 
 
 class Saved(Case):
-    """A saved file contains its scene, and its name must not end as another format's."""
+    """A saved file contains its scene. Its name must not end with the suffix of another format."""
 
     def scene_in(self, path):
         return json.loads(
@@ -511,7 +511,7 @@ class Saved(Case):
             self.assertTrue(np.allclose(given[name], ratio * frame.layers["stokes_" + name], rtol=1e-6))
 
     def test_a_field_in_microarcseconds(self):
-        """The last change counts, also over a scene that was given completely."""
+        """The last change counts, even after a complete scene was given."""
         told = self.hole.render({"camera": {"field_uas": 40}}, size=(16, 9)).scene
         self.assertEqual(told["camera"]["field_uas"], 40)
         again = self.hole.render(told, spacetime={"mass_msun": 2e8}).scene["camera"]
@@ -647,7 +647,7 @@ class Stranger(http.server.BaseHTTPRequestHandler):
 
 
 class Loses(http.server.BaseHTTPRequestHandler):
-    """Forwards requests to the server `to`, but drops the first answer to a POST of each path."""
+    """Forwards requests to the server `to`, but drops the first answer to a POST request for each path."""
 
     def pass_on(self):
         body = self.rfile.read(int(self.headers.get("Content-Length", 0)))
@@ -695,7 +695,7 @@ class Broken(Case):
 
 
 class Absent(unittest.TestCase):
-    """If the server is not there, the error is one sentence."""
+    """If no server answers, the error is one sentence."""
 
     def test_a_server_that_is_off(self):
         with contextlib.closing(socket.socket()) as free:
@@ -744,7 +744,7 @@ class Documented(unittest.TestCase):
         self.assertEqual((len(blocks), len(run)), (7, 6))
         with tempfile.TemporaryDirectory() as folder:
             os.makedirs(f"{folder}/docs")
-            os.symlink(root / "docs/examples", f"{folder}/docs/examples")  # a block names a file of this folder
+            os.symlink(root / "docs/examples", f"{folder}/docs/examples")  # this block names a file of this folder
             for block in run:
                 env = {
                     **os.environ,
@@ -754,7 +754,7 @@ class Documented(unittest.TestCase):
                 done = subprocess.run(
                     [sys.executable, "-c", block], cwd=folder, env=env, capture_output=True, text=True, timeout=200
                 )
-                # A server that still has work reports how long it waits, which is not an error.
+                # While a server still has work, it reports how long it waits; this is not an error.
                 said = [line for line in done.stderr.splitlines() if not line.startswith("kerrd: warning: stopping:")]
                 self.assertEqual((done.returncode, said), (0, []), block)
                 self.assertNotRegex(done.stdout, r"\bnan\b")

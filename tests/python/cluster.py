@@ -1,4 +1,4 @@
-"""Scenes on a Dask cluster of two workers, one of which is killed half-way. cluster.py KERRD FOLDER"""
+"""Tests of scenes on a Dask cluster of two workers, one of which is killed half-way. cluster.py KERRD FOLDER"""
 
 import io
 import json

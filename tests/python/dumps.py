@@ -1,5 +1,5 @@
-"""Dumps of a torus, or of any flow, as iharm3d, KHARMA, KORAL and Athena++ write them. Shares no code with kerrd.grmhd:
-metrics are matrices in the code's own coordinates, whose derivatives are differences.
+"""Writes dumps of a torus, or of any flow, as iharm3d, KHARMA, KORAL and Athena++ write them. It shares no code with
+kerrd.grmhd: metrics are matrices in each code's own coordinates, and derivatives of the coordinates are differences.
 
 iharm3d: names, types, order and shapes as core/io.c of iharm3d (AFD-Illinois/iharm3d) writes them, and
 model/iharm/model.c of ipole reads them. Athena++: as src/outputs/athena_hdf5.cpp (PrincetonUniversity/athena), and as
@@ -15,7 +15,7 @@ import numpy as np
 # The preset `torus`: spin, inner edge, largest pressure, Gamma, beta, density in cm^-3.
 SPIN, INNER, MIDDLE, GAMMA, BETA, PEAK = 0.9375, 6.0, 12.0, 13 / 9, 10.0, 1.776e7
 PROTON, ELECTRON = 1.67262192369e-24, 9.1093837015e-28
-FLOOR = 1e-8  # share of the largest density
+FLOOR = 1e-8  # fraction of the largest density
 
 
 def metric(a, r, theta):
@@ -79,7 +79,7 @@ def torus(a, r, theta):
 
 
 def mass_unit(mass_msun):
-    """M_unit for which the torus has the density of the preset."""
+    """The M_unit for which the torus has the density of the preset."""
     return PEAK * (PROTON + ELECTRON) * (1.3271244e26 * mass_msun / 2.99792458e10**2) ** 3
 
 
@@ -270,7 +270,7 @@ def write_phdf(path, kind, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2
 
 
 def lindquist(a, r, theta):
-    """d(t, r, theta, phi) of Boyer and Lindquist by those of Kerr and Schild, (4, 4, ...), and their metric."""
+    """d(t, r, theta, phi) of Boyer-Lindquist by those of Kerr-Schild, as (4, 4, ...), and the Boyer-Lindquist metric."""
     delta, s2, sigma = r**2 - 2 * r + a**2, np.sin(theta) ** 2, r**2 + a**2 * np.cos(theta) ** 2
     back, g = np.zeros((4, 4, *r.shape)), np.zeros((4, 4, *r.shape))
     for k in range(4):
@@ -333,7 +333,7 @@ def write_koral(path, metric, shape, flow, a=SPIN, outer=60.0, inner=1.2, kelvin
 
 def write_athdf(path, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2, 2, 2), fine=(), single=True):
     """blocks: numbers of blocks along r, theta and phi. fine: the coarse blocks, by their numbers (i, j, k), that are
-    refined once. Each is left out, and eight finer blocks replace it."""
+    refined once; each of these is replaced by eight finer blocks."""
     import h5py
 
     count = [b if n > 1 else 1 for b, n in zip(blocks, shape)]

@@ -1,5 +1,5 @@
-"""Tests of kerrd.fit, with the real server: sets against single comparisons, a synthetic night with a fixed seed, and
-chains that are resumed.
+"""Tests of kerrd.fit, with the real server. Sets are compared with single comparisons; a synthetic night with a fixed
+seed is fitted; and chains are continued.
 
 fit.py KERRD FOLDER
 """
@@ -29,7 +29,7 @@ if subprocess.run([KERRD, "doctor"], capture_output=True, timeout=600).returncod
     print("skipped: there is no Vulkan device")
     sys.exit(77)
 
-# A thin disk of 40 uas, whose map holds the disk and little more.
+# A thin disk of 40 uas. The map holds little more than the disk.
 SCENE = {
     "spacetime": {"spin": 0.7, "mass_msun": 6.5e9, "distance_pc": 16.8e6},
     "camera": {"inclination_deg": 160, "field_m": 32},
@@ -48,8 +48,9 @@ class Fits(unittest.TestCase):
         cls.local = kerrd.local(binary=KERRD)
         cls.hole = cls.local.__enter__()
         cls.folder = tempfile.TemporaryDirectory()
-        # The injected size and angle are those of a hole of another mass and a camera that is rolled. The night has as
-        # many pixels as the fit: a difference of pixels is a larger error than the noise.
+        # The injected size and angle are those of a hole of another mass and a camera that is rolled. The synthetic
+        # night is made with the same pixels as the fit, because a difference in pixels would be a larger error than the
+        # noise.
         injected = json.loads(json.dumps(SCENE))
         injected["spacetime"]["mass_msun"] *= TRUTH["size"]
         injected["camera"]["inclination_deg"] = TRUTH["camera.inclination_deg"]
@@ -88,7 +89,7 @@ class Fits(unittest.TestCase):
             scene["spacetime"]["mass_msun"] *= own.get("size", 1)
             flux = {"flux_jy": own["flux_jy"]} if "flux_jy" in own else {}
             alone = self.hole.compare(self.night, scene, check="none", **flux, **SETTINGS)
-            if "position_angle_deg" in own:  # the map itself is rotated, and not the camera
+            if "position_angle_deg" in own:  # the map itself is rotated, instead of the camera
                 continue
             for name in ("amplitude", "closure_phase", "log_closure_amplitude"):
                 self.assertAlmostEqual(
@@ -134,7 +135,7 @@ class Fits(unittest.TestCase):
         self.assertFalse(posterior.holds(fit.log_probability([far])[0]))
 
     def test_a_chain_is_resumed(self):
-        """Steps in two calls give the chain of one call. A file of another fit is refused."""
+        """Steps in two calls give the same chain as in one call. A file of another fit is refused."""
         fit, file = self.fit(), pathlib.Path(self.folder.name) / "chain.npz"
         start = Maximum(TRUTH, 0, 0, True, 0)
         whole = fit.posterior(steps=10, walkers=8, seed=2, start=start)

@@ -38,7 +38,8 @@ def nmse(got, want):
 
 
 def any_flow(a, seed=5):
-    """A smooth flow without a symmetry: density, energy, and any unit vector u with any b perpendicular to it."""
+    """A smooth flow without a symmetry: density, energy, and and an arbitrary unit vector u with an arbitrary b
+    perpendicular to it."""
     random = np.random.default_rng(seed).normal(size=(8, 3))
 
     def wave(k, r, theta, phi):
@@ -69,7 +70,8 @@ class Dumps(unittest.TestCase):
         return os.path.join(self.folder.name, name)
 
     def check_vectors(self, found, a, flow, tolerance):
-        """Components and densities at the grid's own nodes, from the flow's vectors by the metric's matrix."""
+        """Components and densities at the grid's own nodes, computed from the flow's vectors with the matrix of the
+        metric."""
         theta = found.theta if found.theta.ndim == 2 else found.theta[None, :]
         r, theta, phi = np.broadcast_arrays(found.r[:, None, None], theta[:, :, None], found.phi[None, None, :])
         rho, _, u, b = flow(r, theta, phi)
@@ -90,7 +92,7 @@ class Dumps(unittest.TestCase):
             self.assertLess(off, tolerance, name)
 
     def test_iharm(self):
-        """Any flow, in MKS and FMKS, is read as it was written. dumps.py has derivatives and metrics of its own."""
+        """A flow in MKS and FMKS is read as it was written. dumps.py has derivatives and metrics of its own."""
         for kind, a in (("mks", 0.7), ("fmks", -0.5), ("fmks", 0.95)):
             path = self.path("dump.h5")
             r, theta, phi = dumps.write_iharm(path, kind, SMALL, any_flow(a), a=a, single=False)
@@ -103,8 +105,7 @@ class Dumps(unittest.TestCase):
                 self.check_vectors(found, a, any_flow(a), 2e-6)
 
     def test_athena(self):
-        """Any flow, in blocks, is read as it was written. Where one block is refined, zones of the others are
-        repeated."""
+        """A flow in blocks is read as it was written. Where one block is refined, zones of the others are repeated."""
         a = 0.6
         dumps.write_athdf(self.path("one.athdf"), SMALL, any_flow(a), a=a, single=False)
         found = kerrd.matter(self.path("one.athdf"), spin=a, gamma=1.4, sigma_cut=None)
@@ -132,8 +133,8 @@ class Dumps(unittest.TestCase):
         self.assertEqual(flat.arrays["density"].shape, (24, 16))
 
     def test_kharma(self):
-        """Any flow, in blocks with and without ghost zones, in the present and an older order of the components, is
-        read as it was written; and as a file of iharm3d has it."""
+        """A flow in blocks with and without ghost zones, in the present and an older order of the components, is read
+        as it was written. It equals the flow from a file of iharm3d."""
         for kind, a, more in (
             ("eks", 0.9, {}),
             ("mks", 0.7, {"ghosts": 2}),
@@ -174,8 +175,7 @@ class Dumps(unittest.TestCase):
         self.assertAlmostEqual(found.arrays["temperature"].max() / kelvin, 1, delta=2e-3)
 
     def test_koral(self):
-        """Any flow, in the coordinates of Kerr and Schild or of Boyer and Lindquist, also within the horizon, is read
-        as it was written."""
+        """A flow in Kerr-Schild or Boyer-Lindquist coordinates, also within the horizon, is read as it was written."""
         for metric, a in (("KS", 0.9), ("KS", -0.5), ("BL", 0.6)):
             path = self.path("ana.h5")
             r, theta, phi = dumps.write_koral(path, metric, SMALL, any_flow(a), a=a)
@@ -251,9 +251,9 @@ class Dumps(unittest.TestCase):
         self.assertTrue(any("rows beyond r = 20" in note for note in got.notes))
 
     def test_torus(self):
-        """The torus as each code samples it has the polarised light of the analytic torus; errors are relative to the
-        square of the light. They fall with the fourth power of the steps. bench/grmhd.py measures them at 192 x 96 x
-        96."""
+        """The torus sampled on each code's grid has the polarised light of the analytic torus. The errors are relative
+        to the square of the light, and fall with the fourth power of the steps. bench/grmhd.py measures them at 192 x
+        96 x 96."""
         if subprocess.run([KERRD, "doctor"], capture_output=True, timeout=600).returncode:
             self.skipTest("there is no Vulkan device")
 
@@ -300,7 +300,7 @@ class Dumps(unittest.TestCase):
             self.assertEqual(str(pickle.loads(pickle.dumps(caught.exception))), text)
 
     def changed(self, name, of):
-        """A copy of a dump, in which `of` changes the open file."""
+        """A copy of a dump in which the function `of` changes the open file."""
         if name.endswith("phdf"):
             source = self.written_kharma()
         elif name.endswith("koral"):
@@ -661,7 +661,7 @@ class Dumps(unittest.TestCase):
         self.refused("spin and gamma must be None for a file of koral", self.written_koral(), gamma=1.4)
 
     def test_files_that_are_cut(self):
-        """Nothing of a file that ends early is used."""
+        """A file that ends early is refused as a whole."""
         for source, options in (
             (self.written(), {}),
             (self.written_kharma(), {}),
@@ -742,7 +742,7 @@ class Dumps(unittest.TestCase):
         self.assertGreater(refused, 100)
 
     def test_nothing_is_kept(self):
-        """Neither memory nor an open file is left of dumps whose reading fails midway."""
+        """If reading fails midway, neither memory nor an open file remains."""
 
         def resident():
             with open("/proc/self/statm") as file:
@@ -761,12 +761,12 @@ class Dumps(unittest.TestCase):
                     before = resident()
                 with self.assertRaises(kerrd.DumpProblem):
                     kerrd.matter(path, **options)
-            # HDF5 opens a file once, however often it is opened: a leak is one descriptor.
+            # HDF5 keeps one open file however often it is opened, so a leak shows as one descriptor.
             self.assertEqual(len(os.listdir("/proc/self/fd")), len(files), name)
             self.assertLess(resident() - before, 2 << 20, name)
 
     def test_single_precision(self):
-        """Units and cuts for which a grid of single precision has no number, or no matter."""
+        """With these units and cuts, a grid in single precision has no number or no matter."""
         path = self.written()
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -790,18 +790,18 @@ class Dumps(unittest.TestCase):
 
                 return change
 
-            # A density that single precision lacks, in the code's units; then velocities and fields that it lacks.
+            # A density in the code's units that single precision cannot express; then velocities and fields.
             self.refused("rho is 0 in single precision", self.changed("h5", prim(0, 1e-60)), sigma_cut=None)
             for at in (2, 4, 7):
                 with self.subTest(at):
                     path = self.changed("h5", prim(at, 1e200))
                     self.refused("is infinite in single precision; it must be finite", path, sigma_cut=None)
-            # The factor for these densities is above 3.4e38, and the product is not.
+            # the factor for these densities is above 3.4e38, but the product is not
             tiny = kerrd.matter(self.changed("h5", prim(slice(0, 2), 1e-36)), sigma_cut=None)
             self.assertEqual(tiny.arrays["density"].max(), np.float32(1e6))
 
     def test_size(self):
-        """A grid larger than the server's is refused before the fields are read; `outer` makes it smaller."""
+        """A grid larger than the server's limit is refused before the fields are read. `outer` makes it smaller."""
 
         def tall(rows):
             def change(file):
@@ -860,7 +860,7 @@ class Dumps(unittest.TestCase):
         return paths
 
     def test_series(self):
-        """Dumps of each code, in the order of their times, become frames with the numbers of each dump alone."""
+        """Dumps of each code, in the order of their times, become frames with the same numbers as each dump alone."""
         units = {"mass_msun": 4e6, "m_unit": 1e19, "sigma_cut": None}
         for kind, of in (("iharm", {}), ("athena", ATHENA), ("kharma", {}), ("koral", {})):
             with self.subTest(kind):
@@ -921,7 +921,7 @@ class Dumps(unittest.TestCase):
             refused("it must have at most 4000 zones in all: every=2 or row_step=2 leaves", *self.series((0, 1, 2)))
 
     def test_series_in_the_program(self):
-        """The command writes the series; the program reads it, and its light changes with the time."""
+        """The command writes the series. The program reads it, and its light changes with time."""
         paths, out = self.series((0, 10, 20), "mks"), self.path("series.npz")
         done = self.command(*paths, "--r-high", "10", "-o", out)
         self.assertEqual((done.returncode, done.stdout), (0, ""), done.stderr)
@@ -955,7 +955,7 @@ class Dumps(unittest.TestCase):
         )
 
     def test_a_charged_hole(self):
-        """Matter of a charged hole is for scenes of that charge."""
+        """Matter of a charged hole can be used only with scenes of that charge."""
         found = dataclasses.replace(kerrd.matter(self.written(), r_high=10), charge=0.25)
         found.save(self.path("charged.npz"))
         for charge, code in (0.25, 0), (0, 2):

@@ -61,7 +61,7 @@ def text_of(name):
 
 
 def changed(name, **values):
-    """A file of inputs/ with other values: of lines `key = value`, or `key value`."""
+    """A file of inputs/ with some values replaced, for lines `key = value` or `key value`."""
     lines = []
     for line in text_of(name).splitlines():
         words = line.replace("=", " ").split()
@@ -83,7 +83,7 @@ def whole(hole, scene=None, **more):
 
 
 class Files(unittest.TestCase):
-    """Imports texts by way of files."""
+    """Writes texts to files, and imports these."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -120,8 +120,8 @@ class Blacklight(Files):
         )
 
     def test_the_tests_of_gold_are_the_presets(self):
-        """Each field that affects light is that of the preset, except what the file states differently: 6e11 cm, and
-        the frequency at 1000 M."""
+        """Each field that affects light equals that of the preset, except what the file states differently: 6e11 cm,
+        and the frequency at 1000 M."""
         with kerrd.local(binary=KERRD) as hole:
             for test in GOLD:
                 preset = whole(hole, preset=f"gold-{test}")
@@ -298,7 +298,7 @@ class Ipole(Files):
             volume = {key: found["volume"][f"gold_{key}"] for key in ("absorption", "index", "flattening", "momentum")}
             self.assertEqual(volume, {"absorption": a, "index": alpha, "flattening": h, "momentum": l0})
             self.assertEqual((found["spacetime"]["spin"], found["volume"]["gold_emission"]), (spin, 3e-18))
-        # ipole's pivot is the observed frequency.
+        # The frequency to which ipole's emission refers is the observed one.
         found = self.imported(changed("gold-3.par", model=4, freqcgs=115e9)).document["volume"]
         self.assertAlmostEqual(found["gold_absorption"] / 1e5, 2**-2.5, 12)
 
@@ -319,7 +319,7 @@ class Ipole(Files):
             ("riaf.par", {"fovx_dsource": None, "fovy_dsource": None, "fov": 80}, "camera.field_uas", 80),
             ("riaf.par", {"fovx_dsource": None, "fovy_dsource": None, "dx": 40, "dy": 40}, "camera.field_m", 40),
             ("riaf.par", {"emission_type": 2, "kappa": 4.5}, "volume.kappa", 4.5),
-            # The efficiency at spin 0.99 is 0.264 (Bardeen, Press & Teukolsky 1972), ipole's 0.1.
+            # The efficiency at spin 0.99 is 0.264 (Bardeen, Press & Teukolsky 1972); ipole assumes 0.1.
             ("thin_disk.par", {}, "disk.mdot_edd", 0.0264),
             ("thin_disk.par", {"a": 0}, "disk.mdot_edd", 0.00572),
             ("thin_disk.par", {}, "disk.hardening", 1.8),
@@ -386,7 +386,7 @@ class Ipole(Files):
         )
         there = np.isfinite(r) & (r > 1.1 * isco) & (r < 99)
         self.assertGreater(there.sum(), 1500)
-        # The table is linear in steps of 0.05, and T of the kernels good to 2e-4, near the ISCO to less.
+        # The table is linear in steps of 0.05. T of the kernels is accurate to 2e-4, and less near the ISCO.
         np.testing.assert_allclose(light[there] / want[there], 1, atol=5e-3)
         self.assertLess(abs(np.median(light[there] / want[there]) - 1), 5e-4)
         np.testing.assert_allclose(part[there], np.interp(mu, *CHANDRASEKHAR[::2])[there], atol=1.5e-3)
@@ -617,7 +617,7 @@ class Gyoto(Files):
                 self.assertLess(abs(off), 3, (paln, inclination, argument, phase, x, y, east, north))
 
     def test_a_disk_that_turns_against_the_spin(self):
-        """The picture is that of the hole turned over, seen from the other side with the camera upside down."""
+        """The picture equals that of the hole turned over, seen from the other side by a camera that is upside down."""
         with kerrd.local(binary=KERRD) as hole:
             maps = [
                 hole.layers(self.imported(scenery(spin=spin, place=place, matter=matter)).scene, ["r", "g"])
@@ -713,7 +713,7 @@ class Gyoto(Files):
             self.assertTrue(any(words in note for note in notes), (values, notes))
 
     def test_every_key_has_a_note(self):
-        """Each key that a section knows, in a file of its own."""
+        """Each key that a section accepts, each in a file of its own."""
         words = {
             **{"AngleKind": "Rectilinear", "ObserverKind": "ZAMO", "Integrator": "Legacy", "Mask": "mask.fits"},
             **{"Quantities": "Intensity", "BeamingKind": "IsotropicBeaming", "MagneticConfiguration": "Radial"},
@@ -858,7 +858,7 @@ class Gyoto(Files):
 
 
 class Hostile(Files):
-    """Each file gives one error with a sentence, in less than a second and without more memory."""
+    """Each bad file gives an error of one sentence, in less than a second and without using more memory."""
 
     def test_entities(self):
         bomb = "".join(f'<!ENTITY l{k} "{f"&l{k - 1};" * 10}">' for k in range(1, 12))
@@ -996,8 +996,8 @@ class Accepted(unittest.TestCase):
                 self.assertEqual(bright, name not in ("grmhd.par", "simulation.input"), name)
 
     def test_the_sense_of_turns(self):
-        """Blacklight: at a rotation of 90 degrees north is to the left. ipole turns the other way. The side that comes
-        towards the observer is on the left of a flow seen from north of its plane."""
+        """Orientation of cameras. With Blacklight, at a rotation of 90 degrees, north is to the left; ipole rotates in
+        the opposite sense. In a flow that is seen from north of its plane, the approaching side is on the left."""
         with kerrd.local(binary=KERRD) as hole, tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder, "a.txt")
             maps = {}

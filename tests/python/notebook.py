@@ -1,4 +1,5 @@
-"""Tests of the widget in JupyterLab, in headless Chromium: dragged, changed from a cell, and without its server.
+"""Tests of the widget in JupyterLab, in headless Chromium: the widget is dragged, changed from a cell, and left without
+its server.
 
 notebook.py KERRD FOLDER SHOTS              pictures of what was seen go to SHOTS
 notebook.py KERRD FOLDER --picture FILE     no test: makes the picture of docs/python.md
@@ -232,7 +233,7 @@ class Notebook(unittest.TestCase):
         return float(self.page.locator(f'.kerrd input[type=number][data-path="{path}"]').first.input_value())
 
     def shown_while(self, going_on):
-        """The number of pictures shown while `going_on` is true."""
+        """The number of pictures that are shown while `going_on` is true."""
         serials = set()
         while going_on():
             serials.add(self.stage.get_attribute("data-serial"))
@@ -240,8 +241,8 @@ class Notebook(unittest.TestCase):
         return len(serials)
 
     def test_1_a_drag_turns(self):
-        """A drag over a quarter of the width turns by 45 degrees, one over a third of the height by 60, as on the
-        page."""
+        """A drag over a quarter of the width turns by 45 degrees. A drag over a third of the height turns by 60
+        degrees, as on the page."""
         first, box = self.rest(), self.stage.bounding_box()
         self.assertEqual((box["width"], box["height"]), (640, 360))
         self.assertEqual(self.where()[:4], [0, 86.56, 74.1, 0.9])

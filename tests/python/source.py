@@ -42,7 +42,7 @@ with tempfile.TemporaryDirectory() as cache:
     typed = subprocess.run([sys.executable, "-m", "mypy", "--strict", "--cache-dir", cache], cwd=folder)
     # Code that docs/python.md shows, and the forms that people write.
     text = folder.resolve().parents[1].joinpath("docs/python.md").read_text()
-    # A cell of a notebook ends in an expression, and Dask's own client is not typed.
+    # a cell of a notebook may end with an expression, and Dask's own client has no types
     shown = [
         block
         for block in re.findall(r"^```python\n(.*?)^```$", text, re.M | re.S)

@@ -183,7 +183,7 @@ class Names(Case):
                     for a, b in zip(stops, stops[1:])
                     if a > 0 and stops[0] > 0 and field.unit != "degrees" and stops[-1] / stops[0] > 30
                 ]
-                self.assertLess(max(steps, default=1), 2.1, path)  # an integer goes from 1 to 2: a factor of 2
+                self.assertLess(max(steps, default=1), 2.1, path)  # an integer goes from 1 to 2, which is a factor of 2
 
     def test_controls_that_cannot_be(self):
         with self.assertRaisesRegex(kerrd.KerrdError, "spinn"):

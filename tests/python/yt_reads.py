@@ -1,5 +1,5 @@
-"""Tests that yt reads the .athdf files of dumps.py to the same fields as they were written from, and as kerrd.matter reads
-them: so that writer and reader share no misreading. yt is in a virtual environment of its own.
+"""Tests that yt reads from the .athdf files of dumps.py the same fields that were written, and that kerrd.matter reads.
+This excludes that writer and reader share an error. yt is in a virtual environment of its own.
 
 yt_reads.py FOLDER
 """

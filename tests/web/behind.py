@@ -33,7 +33,7 @@ TINY = {"image": {"width": 64, "height": 36}, "motion": {"time_rate": 1}}
 
 
 class Behind(browser.Browser):
-    """Tests for every proxy. base is the address that a browser uses."""
+    """Tests that are the same for every proxy. base: the address that a browser uses."""
 
     options, headers, query = (), {}, ""
 

@@ -205,7 +205,8 @@ class Browser(unittest.TestCase):
         }""")
 
     def rows(self, page, selector):
-        """The texts of a table's cells, row by row, read at one moment, because a live table is soon replaced."""
+        """The texts of a table's cells, row by row. All are read at one moment, because a live table is soon
+        replaced."""
         return page.evaluate(
             "within => [...document.querySelectorAll(within + ' tbody tr')].map(row => [...row.cells].map(c => c.textContent))",
             selector,
@@ -236,8 +237,8 @@ class Browser(unittest.TestCase):
         )
 
     def quiet(self, page, ms=1500):
-        """Waits until a page has requested nothing for that long. A request for a picture that was sent while something
-        moved waits for 600 ms, and then another one follows (flight.js). The default is longer than that."""
+        """Waits until a page has requested nothing for the given time. A request for a picture that was sent while
+        something moved waits for 600 ms, and then another one follows (flight.js). The default is longer than that."""
 
         def still():
             before = len(self.requests)

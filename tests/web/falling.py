@@ -22,8 +22,8 @@ class Falling(Browser):
         return [json.loads(q.post_data) for q in self.requests if q.method == "PATCH"]
 
     def named(self, page):
-        """The listed images of stars. The page requests them when a pointer moves over the picture, once it has
-        everything that this needs."""
+        """The list of images of stars. The page requests this list when a pointer moves over the picture, as soon as
+        the list can be requested."""
 
         def asked():
             for x in (100, 120):
@@ -95,8 +95,8 @@ class Falling(Browser):
         )
 
     def test_a_guided_fall_and_its_film(self):
-        """The captions follow the radius, wherever the fall is put, and the tone follows the starlight from behind. The
-        film has pictures and sound."""
+        """The captions follow the radius, wherever the slider puts the fall. The tone follows the starlight from
+        behind. The film has pictures and sound."""
         page = self.page(self.context(viewport={"width": 700, "height": 500}))
         page.add_init_script("""window.tones = [];
             const set = AudioParam.prototype.setTargetAtTime;
@@ -368,8 +368,8 @@ class Falling(Browser):
         self.assertFalse(self.open("lang=en").is_visible("#look"), "from far there is nothing to look around at")
 
     def test_a_star_says_its_name(self):
-        """Where the server lists an image, the picture has its brightest point. A pointer there is shown the star's
-        name."""
+        """At the place where the server lists an image, the picture has its brightest point. A pointer there shows the
+        star's name."""
         page = self.open(
             SKY + "&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial",
             viewport={"width": 640, "height": 480},
@@ -435,7 +435,8 @@ class Falling(Browser):
             and 60 < i["y"] < high - 60
             and math.hypot(i["x_by_azimuth"], i["y_by_azimuth"]) > 3
         )
-        # The star moves past the pointer, and then has no mark, so that the page itself records each mark.
+        # The star moves away from under the pointer, and its mark is removed. The page itself therefore records each
+        # mark.
         page.evaluate(
             """() => {
                 window.marks = [];

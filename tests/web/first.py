@@ -1,4 +1,4 @@
-"""Tests of the first view: a preset, if a link contains no scene. first.py KERRD FOLDER (browser.py)."""
+"""Tests of the first view: the preset that is shown if a link contains no scene. first.py KERRD FOLDER (browser.py)."""
 
 import itertools
 import json
@@ -80,7 +80,7 @@ class First(Browser):
 
     def test_its_picture_is_ahead_of_the_page(self):
         """The session is opened, and its picture shown, before the rest of the page is loaded, which then uses both.
-        This does not happen in a window that widens the field."""
+        This does not apply to a window that widens the field."""
         context = self.context(viewport={"width": 800, "height": 600})
         page, opened, held = self.page(context), [], []
         page.on(
@@ -150,7 +150,7 @@ class First(Browser):
 
     def landed(self, fulfil, fragment="", **options):
         """The first view; fulfil(n) says whether the n-th request for a picture is answered. Returns the page, and a
-        function that answers all requests from then on, also those that wait."""
+        function that answers all waiting and further requests."""
         page, held, let, patches, n = self.page(self.context(**options)), [], [], [], itertools.count()
         page.on(
             "request",

@@ -24,7 +24,7 @@ class Hand(Browser):
         return page.inner_text("#pixel .name")
 
     def radius(self, words):
-        """The first length in M of a sentence."""
+        """The first length in a sentence, in M."""
         return value(re.search(r"(\S+) M ", words)[1])
 
     def fact(self, page, name):
@@ -289,8 +289,8 @@ class Hand(Browser):
         self.assertFalse(page.is_visible("#pixel"))
 
     def points_at(self, page, stop):
-        """The ring of the tour marks the thing that its words describe: gas, as the server finds it in this pixel, or
-        the edge."""
+        """The ring of the tour marks the object that its words describe: gas, as the server finds it at this pixel, or
+        the edge of the shadow."""
         u, v = page.evaluate("""() => { const ring = document.getElementById('tour-ring');
             return [ring.style.left, ring.style.top].map(x => parseFloat(x) / 100); }""")
         scene = json.loads(page.input_value("#scene-text"))

@@ -11,7 +11,7 @@ from browser import AT_REST, FINE, KERRD, READY, SMOOTH, VIEWS, Browser, main, p
 
 import daemon
 
-# bytes that a visit to every view loads, as transmitted, without pictures and the updates of a playground
+# bytes that a visit to every view loads, as transmitted; pictures and updates of a playground are not counted
 BUDGET = 350_000
 AT_FIRST = 120_000  # bytes of the first view, counted in the same way
 
@@ -59,7 +59,7 @@ class Lensing(Browser):
         for view in VIEWS[1:]:
             page.click(f"nav [data-view={view}]")
             page.wait_for_selector(READY[view])
-            page.wait_for_timeout(500)  # waits for a few late answers
+            page.wait_for_timeout(500)  # waits for late answers
         sizes = {}
         for request in self.requests:
             goes_on = any(part in request.url for part in ("/frame", "/v1/render?", "/v1/playground/"))

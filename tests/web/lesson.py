@@ -64,7 +64,7 @@ class Lesson(Browser):
         self.shot(pupil, "lesson-pupil")
 
     def test_pupils_see_the_scales(self):
-        """The page draws the scales of a picture in false colour. During a lesson they are in the picture."""
+        """The page draws the scales of a picture in false colour. During a lesson the scales are part of the picture."""
         page = self.open("lang=en&preset=m87&pause=1")
         page.wait_for_selector(".scales:not([hidden])")
         patches = []
@@ -165,7 +165,7 @@ class Lesson(Browser):
         self.assertEqual(tongues(english), 4 * [None])
 
     def test_a_picture_at_rest_is_small(self):
-        """Pupils get JPEG. With PNG thirty pupils would fetch a megabyte each whenever the picture rests."""
+        """Pupils get JPEG. With PNG, thirty pupils would each fetch a megabyte whenever the picture comes to rest."""
         teacher = self.teach("lang=en&preset=gas&pause=1")
         pupil, came = self.page(self.context(locale="en-US")), []
         pupil.on("response", lambda r: "last=" in r.url and r.status == 200 and came.append(r))
@@ -259,7 +259,7 @@ class Lesson(Browser):
         self.assertIsNone(page.evaluate("sessionStorage.getItem('lesson')"))
 
     def test_two_tabs_of_one_teacher(self):
-        """A duplicated tab has the lesson too. Neither takes the class from the other by itself."""
+        """A duplicated tab has the lesson too. Neither tab takes over the class by itself."""
         teacher = self.teach()
         other = self.page(teacher.context)
         other.goto(self.base + "web/icon.svg")

@@ -1,6 +1,6 @@
 """Tests of the page in Firefox or in WebKit: others.py KERRD firefox|webkit, run by scripts/matrix.
 
-Both run the same test; the two classes below have what is particular to a browser. Firefox is driven by Marionette,
+Both run the same tests. The two classes below contain what is particular to a browser. Firefox is driven by Marionette,
 WebKitGTK by its WebDriver. What a driver cannot do (forced colours in WebKit) is reported and left out.
 """
 
@@ -62,7 +62,7 @@ class Firefox:
 
     @contextlib.contextmanager
     def inside(self, frame):
-        """Scripts run in this frame, also where it is of another origin."""
+        """Scripts run in this frame, even if its page is of another origin."""
         self.driver.switch_to_frame(self.driver.find_element("css selector", frame))
         try:
             yield
@@ -168,7 +168,7 @@ class SlowLine(threading.Thread):
         await asyncio.gather(self.carry(reader, far_writer), self.carry(far_reader, writer), return_exceptions=True)
 
     async def carry(self, reader, writer):
-        """Forwards bytes in the order in which they came, each piece once the line is free and its delay is over. A
+        """Forwards bytes in the order in which they came, each piece after its delay, as soon as the line is free. A
         piece on its way does not delay those that follow."""
         way = asyncio.Queue(64)
 
@@ -387,7 +387,7 @@ class Others(unittest.TestCase):
         self.shot("story")
 
     def test_a_class(self):
-        """A teacher's panel counts a pupil; a pupil's page shows the picture of a session, and its words."""
+        """A teacher's panel counts a pupil. The pupil's page shows the session's picture, and its texts."""
         self.start()
         self.open("lang=en&preset=smooth&pause=1")
         self.click("#send")

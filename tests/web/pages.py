@@ -55,8 +55,8 @@ class Pages(Browser):
             self.shot(self.open(f"lang={lang}&over=shadow,flamm&camera.inclination_deg=75", FINE), "lensing-" + lang)
 
     def test_the_language_that_is_asked_for_counts(self):
-        """The link's language, then that of the address, then the first of the browser's that the page has. Only its
-        words are loaded."""
+        """The language is the one in the link, otherwise the one in the address, otherwise the first of the browser's
+        languages that the page has. Only its words are loaded."""
         for query, fragment, browser, lang in (
             ("", "", "de-AT", "de"),
             ("", "", "fr-FR", "en"),
@@ -96,7 +96,8 @@ class Pages(Browser):
         )
 
     def test_each_field_has_its_name(self):
-        """Each field has a name in each language, found by its path or, if its label says enough, by its last name."""
+        """Each field has a name in each language. It is found by the field's path or, if the label is clear by itself,
+        by the last part of the path."""
         for lang in LANGUAGES:
             fields = self.words(lang)["fields"]
             paths = [re.sub(r"\.\d+\.", ".", path) for path, _, _ in rows(self.schema())]
@@ -227,7 +228,7 @@ class Pages(Browser):
         self.assertGreaterEqual(len(buttons), 4)
 
     def test_an_approximation_is_translated_by_its_name(self):
-        """If a comma of the server's sentence is corrected, the translation is still found."""
+        """If a comma in the server's sentence changes, the translation is still found."""
         page = self.page(self.context())
         listed = self.daemon.get("/v1/approximations").json()
         for row in listed["approximations"]:

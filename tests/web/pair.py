@@ -103,8 +103,8 @@ class Pair(Browser):
         self.shot(page, "pair-charge")
 
     def test_the_model_beside_the_data(self):
-        """M87* stands beside its data whatever the scene was, and no second session shows the data. The choice of
-        another pair removes the data."""
+        """M87* is shown beside its data, whatever the scene was before, and no second session is opened for the data.
+        Choosing another pair removes the data."""
         page = self.begin()
         page.select_option("#pair-what", label="M87*: our model | what was measured")
         page.wait_for_selector("#pair-data .data:not([hidden]) canvas >> nth=1")

@@ -54,8 +54,8 @@ class Panel(Browser):
         self.assertTrue(daemon.eventually(lambda: "camera.inclination_deg=33" in page.evaluate("location.hash")))
 
     def test_each_field_stands_in_its_group(self):
-        """A field is in front if the table of fields says so, and otherwise folded behind a summary. The fields for the
-        button that starts and stops time are beside the button."""
+        """A field is visible at once if the table of fields says so; otherwise it is folded behind a summary. The
+        fields for the button that starts and stops time are beside the button."""
         page, schema = self.open(), self.schema()
         self.assertEqual(tuple(schema["x-groups"]), GROUPS)
         there = page.evaluate("""() => Object.fromEntries([...document.querySelectorAll('[data-path]')].map(node => [node.dataset.path,
@@ -110,7 +110,7 @@ class Panel(Browser):
         self.assertTrue(daemon.eventually(lambda: page.evaluate("0") or page.url == address), "a link is of the scene")
 
     def test_help_names_no_paths(self):
-        """Help refers to other fields by their labels, and to no file of the source."""
+        """Help texts refer to other fields by their labels, and do not refer to files of the source."""
         for lang, quoted in (("en", "“"), ("it", "«")):
             page = self.open("lang=" + lang)
             helps = page.locator("#fields [data-path] > .help").all_text_contents()
@@ -379,7 +379,7 @@ class Panel(Browser):
         self.assertEqual(passes & set(shown), set())
 
     def test_layouts(self):
-        """At no size does anything overlap anything else, or extend beyond the window."""
+        """At no window size do elements overlap, or extend beyond the window."""
         for width, height in SIZES:
             for lang in ("en", "it"):
                 with self.subTest(width=width, lang=lang):

@@ -38,8 +38,8 @@ class Physics(Browser):
         page.wait_for_selector("#curve-returning >> text=/Of the whole disk 1.68 % returns/")
 
     def test_what_a_scene_adds_up_to(self):
-        """Line, spectrum and visibilities of the shown scene are requested when one is chosen, requested again when the
-        scene has changed, and saved as CSV."""
+        """Line, spectrum and visibilities of the shown scene: each is requested when it is chosen, and again when the
+        scene has changed. Each can be saved as CSV."""
         page = self.open(SMOOTH + "&lang=en&spacetime.spin=0.5&camera.inclination_deg=40")
         page.click("#integrals > summary")
         figure = "#integral-plot figure"
@@ -480,7 +480,7 @@ class Physics(Browser):
 
     def test_curves_of_the_model_over_the_data(self):
         """The drawn amplitudes are those of /v1/visibility, at any baseline. A curve of closure phases passes through
-        the model of /v1/compare, whose phases have the other sign, where the triangle has the size of the telescopes'.
+        the model of /v1/compare at the size of the telescopes' triangle. The phases of /v1/compare have the other sign.
         """
         page = self.open("lang=en&view=scale&scale.spin=0.5", "#scale .data:not([hidden]) canvas")
         amplitudes, phases = page.locator("#scale .data figure").all()

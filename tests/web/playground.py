@@ -58,8 +58,8 @@ class Playground(Browser):
         return [float(page.input_value(f"#play-{what}-{axis}")) for axis in "xyz"]
 
     def test_a_body_is_thrown_by_a_drag(self):
-        """The body starts where the drag began, with the velocity given by the arrow's length. Later the server has it
-        on the path that the page predicted."""
+        """The body starts where the drag began, with the velocity given by the arrow's length. Later its position at
+        the server is on the path that the page predicted."""
         page = self.open_play()
         self.pause(page)
         before, (x, y) = self.bodies(), self.stage(page)
@@ -140,7 +140,7 @@ class Playground(Browser):
     def test_a_body_is_thrown_anew_changed_and_removed(self):
         page = self.open_play(
             "lang=en&play.preset=emri&play.paused=1"
-        )  # a moving body has another place in the page than on the server
+        )  # while a body moves, its position in the page differs from that at the server
         ((only, body),) = self.bodies().items()
         x, y = self.stage(page)
         scale = (
@@ -405,7 +405,8 @@ class Playground(Browser):
 
     def test_a_picture_that_takes_long_says_so(self):
         context, held = self.context(viewport={"width": 1200, "height": 900}), []
-        passing = [1]  # number of pictures that go through at once; a request without a result brings no picture
+        # number of pictures that are let through at once; a request without a result does not bring a picture
+        passing = [1]
 
         def hold(route):
             if passing[0] > 1:  # after the test the page may end while an answer is fetched
@@ -464,7 +465,7 @@ class Playground(Browser):
         self.assertFalse(page.is_visible("#play-lensed"))
 
     def test_what_was_left_goes_on(self):
-        """A playground that nobody watches ends. A user who comes back finds it as it was."""
+        """A playground without viewers ends. A user who returns finds the playground as it was."""
         self.expected = "404"
         page = self.open_play("lang=en&play.preset=emri&play.paused=1")
         page.fill("#play-at-y", "15")

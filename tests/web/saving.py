@@ -104,7 +104,7 @@ class Saving(Browser):
         self.assertEqual(self.pixels(page), seen)
 
     def test_sizes(self):
-        """Tests the sizes that the choices request; the real pictures would take minutes."""
+        """Tests the sizes that the choices request. Rendering pictures of these sizes would take minutes."""
         page = self.open()
         page.route("**/v1/jobs", lambda route: route.fulfill(status=202, json={"id": "0" * 16, "token": "t"}))
         page.route(
@@ -172,8 +172,8 @@ class Saving(Browser):
         page.click("#save-cancel")
 
     def test_what_is_saved_is_what_is_seen(self):
-        """At the window's own size the picture is equal to the rounding of a level. A larger one is equal after it is
-        averaged down."""
+        """At the window's own size the saved picture equals the shown one, except for rounding by one level. A larger
+        picture equals it after averaging."""
         for preset in ("gargantua", "living-disk"):
             page = self.open(f"lang=en&pause=1&preset={preset}", FINE)
             seen = page.evaluate(

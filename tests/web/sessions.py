@@ -59,8 +59,8 @@ class Sessions(Browser):
             )
 
     def test_what_the_first_picture_lacks_is_told(self):
-        """The progress of the first picture is shown where the picture will be, in both languages, with a bar. If it
-        follows another picture, it is shown below that one."""
+        """The progress of the first picture is shown at the place of the picture, in both languages, with a bar. The
+        progress of a later picture is shown below the picture."""
         told = lambda frame: (
             lambda route: (
                 route.fulfill(json={"frame": frame, "rendering": {"fraction": 0.25, "remaining_s": 3.2}})
@@ -89,7 +89,8 @@ class Sessions(Browser):
             page.keyboard.press("Shift+ArrowUp")
             self.assertTrue(
                 daemon.eventually(lambda: page.evaluate("0") or held)
-                # the request that was open before may have brought this change's picture, at once in its final quality
+                # the request that was already open may have brought the picture after this change, at once in its final
+                # quality
             )
             page.keyboard.press("Shift+ArrowUp")
             self.there(page, others, "#status")
@@ -128,8 +129,8 @@ class Sessions(Browser):
         own = next(r.response().json() for r in self.requests if "/v1/sessions?" in r.url)
         page.click("nav [data-view=physics]")
         page.wait_for_selector(READY["physics"])
-        # A poll in progress learns that the session has ended. If the last picture came just when the user left the
-        # view, there is no poll, and the page notices later.
+        # A request in progress reports that the session has ended. If the last picture came just when the user left the
+        # view, there is no such request, and the page notices later.
         self.daemon.request("DELETE", "/v1/sessions/" + own["id"], headers={"Authorization": "Bearer " + own["token"]})
         page.wait_for_timeout(300)
         page.click("nav [data-view=lensing]")
@@ -244,7 +245,7 @@ class Sessions(Browser):
         )
         page.focus("#stage")
         carried = lambda: page.evaluate("0") or [r for r in self.requests if r.method == "PATCH" and "/frame?" in r.url]
-        for _ in range(3):  # by the answer to the first request the page learns the delay of the line
+        for _ in range(3):  # the answer to the first request shows the page the delay of the line
             page.keyboard.press("ArrowUp")
             page.wait_for_timeout(700)
 

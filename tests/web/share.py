@@ -49,7 +49,7 @@ def read_code(dark, size):
 
 class Share(Browser):
     def share(self, page):
-        """The link shown on the card."""
+        """The link that the card shows."""
         page.click("#send")
         page.wait_for_selector("#sending-link")
         return page.input_value("#sending-link")
@@ -83,7 +83,7 @@ class Share(Browser):
         self.assertEqual(other.url, "about:blank", "the page of the link is no stop on the way back")
 
     def test_the_width_of_the_window_is_not_sent(self):
-        """A window lower than 16:9 widens the field by itself. The link has the preset's field."""
+        """A window lower than 16:9 widens the field of view by itself. The link has the field of view of the preset."""
         page = self.open("lang=en&preset=edge-on&pause=1", viewport={"width": 1400, "height": 500})
         code = self.share(page).rsplit("/", 1)[1]
         self.assertLess(len(code), 40, "the name of the preset and no more")
@@ -176,7 +176,7 @@ class Share(Browser):
         self.assertGreater(light[2], 2000)
 
     def test_a_film_begins(self):
-        """If the scene looks the same from all sides and at all times, the film changes the spin."""
+        """If the scene looks the same from all sides and at all times, the film varies the spin."""
         page = self.open("lang=en&preset=smooth&pause=1")
         asked = []
         page.on("request", lambda request: request.url.endswith("/v1/jobs") and asked.append(request.post_data_json))

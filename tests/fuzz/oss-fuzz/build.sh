@@ -1,6 +1,6 @@
 #!/bin/bash -eu
-# OSS-Fuzz calls this with CC, CXX, CFLAGS, LIB_FUZZING_ENGINE, SRC and OUT: it puts into OUT each target with its seeds, its dictionary and the libraries that it needs.
-# The same by hand, from the folder of kerrd:
+# OSS-Fuzz calls this with CC, CXX, CFLAGS, LIB_FUZZING_ENGINE, SRC and OUT: it puts into OUT each target with its
+# seeds, its dictionary and the libraries that it needs. To run it by hand, from the folder of kerrd:
 #
 #   SRC=.. OUT=/tmp/out WORK=/tmp/work CC=clang CXX=clang++ CFLAGS=-fsanitize=fuzzer-no-link,address,undefined LIB_FUZZING_ENGINE=-fsanitize=fuzzer tests/fuzz/oss-fuzz/build.sh
 source_folder=$(CDPATH= cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../../.." 2> /dev/null && pwd)
