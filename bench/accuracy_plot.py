@@ -3,7 +3,7 @@
 
     bench/accuracy_plot.py TABLE.json [-o docs/accuracy.svg] [--set bulk]
 
-Needs matplotlib (pip install matplotlib). The line joins the settings worth choosing: no other one is both faster and
+Needs matplotlib (pip install matplotlib). The line joins the settings for which no other setting is both faster and
 more accurate.
 """
 
@@ -24,7 +24,7 @@ COLOURS = {
     "ks-euler": "#009e73",
     "ks-tao6": "#cc79a7",
 }  # colours by Okabe and Ito
-FLOOR = 1e-16  # value at which an error of 0 is drawn
+FLOOR = 1e-16  # an error of 0 is drawn at this value
 
 
 def points(table, name):

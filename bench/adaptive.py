@@ -5,10 +5,10 @@
     bench/adaptive.py --no-times --only gas
 
 Pictures of 640 x 360 at 16 bits are compared with pictures of 64 rays a pixel: PSNR as shown. Times are those of a
-server with one thread pinned to a core, at 1280 x 720 with the lens map, in alternation. The least time of the rounds
-counts. Noise of the ring is measured on the pixels that additional rays at the critical curve change. It is the root
-mean square difference from a picture with 64 rays elsewhere and 256 rays there. Needs numpy (pip install numpy). Writes
-bench/results/DATE-DEVICE-adaptive.{json,md}.
+server with one thread pinned to a core, at 1280 x 720 including the lens map. The variants are measured in alternation,
+and the least time of the rounds counts. The noise of the ring is measured on those pixels that additional rays at the
+critical curve change. It is the root mean square difference from a picture with 64 rays elsewhere and 256 rays there.
+Needs numpy (pip install numpy). Writes bench/results/DATE-DEVICE-adaptive.{json,md}.
 """
 
 import http.client
@@ -175,7 +175,8 @@ def quality(pictures, scene):
 
 
 def ring(pictures, scene):
-    """Noise of a scene at the critical curve: with one ray, with 3 x 3 rays everywhere, and by critical_factor."""
+    """The noise of a scene at the critical curve: with one ray, with 3 x 3 rays everywhere, and for each
+    critical_factor."""
     shown = lambda samples, factor: pictures.render(of_size(scene, SIZE, samples, critical_factor=factor))[0]
     truth, bare = shown(8, 2), shown(1, 1)
     at = (bare != shown(1, 16)).any(axis=2)

@@ -1,10 +1,10 @@
-/* A library that makes passes be timed by processor time instead of wall time, for a machine on which other programs
+/* A library with which passes are timed by processor time instead of wall time, for a machine on which other programs
  * run. It is preloaded into kd_bench_frame:
  *
  *     LD_PRELOAD=build/bench/libkd_bench_cpu_clock.so LP_NUM_THREADS=1 build/bench/kd_bench_frame -s SCENE.json
  *
  * lavapipe takes its timestamps from CLOCK_MONOTONIC on threads of its own. On these threads this clock becomes the
- * process's processor time. The main thread, which waits with deadlines, keeps the clock that it asks for. */
+ * process's processor time. For the main thread, which waits with deadlines, CLOCK_MONOTONIC is unchanged. */
 #include <stdbool.h>
 #include <sys/syscall.h>
 #include <time.h>

@@ -13,10 +13,10 @@
  * Two errors are measured from position and momentum: that of the invariant p.p + m, in units of E^2 = 1 or m = 1, and
  * that of Carter's constant.
  *
- * There are two orbits. Matter: a = 0.9, p = 8, e = 0.5, inclined by 60 degrees. Light: outside the horizon light has
- * no stable bound orbit, and errors of unstable orbits grow by e^(2 pi) a turn with every method. Below r = 1 - (1 -
- * a^2)^(1/3), inside the inner horizon, it has stable ones, and all equations above are regular there. The orbit used
- * is at about r = 0.3 and swings through the plane. */
+ * There are two orbits. The orbit of matter has a = 0.9, p = 8, e = 0.5, and is inclined by 60 degrees. Outside the
+ * horizon light has no stable bound orbit, and errors of unstable orbits grow by e^(2 pi) a turn with every method.
+ * Below r = 1 - (1 - a^2)^(1/3), inside the inner horizon, light has stable orbits, and all equations above are regular
+ * there. The orbit of light is at about r = 0.3 and oscillates through the plane. */
 #include "physics/orbit/timelike.h"
 #include "physics/spacetime/hole.h"
 
@@ -38,7 +38,7 @@ struct orbit {
                              d(affine) = r ds */
 };
 
-/* The numbers of a state: w, u, w', u'; or x, p and, for Tao's method, their copies. */
+/* The numbers of a state: w, u, w', u'; or x and p, and for Tao's method their copies. */
 struct state { double y[12]; };
 
 static double power2(const struct orbit *o) { return o->a * o->a * (o->energy * o->energy - o->mass2); }
@@ -152,10 +152,11 @@ static void flow_at(const struct orbit *o, const double *x, const double *p, dou
 
 static void flow_kerr_schild(const struct orbit *o, const double *y, double *d) { flow_at(o, y, y + 3, d, d + 3); }
 
-/* M. Tao 2016, Phys. Rev. E 94, 043303: two copies of the phase space. Each is moved by the forces at the other, and a
- * rotation binds them. Adjacent sub-steps of the first kind are merged. Of omega = 0.1, 0.15, 0.2, 0.3, 0.5, 1, 3 and
- * 10 this is the best for matter. With a smaller omega the binding is too weak, and the copies part within a hundred
- * loops. A larger omega costs accuracy. For light inside the inner horizon no value is large enough. */
+/* M. Tao 2016, Phys. Rev. E 94, 043303: two copies of the phase space. Each copy is moved by the forces at the other
+ * copy, and a rotation binds the two. Adjacent sub-steps of the first kind are merged. Of omega = 0.1, 0.15, 0.2, 0.3,
+ * 0.5, 1, 3 and 10 this is the best for matter. With a smaller omega the binding is too weak, and the copies separate
+ * within a hundred loops. A larger omega costs accuracy. For light inside the inner horizon no value is large
+ * enough. */
 #define OMEGA 0.3
 
 static void move(const struct orbit *o, double *x, double *p, double *other_x, double *other_p, double h)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Measures the drift of the first integrals over ten thousand loops: runs kd_bench_drift once, and writes a table and,
-with --plot, its plot.
+"""Measures the drift of the first integrals over ten thousand loops. Runs kd_bench_drift once, and writes a table and,
+with --plot, a plot.
 
 The plot needs matplotlib (pip install matplotlib).
 """
@@ -25,7 +25,7 @@ def at(figures, row, what, loops):
 
 
 def growth(figures, row):
-    """The power of the number of loops by which the invariant's error grows in the last decade."""
+    """The exponent with which the invariant's error grows with the number of loops in the last decade."""
     last, before = (at(figures, row, "invariant", n) for n in (10000, 1000))
     return "lost in loop %d" % row["lost"] if last is None else f"{math.log10(last / before):.2f}"
 

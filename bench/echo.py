@@ -7,9 +7,10 @@ Lines: the largest difference of the cumulative share, for six lamps and six rin
 behind the continuum at three frequencies, for six lamps, because kerrz has no impulse response of a ring. kerrz draws
 the photons of a ring at random: 500 000, as it advises. Its impulse response is counted from the arrival of the direct
 light by kerrd: kerrz's own arrival is up to 1.2 M early (a lamp at 5 M, 60 degrees, a = 0: 26.41 M; the integral over
-the ray is 27.613). About spinning holes its light to the disk and to the observer is early as well, by 0.04 to 0.3 M on
-each way (echo_times.py). This delays all frequencies alike. So the last column has the difference less the mean
-difference of the three frequencies, over the longest of the three lags. Writes bench/results/DATE-cpu-echo.{json,md}.
+the ray is 27.613). About spinning holes kerrz's light to the disk and to the observer is early as well, by 0.04 to 0.3
+M on each way (echo_times.py). This shifts the lags at all frequencies equally. The last column therefore has the
+difference minus the mean difference of the three frequencies, divided by the longest of the three lags. Writes
+bench/results/DATE-cpu-echo.{json,md}.
 """
 
 import bisect
@@ -23,7 +24,7 @@ import tempfile
 
 import measure
 
-OUTER, FAR = 400, 1e7  # M: edge of the disk; kerrz's observer
+OUTER, FAR = 400, 1e7  # edge of the disk; radius of kerrz's observer; both in M
 LAMPS = ((0.001, 10, 30), (0.5, 5, 60), (0.9, 3, 30), (0.9, 10, 75), (0.998, 5, 60), (0.998, 20, 30))  # spin, height, i
 RINGS = (  # spin, radius, height, inclination
     (0.001, 10, 5, 30),
@@ -119,7 +120,7 @@ def lags_beside(o, folder, spin, inclination, ours, theirs, wide=0.25):
         path,
     )
     rows = table(path)
-    # a row states the later end of its bin, and the middle is used, so that lags do not depend on the bin's width
+    # a row states the later end of its bin; here the middle is used, so that lags do not depend on the bin's width
     back = wide / 2
     for frequency, lag in zip(told["columns"]["frequency"], told["columns"]["lag"]):
         whole = sum(flux * cmath.exp(2j * math.pi * frequency * (time - back)) for time, flux in rows)

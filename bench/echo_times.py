@@ -32,8 +32,8 @@ def integrate(rates, start, event):
 
 
 def from_lamp(a, h, cosine):
-    """r and t in the plane of a photon without angular momentum that leaves the axis at h; the cosine is the angle from
-    the axis in the frame at rest."""
+    """r and t, in the plane, of a photon without angular momentum that leaves the axis at h. The cosine is that of its
+    angle to the axis in the frame at rest."""
     k = (h * h + a * a) ** 2 * (1 - cosine**2) / (h * h - 2 * h + a * a)
 
     def rates(_, y):

@@ -1,6 +1,6 @@
 /* Measures the cost of encoding a live frame. Real pictures, with and without dither, are encoded as kerrd encodes
  * files and live frames, and also through libdeflate and ISA-L at each level after each filter of PNG. Times are
- * processor times of the calling thread, so that other programs matter little. The least time of --repeat runs counts.
+ * processor times of the calling thread, which other programs change little. The least time of --repeat runs counts.
  * With --threads N it measures instead the wall time of files and live frames on 1 to N threads. Prints one line of
  * JSON; encode.py makes the table. */
 #include "base/clock.h"
@@ -65,7 +65,7 @@ static int predict(int filter, int left, int up, int corner)
     }
 }
 
-/* Inlined for each filter. The pixel left of a row's first one, and the row above the first, count as zeros. */
+/* Inlined for each filter. The pixel before the first one of a row, and the row above the first row, count as zeros. */
 static inline __attribute__((always_inline)) void filter_rows(struct job *job, int filter)
 {
     size_t stride = 3 * (size_t)job->width;

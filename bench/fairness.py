@@ -252,7 +252,7 @@ LOADS = {
 
 
 def repeat_for(seconds, at_least, step, is_enough=lambda: True):
-    """Milliseconds of each step. Goes on until is_enough() is true, for at most a minute longer."""
+    """Milliseconds of each step. The steps continue until is_enough() is true, but for a minute at most."""
     took, until = [], time.monotonic() + seconds
     while time.monotonic() < until or len(took) < at_least or (not is_enough() and time.monotonic() < until + 60):
         begun = time.monotonic()
@@ -263,8 +263,8 @@ def repeat_for(seconds, at_least, step, is_enough=lambda: True):
 
 def look_at_health(port, source, seconds, at_least):
     """Milliseconds that /healthz takes, and the delay of a sleep before each request, which shows how long the machine
-    delays any process. This runs in a process of its own, since among the threads of the loads it would measure
-    Python's lock."""
+    delays any process. This runs in a process of its own. In a thread beside the threads of the loads it would measure
+    Python's global lock."""
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120, source_address=(source, 0))
     late = []
 

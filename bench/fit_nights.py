@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Coverage of kerrd.fit on synthetic nights: a thin disk with random spin, inclination, size and position angle is
-observed by the array of data/eht/ with the noise of another seed each night, and fitted. Prints the number of nights in
-which the injected values are in the 95 % region of highest density, and the widths of the intervals relative to
-Fisher's.
+"""Measures the coverage of kerrd.fit on synthetic nights. Each night, a thin disk with random spin, inclination, size
+and position angle is observed by the array of data/eht/, with noise of another seed, and fitted. Prints the number of
+nights in which the injected values are in the 95 % region of highest density, and the widths of the intervals relative
+to Fisher's.
 
 bench/fit_nights.py [--nights 20] [--steps 400] [--pixels 96] [--out bench/results]
 

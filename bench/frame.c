@@ -39,7 +39,7 @@ static enum kd_status encode(struct kd_renderer *renderer, const struct kd_scene
     return status;
 }
 
-/* dragged: the frame is rendered like a reduced one during a drag (render/live/governor.h). */
+/* dragged: the frame is rendered like a coarse one during a drag (render/live/governor.h). */
 static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_scene *asked, bool dragged, cJSON *runs,
                                 struct kd_error *error)
 {

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Cost of a frame from the scene to the PNG, with one lavapipe thread and with two: medians of kd_bench_frame."""
+"""Measures the cost of a frame from the scene to the PNG, with one lavapipe thread and with two, as medians of
+kd_bench_frame."""
 
 import json
 import os

@@ -3,8 +3,8 @@
 
     bench/gold.py [--kerrd build/src/kerrd] [--size 256] [--json]      some ten seconds
 
-Each flux is that of one picture of a preset, from `kerrd render --stats`. Exit code 1 if one differs by more than it
-may.
+Each flux is that of one picture of a preset, from `kerrd render --stats`. The exit code is 1 if a flux differs by more
+than the allowed difference.
 """
 
 import argparse
@@ -38,8 +38,8 @@ IPOLE_DEG = {
     60: 3.0402553586023138,
     75: 3.021039735088821,
 }
-# Largest allowed relative difference from the flux for ipole's own observer. This is the normal observer of Kerr-Schild
-# coordinates at 1000 M, who moves inwards at 2/r. docs/physics/volume.md explains the difference.
+# Largest allowed relative difference from the flux for ipole's own observer. ipole's observer is the normal observer of
+# Kerr-Schild coordinates at 1000 M, which moves inwards at 2/r. docs/physics/volume.md explains the difference.
 OF_IPOLE_THERE = 0.004
 IPOLE_CAMERA = {
     "camera__r": 1000,
@@ -83,7 +83,7 @@ def flux(kerrd, preset, size, **changes):
 
 
 def rows(kerrd, size):
-    """(what, Jy, {source: (its Jy, relative difference, allowed difference or None)})"""
+    """(name, Jy, {source: (its Jy, relative difference, allowed difference or None)})"""
     for preset, (published, blacklight) in GOLD.items():
         jy, _ = flux(kerrd, preset, size)
         there = flux(kerrd, preset, size, volume__frequency_ghz=230 * LAPSE)[0] / LAPSE**3

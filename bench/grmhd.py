@@ -5,9 +5,10 @@ second through grids.
     venv/bin/python bench/grmhd.py                         some minutes; needs numpy and h5py
     venv/bin/python bench/grmhd.py --nodes 96 48 8 --pixels 48 --rates 96x48x8
 
-Errors are sums of squared differences over sums of squares, of I, Q, U and V. Rates are of unpolarised rays by one
-thread: the difference of the rays of two pictures over that of their processor times. Writes
-bench/results/DATE-DEVICE-grmhd.{json,md}. Exits with 1 if an error is above 1e-3 in I, or 5e-3 in Q, U or V.
+Errors are sums of squared differences over sums of squares, of I, Q, U and V. Rates are those of unpolarised rays by
+one thread: the difference between the numbers of rays of two pictures, divided by the difference of their processor
+times. Writes bench/results/DATE-DEVICE-grmhd.{json,md}. Exits with 1 if an error is above 1e-3 in I, or 5e-3 in Q, U or
+V.
 """
 
 import json

@@ -17,7 +17,7 @@
 
 enum { MOST = 512, MOST_SCENES = 64 };
 struct variant {
-    struct kd_kernel_entry kernel; /* the entry without its pipeline */
+    struct kd_kernel_entry kernel; /* the entry, except its pipeline */
     cJSON *scenes;
 };
 struct options {
@@ -49,7 +49,7 @@ static void add(const struct kd_kernel_entry *entry, const char *scene)
     cJSON_AddItemToArray(variants[i].scenes, cJSON_CreateString(scene));
 }
 
-/* Renders a preset without computing anything, and notes the kernels that it used. */
+/* Renders a preset without computing anything, and records the kernels that were used. */
 static enum kd_status visit(struct kd_renderer *renderer, const struct options *o, const char *name,
                             struct kd_error *error)
 {

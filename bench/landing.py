@@ -3,10 +3,10 @@
 
     bench/landing.py         about three minutes; needs Chromium, and Playwright in venv/ (scripts/setup --browser)
 
-Beside the server and the browser run --busy processes that do nothing but compute. In each window the landing is opened
-in a browser without a cache. With each frame of the browser the page notes what is visible in the view: the still, the
-recording, or a live picture, and its width in pixels, beside the width of the view in CSS pixels. --pictures DIR also
-saves a screenshot a second. Writes bench/results/DATE-DEVICE-landing.{json,md}.
+In addition to the server and the browser, --busy processes run that only compute. In each window the landing is opened
+in a browser without a cache. For each frame of the browser the script records what is visible in the view: the still,
+the recording, or a live picture, and its width in pixels, beside the width of the view in CSS pixels. --pictures DIR
+also saves a screenshot a second. Writes bench/results/DATE-DEVICE-landing.{json,md}.
 """
 
 import json

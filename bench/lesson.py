@@ -75,7 +75,7 @@ class Pupil(threading.Thread):
         self.start()
 
     def run(self):
-        time.sleep(int(self.key, 16) % 30 / 30)  # pupils do not come all at once
+        time.sleep(int(self.key, 16) % 30 / 30)  # pupils do not all arrive at once
         hand = {"pupil": self.key, "name": "pupil " + self.key[-2:]}
         while not self.over.is_set():
             question = self.line.json("POST", self.at, hand)["question"]
@@ -113,7 +113,7 @@ def lesson_of(port, preset, pupils, seconds):
     size = {"image": {"width": 480, "height": 270}}
     session = teacher.json("POST", f"/v1/sessions?preset={preset}&min_scale=1", size)
     lesson = teacher.json("POST", "/v1/lessons", {"session": session["id"]})
-    # one more than pupils: the teacher's page is a viewer, too
+    # one more than the pupils, because the teacher's page is a viewer too
     viewers = [Viewer(port, session["id"], over) for _ in range(pupils + 1)]
     pupils_ = [Pupil(port, lesson["id"], f"{k:016x}", over) for k in range(pupils)]
     drag(teacher, session, 3)

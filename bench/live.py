@@ -89,8 +89,8 @@ def timings(answer):
 
 
 def summary(answers, seconds, waits):
-    """Passes of the frames that trace, if there are enough of these: in a scene that moves by itself other frames reuse
-    the lens map."""
+    """Passes of those frames that trace rays, if there are enough of them. In a scene that moves by itself, the other
+    frames reuse the lens map."""
     passes, traced = {}, [a for a in answers if timings(a).get("trace")]
     for answer in traced if 4 * len(traced) > len(answers) else answers:
         for name, ms in timings(answer).items():
@@ -329,7 +329,7 @@ def preset(port, name):
 
 
 def sized_rows(server, names, sizes):
-    """Frames of fixed sizes, with one ray a pixel: dragged in both directions, and while time runs."""
+    """Measures frames of fixed sizes, with one ray a pixel: dragged in both directions, and while time runs."""
     rows = {}
     for name in names:
         for size in sizes:
@@ -353,7 +353,7 @@ def sized_rows(server, names, sizes):
 
 
 def write_sized(arguments, programs, device, load, rounds=3):
-    """Both programs in alternation; for each row the round with the median total."""
+    """Runs both programs in alternation. For each row returns the round with the median total."""
     seen = {}
     for _ in range(rounds):
         for title, path in programs.items():

@@ -9,8 +9,8 @@
 The script starts its own server. `wrk` (the Debian package) keeps 200 connections from 127.0.0.1 busy with cheap
 answers, one after the other: /healthz, /readyz, /v1/schema, /v1/presets, /v1/presets/NAME, /v1/device,
 /v1/physics/kerr. From 127.0.0.2 a session of 640 x 360 is dragged, 30 changes a second. Intervals with and without the
-load alternate, so that other work on the machine affects both. wrk shares the server's processors, as any test on one
-machine must; it runs at nice 19, because a load from another machine would take no processor time on this one. Writes
+load alternate, so that other work on the machine affects both. wrk shares the server's processors, because it runs on
+the same machine. It runs at nice 19: a load from another machine would take no processor time on this one. Writes
 bench/results/DATE-DEVICE-load-200.{json,md}.
 """
 
@@ -105,7 +105,7 @@ def wrk(server, connections, nice, script):
 
 
 def run(path, seconds, rounds, connections, nice):
-    """For each round the session's figures, alone and together with the load, and the figures of the load."""
+    """For each round: the session's figures without the load and with it, and the figures of the load."""
     with tempfile.TemporaryDirectory() as folder:
         script = pathlib.Path(folder) / "paths.lua"
         script.write_text(LUA)

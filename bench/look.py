@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Measures the cost of each visual feature: of the smooth disk with one more feature at a time, and of the default
-scene.
+"""Measures the cost of each visual feature: of the smooth disk, of the disk with a single feature added, and of the
+default scene.
 
     bench/look.py            about two minutes, on an idle machine
     bench/look.py --before OTHER/build      also the smooth disk by a build without the features, in alternation

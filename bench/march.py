@@ -6,9 +6,9 @@ without a volume.
     bench/march.py --before OTHER/build      also the smooth disk, without a volume, by a build from before volumes, in
                                              alternation
 
-Rays by one thread pinned to one core: the rays of a picture, one a pixel, over the time of the pass that follows them.
-Frames by two threads. The least time of all rounds counts. The error is the frame's own estimate (docs/accuracy.md).
-Writes bench/results/DATE-DEVICE-march.{json,md}.
+Rays are measured on one thread pinned to one core: the rays of a picture, one a pixel, divided by the time of the pass
+that follows them. Frames by two threads. The least time of all rounds counts. The error is the frame's own estimate
+(docs/accuracy.md). Writes bench/results/DATE-DEVICE-march.{json,md}.
 """
 
 import json

@@ -91,7 +91,7 @@ def head(device, load_before, command=None):
 
 
 def portable(arguments):
-    """Paths inside the checkout relative to it, others by their last part."""
+    """Paths inside the checkout, relative to it. Of other paths only the last part."""
     out = []
     for a in arguments:
         if os.path.isabs(a):

@@ -2,10 +2,10 @@
 """Find inputs that openapi.json allows and the server refuses, and count the refusals by kind.
 
 Random request bodies and queries go to a server whose renderer has no device. hypothesis-jsonschema (PyPI) generates
-them, and the same openapi.json always gives the same ones. Refusals are of one kind if they have the same operation, the
-same problem type, and the same sentence apart from numbers and quoted words.
-Not every kind is a fault of the schema: a schema cannot express a radius inside the horizon of this spin, or a picture
-beyond this server's limit.
+them; the same openapi.json always gives the same requests. Refusals are of one kind if they have the same operation,
+the same problem type, and the same sentence apart from numbers and quoted words. Not every kind is a fault of the
+schema. For example, a schema cannot forbid a radius inside the horizon of the given spin, or a picture beyond the limit
+of this server.
 """
 
 import argparse

@@ -4,10 +4,10 @@
     bench/page.py            about two minutes, on an idle machine; needs Chromium, and Playwright in venv/
                              (scripts/setup --browser)
 
-A window of 1440 x 900 on the server's machine. Rows: running time; the camera dragged round the hole; both again on a
+A window of 1440 x 900 on the server's machine. Rows: time running; the camera dragged round the hole; both again on a
 line of 300 ms and 1 Mbit/s, simulated by Chromium; the first view before any input; a fall; a thick disk; a drag beside
-a second visitor whose time runs. If a row has a target, it is shown beside the row. If a recording plays in the first
-view instead of live pictures, the row says so. Writes bench/results/DATE-DEVICE-page.{json,md}.
+a second visitor whose time runs. A row's target, if it has one, is shown beside the row. If a recording plays in the
+first view instead of live pictures, the row says so. Writes bench/results/DATE-DEVICE-page.{json,md}.
 """
 
 import json
@@ -23,7 +23,7 @@ import measure
 WINDOW = {"width": 1440, "height": 900}
 PATIENCE_MS = 120_000
 SCENES = {"default": "preset=default", "first view": "preset=gas-stars"}
-# These rows have no far line. In the fall, time is the observer's own.
+# These rows are not measured on the slow line. In the fall, the running time is the observer's own.
 BESIDE = {"fall": "preset=infall", "thick disk": "preset=thick-disk&motion.time_rate=4"}
 FAR = {"offline": False, "latency": 300, "downloadThroughput": 1e6 / 8, "uploadThroughput": 1e6 / 8}
 # Records each frame that the page reads: its width, the server's time for it, and the time from answer to picture.

@@ -3,10 +3,10 @@
 
     bench/paired.py OLD NEW [--pairs 8] [--frames 3] [--size 640x360] [--scenes-of old] PRESET ...
 
-OLD and NEW are build folders; the presets are those of NEW's kerrd, or of OLD's if OLD does not know all fields of
-NEW's scenes. Both builds render each scene in turn, many times, on
-one lavapipe thread; NEW's clock of processor time (cpu_clock.c) is loaded into both. The ratio of a pass is that of the
-least times, and its spread that of the medians.
+OLD and NEW are build folders; the presets are those of NEW's kerrd. With --scenes-of old they are those of OLD's, for
+an OLD that does not know all fields of NEW's scenes. Both builds render each scene in turn, many times, on one lavapipe
+thread; NEW's clock of processor time (cpu_clock.c) is loaded into both. The ratio of a pass is that of the least times,
+and its spread that of the medians.
 """
 
 import argparse

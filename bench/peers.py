@@ -19,14 +19,14 @@ import radio
 SPIN, INCLINATION, HALF_WIDTH = 0.9, 70.0, 12
 OBSERVER = 1e7  # M: kerrz's own default for its distant observer
 
-# Each pair: its title, (method, computes) of kd_bench_trace, and the mapper and flags of kerrz.
+# For each pair: its title, (method, computes) of kd_bench_trace, and the mapper and flags of kerrz.
 PAIRS = [
     ("r of the first crossing", ("closed form", "r of 1 crossing"), "radius", ["--no-false-image"]),
     ("r, later crossings too", ("closed form", "r of 3 crossings"), "radius", []),
     ("r and φ, later crossings too", ("closed form", "r, phi of 3 crossings"), "azimuth", []),
 ]
 # Values of kd_bench_trace's `computes` for which kerrz makes no picture. AART 2.1.10 and geokerr compute r, t and φ of
-# a crossing; their figures were measured earlier, on a core of such a machine.
+# a crossing. Their figures were measured earlier, on one core of a machine of the same kind.
 ALONE = ["r, phi, sky, fate", "r, phi, sky, fate, delay"]
 AART, GEOKERR = 136_000, 300_000
 
@@ -109,8 +109,8 @@ def carlson_rf(np, x, y, z):
 
 
 def first_crossing(np, lam, eta, up, w0):
-    """r of the first crossing, NaN if there is none: the Mino time by Carlson's integral, the radius by 3000 steps of
-    RKN4 in double precision. Neither code under test works like this."""
+    """r of the first crossing, NaN if there is none. The Mino time is found by Carlson's integral, and the radius by
+    3000 steps of RKN4 in double precision. Neither of the compared codes uses these methods."""
     a, u = SPIN, math.cos(math.radians(INCLINATION))
     A, K, D = a * a - lam**2 - eta, eta + (lam - a) ** 2, a * a * eta
     root = np.sqrt(A * A + 4 * D)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the figures of docs/physics, one for each chapter: curves from kerrd's values, and pictures that kerrd renders.
+"""Draws the figures of docs/physics, one for each chapter, from curves of kerrd's values and pictures that kerrd
+renders.
 
     bench/physics_plots.py [--kerrd build/src/kerrd] [-o docs/physics] [CHAPTER ...]
 
@@ -74,7 +75,7 @@ def frequencies(axes):
         for name, label, colour in lines:
             axes.plot(p["r"], v[name], style, color=colour, label=f"{label}, a = {a}")
         isco = ask("kerr", spin=a)[1]["isco"]
-        p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # kappa is drawn from the ISCO on, where it vanishes
+        p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # kappa vanishes at the ISCO, and is drawn from there on
         axes.plot(p["r"], v["kappa"], style, color=RED, label=f"$\\kappa$, a = {a}")
     axes.set(
         xlabel="r / M",
@@ -337,7 +338,7 @@ PANELS = {
     "inspiral-and-tides": (chirp, fallback),
     "bodies": (whirl,),
 }
-# Options of `kerrd render` for a chapter whose figure is a picture.
+# Options of `kerrd render`, for those chapters whose figure is a picture.
 PICTURES = {
     "particles": ("--preset=living-disk", "--set=disk.plunging=0.05", "--size=348x196"),
     "picture": ("--preset=m87", "--set=image.samples=2", "--size=480x360"),

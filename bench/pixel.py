@@ -28,7 +28,7 @@ LONG = {"image": {"width": 2560, "height": 1440, "samples": 4}}
 
 
 def rests(load):
-    """A view whose camera jumps every 3 s. Its picture is made finer after each jump."""
+    """A view whose camera jumps every 3 s. After each jump its picture is refined."""
 
     def jump():
         time.sleep(3)
@@ -78,7 +78,7 @@ def run_one(path, preset, begin, n):
 
 
 def last_frame(server, connection, preset):
-    """Watch a view until its last frame, or for half a minute if its time runs."""
+    """Watches a view until its last frame, or for half a minute if its time runs."""
     made = json.loads(server.ask(SOURCE, "POST", f"/v1/sessions?preset={preset}", VIEW, connection=connection)[1])
     begun, number, quality = time.monotonic(), 0, ""
     while "final=1" not in quality and time.monotonic() - begun < 30:

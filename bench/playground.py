@@ -4,8 +4,8 @@
     bench/playground.py [KERRD]      a table in Markdown on standard output
 
 A star is torn into the given number of pieces, among bodies of no radius that attract one another. The same snapshot
-then runs for few sub-steps and for many, each a hundredth of the longest that debris allows. The difference of the two
-times is divided by the difference of the numbers of sub-steps. The least of three runs counts.
+then runs for few sub-steps and for many. Each sub-step is a hundredth of the longest one that debris allows. The
+difference of the two times is divided by the difference of the numbers of sub-steps. The least of three runs counts.
 """
 
 import json

@@ -5,9 +5,10 @@ many bodies.
     bench/playground_pictures.py [KERRD]     about two minutes, on an idle machine: a table in Markdown on standard
                                              output
 
-The script starts a server on all cores, and is its client. Each playground runs at 100 M a second and is watched for
-six seconds, after two. Columns: rays a pixel that the session has chosen for the speed of the device; states of the
-playground shown by its frames; ms of the device for a frame; M/s that the motion reached beside the pictures.
+The script starts a server on all cores, and is its client. Each playground runs at 100 M a second. It is watched for
+six seconds, after a warm-up of two seconds. Columns: rays a pixel that the session has chosen for the speed of the
+device; states of the playground shown by its frames; ms of the device for a frame; M/s that the motion reached beside
+the pictures.
 """
 
 import http.client

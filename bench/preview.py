@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Measure how long the preview of a shared scene takes, the picture that other sites show beside a link.
+"""Measure how long the preview of a shared scene takes. The preview is the picture that other sites show beside a link.
 
     bench/preview.py            about a minute
 
-For each preset the script starts a server, whose driver has compiled the kernels before. It requests three previews in
-turn: of the preset (first), of the preset from elsewhere, whose lens map the server does not have (other), and of the
-preset with another brightness, whose lens map it has (lens map). Writes bench/results/DATE-DEVICE-preview.{json,md}.
+For each preset the script starts a server; the driver's cache already contains the kernels. It requests three previews
+in turn: of the preset (first), of the preset from elsewhere, whose lens map the server does not have (other), and of
+the preset with another brightness, whose lens map it has (lens map). Writes
+bench/results/DATE-DEVICE-preview.{json,md}.
 """
 
 import json

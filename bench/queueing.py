@@ -1,4 +1,5 @@
-"""A model of servers of kerrd behind HAProxy, by discrete events. It does not render: it uses measured service times.
+"""A model of servers of kerrd behind HAProxy, by discrete events. The model does not render; it uses measured service
+times.
 
 Times are in seconds. Each part models:
 
@@ -27,7 +28,7 @@ ENCODERS = 2  # KD_ENCODERS
 
 
 class Refused(Exception):
-    """503: the queue is full, or the server is gone."""
+    """503: the queue is full, or the server has died."""
 
 
 @dataclasses.dataclass(eq=False)
@@ -37,7 +38,7 @@ class Work:
     encode: float = 0.0  # seconds that an encoder takes after the device
     kind: str = "picture"
     client: str = "proxy"
-    paid: float = 0.0  # state of the scheduler, from here on
+    paid: float = 0.0  # state of the scheduler: this member and the following ones
     left: float = 0.0
     expected: float = 0.0
     stage: str = "waits"
@@ -203,10 +204,10 @@ class Server:
 
 
 class Balancer:
-    """HAProxy. A request goes to the server with the fewest connections; of several such servers, to the one that has
-    had this number for longest. If each server has `maxconn` connections, the request waits in one queue for at most
-    `patience` seconds. A refused request goes to another server, `retries` times at most. `own`: seconds that a request
-    takes on one of HAProxy's `cores`."""
+    """HAProxy. A request goes to the server with the fewest connections. If several servers have the fewest, it goes to
+    the one that has had this number for the longest time. If each server has `maxconn` connections, the request waits
+    in one queue for at most `patience` seconds. A refused request goes to another server, `retries` times at most.
+    `own`: seconds that a request takes on one of HAProxy's `cores`."""
 
     def __init__(self, env, servers, maxconn=2, patience=700.0, retries=5, own=0.0, cores=1):
         self.env, self.servers, self.maxconn, self.patience, self.retries, self.own = (
@@ -240,8 +241,8 @@ class Balancer:
         return None
 
     def take(self):
-        """Returns an event. Its value is the server for a request, or None if the patience has ended.
-        The connection counts from then on."""
+        """Returns an event whose value is the server for a request, or None if the patience has ended. From then on the
+        connection is counted."""
         turn = self.env.event()
         server = None if self.waiting else self._least()
         if server:
@@ -274,7 +275,7 @@ class Balancer:
                 yield self.env.timeout(self.own)
 
     def request(self, make):
-        """The process of a request for the work that make() returns. Its value is 200 or 503."""
+        """The process of a request for the work that make() returns. The process's value is 200 or 503."""
         work = make()
         yield from self.passes()
         for _ in range(self.retries + 1):
@@ -299,8 +300,8 @@ class Balancer:
 
 @dataclasses.dataclass
 class Habits:
-    """The habits of a visitor and the cost of the frames. Durations of strokes and rests are distributed
-    exponentially."""
+    """The behaviour of a visitor and the cost of the frames. The durations of strokes and rests have exponential
+    distributions."""
 
     drag: float = 3.0  # mean seconds of a stroke
     rest: float = 12.0  # mean seconds between two strokes
@@ -309,7 +310,7 @@ class Habits:
     encode: float = 0.001
     floor: float = 0.010  # device seconds of the smallest frame
     full: float = 0.100  # device seconds of the largest frame
-    fill: float = 0.85  # share of the governor's target that its frames take
+    fill: float = 0.85  # fraction of the governor's target that its frames take
     settle: float = 0.3  # device seconds in which a picture at rest becomes as fine as asked
 
 
@@ -337,7 +338,7 @@ def stroke(env, server, habits, seconds, log):
 
 
 def visitor(env, server, habits, rng, stay, log):
-    """A session on one server until its visitor leaves: rests, strokes, and a finer picture after each."""
+    """A session on one server until its visitor leaves: rests and strokes, and a refined picture after each stroke."""
     end = env.now + stay
     try:
         yield env.timeout(min(rng.expovariate(1 / habits.rest), stay))

@@ -62,8 +62,8 @@ ASLEEP = [(n, load) for n in (2, 10) for load in (0.6, 0.9, 1.2)]
 
 
 def go_first():
-    """Raises this process's priority above the servers', if it may: in practice clients and HAProxy run on other
-    machines, and they take little here."""
+    """Raises this process's priority above the servers', if permitted. In practice clients and HAProxy run on other
+    machines; here they take little processor time."""
     try:
         os.setpriority(os.PRIO_PROCESS, 0, PRIORITY - 10)
     except PermissionError:
@@ -159,8 +159,8 @@ async def ask(port, target):
 
 
 async def closed(port, asked, at_once):
-    """Requests all of these, `at_once` at a time: the results of ask(), and the answers a second while `at_once` were
-    in progress. With two for each server, one waits while the other is rendered."""
+    """Requests all of these, `at_once` at a time. Returns the results of ask(), and the answers a second while
+    `at_once` requests were in progress. With two requests for each server, one waits while the other is rendered."""
     rest, answers, last = list(enumerate(asked)), [None] * len(asked), 0.0
     begun = time.perf_counter()
 
@@ -227,8 +227,9 @@ def calibrate(proxied, rng, n):
 
 
 def simulate(n, setting, arrivals, takes, estimated, aside):
-    """Models n servers. takes[k], estimated[k]: seconds of picture k; aside: seconds beyond its service. Returns
-    (seconds to the answer, status) by number, and the seconds of the whole run."""
+    """Models n servers. takes[k], estimated[k]: actual and estimated seconds of picture k. aside: seconds that it takes
+    in addition to its service time. Returns (seconds to the answer, status) by number, and the seconds of the whole
+    run."""
     env = simpy.Environment()
     servers = [queueing.Server(env, setting["queue"], aside) for _ in range(n)]
     balancer, log = queueing.Balancer(env, servers, **setting["model"]), []
@@ -255,14 +256,14 @@ def run(proxied, setting, load, rng, n):
     asked, arrivals = targets(rng, n), queueing.poisson(rng, load * c["rate"], n)
     answers, seconds = asyncio.run(opened(proxied.port, asked, arrivals))
     lone = list(alone(arrivals, answers))
-    if len(lone) > 20:  # overhead beyond Server-Timing of a picture that ran alone, in this run
+    if len(lone) > 20:  # overhead of a picture that ran alone in this run, beyond the time in Server-Timing
         c["aside_s"] = statistics.mean(lone)
     foretold = [rng.choice(c["took"][size]) + c["beyond_s"] for size, _ in asked]
     served = [timing["total"] + timing["encode"] if "total" in timing else None for _, _, timing, _ in answers]
     like = [
         [took for took, (at, _) in zip(served, asked) if took and at == size] or c["took"][size]
         for size in range(len(MIX))
-    ]  # service times of pictures of this size, from which those of refused pictures are drawn
+    ]  # service times of pictures of this size; those of refused pictures are drawn from them
     replayed = [(took or rng.choice(like[size])) + c["beyond_s"] for took, (size, _) in zip(served, asked)]
     out = {"real": told([(took, status) for status, took, *_ in answers], seconds)}
     estimated = [c["estimates"][size] for size, _ in asked]
@@ -284,7 +285,7 @@ def sent(arrivals, answers):
 
 
 def alone(arrivals, answers):
-    """For each request that ran alone: the seconds of its answer beyond those in Server-Timing."""
+    """For each request that ran alone: the seconds of its answer, minus those in Server-Timing."""
     free = 0.0
     for at, (status, took, timing, late) in zip(arrivals, answers):
         if at > free and status == 200:
@@ -315,7 +316,7 @@ def sleeping(path, n, load, rng, count):
     finally:
         proxied.stop()
     beyond = max(0.0, n / rate - mean)  # seconds from the end of a picture to the start of the next one
-    estimate = 64 * 36 * 1e-6  # that renderer's estimate in seconds: a microsecond a ray
+    estimate = 64 * 36 * 1e-6  # estimate of that renderer in seconds: a microsecond a ray
     model = simulate(
         n,
         SETTINGS["as in docs/examples"],
@@ -336,7 +337,8 @@ def sleeping(path, n, load, rng, count):
 
 
 def calmest(rounds):
-    """The round in which this script woke up with the least delay, because the machine was least disturbed."""
+    """The round in which this script woke up with the least delay, that is, in which the machine was disturbed
+    least."""
     return min(rounds, key=lambda one: one["late_ms"])
 
 

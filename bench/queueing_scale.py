@@ -26,13 +26,13 @@ from queueing_check import queueing, simpy
 NUMBERS = (1, 2, 10, 100, 1000)
 LOADS = (0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2)
 EACH = 300  # pictures for each server, beginning with an idle one, as in bench/queueing_check.py
-FAST = 0.2  # seconds from input to picture that still feel immediate
+FAST = 0.2  # longest time in seconds from input to picture that still feels immediate
 STROKES = {"drag": 3.0, "rest": 12.0}  # seconds: a fifth of the time
 
 
 def haproxy_cost(path, n=4000, rounds=5):
-    """HAProxy's processor seconds a request, for small and large answers, and the requests a second that it passed: the
-    best of several rounds, since its threads spin when other processes have the cores."""
+    """HAProxy's processor seconds a request, for small and large answers, and the requests a second that it passed. The
+    best of several rounds is taken, because HAProxy's threads spin when other processes use the cores."""
     proxied, out = (
         queueing_check.Proxied(queueing_check.two_servers(path, 16), queueing_check.SETTINGS["as in docs/examples"]),
         {},
@@ -90,7 +90,7 @@ def pictures(rng, measured):
 
 
 def renders(n, load, measured, each, own=0.0, cores=1, lost_at=None, seed=7):
-    """Answers of n servers at a load, `each` pictures for each server: (arrival, seconds, status). lost_at: share of
+    """Answers of n servers at a load, `each` pictures for each server: (arrival, seconds, status). lost_at: fraction of
     the arrivals after which a server dies."""
     rng = random.Random(seed)
     make, mean = pictures(rng, measured)
@@ -146,8 +146,8 @@ def lost(n, load, measured, each=EACH):
 
 def visitors(n, each, habits, seconds, stay=120.0, seed=7):
     """n servers with a mean number of visitors each. Visitors come at random times, get a session on the server with
-    the fewest, and stay for `stay` on average. Returns seconds from input to picture, and the busy share of the
-    devices."""
+    the fewest, and stay for `stay` on average. Returns seconds from input to picture, and the fraction of time for
+    which the devices are busy."""
     rng, log, env = random.Random(seed), [], simpy.Environment()
     servers = [queueing.Server(env) for _ in range(n)]
     held = dict.fromkeys(servers, 0)
@@ -206,7 +206,7 @@ def habits_of(plan):
 
 
 def plot(result, checked, path):
-    """The measured points over the curves, with the model's values for these pictures."""
+    """Draws the measured points over the curves, with the model's values for these pictures."""
     import matplotlib
 
     matplotlib.use("svg")

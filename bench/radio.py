@@ -5,10 +5,10 @@ with Blacklight and ipole.
     bench/radio.py            two or three minutes
     bench/radio.py --sizes 48 96 --rounds 1      half a minute
 
-One picture of each scene at two sizes, by one thread. Rays are the pixels by which the sizes differ; their time is the
-processor time by which the two processes differ, so that startup, kernels and the rays that measure the error cancel,
-and other processes hardly matter. The least times of all rounds count. Writes
-bench/results/DATE-DEVICE-radio.{json,md}.
+One picture of each scene at two sizes, by one thread. The number of rays is the difference of the two numbers of
+pixels. Their time is the difference of the processor times of the two processes. Startup, kernels and the rays that
+measure the error cancel in this difference, and other processes hardly affect it. The least times of all rounds count.
+Writes bench/results/DATE-DEVICE-radio.{json,md}.
 """
 
 import json
@@ -23,7 +23,7 @@ import measure
 
 TRANSFER = ["--set", "polarization.model=transfer"]
 KAPPA = ["--set", "volume.electrons=kappa"]
-SCENES = {  # arguments of `kerrd render`; whether light is polarised
+SCENES = {  # arguments of `kerrd render`; and whether the light is polarised
     "gold-1, no absorption": (["-p", "gold-1"], False),
     "gold-5, thin and deep": (["-p", "gold-5"], False),
     "riaf": (["-p", "riaf"], False),
@@ -80,7 +80,7 @@ def measured(kerrd, sizes, rounds, core):
 
 
 def beside(rate, polarised):
-    """A rate as a multiple of the other code's."""
+    """A rate as a multiple of the other code's rate."""
     return f"{rate / IPOLE:.0f} × ipole" if polarised else f"{rate / BLACKLIGHT:.1f} × Blacklight"
 
 

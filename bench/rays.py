@@ -5,8 +5,8 @@ every format and by several engines.
     rays.py KERRD [N]     N: default 1000000
 
 Prints a line for each combination: rays per second over the whole exchange as a client sees it (the body is prepared
-and the answer not parsed), the server's times of reading and tracing, and the bytes of both bodies. Results are
-recorded with machine and date in bench/results. No test depends on them.
+before, and the answer is not parsed), the server's times of reading and tracing, and the bytes of both bodies. Results
+are recorded with machine and date in bench/results. No test depends on them.
 """
 
 import http.client

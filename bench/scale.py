@@ -4,9 +4,9 @@
     bench/scale.py            some minutes, on an idle machine of two cores; needs the packages of
                               tests/python/requirements.txt in venv/
 
-A thousand scenes, spin by inclination, of 64 x 48 pixels: by one server pinned to a core, by two workers pinned to a
-core each, and by two of which one is killed half-way. Every picture must equal that of the first run to the byte.
-Writes bench/results/DATE-DEVICE-scale.{json,md}.
+A thousand scenes of 64 x 48 pixels, with different spins and inclinations, are rendered three times: by one server
+pinned to a core, by two workers pinned to a core each, and by two workers of which one is killed half-way. Every
+picture must equal that of the first run to the byte. Writes bench/results/DATE-DEVICE-scale.{json,md}.
 """
 
 import os
@@ -59,7 +59,7 @@ def together(kerrd, distributed, binary, scenes, killed=False):
     ):
         for core, worker in enumerate(dask.run(os.getpid)):
             dask.run(pin, core % os.cpu_count(), workers=[worker])
-        # the first scenes start the servers and make their kernels
+        # the first scenes start the servers and compile their kernels
         kerrd.sweep(scenes[:2] * 4, dask, binary=binary, env=ONE_THREAD)
 
         def kill():

@@ -54,7 +54,8 @@ class Asker(live.Session):
 
 
 def frames(server, rounds):
-    """Device seconds of a picture by scene, in alternation: with rays of its own, and with only the time changed."""
+    """Device seconds of a picture of each scene, measured in alternation: with new rays, and with only the time
+    changed."""
     asker, rows = (
         Asker(server.port),
         {name: {"traced": [], "kept": [], "encode": [], "processor": []} for name in PRESETS},
@@ -62,7 +63,7 @@ def frames(server, rounds):
     for k in range(rounds + 1):
         for name in PRESETS:
             if name == "volume" and k > 2:
-                continue  # two rounds are enough: it takes longest, and equally long each time
+                continue  # two rounds are enough, because this takes longest and varies little
             scene = scene_of(server, name)
             scene["camera"] = {
                 **scene.get("camera", {}),
@@ -85,7 +86,7 @@ def film(server, sample):
         scene = scene_of(server, "default")
         scene["camera"] = {"azimuth_deg": 360.0 * k / sample}
         took = picture(server, asker, scene)
-        if k:  # the first frame traces the rays, which all frames share
+        if k:  # the first frame traces the rays; all other frames reuse them
             device.append(took["total"] / 1e3)
             encode.append(took["encode"] / 1e3)
             cores.append(took["processor"])

@@ -4,11 +4,11 @@ catalogue's stars.
 
     bench/sky_places.py KERRD PANORAMA.png      needs numpy and Pillow; a minute
 
-Each place is searched at its SIMBAD position (J2000): the centre of the light over its surroundings, in the panorama,
-and in a picture by kerrd from so far away that the hole bends no light. A pixel is 0.176 degrees, that of A.
-Mellinger's panorama. Then the panorama is compared with the catalogue: the surroundings of thousands of stars of
-data/hipparcos.stars are added up in the picture of the panorama, and in one of kerrd's stars. Where a panorama shows
-stars, or remains of them, the sum has a peak, which must be in its middle.
+Each place is searched at its SIMBAD position (J2000) as the centre of the light that exceeds its surroundings. This is
+done in the panorama, and in a picture by kerrd from so far away that the hole bends no light. A pixel is 0.176 degrees,
+that of A. Mellinger's panorama. Then the panorama is compared with the catalogue: the surroundings of thousands of
+stars of data/hipparcos.stars are added up in the picture of the panorama, and in one of kerrd's stars. Where a panorama
+shows stars, or remains of them, the sum has a peak, which must be in its middle.
 """
 
 import collections

@@ -11,15 +11,15 @@
                                                        whose memory may grow
 
 Requests: pictures, some abandoned before they come; sessions that are dragged, left, or ended; streams that are cut;
-jobs that are awaited or stopped; rays, orbits, numbers; requests that are refused. Each client knows the allowed
-statuses: 2xx, 4xx where it is meant, 429, 503 and 507; among faults also 500 and a closed connection.
+jobs that are awaited or stopped; rays, orbits, numbers; requests that are refused. The allowed statuses are 2xx, 4xx
+where the request is meant to be refused, 429, 503 and 507; with faults also 500 and a closed connection.
 
 Exit code 1 in any of these cases:
 - After a warm-up of a quarter of the time, by a straight line through the samples, resident memory grows by more than a
   tenth (and 24 MiB), descriptors by more than 4, or threads by more than 2.
 - The device's memory is by more than a block of 64 MiB larger in the last third than in the first.
 - A status was not allowed.
-- An accepted job did not end as it should, or ended twice, or a checksum of its result is wrong.
+- An accepted job did not end correctly, or ended twice, or a checksum of its result is wrong.
 - A half file is left in the state folder.
 - Without kills and faults, more than a minute after the last client: /metrics names more than 256 MiB as kept
   (kerrd_kept_bytes); or more is resident, by 160 MiB, than at the start and in the caches that it names; or the next
@@ -140,7 +140,7 @@ class Server:
 
 
 def is_png(data):
-    """True if each chunk of it is complete, and the last one is there."""
+    """True if the picture has its last chunk, and each chunk is complete."""
     at, name = 8, b""
     while at + 12 <= len(data) and name != b"IEND":
         length, name = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
@@ -354,7 +354,7 @@ class World:
         )
 
     def lossy(self):
-        """True if a connection may be closed instead of an answer."""
+        """True if the connection may be closed instead of an answer."""
         return self.kills or self.failing.is_set()
 
     def answered(self, status, meant):
@@ -399,7 +399,7 @@ def slope(samples, name):
 
 
 def finish(world):
-    """Waits for jobs whose clients ended when the time was over."""
+    """Waits for jobs whose clients ended when the test's time was over."""
     client = Client(world, 10**6)
     for job, frames, token in world.unfinished:
         until = time.monotonic() + 600
@@ -471,8 +471,8 @@ def is_file_whole(path):
 
 
 def left_over(state, known):
-    """Files of jobs that ended and were deleted, and half files. Whole files of jobs whose clients never learned that
-    they were accepted may stay."""
+    """Files of jobs that ended and were deleted, and half files. Complete files may remain for jobs whose clients did
+    not receive the acceptance."""
     for path in sorted(pathlib.Path(state).rglob("*")):
         job = next((part for part in path.relative_to(state).parts if part.removesuffix(".new") in known), None)
         if job:
@@ -558,7 +558,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+b") as log:
         state = str(pathlib.Path(folder) / "state")
         if a.faults:
-            import soak_faults  # can be imported only here, because it is built with the tests
+            import soak_faults  # imported only here, because the module is built with the tests
 
             harm = soak_faults.Faults(a.build, random.Random(a.seed))
             server = Server(harm.command(), state, log, "--device-reopenings", "100000", env=harm.environment())
@@ -605,7 +605,7 @@ def main():
     if growth:
         mean = sum(s["rss_mib"] for s in late) / len(late)
         allowed = {"rss_mib": max(24, 0.1 * mean), "device_mib": BLOCK_MIB, "descriptors": 4, "threads": 2}
-        if tsan:  # the thread sanitizer keeps records of accesses, and a slow server frees its memory late
+        if tsan:  # the thread sanitizer stores records of accesses, and a slow server frees its memory late
             del allowed["rss_mib"], allowed["device_mib"]
         faults += [f"{name} grows by {growth[name]:.1f}" for name, most in allowed.items() if growth[name] > most]
     if code:

@@ -64,8 +64,8 @@ class Faults:
         }
 
     def happen(self):
-        """Injects a fault of a random kind; returns for how many seconds it lasts. A fault that is armed but not
-        reached in this time does not happen, and is not counted."""
+        """Injects a fault of a random kind. Returns the seconds for which the fault lasts. A fault that is armed but
+        not triggered in this time does not happen, and is not counted."""
         r = self.random
         self.before = self.memory.failed + self.memory.files_failed
         kind = r.choice(["memory", "files", "vulkan", "clock"])

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Measures how far a table model of a line, as XSPEC interpolates it, is from the line itself.
+"""Measures how far a table model of a line, with XSPEC's interpolation, is from the line itself.
 
     bench/table.py KERRD [--points 1000] [--seed 1] [--axis FIELD=VALUES]... [--set FIELD=VALUE]...
 
-The options are those of kerrd table. At random places between the nodes the profiles of the nodes around are
-interpolated, linearly or in the logarithm, and compared with the profile there: the largest difference of their
-cumulative shares at any edge. The table itself is not computed, but only the nodes that are needed; this is what its
-file would give, as tests/cli/xspec_reads.py shows.
+The options are those of kerrd table. At random places the profiles of the neighbouring nodes are interpolated, linearly
+or in the logarithm, and compared with the profile there. The result is the largest difference of their cumulative
+shares at any edge. Only the nodes that are needed are computed, not the whole table; tests/cli/xspec_reads.py shows
+that the table's file gives the same values.
 """
 
 import argparse

@@ -90,7 +90,7 @@ static void judge(const struct options *o, const struct kd_scene *scene, const s
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {
             int x = (int)((i + 0.5) * plan->picture.width / n), y = (int)((j + 0.5) * plan->picture.height / n);
-            /* The kernel's own arithmetic for the pixel, so that only the tracing is judged. */
+            /* The kernel's own arithmetic for the pixel, so that only the tracing is compared. */
             float step = (float)(field / plan->picture.width), middle = 0.5f * (float)plan->picture.width - 0.5f;
             double alpha = ((float)x - middle) * step, beta = (middle - (float)y) * step;
             struct ks_path path = ks_trace(ks_from_infinity(scene->spacetime.spin, u, alpha, beta), 2);
@@ -149,7 +149,7 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
         const double began = kd_clock_ms();
         double *out_ms = &ms[k < 0 ? 0 : k];
         status = kd_render_lens(renderer, &scene, &plan, planes, out_ms, error);
-        /* for listed rays wall time counts, because the host computes a part of them and copies the map */
+        /* wall time is used for listed rays, because the host computes a part of them and copies the map */
         if (plan.lens.path == KD_LENS_LISTED)
             *out_ms = kd_clock_ms() - began;
     }

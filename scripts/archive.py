@@ -1,4 +1,4 @@
-"""Archives that have the same bytes each time: wheels, and tars."""
+"""Writes archives that have the same bytes each time: wheels and tars."""
 
 import base64
 import hashlib
@@ -6,12 +6,13 @@ import io
 import tarfile
 import zipfile
 
-DATE = (2020, 2, 2, 0, 0, 0)  # of every file, as in hatchling
+DATE = (2020, 2, 2, 0, 0, 0)  # date of every file, as in hatchling
 SECONDS = 1580601600  # the same
 
 
 def write_wheel(path, members):
-    """Writes a wheel of these files, (bytes, mode) by name, and the list of them (RECORD) that PEP 427 requires."""
+    """Writes a wheel with these files, given as (bytes, mode) by name, and with the list RECORD that PEP 427
+    requires."""
     record = next(name for name in members if name.endswith(".dist-info/RECORD"))
     rows = []
     for name, (data, _) in members.items():
@@ -28,7 +29,7 @@ def write_wheel(path, members):
 
 
 def info(name, **more):
-    """An entry of a tar: a file that all may read, unless more says otherwise."""
+    """An entry of a tar: a file that everybody may read, unless the arguments set other values."""
     entry = tarfile.TarInfo(name)
     entry.mode = 0o644
     for key, value in more.items():

@@ -3,10 +3,10 @@
 
     scripts/debs.py            choose the newest versions, and write them with their checksums to packaging/root/lock
 
-The lock names each package that mesa-vulkan-drivers and the rest of WANTED need, for amd64 and arm64. When it is made,
-the index of each archive is checked by Debian's signature. Afterwards only the checksums in the lock count, so the
-mirror need not be trusted, and two builds are of the same packages. A version that has left the mirror is taken from
-snapshot.debian.org as of the lock's date. KERRD_MIRROR: a Debian mirror instead of deb.debian.org.
+The lock names each package that mesa-vulkan-drivers and the rest of WANTED need, for amd64 and arm64. When the lock is
+made, the index of each archive is checked by Debian's signature. Afterwards only the checksums in the lock count. The
+mirror therefore need not be trusted, and two builds use the same packages. A version that is no longer on the mirror is
+taken from snapshot.debian.org as of the lock's date. KERRD_MIRROR: a Debian mirror instead of deb.debian.org.
 """
 
 import concurrent.futures
@@ -38,12 +38,12 @@ ARCHIVES = {"debian": SUITE, "debian-security": f"{SUITE}-security"}
 MACHINES = {"x86_64": "amd64", "aarch64": "arm64"}
 # base-files has /etc/os-release, from which scanners know what system this is.
 WANTED = ("base-files", "libc6", "libvulkan1", "mesa-vulkan-drivers")
-# Only used when a package is configured, or by programs that come with a driver.
+# Packages that are only used when a package is configured, or by programs that come with a driver.
 UNUSED = {"awk", "debconf", "debconf-2.0", "dpkg", "libx11-data", "python3"}
 
 
 class Stale(SystemExit):
-    """A package that the lock names is no longer available."""
+    """Raised if a package that the lock names is no longer available."""
 
 
 def read(address, tries=3):
@@ -147,7 +147,7 @@ def locked(arch):
 
 
 def fetch(digest, path, date):
-    """The file of a package, from the cache, the mirror or the snapshot. Whatever comes is checked."""
+    """The file of a package, from the cache, the mirror or the snapshot. Its checksum is checked in any case."""
     file = CACHE / f"{digest}.deb"
     if file.exists() and hashlib.sha256(file.read_bytes()).hexdigest() == digest:
         return file
@@ -170,7 +170,7 @@ def fetch(digest, path, date):
 
 
 def members(file):
-    """The control text and the data archive of a package (deb(5): an ar of a tar each)."""
+    """The control text and the data archive of a package, which is an ar archive with a tar for each (deb(5))."""
     data, at, out = file.read_bytes(), 8, {}
     while at < len(data):
         name, size = data[at : at + 16].decode().strip().rstrip("/"), int(data[at + 48 : at + 58])
@@ -189,7 +189,7 @@ def unpack(name, data):
     return tarfile.open(fileobj=io.BytesIO(data))
 
 
-# Manuals and translations are left out, and all of /usr/share/doc but the licences.
+# Manuals and translations are left out, and /usr/share/doc except the licences.
 LEFT_OUT = re.compile(r"usr/share/(man|locale|lintian|bug|info|doc-base|gdb)/|usr/share/doc/[^/]+/(?!copyright$)")
 MERGED = re.compile(r"(bin|sbin|lib|lib32|lib64|libx32)(/|$)")
 
@@ -201,8 +201,9 @@ def merged(name):
 
 
 def tree(arch):
-    """The files of all locked packages for a machine: (tarfile.TarInfo, bytes, package) by name. As nothing is
-    configured, dpkg's record is a file for each package in var/lib/dpkg/status.d, as scanners of images expect."""
+    """The files of all locked packages for a machine: (tarfile.TarInfo, bytes, package) by name. The packages are not
+    configured. dpkg's record is therefore a file for each package in var/lib/dpkg/status.d, as scanners of images
+    expect."""
     date, rows = locked(arch)
     files = {}
 

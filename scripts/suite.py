@@ -88,7 +88,7 @@ def by_suite(tests):
     return sorted(((suite, *figures) for suite, figures in sums.items()), key=lambda row: -row[2])
 
 
-LAST = 20  # lines of a failed test's output
+LAST = 20  # number of lines of a failed test's output that are kept
 
 
 def failure(test, flaky):
@@ -136,7 +136,7 @@ def report(build, *options):
     return 0
 
 
-MOST_AGAIN = 3  # if more tests have failed, it is no race
+MOST_AGAIN = 3  # if more tests have failed than this, a race is not the cause
 
 
 def read(log):

@@ -1,4 +1,5 @@
-"""MkDocs reads the documents as GitHub does: names of headings, lists without an empty line before, formulas."""
+"""Makes MkDocs read the documents as GitHub does: names of headings, lists without an empty line before them,
+formulas."""
 
 import re
 
@@ -15,7 +16,7 @@ formulas = []
 
 
 def slug(text, separator):
-    """The name of a heading in links, as GitHub makes it."""
+    """The name by which links refer to a heading, as GitHub makes it."""
     return re.sub(r"[^\w\- ]", "", text.strip().lower()).replace(" ", "-")
 
 
@@ -34,7 +35,7 @@ def put_aside(display):
 
 
 def without_formulas(text):
-    """Formulas outside of code become marks."""
+    """Replaces formulas outside of code by marks."""
     parts, at = [], 0
     for code in CODE.finditer(text):
         parts += [text[at : code.start()], code[0]]
@@ -45,7 +46,7 @@ def without_formulas(text):
 
 
 def as_python_markdown(text):
-    """Empty lines before lists and tables; what belongs to an item is indented by four spaces."""
+    """Adds empty lines before lists and tables. The contents of an item are indented by four spaces."""
     out, fenced, listed = [], False, False
     for line in text.split("\n"):
         if FENCE.match(line):

@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define EXACT 1e-8      /* error of ln r of a ray that meets a ring */
-#define RIGHT 1e-4      /* relative error of epsilon at which no more angles are added */
+#define RIGHT 1e-4      /* relative error of epsilon below which no more angles are added */
 #define CORRECT 1e-10   /* error of a direction of the sky, in the chart below */
 #define FAR 1e7         /* M, radius to which light is followed; the rest of the way to infinity is added */
 #define DIFFERENCE 1e-5 /* step of differences on the source's sky, in radians */
@@ -74,8 +74,8 @@ struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, do
 
 static double mismatch(const struct kd_corona_photon *p, double r) { return p->r > 0 ? log(p->r / r) : -INFINITY; }
 
-/* Finds the x = ln tan(delta/2) whose ray along chi meets the ring, from a guess of x and of d ln r/dx. It uses the
- * secant method within a bracket, because r grows with x. */
+/* Finds the x = ln tan(delta/2) whose ray along chi meets the ring, from a guess of x and of d ln r/dx. The secant
+ * method is used within a bracket, which is possible because r grows with x. */
 static bool find(const struct kd_corona_source *source, double chi, double r, double slope, double *found,
                  struct kd_corona_photon *photon)
 {
@@ -110,7 +110,7 @@ static double node_of(const struct kd_corona_light *c, double log_r)
     return log_r + (c->width > 0 ? asinh((log_r - c->centre) / c->width) : 0);
 }
 
-/* Inverts node_of by Newton's method: it is monotone, with slopes between 1 and 1 + 1/width. */
+/* Inverts node_of by Newton's method. node_of is monotone, with slopes between 1 and 1 + 1/width. */
 static double log_radius_of(const struct kd_corona_light *c, double s, double low, double high)
 {
     double at = 0.5 * (low + high);
@@ -189,7 +189,7 @@ static bool make_angle(struct kd_corona *c, const struct kd_corona_source *sourc
     return true;
 }
 
-/* Sums the angles of each ring. Returns the largest relative change if every second one is left out. */
+/* Sums the angles of each ring. Returns the largest relative change when every second angle is left out. */
 static double add_up(struct kd_corona *c)
 {
     double worst = 0;
@@ -211,8 +211,8 @@ void kd_corona_finish(struct kd_corona *c)
 }
 
 /* Makes n angles. If n exceeds the smallest number, every second angle exists already. The sum over a period converges
- * as a power of n, so that after a doubling the error is about the square of the last change. The power 1.5 of the
- * change is reported. */
+ * as a power of n, so after a doubling the error is about the square of the last change. The reported error is the last
+ * change to the power 1.5. */
 static enum kd_status take_angles(struct kd_corona *c, const struct kd_corona_source *source, double photon_index,
                                   const double *radii, int n)
 {
@@ -499,7 +499,7 @@ int kd_corona_rings(const struct kd_corona_shape *shape, struct kd_corona_ring o
     return n;
 }
 
-/* For a single ring the table is the ring's own. For several rings its nodes are even in ln r. */
+/* For a single ring the table is that of the ring. For several rings the table's nodes are even in ln r. */
 static enum kd_status make_light(const struct kd_hole *hole, const struct kd_corona_shape *shape, double photon_index,
                                  double inner, double outer, struct kd_corona_light *out)
 {

@@ -10,10 +10,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Lengths at which even spacing becomes geometric: of columns, and of places along a column. */
+/* Lengths at which the spacing changes from even to geometric: of columns, and of places along a column. */
 #define HOLE 2.
 #define THIN 0.2
-#define BESIDE 1e-9 /* beta of the place next to the plane, where a ray could lie in the plane */
+#define BESIDE 1e-9 /* beta of the place next to the plane; a ray at beta = 0 could lie in the plane */
 enum {
     PLACES = 48,  /* first division of a column */
     DEEPEST = 16, /* number of halvings of a cell in which an edge lies; more for a narrow disk */
@@ -81,15 +81,15 @@ static void add(const struct column *column, const struct kd_disk_end *x, const 
     column->c->add(column->c->user, &cell);
 }
 
-/* Both are on one face, on one side of the split, and r differs by no more than a step. */
+/* True if both places are on one face, on one side of the split, and their r differ by no more than a step. */
 static bool close_to(const struct column *column, const struct kd_disk_end *x, const struct kd_disk_end *y)
 {
     const double split = column->c->split;
     return x->order == y->order && (x->r < split) == (y->r < split) && fabs(log(y->r / x->r)) < column->step;
 }
 
-/* Halves a cell until r is even enough in it, or an edge is found to 2^-DEEPEST of the first division. A cell with an
- * edge is divided equally between its two ends. */
+/* Halves a cell until r changes little enough in the cell, or until an edge is found to 2^-DEEPEST of the first
+ * division. A cell with an edge is divided equally between its two ends. */
 static void divide(const struct column *column, const struct kd_disk_end *x, const struct kd_disk_end *y, int depth)
 {
     const double length = y->beta - x->beta;
@@ -111,7 +111,7 @@ static void divide(const struct column *column, const struct kd_disk_end *x, con
     divide(column, &middle, y, depth + 1);
 }
 
-/* The place between two others at which the first crossing is nearest to the hole: the end of a ring. */
+/* The place between two others at which the first crossing is nearest to the hole. There a ring ends. */
 static struct place nearest(const struct column *column, double low, double high)
 {
     double x = high - SHORTER * (high - low), y = low + SHORTER * (high - low);

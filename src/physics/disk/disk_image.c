@@ -16,7 +16,7 @@ enum { POINTS = 6 }; /* number of nodes that an interpolation uses */
 #define NODES 1e-7  /* error of ln r at the nodes */
 #define PLACE 1e-12 /* error of ln r at a single requested place */
 #define BENDS 10.   /* maximum relative change of a slope per unit of ln r */
-/* error of a slope if only the slope of flat space is known; otherwise the error is this fraction of that of the
+/* error of a slope if only the slope of flat space is known; otherwise the error is this fraction of the error of the
  * extrapolation from the preceding rings */
 #define DRIFTS 0.2
 #define FLATTEST 0.1  /* all slopes that occur lie between this and its inverse */
@@ -67,7 +67,8 @@ static double mismatch(const struct kd_disk_image *image, const struct ellipse *
     return found > 0 ? log(found / r) : -INFINITY;
 }
 
-/* d ln r/d ln R at the starting point, and its relative error: `drift`, plus `bend` times the error of ln r there. */
+/* d ln r/d ln R at the starting point. Its relative error is `drift`, plus `bend` times the error of ln r at that
+ * point. */
 struct slope { double value, drift, bend; };
 
 /* Solves ln(r_0/r) = 0 for ln R from a guess, by the secant method within a bracket; r_0 is the radius at which the ray
@@ -124,7 +125,7 @@ static double guess(const struct kd_disk_image *image, int k, int j)
     return 5 * (a - d) - 10 * (b - c) + image->stretch[k - 5][j];
 }
 
-/* Derivative of an ellipse by ln r: relative for the half axes, in M for the centre. */
+/* Derivative of an ellipse with respect to ln r: relative for the half axes, in M for the centre. */
 static struct ellipse growth_of(const struct kd_disk_image *image, double r)
 {
     const double step = 1e-4;

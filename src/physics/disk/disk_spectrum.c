@@ -13,11 +13,12 @@ enum { PANELS = 32, GAUSS = 3, COLUMNS = 256 /* in each part of an image without
 static const double at_gauss[GAUSS] = { -0.7745966692414834, 0, 0.7745966692414834 },
                     share_gauss[GAUSS] = { 5. / 18, 8. / 18, 5. / 18 };
 /* The sum with every second node differs from the full sum; this fraction of the difference is reported as the error.
- * The table's error falls at best as the sixth power of the step, so the difference is 63 times the error (as in
+ * The table's error falls at best as the sixth power of the step; the difference is then 63 times the error (as in
  * line_profile.c) */
 #define TABLE 0.125
-/* cos i below which the error of sums does not yet fall as the square of the cells. In this range, sums at random
- * had errors of up to 2.1 times the estimate (tests/unit/told_spectra.c), so four times the estimate is reported. */
+/* cos i below which the error of sums does not yet fall as the square of the cells. In this range the errors of
+ * randomly chosen sums were up to 2.1 times the estimate (tests/unit/told_spectra.c). Four times the estimate is
+ * therefore reported. */
 #define EDGE_ON 0.1
 #define WIDEST 0.1 /* change of ln r in a cell of the finest columns */
 #define APART 1e-3 /* step for slopes of the image, as a fraction of the distance to the horizon */
@@ -164,8 +165,8 @@ void kd_disk_places(const struct kd_disk_image *image, double inner, double oute
     }
 }
 
-/* The error of a sum, from one with half as many points, and a rougher one: with every second node of the table or,
- * next to edge-on, with a quarter as many points. Two sums may agree by chance. */
+/* The error of a sum, from two coarser sums, because two sums alone may agree by chance. One has half as many points.
+ * The other has every second node of the table or, next to edge-on, a quarter as many points. */
 static double told(const struct kd_disk_image *image, double flux, double other, double rough)
 {
     const double here = fabs(other - flux), before = fabs(rough - other);

@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define STEP 0.02   /* step of ln T between nodes */
-#define COLDEST -10 /* ln T of node 0; T is over the largest temperature of the disk */
+#define COLDEST -10 /* ln T of node 0; T is in units of the largest temperature of the disk */
 enum {
     RINGS = 24,   /* nodes in s = sqrt(r_isco/r) at which reflected light is computed */
     COSINES = 12, /* nodes in the cosine of the angle at which it leaves */
@@ -180,7 +180,7 @@ static void cheb_weights(const double *nodes, int n, double x, double *weights)
         weights[j] /= sum;
 }
 
-/* State of the computation of a spectrum. */
+/* State while a spectrum is computed. */
 struct work {
     struct kd_disk_stokes *out;
     const struct kd_disk_image *image;

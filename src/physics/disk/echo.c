@@ -106,7 +106,7 @@ static double at(double x0, double x1, double y0, double y1, double across, doub
 #define AT(member, across, along) \
     at(c->in[0]->member, c->in[1]->member, c->out[0]->member, c->out[1]->member, across, along)
 
-/* Half the range of a linear function within a part of the cell. */
+/* Half of the range of a linear function within a part of the cell. */
 #define REACH(member) \
     (0.5 / FINER * \
      (fabs(AT(member, across, 1) - AT(member, across, 0)) + fabs(AT(member, 1, along) - AT(member, 0, along))))
@@ -188,7 +188,7 @@ static void add_part(const struct view *view, const struct cell *c, size_t ring,
                  wide = REACH(g), late = AT(time, across, along) - zero, slow = REACH(time);
     double before = 0, before_part = 0;
     struct touched all = { s->times, 0 };
-    /* starts from the last angle, because it is the neighbour of the first one */
+    /* starts with the last angle, because it is the neighbour of the first one */
     for (size_t k = n > 1 ? 0 : 1; k <= n; k++) {
         const size_t j = (k + n - 1) % n;
         const double bright = light * ((1 - across) * parts[0][j] + across * parts[1][j]),

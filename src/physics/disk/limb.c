@@ -5,8 +5,8 @@
 #include <math.h>
 #include <pthread.h>
 
-/* Table of the scattered light over the fourth root of mu. There the term mu ln(mu) of the H functions is smooth enough
- * for cubic interpolation. */
+/* Table of the scattered light over the fourth root of mu. In this variable the term mu ln(mu) of the H functions is
+ * smooth enough for cubic interpolation. */
 enum { CELLS = 160 };
 static double table[CELLS + 3]; /* from one step below 0 to one step above 1, for interpolation in the cells at the ends
                                  */
@@ -47,5 +47,5 @@ double kd_limb_at(enum kd_limb law, double mu)
     return 1;
 }
 
-/* For ln(1 + 1/mu) and for scattered light the integral is 1/2 already. */
+/* For ln(1 + 1/mu) and for scattered light the integral is already 1/2. */
 double kd_limb_scale(enum kd_limb law) { return law == KD_LIMB_LAOR ? 0.5 / (0.5 + 2.06 / 3) : 1; }

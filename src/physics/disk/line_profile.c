@@ -19,12 +19,12 @@ enum {
     MOST = 512,
     COARSEST = 16,
     /* FEWEST, MOST: numbers of rings. COARSEST: factor by which the coarsest sum has fewer rings and angles. LOOKED:
-     * number of parts of a line; two sums are compared at the edges of these parts. */
+     * number of parts of a line; two sums are compared at the edges of these parts to estimate the error. */
     LOOKED = 128,
     COLUMNS = 256 /* the finest columns, in each part of the image */
 };
 
-/* The light that the disk receives, of the emissivities that depend on it. */
+/* The light that the disk receives, for the emissivities that depend on it. */
 struct received {
     struct kd_lamppost lamp;
     struct kd_corona_light corona;
@@ -113,8 +113,8 @@ static void add_cell(struct sum *s, double light, double centre, double narrow, 
 
 /* A chord between nodes h apart deviates from the curve by -h^2 f''/12 on average. Shifting nodes by a twelfth of their
  * second difference leaves an error of order h^4. At the horns of a profile, where g is stationary along a ring, the
- * shift gains as much accuracy as twice as many directions. Where f must stay positive, a node changes by no more than
- * half of its value. */
+ * shift improves the accuracy as much as twice as many directions would. Where f must stay positive, a node changes by
+ * no more than half of its value. */
 static void straighten(double *f, int n, bool positive)
 {
     double before = f[n - 1], first = f[0];

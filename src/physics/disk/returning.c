@@ -23,8 +23,8 @@ enum {
     DEPTH = 12, /* Gauss points along each chi */
 };
 
-/* A ray is traced by series if its E at infinity, divided by its energy in the frame of zero angular momentum, is
- * below this, because the labels L/E and Q/E^2 of the closed form grow without bound. */
+/* A ray is traced by series if its E at infinity, divided by its energy in the frame of zero angular momentum, is below
+ * this. For E -> 0 the labels L/E and Q/E^2 of the closed form grow without bound. */
 #define SLOW 1e-3
 
 /* Gas on a circular orbit at r, and the frame of zero angular momentum there. */
@@ -508,7 +508,7 @@ static void make_ring(void *user, size_t i)
     table->energy.returns[i] = shares.energy.returns, table->energy.falls_in[i] = shares.energy.falls_in;
 }
 
-/* Makes the table. Returns false if nobody waits for it any more. */
+/* Makes the table. Returns false if the result is no longer wanted (base/pause.h). */
 static bool make(struct kd_returning *table, const struct kd_hole *hole, enum kd_limb limb)
 {
     struct making m = { .table = table, .rule = rule_of() };
@@ -528,7 +528,7 @@ static bool make(struct kd_returning *table, const struct kd_hole *hole, enum kd
     return true;
 }
 
-/* The tables that were used last, and the largest fluxes of more of them. used: 0 for an entry without a table. */
+/* The tables that were used last; and for more tables, their largest fluxes. used: 0 for an empty entry. */
 enum { KEPT = 8, LARGEST = 256 };
 static struct kept {
     struct kd_returning table;

@@ -38,8 +38,8 @@ static double h_at(const struct rule *rule, const double *h, const struct law *l
     return 1 / sum;
 }
 
-/* With conservative scattering, 2 psi0 = 1, plain iteration oscillates about the solution. The mean of two successive
- * rounds does not. */
+/* With conservative scattering (2 psi0 = 1) plain iteration oscillates about the solution. The mean of two successive
+ * iterates converges. */
 static void solve(const struct rule *rule, const struct law *law, double h[NODES])
 {
     for (int i = 0; i < NODES; i++)

@@ -135,11 +135,12 @@ double kd_disk_flux_shakura_sunyaev(const struct kd_hole *hole, double r)
  *
  *   B' = (x^4 - 6x^2 + 8ax - 3a^2)/(x (x^3 - 3x + 2a))      x^3 - 3x + 2a = y^2 (y + 3) - 2d
  *
- * (eq. 15n is the integral of this from x0.) Near the ISCO, where the logarithms of 15n cancel, the integral itself
- * keeps all digits. The numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, which has the factor y - y0. */
+ * (Eq. 15n is the integral of B' from x0.) Near the ISCO, where the logarithms of 15n cancel, quadrature of B' keeps
+ * all digits. The numerator is y^3 (y + 4) - 2d (1 + 4y) - 3d^2, which has the factor y - y0. */
 struct rise {
-    double a, y0, gap; /* gap: distance of x0 from the nearest root of x^3 - 3x + 2a, the root of the photon orbit */
-    double turns;      /* ln(1 + (x - x0)/gap), in which B' is smooth even for a nearly extremal hole */
+    /* gap: distance of x0 from the nearest root of x^3 - 3x + 2a, which is that of the photon orbit */
+    double a, y0, gap;
+    double turns; /* ln(1 + (x - x0)/gap), in which B' is smooth even for a nearly extremal hole */
 };
 
 static double below(double a, double y) { return y * y * (y + 3) - 2 * (1 - a); }

@@ -5,14 +5,15 @@
 #include <math.h>
 
 /* g = 1/(u^t (1 + Omega alpha sin i)), so that a ring's energy determines alpha. Along a line of constant alpha the
- * visible radius r(beta) decreases from the near side to a minimum and grows again on the far side. A ring is seen
- * at alpha twice if that minimum is below r; at the ring's ends it equals r. This holds also next to edge-on, where
- * the image of the far side stands steeply over the image of the near side. */
+ * visible radius r(beta) decreases from the near side to a minimum and grows again on the far side. A ring is seen at
+ * alpha twice if that minimum is below r. At the ring's ends the minimum equals r. This is also true next to edge-on,
+ * where the image of the far side lies high above the image of the near side. */
 
 #define SHORTER 0.61803398874989485 /* ratio of the golden section: (sqrt(5) - 1)/2 */
-#define LEAST_WIDTH 1e-8 /* relative width of the bracket of the minimum, whose error is the square of that */
+/* relative width of the bracket of the minimum; the error of the minimum is the square of this width */
+#define LEAST_WIDTH 1e-8
 /* step of central differences, as a fraction of the distance of the two places, or of the depth of the minimum below
- * the ring; their error is proportional to its square */
+ * the ring. The error of the differences is proportional to the square of the step */
 #define APART 1e-4
 
 struct line {

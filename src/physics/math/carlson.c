@@ -131,7 +131,7 @@ static double atanh_over(double x, double rest)
 }
 
 /* With s = sqrt(|p - 1|) and t = sqrt(|q - 1|), R_C(1, p) is atan(s)/s for p > 1 and artanh(s)/s for p < 1. The
- * difference of two arcs is the arc of x = (s - t)/(1 +- s t). */
+ * difference of the two arcs is the arc (atan or artanh) of x = (s - t)/(1 +- s t). */
 double kd_carlson_rc_slope(double p, double q)
 {
     enum { TERMS = 24 }; /* 0.25^24/49 = 7e-17 */

@@ -22,7 +22,7 @@ double kd_quadrature(kd_integrand f, const void *context)
         double more = 0;
         for (double t = step / 2; t <= reach; t += step)
             more += term(f, context, t) + term(f, context, -t);
-        /* stops here, because the mean of both rules is the rule with half the step */
+        /* stops here, because the mean of the two rules is the rule with half the step */
         double change = more - sum;
         sum += more;
         step /= 2;

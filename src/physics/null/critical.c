@@ -126,8 +126,8 @@ struct kd_critical kd_critical_of(const struct kd_critical_observer *o)
     return c;
 }
 
-/* Parameters of `miss`, a function of the place whose root is the point at the requested angle. It rises with x. Near
- * the sides beta is the root of a difference, so its square is used. */
+/* Parameters of `miss`, a function of the place whose root is the point at the requested angle. The function rises with
+ * x. Near the sides of the curve beta is the square root of a difference, so beta^2 is used there. */
 struct aim {
     const struct kd_critical *curve;
     double cosine, sine;
@@ -166,7 +166,7 @@ struct kd_critical_point kd_critical_at(const struct kd_critical *c, double angl
 {
     double turned = remainder(angle, 2 * M_PI), upper = fabs(turned), s = sin(upper), k = cos(upper);
     struct place p = aim_at(c, upper);
-    /* Uses the coordinate that is known better, and computes the other from the angle. */
+    /* Uses the more accurate of the two coordinates, and computes the other from it and the angle. */
     bool side = fabs(k) >= s;
     double y = side ? p.x * s / k : sqrt(fmax(p.y2, 0)), x = side ? p.x : y * k / s, rho = hypot(x, y);
     struct kd_critical_point q = { .orbit = p.orbit, .alpha = p.alpha, .angle = angle, .rho = rho, .inwards = 1 };
@@ -201,7 +201,7 @@ static struct kd_critical_point upper(const struct kd_critical *c, double at)
 
 struct kd_critical_point kd_critical_upper(const struct kd_critical *c, double along)
 {
-    double half = sin(0.5 * M_PI * along); /* denser at the ends, where beta is a square root */
+    double half = sin(0.5 * M_PI * along); /* points are denser at the ends, where beta behaves as a square root */
     return upper(c, c->low + (c->high - c->low) * half * half);
 }
 

@@ -52,8 +52,8 @@ static double far_bending(double x, double y, const void *context)
     return M_PI * (a * a + mass + chi * (2 * b + chi)) / (root * (root + b + chi));
 }
 
-/* Solves w'^2 = 0 by Newton's method from 1/b, which is below the root. The polynomial is convex enough here that the
- * method hardly overshoots. */
+/* Solves w'^2 = 0 by Newton's method from 1/b, which is below the root. Between 1/b and the root the polynomial is so
+ * nearly convex that the method hardly overshoots. */
 static double nearest_w(const struct light *o)
 {
     const double two = quadratic(o), three = cubic(o), four = quartic(o);
@@ -118,8 +118,8 @@ struct critical {
 static double rest_of(const struct critical *c, double w) { return c->linear * (w - c->w1) - c->quartic * w * w; }
 
 /* The integrand without its pole at w_c: (rate(w) - rate(w_c))/(1 - w/w_c) for rate = (b + chi')/sqrt(rest). The
- * numerator is a sum of two differences, one of chi' and one of the root. In each of them 1 - w/w_c is cancelled
- * algebraically. */
+ * numerator is a sum of two differences, one of chi' and one of the root. In each of them the factor 1 - w/w_c is
+ * cancelled algebraically. */
 static double regular(double x, double y, const void *context)
 {
     (void)y;

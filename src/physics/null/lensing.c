@@ -15,8 +15,8 @@
 /* At this distance the crossings of a ray differ from those of the critical ray by less than rounding. */
 #define ON_CURVE 1e-40
 
-/* The largest |d| inside the curve, almost at its centre. Exactly at the centre beta = 0, and a start in the plane
- * could count as the first crossing. */
+/* The largest |d| inside the curve, almost at its centre. Exactly at the centre beta is 0, and a start in the plane
+ * could be counted as the first crossing. */
 #define CENTRE (1 - 1e-6)
 
 /* One ray's motion up to the crossing. */
@@ -72,8 +72,8 @@ static struct ray ray_of(const struct search *q, double s)
     return ray_at(q->curve, q->point, q->n, q->side * exp(s));
 }
 
-/* Mino time of the crossing minus that of the arrival at the source's radius. On the way in to a turning point it is
- * the negative of this difference. It rises from negative values at the curve to positive ones. */
+/* Mino time of the crossing minus that of the arrival at the source's radius. For an arrival on the way in to a turning
+ * point the sign is reversed. The function rises from negative values at the curve to positive ones. */
 static double late(const void *user, double s)
 {
     const struct search *q = user;
@@ -93,8 +93,8 @@ static double beyond(const void *user, double s)
     return (ray.radial.turns ? ray.radial.roots.r4 : 0) - q->source;
 }
 
-/* Finds a root of f. It steps in the exponent from the expected position of an edge of this order to a sign change of
- * f, at most up to `end`. */
+/* Finds a root of f. It steps in ln|d|, from the expected position of an edge of this order, to a sign change of f, and
+ * at most up to `end`. */
 static double solve(kd_root_fn f, const struct search *q, double expected, double end)
 {
     double low = fmin(expected, end) - 1, high = fmin(low + 2, end);

@@ -15,7 +15,7 @@ struct swing {
     double at;   /* x of the observer, -pi ... pi */
 };
 
-/* Nodes of Gauss-Legendre quadrature on [0, 1], half of them, and their weights: A. N. Lowan et al. 1942, Bull. AMS
+/* Half of the nodes of Gauss-Legendre quadrature on [0, 1], and their weights: A. N. Lowan et al. 1942, Bull. AMS
  * 48, 739; ten points. */
 static const double roots[] = { 0.07443716949081560544, 0.21669769706462038234, 0.33970478414951225622,
                                 0.43253168334449225535, 0.48695326425858586444 };

@@ -240,7 +240,7 @@ static bool go(struct course *c, double h)
     turn(c, &next);
     if (!crosses)
         return true;
-    /* from here on the ray counts as on this side of the plane, regardless of rounding in u */
+    /* from here on the ray counts as on this side of the plane, regardless of rounding of u */
     const double side = next.y[VZ];
     c->now.y[NZ] = copysign(1e-300, side);
     const bool room = next.y[W] < c->first || put(c, &next, c->order);

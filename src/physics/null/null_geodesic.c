@@ -150,7 +150,7 @@ static void principal(const struct kd_null_ray *ray, const struct kd_null_motion
     double plus = k->hole.outer, gap = plus - k->hole.inner;
     path->fate = KD_NULL_ESCAPED;
     path->sky_u = k->c;
-    /* lambda dtau and frame dragging add up to a dr/Delta */
+    /* here lambda dtau and frame dragging add up to a dr/Delta */
     path->sky_phi = -k->hole.a / gap * log1p(gap / (ray->radius - plus));
 }
 
@@ -202,7 +202,7 @@ struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray)
 struct slope { double r, phi, delay; };
 
 /* Computes the changes of the results when alpha and beta change by the fractions `step` and `other`, in units of
- * `step`; INFINITY for a crossing that disappears. */
+ * `step`. The change is INFINITY for a crossing that disappears. */
 static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path, double step, double other,
                        struct slope *slopes, double *sky)
 {
@@ -251,7 +251,7 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
     struct kd_null_motion k = kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);
     struct kd_null_roots roots = kd_null_roots_of(&k);
     /* The step is short compared with the distance from the critical curve, and long compared with rounding. It leads
-     * away from that curve, so that the ray stays on its side. */
+     * away from that curve, so that the ray stays on the same side. */
     double step = fmin(fmax(1e-2 * roots.margin, 1e-13), 1e-11);
     if (roots.kind != KD_NULL_FOUR_REAL)
         step = -step;

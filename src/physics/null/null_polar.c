@@ -32,7 +32,7 @@ static double from_plane(const struct kd_null_polar *p, double eta, double gap, 
     return p->u * kd_carlson_rf(p->z * weight, p->n * gap, eta);
 }
 
-/* Computes gap and weight from their product, which is (s beta)^2, and their difference, which is known. */
+/* Computes gap and weight from two known quantities: their product, which is (s beta)^2, and their difference. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *disc, double *gap, double *weight)
 {
     double a2 = m->hole.a * m->hole.a, s2 = m->s * m->s;
@@ -53,7 +53,7 @@ static void set_start(struct kd_null_polar *p, const struct kd_null_motion *m, d
     double angle = weight > 0 ? atan2(flat, down) : 0.5 * M_PI;
     p->start.phi += angle;
     bool toward = m->beta * p->side < 0 || (m->beta == 0 && weight > 0); /* du/dtau = s beta */
-    if (p->u == 0) /* a start in the plane counts as the ray's previous crossing */
+    if (p->u == 0) /* a start in the plane counts as the previous crossing of the ray */
         toward = false;
     if (!toward) {
         p->start.tau = -p->start.tau, p->start.phi = -p->start.phi, p->start.u2 = -p->start.u2;

@@ -108,7 +108,7 @@ struct kd_null_roots kd_null_roots_of(const struct kd_null_motion *m)
     /* The most negative root by x = -r: x^4 + q x^2 - b x + c is convex beyond its largest root, which is
      * below `bound`. */
     double k[4] = { 0, q, -b, c }, bound = sqrt(fmax(-q, 0)) + cbrt(b) + sqrt(sqrt(fmax(-c, 0)));
-    if (c > 0) { /* eta < 0, and q > 0: convex everywhere, with two negative roots of R or none */
+    if (c > 0) { /* if eta < 0 and q > 0, the quartic is convex everywhere, and R has two negative roots or none */
         double x = newton(k, 4, bound), y = newton(k, 4, 0);
         double f = (x * x + q) * x * x - b * x + c, scale = x * x * x * x + q * x * x + b * x + c;
         if (!(x >= y) || !(y > 0) || fabs(f) > 64 * DBL_EPSILON * scale) {

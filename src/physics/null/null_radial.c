@@ -135,8 +135,8 @@ static double at_pole(const struct kd_null_roots *o, const struct span *s, const
     return ((2.0 / 3) * o->r21 * o->p1 / e * j + 2 * c - tau) / e;
 }
 
-/* Int dr/(Delta sqrt(R)), from `minus`, the integral at r-: the divided difference of at_pole over r+ - r-. A product f
- * g has f(r+) that of g + g(r-) that of f. */
+/* Int dr/(Delta sqrt(R)), from `minus`, the integral at r-. It is the divided difference of at_pole over r+ - r-. The
+ * divided difference D of a product is D(f g) = f(r+) D(g) + g(r-) D(f). */
 static double between_poles(const struct kd_null_radial *q, const struct span *s, double minus)
 {
     const struct kd_null_roots *o = &q->roots;
@@ -269,9 +269,9 @@ struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const st
 }
 
 /* Compares the time from infinity with `tau`, by U12, U13 + U14 and U13 U14 of span_outer alone. If a bound shows that
- * the time exceeds `tau`, it returns a value between the two. Most often the bound suffices, and no integral is needed.
- * The bound: R_F is never less than with three equal arguments of the same mean, because it is convex, and symmetric in
- * all of its arguments (DLMF 19.16.1). */
+ * the time exceeds `tau`, it returns a value between the two. Most often the bound is sufficient, and no integral is
+ * needed. The bound is R_F with three equal arguments of the same mean. R_F is never smaller than this, because it is
+ * convex, and symmetric in its arguments (DLMF 19.16.1). */
 static double time_from_infinity(const struct kd_null_radius *at, double tau)
 {
     double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;

@@ -139,7 +139,7 @@ static struct miss nearest(const struct search *s, const struct kd_null_place *f
                         here = between(four, middle, &best.delay);
     best.off = less(&here, &s->place);
     best.way = less(&to, &from);
-    /* The offset along the ray vanishes at the closest point, unless this is an end of the ray. */
+    /* The offset along the ray vanishes at the closest point, unless this point is an end of the ray. */
     const double along = dot(&best.off, &best.way) / dot(&best.way, &best.way);
     for (int k = 0; k < 3 && fabs(along) < 10; k++)
         best.off.x[k] -= along * best.way.x[k];
@@ -289,7 +289,7 @@ static bool search_along(const struct search *s, double way, double turned, doub
     return false;
 }
 
-/* Searches in several directions, because a spinning hole turns the image round itself. */
+/* Searches in several directions, because a spinning hole drags the image round itself. */
 static bool search(const struct search *s, double at[2], struct miss *m)
 {
     static const double turns[] = { 0, 0.35, -0.35, 0.8, -0.8 };

@@ -128,7 +128,7 @@ bool kd_ring_image_init(struct kd_ring_image *ring, const struct kd_hole *hole, 
     return fabs(ring->phi[ring->nodes - 1] - ring->phi[0] - 2 * M_PI) < 1e-3;
 }
 
-/* The azimuth of the image in the direction chi, minus the requested one. *log_rho is a guess on entry. */
+/* The azimuth of the image in the direction chi, minus the requested azimuth. *log_rho is a guess on entry. */
 static bool azimuth(const struct kd_ring_image *ring, double phi, double chi, double *log_rho, double *miss)
 {
     struct kd_null_crossing crossing;

@@ -20,8 +20,8 @@ static double integral_pole(struct phase at, double rest)
     return at.s == 0 ? 0 : at.s * at.s * at.s * kd_carlson_rj(at.c2, at.d2, 1, rest) / 3;
 }
 
-/* Int du/Delta from that over r - r-: the divided difference of `j_plus` below over r+ - r-. A product f g has f(r+)
- * that of g + g(r-) that of f. beyond: r2 - r+ and r2 - r-; s2: sn^2 at the end. */
+/* Int du/Delta from that over r - r-: the divided difference of `j_plus` below over r+ - r-. The divided difference D
+ * of a product is D(f g) = f(r+) D(g) + g(r-) D(f). beyond: r2 - r+ and r2 - r-; s2: sn^2 at the end. */
 static double between_poles(const struct kd_orbit_bound *b, double u, struct phase at, const double beyond[2])
 {
     const double s2 = at.s * at.s, fall = b->h * (b->r[1] - b->r[2]), both = beyond[0] * beyond[1],
@@ -76,8 +76,8 @@ static struct kd_orbit_sums radial_sums(const struct kd_orbit_bound *b, double u
     };
 }
 
-/* True if L = 0 and the motion reaches the axis. It then passes the axis at each turning point, where L/sin^2 theta is
- * a step of pi. */
+/* True if L = 0 and the motion reaches the axis. It then passes the axis at each turning point, and there the azimuth
+ * jumps by pi. */
 static bool through_axis(const struct kd_orbit *o) { return o->momentum == 0 && o->axis_gap == 0; }
 
 /* Polar part of the integrals from the equator to the phase u, whose functions are `at`. */
@@ -239,7 +239,7 @@ struct kd_orbit_frequencies kd_orbit_frequencies_of(const struct kd_orbit_bound 
     return f;
 }
 
-/* 2 K(k)/pi - 1 by the arithmetic-geometric mean, with all numbers stored as their difference from 1. */
+/* 2 K(k)/pi - 1 by the arithmetic-geometric mean, where each number is stored as its difference from 1. */
 static double complete_excess(double k)
 {
     double x = 0, y = k / (1 + sqrt(1 - k));

@@ -68,8 +68,8 @@ static double drift_of(int stage)
     return 0.5 * (kd_orbit_kicks[kick_of(stage)] + kd_orbit_kicks[kick_of(stage - 1)]);
 }
 
-/* The rotation of an oscillator during each drift, as three shears. Whatever the rounding of their coefficients, the
- * area is conserved and errors do not accumulate. */
+/* The rotation of an oscillator during each drift, as three shears. Shears conserve the area for any rounding of their
+ * coefficients, so errors do not accumulate. */
 void kd_orbit_set_turns(struct kd_spring *s, double h)
 {
     double omega = sqrt(s->strength);
@@ -164,7 +164,7 @@ static void ahead(const struct kd_orbit *o, double w, double *t, double *phi)
     *phi = o->hole.a * (near - inner) / gap;
 }
 
-/* Switches to ingoing coordinates when the fall is final: there is no turning point further in, and W is no longer
+/* Switches to ingoing coordinates when the fall is final: when there is no turning point further in, and W is no longer
  * small, so that its root is smooth. */
 static void enter(struct kd_orbit_path *p)
 {

@@ -162,7 +162,7 @@ struct kd_orbit_state kd_orbit_start(const struct kd_orbit *o, double r, bool ou
 
 double kd_orbit_whirl(const struct kd_orbit *o, const struct kd_orbit_state *s, double *r)
 {
-    /* W falls for large w, or is a rising cubic, so that there is at most one minimum. */
+    /* For large w, W falls or is a rising cubic. Therefore W has at most one minimum. */
     double slope[4] = { o->w[1], 2 * o->w[2], 3 * o->w[3], 4 * o->w[4] }, turns[KD_POLYNOMIAL_DEGREE + 2];
     int n = kd_polynomial_roots(slope, 3, 0, 1 / o->hole.outer, turns);
     for (int i = 0; i < n && !o->circular; i++) {
@@ -201,9 +201,9 @@ static enum kd_status check_state(const struct kd_hole *hole, double r, double t
     return KD_OK;
 }
 
-/* Turning points of a motion near a stable circle. There the roots of W nearly merge and are lost in its rounding,
- * and W at the start may be rounded below zero. But it is known to be w_rate^2, and W about the start, as a
- * polynomial of the distance d, loses nothing. */
+/* Turning points of a motion near a stable circle. There the roots of W nearly merge and are lost in the rounding of W,
+ * and W at the start may be rounded below zero. But W at the start is known to be w_rate^2, and as a polynomial of the
+ * distance d from the start W keeps its digits. */
 static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, cubic = o->w[3] + 4 * w * o->w[4];
@@ -225,9 +225,9 @@ static bool find_range_of_circle(struct kd_orbit *o, const struct kd_orbit_state
     return true;
 }
 
-/* The range of motion for a start at a turning point within rounding, possibly beyond it. There W is known only to
- * `unknown`, 64 roundings of its largest terms, so the range is searched for where W exceeds this. If W does not exceed
- * it before its next extremum, the orbit is a circle: both ends of the range coincide. */
+/* The range of motion for a start that is, within rounding, at a turning point or slightly beyond it. There W is known
+ * only to `unknown`, 64 roundings of its largest terms. The range is therefore where W exceeds `unknown`. If W does not
+ * exceed it before the next extremum of W, the orbit is a circle: both ends of the range coincide. */
 static bool find_range_at_turn(struct kd_orbit *o, const struct kd_orbit_state *start)
 {
     const double w = start->w, slope = kd_orbit_radial_slope(o, w),

@@ -54,7 +54,8 @@ static double momentum_inwards(const struct fall *f, double r)
 }
 
 /* -Sigma r'. y: distance from the upper end over the span. Between the horizons (Sigma r')^2 = P^2 - Delta (r^2 + K) is
- * a sum of positive terms. The polynomial would cancel there where the horizons almost coincide. */
+ * a sum of positive terms. Between the horizons the polynomial would lose digits by cancellation if they almost
+ * coincide. */
 static double speed(const struct fall *f, double r, double y)
 {
     double speed2 = 0, delta = kd_hole_delta(&f->hole, r), p = momentum_inwards(f, r);
@@ -80,8 +81,7 @@ double kd_infall_proper_time(const struct kd_observer_motion *m, const struct kd
     return f.span > 0 ? kd_quadrature(pace, &f) : 0;
 }
 
-/* (P + Sigma r')/Delta. Because of P^2 - (Sigma r')^2 = Delta (r^2 + K) it is regular
- * at the horizon. */
+/* (P + Sigma r')/Delta. It is regular at the horizon, because P^2 - (Sigma r')^2 = Delta (r^2 + K). */
 static double ingoing(const struct fall *f, double r, double speed)
 {
     double p = momentum_inwards(f, r);

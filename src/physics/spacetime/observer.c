@@ -110,7 +110,7 @@ static double swing(double momentum, const struct kd_vantage *at)
     return momentum == 0 ? 0 : momentum / (sqrt(k.big / k.sigma) * at->s);
 }
 
-/* E of a body with this angular momentum that is otherwise at rest here. */
+/* E of a body with this angular momentum that has no other motion here. */
 static double rest_energy(double momentum, const struct kd_vantage *at)
 {
     const struct shape k = shape_of(at);
@@ -220,7 +220,7 @@ static enum kd_observer_fault check_fall(const struct kd_observer_motion *m, con
     *bound = at->r;
     if (m->fall_from < at->r)
         return KD_OBSERVER_FROM_INSIDE;
-    struct kd_vantage here = *at; /* within the horizon every body that came through it falls */
+    struct kd_vantage here = *at; /* within the horizon, every body that came through it falls */
     here.r = fmax(at->r, at->hole.outer);
     *bound = rest_energy(m->fall_momentum, &here);
     if (!(kd_observer_energy(m, at) >= *bound) || (!isfinite(m->fall_energy) && turns_on_its_way(m, at)))

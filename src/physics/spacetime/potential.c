@@ -53,7 +53,7 @@ struct kd_potential_extrema kd_potential_of_matter(const struct kd_hole *hole, d
     /* Far out L = sqrt(r): at (L + 3)^2 + 16 it exceeds l, even for a = -1. */
     e.r_max = circle_of_momentum(hole, l, kd_kerr_photon_orbit(hole), isco);
     e.r_min = circle_of_momentum(hole, l, (l + 3) * (l + 3) + 16, isco);
-    /* Uses V and not E of the circular orbit, which is steep near the photon orbit where V is flat. */
+    /* Uses V instead of the E of the circular orbit, because E is steep near the photon orbit, where V is flat. */
     e.v_max = kd_potential(hole, l, 1, e.r_max);
     e.v_min = kd_potential(hole, l, 1, e.r_min);
     return e;

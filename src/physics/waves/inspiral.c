@@ -65,7 +65,8 @@ double kd_inspiral_time(double eta, double a, double e)
     if (!bound(eta, a, e))
         return NAN;
     double circle = pow(a, 4) / (4 * beta(eta));
-    double c0 = one_minus_e2(e) * pow(1 + 121.0 / 304 * e * e, -870.0 / 2299); /* lacks the factor a e^(12/19) */
+    /* the factor a e^(12/19) is not included */
+    double c0 = one_minus_e2(e) * pow(1 + 121.0 / 304 * e * e, -870.0 / 2299);
     return 48.0 / 19 * circle * pow(c0, 4) * kd_quadrature(slowing, &e);
 }
 

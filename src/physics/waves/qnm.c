@@ -195,9 +195,9 @@ bool kd_qnm_move(struct kd_qnm_branch *branch, const struct kd_hole *hole)
     if (!(a >= 0 && a <= KD_QNM_SPIN_MAX))
         return false;
     /* As a -> 1 overtones come as near as Im(omega)/(n + 1/2), and curves bend sharply where the undamped modes
-     * separate from the damped ones (l = 2, m = 1, n = 1 at a = 0.995). A solution within a hundredth of that
-     * distance from the prediction is the mode and not a neighbour; a tenth would not be safe. Near a = 0 there is
-     * no parabola yet, but no neighbour either. */
+     * separate from the damped ones (l = 2, m = 1, n = 1 at a = 0.995). A solution within a hundredth of that distance
+     * from the prediction is the wanted mode and not a neighbour; a tenth would not be safe. Near a = 0 the
+     * extrapolation has no parabola yet, but there is no close neighbour either. */
     const double apart = 1 / (branch->n + 0.5), target = stretched(a);
     while (branch->a != a) {
         double y = stretched(branch->a), left = target - y;
