@@ -71,11 +71,11 @@ const inTurn = task => (waiting.push(task), next());
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const clamp = (least, value, most) => Math.min(most, Math.max(least, value));
 
-// A value of a link, as a document has it.
+// A value of a link, converted to its form in a document.
 const typed = text =>
   text === 'true' || (text !== 'false' && (text !== '' && !Number.isNaN(Number(text)) ? Number(text) : text));
 
-// "camera.r=30&spots.0.r=9", as a document.
+// Converts "camera.r=30&spots.0.r=9" to a document.
 function documentOf(query) {
   const out = {};
   for (const [path, value] of query) {

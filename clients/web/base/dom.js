@@ -17,9 +17,9 @@ export const svg = maker(tag => document.createElementNS('http://www.w3.org/2000
 export const math = maker(tag => document.createElementNS('http://www.w3.org/1998/Math/MathML', tag));
 export const byId = id => document.getElementById(id);
 
-// Protects a field from being overwritten while somebody types. typed: the field has a value that is not submitted yet.
-// held: typed, or the field has the focus; for values that keep arriving and may be older than the input. given(): the
-// value was submitted by a key.
+// Protects a field from being overwritten while somebody types. typed: the field has a value that has not been
+// submitted. held: as typed, or the field has the focus; use it for values that arrive continuously and may be older
+// than the input. given(): to be called when the value was submitted by a key.
 export function typing(input) {
   let typed = false;
   const given = () => (typed = false);
@@ -38,7 +38,8 @@ export function typing(input) {
 
 export const still = matchMedia('(prefers-reduced-motion: reduce)');
 
-// Calls back at the first press, key or turn of the wheel, before other listeners. Returns a function that cancels it.
+// Calls a function back at the first press, key or turn of the wheel, before other listeners. Returns a function that
+// cancels this.
 export function atFirstTouch(told) {
   const heard = new AbortController();
   for (const touch of ['pointerdown', 'keydown', 'wheel'])
@@ -50,7 +51,7 @@ export function atFirstTouch(told) {
   return () => heard.abort();
 }
 
-// Waits until the view or the visibility of the page changes. Then both listeners are removed.
+// Waits until the view or the visibility of the page changes, and then removes both listeners.
 const looksElsewhere = () =>
   new Promise(resolve => {
     const heard = new AbortController();

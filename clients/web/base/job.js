@@ -38,7 +38,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
   let job = null,
     left = remaining();
 
-  // The focus moves to the button that is still enabled; progress is not read aloud.
+  // The focus moves to the button that is still enabled. Screen readers do not read the progress aloud.
   function show(status) {
     const busy = Boolean(job),
       at = [...starts, cancel].find(button => button === document.activeElement);
@@ -112,7 +112,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
     async begin(request, about) {
       told.textContent = '';
       tell(fault, '');
-      const asked = (job = {}); // set at once, so that a second job is not started
+      const asked = (job = {}); // set at once, so that a second job cannot be started in the meantime
       show({ fraction: 0 });
       try {
         const { id, token } = await postJson('v1/jobs', await request());

@@ -51,8 +51,8 @@ function table(spec) {
 
 const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
 
-// The page makes the CSV, because no route of the server returns these numbers. Curves with another x have a column of
-// their own for it.
+// The page makes the CSV, because no route of the server returns these numbers. A curve with other x has its own column
+// of x.
 function sheet(spec) {
   const all = groups(spec),
     rows = [

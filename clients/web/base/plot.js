@@ -41,7 +41,7 @@ function extent(given, values) {
   return [given.min ?? low - room, given.max ?? high + room];
 }
 
-// The power of ten by which ticks far from 1 are divided; the axis label states it.
+// The power of ten by which the numbers of ticks far from 1 are divided; the axis label states it.
 function power([low, high], log) {
   const p = Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high))));
   return log || (p > -3 && p < 6) ? 0 : p;
@@ -88,8 +88,8 @@ function drawMarks(u, marks) {
   ctx.restore();
 }
 
-// Brightness by x and y beneath the curves: rows from below upwards, each from left to right. The brightness is drawn
-// as its square root, because the brightest cell may exceed all others many times.
+// Brightness by x and y beneath the curves: rows from below upwards, each from left to right. The square root of the
+// brightness is drawn, because the brightest cell may be many times brighter than all others.
 function drawMap(u, { rows, x, y }) {
   const wide = rows[0].length,
     tall = rows.length,

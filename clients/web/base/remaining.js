@@ -3,9 +3,10 @@ const least_ms = 3000; // time that must have passed before the first estimate
 const least_share = 0.02; // share that must be done before the first estimate
 const smoothing = 0.2; // weight of the newest estimate
 
-// Returns left(share): seconds, or null without an estimate. share: 0 to 1, or null before it begins.
+// Returns left(share): the remaining seconds, or null if there is no estimate yet. share: 0 to 1, or null before the
+// work begins.
 export function remaining(clock = () => performance.now()) {
-  let first = null, // first call with a share
+  let first = null, // time and share of the first call that has a share
     end = null;
   return share => {
     const now = clock();

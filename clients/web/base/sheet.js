@@ -109,7 +109,7 @@ export function sheet(node) {
     else if (keys[event.key]) rest(keys[event.key]());
     else return;
     event.preventDefault();
-    event.stopPropagation(); // stops here, so that the space key does not pause the clock
+    event.stopPropagation(); // stops the event, so that the space key does not pause the clock
   });
   // Raises the sheet when the keyboard moves the focus into it.
   node.addEventListener(
@@ -120,8 +120,8 @@ export function sheet(node) {
   node.prepend(handle);
   rest(0);
   if (picture) {
-    // The picture, or the content that makes the page long enough to scroll to it, may come after the sheet was raised.
-    // If the page is too short for a moment, the browser scrolls back. The picture is then placed again.
+    // The picture, or the content that makes the page long enough to scroll to it, may be loaded after the sheet was
+    // raised. While the page is too short, the browser scrolls back. Afterwards the picture is placed again.
     for (const kind of ['wheel', 'touchmove', 'keydown'])
       addEventListener(kind, () => (left = true), { passive: true, capture: true });
     const grows = new ResizeObserver(() => {

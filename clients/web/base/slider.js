@@ -43,8 +43,8 @@ function step(range, value) {
 const across = { ArrowRight: 1, ArrowLeft: -1 };
 const steps = { ArrowUp: 1, ArrowDown: -1 };
 
-// By default, arrow keys change a number box by 1, for example from 0.9 to 1.9, and a slider by a thousandth of its
-// length, which may be invisible or less than the field's step. These handlers use step() instead. range.step: for
+// By default, arrow keys change a number box by 1, for example from 0.9 to 1.9. They change a slider by a thousandth of
+// its length, which may be invisible or less than the field's step. These handlers use step() instead. range.step: for
 // numbers that have a step. node: the box, or the slider beside it.
 export function stepByArrows(node, range, give, box = node) {
   const way = node.type === 'range' ? { ...steps, ...across } : steps;

@@ -64,7 +64,7 @@ function shifted(octaves) {
     : t('sound.octaves-lower', ' {0} octaves lower, and slower, than the hole rings.', n);
 }
 
-const speaker = new Audio(); // one for all sounds, so that they do not overlap
+const speaker = new Audio(); // a single one for all sounds, so that they do not overlap
 let timer = 0;
 
 export function play(url, repeated) {
@@ -79,7 +79,7 @@ export function play(url, repeated) {
 
 export const hush = () => speaker.pause();
 
-// Buttons and words for a card.
+// Makes the buttons and words for a card.
 export function soundRow(ring) {
   const { audible, stretch, url } = ring,
     words = el('span', { class: 'help', role: 'status' }, told(ring)),

@@ -1,5 +1,5 @@
-// Shows the picture alone in the window: by the key F or a button; Esc ends it. If the browser allows, the window also
-// fills the screen.
+// Shows the picture alone in the window. The key F or a button begins this, and Esc ends it. If the browser allows, the
+// window also fills the screen.
 import { byId } from '../base/dom.js';
 import { t } from '../words/i18n.js';
 import * as link from '../base/link.js';

@@ -8,7 +8,7 @@ import { swipe } from '../base/swipe.js';
 // A preset without a caption shows its title.
 export const caption = (name, title) => captions[name] ?? title;
 
-// The most popular presets come first, and those that test programs last; between them the server's order is kept.
+// The best known presets come first, and presets for testing programs come last. All others keep the server's order.
 const wanted = [first_view, 'gargantua-gas', 'milky-way', 'jet', 'infall', 'm87', 'polarised-ring'];
 function order(name) {
   if (wanted.includes(name)) return wanted.indexOf(name) - wanted.length;
@@ -70,7 +70,7 @@ export function buildGallery(scene, select, presets) {
   });
   strip.addEventListener('focusin', event => reach(event.target.closest('button')));
 
-  // The pictures belong to the program (scripts/stills); each is loaded when its card comes into view.
+  // The small pictures are files of the program (scripts/stills). Each is loaded when its card comes into view.
   const eyes = new IntersectionObserver(
     entries => {
       for (const { target, isIntersecting } of entries) {

@@ -6,8 +6,8 @@ const together_ms = 400; // changes that follow each other within this time, suc
 const most = 200;
 
 export function buildHistory(scene) {
-  // text: the scene without time and without the values that the server moves; undo does not change these. When undo
-  // crosses the start or the end of a motion, time and the moved values return to their values of that moment. fitted:
+  // text: the scene without time and without the values that the server moves. Undo does not change these, with one
+  // exception: when undo crosses the start or the end of a motion, they return to their values at that moment. fitted:
   // see fit.js.
   function whole() {
     const { time, ...document } = scene.document({}, true);

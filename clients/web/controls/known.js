@@ -1,4 +1,4 @@
-// Knowledge of the page about single fields, beyond the schema. A field that is not named here has a control as well.
+// What the page knows about single fields beyond the schema. A field that is not listed here has a control as well.
 
 export const left_out = ['image.width', 'image.height']; // set by the window
 export const beside_time = ['time', 'motion.time_rate']; // shown beside the buttons that start and stop time
@@ -12,7 +12,7 @@ const has_disk = scene => scene.get('disk.model') !== 'none',
     is_map(scene) ||
     scene.get('camera.projection') === 'ring' ||
     scene.emitters.some(({ name }) => name !== 'sky');
-// also shown if it has a value, so that a value that the scene refuses can be taken back
+// also shown if it has a value, so that a value that the scene refuses can be removed
 const or_set = (path, possible) => scene => has_disk(scene) && (possible(scene) || scene.get(path) !== 'none');
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
@@ -45,8 +45,8 @@ const only_with = {
 
 const far = scene => scene.get('camera.r') === 'infinity';
 
-// Fields of the camera that have an effect only with certain choices: the choice that is made, and for each choice the
-// fields that have an effect.
+// Fields of the camera that have an effect only with certain choices. `chosen` returns the choice that is made; the
+// other members list the fields that have an effect with each choice.
 const of_camera = [
   {
     chosen: scene =>

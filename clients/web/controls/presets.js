@@ -45,8 +45,8 @@ export async function openPreset(scene) {
 // Fields that do not change which preset a scene matches: the picture, the time and the azimuth.
 const besides = path => ['image', 'time'].includes(path.split('.')[0]) || path === 'camera.azimuth_deg';
 
-// A scene without those fields as a text, to compare scenes by. fitted: the window has set the scene's width, so its
-// own width is compared.
+// A scene without these fields as a text, for comparing scenes. fitted: if the window has set the scene's width, the
+// scene's own width is used.
 function essence(scene, document, fitted = null) {
   const own = {};
   for (const [path, { default: usual }] of scene.fields) {

@@ -1,5 +1,5 @@
 // A lesson, from the teacher's side: a class follows this page's session and answers questions, and the answers are
-// counted. In a pupil's copy, the way back to the lesson.
+// counted. In a pupil's copy this module shows the way back to the lesson.
 import { describe } from '../words/describe.js';
 import { byId, el } from '../base/dom.js';
 import { lang, number, t, tell } from '../words/i18n.js';

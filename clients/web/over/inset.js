@@ -25,8 +25,8 @@ export function buildInset() {
     pitch = 0.5,
     grip = null;
 
-  // Distance from the axis at which a point of the equatorial plane at the radius r is drawn. The server computes x and
-  // y of the path with the factor sqrt(r^2 + a^2).
+  // Distance from the axis at which a point of the equatorial plane at the radius r is drawn. The server's x and y of
+  // the path contain the same factor, sqrt(r^2 + a^2).
   const wider = r => Math.hypot(r, spin);
 
   // The radius that is shown, M: it contains the bend and the visible crossings.

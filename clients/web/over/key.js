@@ -9,7 +9,7 @@ document.head.append(el('link', { rel: 'stylesheet', href: new URL('key.css', im
 
 const radians = Math.PI / 180;
 
-// The largest of 1, 2 or 5 times a power of ten that is at most `most`.
+// The largest number that is 1, 2 or 5 times a power of ten and at most `most`.
 function round(most) {
   const decade = 10 ** Math.floor(Math.log10(most));
   return decade * (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1);

@@ -61,7 +61,8 @@ function sources({ crossings, met, along, end }) {
   return all.map(source => ({ ...source, share: source.seen / whole })).sort((a, b) => b.seen - a.seen);
 }
 
-// For an observer at infinity only differences of travel time are finite; the time from the hole would be r + 2 ln r.
+// For an observer at infinity only differences of travel time are finite, because the travel time from the hole grows
+// as r + 2 ln r.
 const ago = (delay, far) =>
   far
     ? [
@@ -219,7 +220,7 @@ export function buildPixel(stage, scene, size) {
     error,
   );
   card.replaceChildren(close_button, head, inset.node, numbers, fault);
-  // { u, v }: shares of the picture's width and height, which hold when the window is resized; null: closed
+  // { u, v }: fractions of the picture's width and height, which remain valid when the window is resized; null: closed
   let at = null,
     pinned = false,
     timer = 0,
@@ -339,7 +340,7 @@ export function buildPixel(stage, scene, size) {
     look({ x: event.clientX - box.left, y: event.clientY - box.top }, false);
   });
   const steps = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
-  // Before the camera's handler of the same keys.
+  // Handles these keys before the camera's handler does.
   stage.addEventListener(
     'keydown',
     event => {

@@ -89,7 +89,7 @@ export function buildStars(stage, scene) {
       by = gone(list),
       images = list.images.map(one => ({ ...one, x: one.x + by * one.x_by_azimuth, y: one.y + by * one.y_by_azimuth })),
       image = images.find(one => Math.hypot(one.x - x, one.y - y) < near_px);
-    // without a known pace the list is stale after a degree
+    // if the speed is not known, the list is out of date after a degree
     pace = image ? Math.hypot(image.x_by_azimuth, image.y_by_azimuth) : stale_px;
     clear();
     if (!image) return;
@@ -110,7 +110,7 @@ export function buildStars(stage, scene) {
   const look = latest(async () => {
     if (!pointer || !hasNames(scene) || (scene.goesOn() && scene.get('motion.proper_time_rate'))) return clear();
     asked = performance.now();
-    // a failure leaves the picture as it is
+    // after a failure the picture stays as it is
     const list = await starsIn(scene, stage, turns() && { 'camera.azimuth_deg': azimuth }).catch(() => null);
     last = turns() ? list : null;
     if (list && pointer) name(list);

@@ -22,8 +22,8 @@ const radians = Math.PI / 180;
 const most = 4; // largest scaling up or down: beyond it, the picture shows too little, or leaves too much empty
 const half = fov_deg => Math.tan((fov_deg / 2) * radians);
 
-// Place and scale of a picture of the camera `then` in the view of the camera `now`: { scale, right, down }, with
-// shifts in widths of the picture. Null if the cameras differ too much.
+// Position and scale of a picture of the camera `then` in the view of the camera `now`: { scale, right, down }. Shifts
+// are in widths of the picture. Null if the cameras differ too much.
 export function carried(then, now, height) {
   const same = name => then[name] === now[name];
   if (

@@ -1,4 +1,4 @@
-// Compares a scene with its session: what is sent to the session, and what the scene takes over from it.
+// Compares a scene with its session: what is sent to the session, and which values the scene takes over from it.
 import { goesOn } from '../share/share.js';
 import { mergePatch } from './merge.js';
 
@@ -56,7 +56,7 @@ export function follow(scene, document, now) {
     ['r', 'infinity'],
   ]) {
     const there = document.camera?.[name] ?? usual;
-    if (scene.begun('camera.' + name) !== there) continue; // somebody has moved it since
+    if (scene.begun('camera.' + name) !== there) continue; // it has been moved by a user since
     moved['camera.' + name] = camera[name];
     (document.camera ??= {})[name] = camera[name];
   }

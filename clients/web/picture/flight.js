@@ -1,8 +1,8 @@
 // Requests for pictures. While something moves, several requests are in flight, each for the frame after that of the
-// request before. The server then makes the next picture while one is read and drawn; over a line of high latency it
-// makes several. New requests are sent as answers arrive, so a slow answer slows all of them down. At rest there is one
-// request. Over a line of high latency a change of the camera is sent with a request, which saves a round trip;
-// from.pending is the next change to send.
+// request before. The server then renders the next picture while the page reads and draws one; over a line of high
+// latency the server renders several. New requests are sent as answers arrive, so a slow answer slows all of them down.
+// At rest there is one request. Over a line of high latency a change of the camera is sent with a request, which saves
+// a round trip; from.pending is the next change to send.
 import { Problem, ask } from '../base/server.js';
 
 export const still_ms = 600; // after this time without a change or an unfinished picture, one request is sufficient
@@ -27,8 +27,8 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
     from.flight.push(one);
   }
 
-  // If pictures come only after changes, further requests would wait for nothing, and would occupy connections that
-  // requests with changes need.
+  // If pictures come only after changes, further requests would wait in vain, and would occupy connections that are
+  // needed for requests with changes.
   const depth = () => (!moving() ? 1 : line.far() && !goesOn() ? 2 : line.depth());
   const behind = from => Math.max(from.frame - 1, ...from.flight.map(({ after }) => after)) + 1;
 

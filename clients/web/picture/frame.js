@@ -44,8 +44,8 @@ export const passes = header =>
       ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
     }));
 
-// The page's statement about the size of a picture. all: the picture has all pixels of a picture at rest. narrow: it
-// has fewer than the minimum for motion.
+// Describes the size of a picture. all: it has all pixels of a picture at rest. narrow: it has fewer pixels than the
+// minimum for motion.
 export function fits(quality, { width }, { keeps, part }) {
   const all = Math.round(width * part);
   return {

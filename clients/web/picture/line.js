@@ -7,7 +7,7 @@ const long_ms = 45;
 // time between pictures above which the quality falls, if the transfer takes up most of it
 const slow_ms = 105;
 const steep = 3; // multiple of slow_ms: a transfer that takes longer lowers the quality by two steps at once
-const soon_ms = 3000; // a higher quality that is given up sooner than this is tried less often afterwards
+const soon_ms = 3000; // a higher quality that had to be reduced again sooner than this is tried less often afterwards
 const busy = 0.7; // above this share of the time between pictures, the transfer is the bottleneck
 const short_ms = 12; // transfer time, for each request in flight, below which a higher quality is affordable
 const calm = 12; // number of consecutive quick pictures before a higher quality is tried

@@ -45,8 +45,9 @@ export const pace = () => (Object.hasOwn(parts, link.get('pace') ?? '') ? link.g
 let landing = true; // the user has not touched anything yet
 atFirstTouch(() => (landing = false));
 
-// The query that asks the session to keep a share of the width in motion. If frames take too long, Auto gives the share
-// up so that a drag is followed. Before the first touch Auto keeps the share, because there is no drag to follow.
+// The query that asks the session to keep a share of the width in motion. If frames take too long, Auto no longer keeps
+// this share, so that the picture can follow a drag. Before the first touch Auto keeps it, because there is no drag to
+// follow.
 export function kept() {
   const part = parts[pace()],
     here = sizeOf(byId('stage'));

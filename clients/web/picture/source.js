@@ -104,7 +104,7 @@ export function openSource(scene, size, shown, failed, rests) {
       const little = patch && same && moves(patch) && !striking;
       if (little && pulling && line.far() && !session.plain)
         return (pend(session, jumps, { patch, document, asked: now_asked }), flight.kick());
-      // the patch holds what was pending, and nothing is sent before its answer
+      // the patch contains what was pending, and nothing is sent before its answer
       if (session) session.pending = null;
       const begun = performance.now(),
         answer = await tell(session, patch ?? document, same ? [] : [keeps], little);

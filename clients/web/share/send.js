@@ -6,7 +6,7 @@ import * as link from '../base/link.js';
 import { linkedTime } from '../picture/scene.js';
 import { module, postJson } from '../base/server.js';
 
-const asked = 'v1/share'; // addresses in its answers are relative to it
+const asked = 'v1/share'; // addresses in the server's answers are relative to this address
 const preview = { width: 600, height: 315 };
 const poster = '3840x2160';
 
@@ -17,7 +17,8 @@ function documentOf(scene) {
   return scene.document({ ...(time && { time }), ...(fitted && { [fitted.path]: fitted.base }) });
 }
 
-// The request for the address. If a second picture stands beside the first one, the query has what differs there.
+// The request for the address. If there is a second picture beside the first one, the query has the fields that differ
+// there.
 function addressed() {
   const pair = new URLSearchParams(link.entries('pair.').map(([key, value]) => [key.slice(5), value]));
   return asked + (pair.size ? '?' + new URLSearchParams({ pair }) : '');

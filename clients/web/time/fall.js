@@ -85,7 +85,8 @@ function entering(scene, from) {
   };
 }
 
-// The guide of a fall, and its film. fall: { way(), again() }: the answer for its start, and beginning it anew.
+// The guide of a fall, and its film. fall: { way(), again() }. way() returns the server's answer for the start of the
+// fall; again() starts the fall again.
 function buildGuiding(scene, box, fault, fall) {
   // Ends the guide; the fall continues. keep: saves the film recorded so far.
   function unguide(keep) {

@@ -11,7 +11,7 @@ const loudness = 0.12;
 const glide_s = 0.25;
 const [width, height, rate] = [1280, 720, 30]; // width, height and pictures a second of the film
 const bits = 8e6; // a second
-const last_ms = 3000; // the last caption stays in the film for so long
+const last_ms = 3000; // the last caption stays in the film for this time
 const forms = ['video/webm;codecs=vp9,opus', 'video/webm;codecs=vp8,opus', 'video/mp4'];
 const events = ['visibilitychange', 'viewchange']; // events after which the view may be hidden
 

@@ -50,7 +50,7 @@ export function buildLiving(stage, scene, source) {
     goesItself() || showsTime(scene) || (showsAzimuth(scene) && scene.get('motion.azimuth_rate_deg') !== 0);
   const rate = () => (goesItself() ? {} : { 'motion.time_rate': scene.get('motion.time_rate') || usual_rate });
   const buttons = withButton(scene)
-    .reverse() // each is put before the existing ones
+    .reverse() // each button is put before the existing ones
     .map(field => buildButton(scene, field, rate));
 
   function toggle() {
@@ -87,7 +87,7 @@ export function buildLiving(stage, scene, source) {
     for (const id of ['hear', 'wave']) byId(id).hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
     if (byId('hear').hidden) byId('heard').textContent = '';
     fault.textContent = '';
-    if (showsTime(scene)) weigh().catch(() => {}); // if it fails, the clock shows no seconds
+    if (showsTime(scene)) weigh().catch(() => {}); // if the request fails, the clock shows no seconds
     tell_time();
   }
 

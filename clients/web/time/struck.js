@@ -17,7 +17,7 @@ export function muted(to) {
 }
 
 export function buildStruck(scene, goTo) {
-  // The hole itself rings, about its own axis, whatever the direction of the disk.
+  // The hole itself rings about its own axis, whatever the sense of the disk's rotation.
   const hole = () => ({
       spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)),
       mass_msun: scene.get('spacetime.mass_msun'),

@@ -18,7 +18,7 @@ export function said(text, name) {
   return { text: known || text, lang: known || !locale || !text ? null : 'en' };
 }
 
-// Puts a sentence of the server into an element.
+// Puts a sentence of the server, or its translation, into an element.
 export function tell(node, sentence, name) {
   const { text, lang: marked } = said(sentence, name);
   node.textContent = text;

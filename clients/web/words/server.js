@@ -1,5 +1,5 @@
-// Sentences of the server that have no name in its answers. Each has an identifier here, by which locale/LANGUAGE.json
-// has its translation. Loaded for languages other than English. Approximations have names.
+// Sentences of the server that have no name in its answers. (Approximations have names.) Each has an identifier here,
+// under which locale/LANGUAGE.json has its translation. This module is loaded for languages other than English.
 const sentences = {
   'said.thin-disk': 'thin disk',
   'said.thick-disk': 'thick disk',

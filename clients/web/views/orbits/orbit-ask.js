@@ -36,7 +36,7 @@ export async function settled(asked) {
     : plunge(asked, values.p);
 }
 
-// Requests an orbit, first with the few samples that `orbit` asks for, because each sample takes 90 bytes. The answer
+// Requests an orbit, first with the few samples that `orbit` specifies, because each sample takes 90 bytes. The answer
 // gives the number of turns. If so many turns need more samples to be smooth, requests the orbit again.
 export async function follow(orbit) {
   const { series, ...answer } = await postJson('v1/orbits', orbit),

@@ -1,5 +1,5 @@
-// The path of a body in space. Dragging beside the body rotates the view. Dragging the body places it; dragging it
-// again throws it.
+// The path of a body in space. Dragging beside the body rotates the view. The first drag of the body places it; the
+// next drag throws it.
 import { el, svg } from '../../base/dom.js';
 import { number, t } from '../../words/i18n.js';
 

@@ -10,7 +10,7 @@ import { module } from '../../base/server.js';
 import { windowSize } from '../../picture/sizes.js';
 
 const prefix = 'pair.';
-const data = prefix + 'data'; // key in the link which says that the other side has the data of M87*
+const data = prefix + 'data'; // key in a link that says that the other side shows the data of M87*
 const rest_ms = 400; // time since the last change, after which the data are compared again
 const smooth = { 'disk.gas.amplitude': 0, 'disk.emission_opacity': 0, 'style.bloom': 0 };
 // Ready pairs: values on both sides, and their labels.

@@ -1,6 +1,6 @@
-// The gravitational waves of the closest pair, as sound. Their frequency is in units of 1/M. It is scaled to a hole of
-// such a mass that the sound begins at begins_hz; the page states that mass in solar masses. The tone changes at the
-// rate of the screen, not at that of such a hole.
+// The gravitational waves of the closest pair, as sound. Their frequency is in units of 1/M. It is scaled to the mass
+// for which the sound begins at begins_hz; the page states this mass in solar masses. The tone changes as fast as the
+// picture does, not as fast as for a hole of this mass.
 import { number, t } from '../../words/i18n.js';
 
 const key = 'kerrd.playground.sound';

@@ -4,7 +4,7 @@ import { aim, bar, circles, distances } from './marks.js';
 import { Dust } from './dust.js';
 import { physics } from '../../base/server.js';
 
-// past: points of a trail; up to `few` bodies have full trails, beyond `none` no body has one
+// past: number of points of a trail. Up to `few` bodies have full trails; with more than `none` no body has a trail
 const turns = { past: 160, few: 400, none: 1500 };
 const least_px = 2.5;
 const sample = 400; // number of pieces of debris on which the choice of the view is based

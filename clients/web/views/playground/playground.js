@@ -84,7 +84,8 @@ function wire(part, plane, clicks) {
   part.middle.addEventListener('change', () => (plane.follows = part.middle.value || null));
 }
 
-// Whether two aims are the same. Aiming makes new arrays; if an existing body is thrown, its place changes by itself.
+// Whether two aims are the same. Aims cannot be compared as objects: aiming makes new arrays, and an existing body that
+// is thrown moves by itself.
 const same = (a, b) => a?.velocity === b.velocity && a.body === b.body && (b.body != null || a.from === b.from);
 
 export async function openPlayground() {

@@ -39,7 +39,8 @@ export class Running extends EventTarget {
   #last = 0; // number of the newest event received
   #named = 0;
   #tries = 0;
-  // The newest change. Each is sent after the answer to the one before, so that they cannot overtake each other.
+  // The newest change. Each change is sent after the answer to the change before, so that changes cannot overtake each
+  // other.
   #turn = Promise.resolve();
 
   state = null;

@@ -79,7 +79,7 @@ async function curves(document, formed, flux) {
     { columns, values } = await postJson('v1/visibility', {
       ...document,
       ...map,
-      digits: 3, // digits of curves; the request for the measurements has more
+      digits: 3, // number of digits for curves; the request for the measurements has more digits
       u: at.map(([u]) => u),
       v: at.map(([, v]) => v),
     }),

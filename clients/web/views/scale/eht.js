@@ -38,7 +38,7 @@ function panel(hole) {
     lines = svg('svg', { class: 'sky-lines', 'aria-hidden': 'true' }),
     words = el('p', { class: 'help' }),
     side = 75, // pixels of the picture in which the ring is measured
-    /* this factor gives as many rays at the critical curve as a picture without a beam has */
+    /* with this factor there are as many rays at the critical curve as in a picture without a beam */
     sharp = { 'style.beam_uas': 0, 'image.critical_factor': 4 };
   let facts = '',
     fitted = '';
