@@ -64,7 +64,8 @@ class Faults:
         struct.pack_into("<q", self.map, 8 * FIELDS.index(name), value)
 
     def memory(self, n, count=1):
-        """Makes the n-th allocation from now on fail, counted from 0, and those after it: `count` allocations in all."""
+        """Makes the n-th allocation from now on fail, counted from 0, and those after it: `count` allocations in
+        all."""
         self.set("fail_at", -1)
         self.set("fail_for", count)
         self.before, self.counted = self.allocations, None

@@ -31,7 +31,8 @@ def request(n):
 
 class Kills(state.Case):
     def pour(self, server, accepted, rest, stop):
-        """Requests jobs until the server is killed, always as many as it accepts. Jobs answered with 202 were accepted."""
+        """Requests jobs until the server is killed, always as many as it accepts. Jobs answered with 202 were
+        accepted."""
         while not stop.is_set():
             try:
                 n = rest[-1]

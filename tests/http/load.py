@@ -1,4 +1,5 @@
-"""Tests of load: a full queue, clients that disconnect, many clients at once, and that no resources remain afterwards."""
+"""Tests of load: a full queue, clients that disconnect, many clients at once, and that no resources remain
+afterwards."""
 
 import concurrent.futures
 import json

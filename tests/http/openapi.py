@@ -761,7 +761,8 @@ class OpenApi(daemon.Case):
         self.assertEqual([one.circular for one in many.orbits], [False, True])
 
     def use_what_is_kept(self, package, base, call, models, small):
-        """Creates a session and a job, changes the session and waits for the job, and deletes both with their tokens."""
+        """Creates a session and a job, changes the session and waits for the job, and deletes both with their
+        tokens."""
         session = call("post_sessions", body=models.KerrdSceneVersion1.from_dict(small))
         job = call("post_jobs", body=models.PostJobsBodyType0(scene=models.KerrdSceneVersion1.from_dict(small)))
 

@@ -1,4 +1,5 @@
-"""Tests of live playgrounds: their documents, speed, changes, steps, packed positions, events, files, limits and ends."""
+"""Tests of live playgrounds: their documents, speed, changes, steps, packed positions, events, files, limits and
+ends."""
 
 import concurrent.futures
 import hashlib

@@ -30,7 +30,8 @@ class Render(daemon.Case):
         self.assertEqual(len(answer.body), int(answer.header("Content-Length")))
 
     def test_pictures_for_web_pages(self):
-        """Tests the format given by name or by Accept, the quality, and the time for which caches may keep the answer."""
+        """Tests the format given by name or by Accept, the quality, and the time for which caches may keep the
+        answer."""
         kinds = {"image/jpeg": b"\xff\xd8\xff", "image/webp": b"RIFF", "image/png": b"\x89PNG"}
         jpeg, webp, png = kinds
         tags = set()

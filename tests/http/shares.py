@@ -564,7 +564,8 @@ class Connections(Case):
         return answer.status == 429
 
     def test_a_client_that_has_all_its_connections_shuts_nobody_else_out(self):
-        """Other clients are served, whether this client's connections have begun a request or are kept alive after one."""
+        """Other clients are served, whether this client's connections have begun a request or are kept alive after
+        one."""
         for begin in (b"GET /v1/presets HTTP/1.1\r\nHost: loc", b"GET /v1/presets HTTP/1.1\r\nHost: localhost\r\n\r\n"):
             with self.subTest(begin):
                 before = self.daemon.open_files()

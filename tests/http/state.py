@@ -118,7 +118,8 @@ class Stops(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_the_frames_of_a_large_sweep_are_put_in_order_first(self):
-        """Sorting the frames takes some time after a start. Meanwhile the job says so, and the server answers requests."""
+        """Sorting the frames takes some time after a start. Meanwhile the job says so, and the server answers
+        requests."""
         server = self.start()
         axes = {"camera.inclination_deg": "1:100:1", "spacetime.spin": "0:0.95:0.05", "style.exposure": "0:4:1"}
         job = self.make({"scene": {"image": {"width": 2, "height": 2}, "time": 30000}, "axes": axes}, server=server)

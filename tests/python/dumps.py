@@ -270,7 +270,8 @@ def write_phdf(path, kind, shape, flow, a=SPIN, outer=60.0, inner=1.2, blocks=(2
 
 
 def lindquist(a, r, theta):
-    """d(t, r, theta, phi) of Boyer-Lindquist by those of Kerr-Schild, as (4, 4, ...), and the Boyer-Lindquist metric."""
+    """d(t, r, theta, phi) of Boyer-Lindquist by those of Kerr-Schild, as (4, 4, ...), and the Boyer-Lindquist
+    metric."""
     delta, s2, sigma = r**2 - 2 * r + a**2, np.sin(theta) ** 2, r**2 + a**2 * np.cos(theta) ** 2
     back, g = np.zeros((4, 4, *r.shape)), np.zeros((4, 4, *r.shape))
     for k in range(4):

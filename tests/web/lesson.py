@@ -64,7 +64,8 @@ class Lesson(Browser):
         self.shot(pupil, "lesson-pupil")
 
     def test_pupils_see_the_scales(self):
-        """The page draws the scales of a picture in false colour. During a lesson the scales are part of the picture."""
+        """The page draws the scales of a picture in false colour. During a lesson the scales are part of the
+        picture."""
         page = self.open("lang=en&preset=m87&pause=1")
         page.wait_for_selector(".scales:not([hidden])")
         patches = []

@@ -323,7 +323,8 @@ class AsyncClient:
         return told
 
     async def visibility(self, **settings: Any) -> answers.Visibilities:
-        """Visibilities of a scene: amplitude and phase by baseline and image order. `columns` of the answer are arrays."""
+        """Visibilities of a scene: amplitude and phase by baseline and image order. `columns` of the answer are
+        arrays."""
         told: answers.Visibilities = await self._run(calls.integral("visibility", settings))
         return told
 
@@ -580,7 +581,8 @@ class AsyncSession:
         return self.revision
 
     async def refresh(self) -> dict[str, Any]:
-        """Requests the current scene from the server and returns it. The scene changes by itself while `motion` is set."""
+        """Requests the current scene from the server and returns it. The scene changes by itself while `motion` is
+        set."""
         told = await self.client._run(calls.session(self.id))
         self._take(told)
         return self.scene

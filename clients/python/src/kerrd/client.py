@@ -323,7 +323,8 @@ class Client:
         return told
 
     def visibility(self, **settings: Any) -> answers.Visibilities:
-        """Visibilities of a scene: amplitude and phase by baseline and image order. `columns` of the answer are arrays."""
+        """Visibilities of a scene: amplitude and phase by baseline and image order. `columns` of the answer are
+        arrays."""
         told: answers.Visibilities = self._run(calls.integral("visibility", settings))
         return told
 
@@ -580,7 +581,8 @@ class Session:
         return self.revision
 
     def refresh(self) -> dict[str, Any]:
-        """Requests the current scene from the server and returns it. The scene changes by itself while `motion` is set."""
+        """Requests the current scene from the server and returns it. The scene changes by itself while `motion` is
+        set."""
         told = self.client._run(calls.session(self.id))
         self._take(told)
         return self.scene

@@ -35,7 +35,8 @@ def plain(value: Any) -> Any:
 
 
 def finite(value: Any, path: str = "") -> Any:
-    """Returns the document unchanged. Raises ValueError, naming the field, for NaN or infinity, which JSON cannot hold."""
+    """Returns the document unchanged. Raises ValueError, naming the field, for NaN or infinity, which JSON cannot
+    hold."""
     for name, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
         finite(part, f"{path}.{name}" if path else str(name))
     if isinstance(value, float) and not math.isfinite(value):

@@ -81,7 +81,8 @@ class Posterior:
     acceptance: float
 
     def samples(self, burn: float = 0.5) -> NDArray[np.float64]:
-        """All samples except the first share `burn` of the steps. Shape (samples, parameters), as for corner.corner()."""
+        """All samples except the first share `burn` of the steps. Shape (samples, parameters), as for
+        corner.corner()."""
         return self.chain[round(burn * len(self.chain)) :].reshape(-1, len(self.names))
 
     def interval(self, name: str, share: float = 0.95, burn: float = 0.5) -> tuple[float, float, float]:

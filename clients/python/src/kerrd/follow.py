@@ -121,7 +121,8 @@ class Follower:
             self._state.notify_all()
 
     def watch(self, view: str, *, anew: bool = False) -> None:
-        """Registers a viewer, which must call this again within PRESENCE_S. anew: the viewer has no frame to show yet."""
+        """Registers a viewer, which must call this again within PRESENCE_S. anew: the viewer has no frame to show
+        yet."""
         with self._state:
             self._views[view] = monotonic()
             if anew:
