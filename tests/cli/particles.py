@@ -11,7 +11,7 @@ SCENE = ["--preset", "living-disk", "--set", "disk.particles=150000"]
 
 
 def read(data):
-    """Column names, and rows of floats; without NumPy."""
+    """Reads the column names and the rows of floats, without NumPy."""
     size = struct.unpack("<H", data[8:10])[0]
     header = data[10 : 10 + size].decode()
     names = re.findall(r"\('([a-z_]*)', '<f4'\)", header)

@@ -228,8 +228,8 @@ class Scarce(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_what_runs_out_comes_back(self):
-        """While a resource is short the running job waits and says why, and other jobs are refused. Then everything
-        continues."""
+        """While a resource is short the running job waits and states the reason, and other jobs are refused. Then
+        everything continues."""
         for number, mask in (
             (errno.ENOSPC, faults.WRITE),
             (errno.EMFILE, faults.OPEN | faults.CREATE),

@@ -1,4 +1,4 @@
-"""Lets every allocation of a request fail once, with a renderer without a device.
+"""Makes every allocation of a request fail once, with a renderer without a device.
 
 The answer must be a problem of status 5xx or the whole document, and nothing may leak. Afterwards the server must
 answer the same request as before.

@@ -45,7 +45,7 @@ static double cosine(const struct ks_photon *p, const struct ks_path *path)
 #define DEPTH 3.0
 
 /* The ratio to the picture of an opaque disk is the fraction that a crossing absorbs: 1 - exp(-depth F/F_max/cos). 16
- * bits resolve the dimmest pixels judged to 1e-3. */
+ * bits resolve the dimmest compared pixels to 1e-3. */
 static void emission_angle(void **state)
 {
     (void)state;

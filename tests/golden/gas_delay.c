@@ -28,7 +28,7 @@ static struct kd_scene view(double spin, double inclination_deg, double r)
     return studio_scene(NULL, json);
 }
 
-/* The disk is opaque: a pixel shows its first crossing. 16 bits resolve the dimmest pixels judged to 1e-3. */
+/* The disk is opaque: a pixel shows its first crossing. 16 bits resolve the dimmest compared pixels to 1e-3. */
 static void pixels_show_when_their_light_left(void **state)
 {
     (void)state;

@@ -213,7 +213,7 @@ static void test_near_the_hole(void **state)
     printf("near the hole, %d rays: worst %.2g\n", lit, worst);
 }
 
-/* As `jet`, but for a ray that falls in: its light moves outwards everywhere. */
+/* Like `jet`, but for a ray that falls in: its light moves outwards everywhere. */
 static void jet_below(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     shine(user, p, r, u, 1, out);

@@ -298,7 +298,7 @@ static enum kd_status mishap(double time, struct kd_error *error)
     return time < 0 && time != -1.5 ? kd_error_set(error, KD_EIO, "something failed") : KD_OK;
 }
 
-/* Explains a pixel: light of a quarter, equal for the pixel and for all rays, and no emitters. */
+/* Explains a pixel: light of 1/4, equal for the pixel and for all rays, and no emitters. */
 static struct kd_probed_pixel *tell(const struct kd_plan *plan)
 {
     const uint32_t side = plan->lens.side;

@@ -229,7 +229,7 @@ class Kept(Films):
         self.ended(server)
 
     def test_who_leaves_hands_it_on(self):
-        """If the client that asked first leaves, another client that waits for the same film gets it."""
+        """If the client that requested the film first disconnects, another client that waits for it gets it."""
         server, client, number = self.hanging()
         job = re.search(r"/v1/jobs/(\w+)/", self.asked)[1]
         (self.folder / "ffmpeg").write_text("#!/usr/bin/env python3\n" + KEEPS)

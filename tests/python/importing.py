@@ -499,7 +499,8 @@ def gyoto_sky(place, paln, inclination, argument):
     line of nodes, the inclination, and the argument of the x axis from there."""
     x, y, z = place
     ca, sa, cb, sb, cc, sc = (f(angle) for angle in (paln, inclination, argument) for f in (math.cos, math.sin))
-    # About the z axis by the argument, about the nodes by the inclination, about the line of sight by the nodes.
+    # Rotates about the z axis by the argument, about the line of nodes by the inclination, and about the line of sight
+    # by the angle of the nodes.
     u, v = cc * x - sc * y, sc * x + cc * y
     v, w = cb * v - sb * z, sb * v + cb * z
     return ca * u - sa * v, sa * u + ca * v, w

@@ -1,5 +1,5 @@
-/* Tests of the pixels on the critical curve, and of the places of rays within such a pixel. The pixels are judged by
- * the fates of rays in closed form, which do not use the curve. */
+/* Tests of the pixels on the critical curve, and of the places of rays within such a pixel. The pixels are compared
+ * with the fates of rays in closed form, which do not use the curve. */
 #include "render/view/critical_pixels.h"
 
 #include "physics/null/null_geodesic.h"
@@ -77,7 +77,7 @@ static size_t judge(const struct kd_scene *scene, const char *what)
         assert_true(list.pixels[i].x < WIDTH && list.pixels[i].y < HEIGHT && (!i || at > before));
         listed[before = at] = true;
     }
-    /* Pixels next to the picture's edge are not judged. They may be listed because of a part of the curve outside the
+    /* Pixels next to the picture's edge are not compared. They may be listed because of a part of the curve outside the
      * picture. */
     const int far = (int)KD_CRITICAL_NEAR + 2;
     for (int y = 0; y < HEIGHT; y++)

@@ -719,8 +719,8 @@ static void the_end_of_a_drag_is_no_stall(void **state)
         assert_true(longest <= 1.1 * 500);
         uint32_t rung = s.governor.paces[0].rung;
         assert_true(full > 0.7 * 500 ? true_cost(&s, rung, false) <= 1.1 * 500 : s.last.final);
-        /* The rung is not lower than necessary, as far as the governor can know: on this machine orders and steps cost
-         * less than it assumes. */
+        /* The rung is not lower than necessary, as far as the governor's information allows: on this machine orders and
+         * steps cost less than it assumes. */
         assert_true(rung == 0 || true_cost(&s, rung - 1, false) > 0.4 * 500);
     }
 }

@@ -108,7 +108,7 @@ static inline void change(struct simulation *s, bool lens)
     kd_governor_changed(&s->governor, s->now, &s->asked, lens);
 }
 
-/* Renders the frame that the governor wants, if any; returns true if there was one. */
+/* Renders the frame that the governor requests, if any. Returns true if there was one. */
 static inline bool frame(struct simulation *s)
 {
     struct kd_frame_decision turn = kd_governor_decide(&s->governor, s->now);

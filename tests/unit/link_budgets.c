@@ -1,4 +1,4 @@
-/* Tests of the budgets of signed links: charges, the refusals of a full table, and the reuse of places of expired
+/* Tests of the budgets of signed links: charges, refusals when the table is full, and the reuse of entries of expired
  * links. */
 #include "server/http/link_budgets.h"
 

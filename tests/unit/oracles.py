@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that oracles share no code with what they judge: files of tests/oracle use no header, function or macro of the
-program.
+"""Checks that oracles share no code with the program under test: files of tests/oracle use no header, function or macro
+of the program.
 
 oracles.py ROOT     exit 1 naming each line of tests/oracle that does, after proving that it finds such lines
 """

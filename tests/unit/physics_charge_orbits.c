@@ -80,7 +80,7 @@ static void orbits(void **state)
     }
 }
 
-/* A small charge changes all numbers by little, because nothing cancels. A charge whose square underflows changes no
+/* A small charge changes all numbers by little, because no terms cancel. A charge whose square underflows changes no
  * bit. */
 static void small_charges(void **state)
 {

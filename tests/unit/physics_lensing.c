@@ -81,7 +81,7 @@ static void rays_agree(void **state)
         ray.alpha = p.alpha + d * (p.alpha - c.centre), ray.beta = p.beta + d * p.beta;
         struct kd_null_path path = kd_null_trace(&ray);
         assert_true(path.crossings > n);
-        /* rounding of d, because it is a difference of alpha and beta, times d ln r/d ln d */
+        /* the rounding of d, which is a difference of values of alpha and beta, times d ln r/d ln d */
         double r = path.crossing[n].r, allowed = 1e-12 + 100 * 1e-15 / fabs(d);
         if (!(fabs(r / source - 1) < allowed))
             fail_msg("a = %g, u = %g, angle %g, n = %d, source %g: d = %g sees %.15g, off by %.2g, allowed %.2g", a, u,

@@ -297,8 +297,8 @@ static double critical_scale(struct kd_null_ray ray, double x, double y)
     return high;
 }
 
-/* Rays a few roundings apart agree to within their error estimates, also where they linger at the photon sphere or
- * reach the horizon. At the horizon a rounding of r changes phi and t by thousands of roundings. */
+/* Rays a few roundings apart agree to within their error estimates, even if they stay at the photon sphere for a long
+ * time or reach the horizon. At the horizon a rounding of r changes phi and t by thousands of roundings. */
 static void neighbours(void **state)
 {
     (void)state;

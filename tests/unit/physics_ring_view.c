@@ -42,7 +42,8 @@ static struct ks_frame oracle_frame(const struct kd_observer_motion *m, const st
 }
 
 /* Checks that light seen in this direction comes from the ring. magnified: the factor by which an error of the
- * direction grows on the way. It is about 25 for each half turn, and more for light that lingers at the horizon. */
+ * direction grows on the way. It is about 25 for each half turn, and more for light that stays next to the horizon for
+ * long. */
 static void comes_from(const struct kd_observer_motion *m, const struct kd_vantage *v, double r, int order, double chi,
                        double magnified)
 {

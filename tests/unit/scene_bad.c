@@ -271,7 +271,7 @@ static void names_are_found(void **state)
     }
 }
 
-/* A key too long for a pointer leaves the pointer at its parent; messages stay whole UTF-8. */
+/* A key that is too long for a pointer leaves the pointer at the key's parent. Messages remain valid UTF-8. */
 static void long_names_are_cut(void **state)
 {
     (void)state;

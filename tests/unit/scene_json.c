@@ -249,7 +249,8 @@ static void elements_are_set(void **state)
     assert_int_equal(kd_scene_set(&scene, "spot1.r", "8", &error), KD_OK);
     expect_spots(&scene, 3, (double[]) { 8, 9, 12 });
     kd_scene_defaults(&scene);
-    assert_int_equal(kd_scene_set(&scene, "spot2.brightness", "0", &error), KD_OK); /* this is its default already */
+    /* this is already the default of the field */
+    assert_int_equal(kd_scene_set(&scene, "spot2.brightness", "0", &error), KD_OK);
     assert_int_equal(scene.spots.count, 0);
     assert_true(kd_scene_same_path("spot2.r", "spots.1.r") && kd_scene_same_path("spots.0.r", "spot1.r") &&
                 kd_scene_same_path("time", "time"));

@@ -38,7 +38,7 @@ struct device {
     struct kd_budget budget;
     struct sharer *served; /* the sharer that is using the device; NULL: none */
     double now, until, slice;
-    bool alone; /* governors are not told of each other */
+    bool alone; /* governors have no information about each other */
 };
 
 static void open_device(struct device *d, struct sharer *sharers, int n)

@@ -51,7 +51,7 @@ def messages(folder):
 
 
 def locales(folder):
-    """The words of each language but English by its name."""
+    """The texts of each language except English, by the language's name."""
     files = [file for file in sorted((folder / "locale").glob("*.json")) if not file.stem.startswith("pupil-")]
     return {file.stem: json.loads(file.read_text()) for file in files}
 

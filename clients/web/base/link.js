@@ -32,7 +32,7 @@ export function enter(view) {
   flush('pushState');
 }
 
-// Back and forward switch views; other changes since then are kept.
+// Calls a function when Back or Forward changes the view. Other changes of the address are kept.
 export function onReturn(show) {
   addEventListener('popstate', event => event.state?.load === load && show(event.state.view));
 }

@@ -108,7 +108,7 @@ function drawMap(u, { rows, x, y }) {
   u.ctx.drawImage(picture, left, above, right - left, below - above);
 }
 
-// Errors of dots, as upright lines.
+// Draws the errors of dots as vertical lines.
 function drawErrors(u, { series, y: { log } }) {
   const { ctx, bbox } = u;
   ctx.save();

@@ -1,5 +1,5 @@
-// Ready questions for a class: each asks for a prediction. `right` is the right choice; `shows` are changes of the
-// scene by which the class sees it.
+// Ready questions for a class: each asks for a prediction. `right` is the right choice; `shows` has the changes of the
+// scene that demonstrate it.
 import { speak } from '../words/language.js';
 
 const ready = t => [

@@ -9,9 +9,9 @@ import { light_m_s, sun_m } from '../picture/scene.js';
 import { ask } from '../base/server.js';
 import { hasNames, nameOf, starsIn } from './stars.js';
 
-const rest_ms = 40; // a pointer must rest for this time before the server is asked
+const rest_ms = 40; // a pointer must rest for this time before a request is sent
 const late_ms = 150; // time after which the old text is replaced by "Following this light back …"
-const change_ms = 400; // the scene must be unchanged for this time before the server is asked again
+const change_ms = 400; // the scene must be unchanged for this time before the next request is sent
 const star_px = 6;
 const sideways = 0.005; // gas with a smaller velocity, in c, counts as neither approaching nor receding
 const faint = 0.005; // share of the light below which a source goes unmentioned

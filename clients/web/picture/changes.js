@@ -8,8 +8,8 @@ const least_samples = 2;
 export const samples = scene =>
   scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
-// True if the page draws the scales of a scene (over/key.js). If the scene cannot have them, the session asks for them
-// all the same, so that the server names the reason. During a lesson the scales are in the picture, which the pupils'
+// True if the page draws the scales of a scene (over/key.js). If the scene cannot have scales, the page requests them
+// even so, and the server's refusal states the reason. During a lesson the scales are in the picture, which the pupils'
 // pages show as it is.
 const keyed = scene =>
   !goesOn('lesson') &&

@@ -1,5 +1,5 @@
 // Fits presets into the window, whatever its shape. In windows up to 16:9, the shape that scenes are composed for, the
-// field of view is as wide as the scene says. In wider windows it is larger, so that the same height is seen. It
+// field of view has the width that the scene states. In wider windows it is larger, so that the same height is seen. It
 // follows the window until somebody sets the field of view.
 import { byId } from '../base/dom.js';
 

@@ -21,8 +21,8 @@ function sentence(name, { fraction, remaining_s: left }) {
     : done + t('refining.s-to-go', ', {0} s to go', number(Math.ceil(left))).replace('mancano 1 s', 'manca 1 s');
 }
 
-// address(): of the session. say(words): shows progress. Returns follow(waits), where waits tells whether another
-// picture will come.
+// address(): of the session. say(words): shows progress. Returns follow(waits). waits: whether another picture will
+// come.
 export function buildRefining(address, say) {
   const bar = byId('refined'),
     first = byId('first');

@@ -1,7 +1,7 @@
 // The story: sliders in sentences set the picture beside them, and a guess is answered. The text is complete without
 // both.
 const lang = document.documentElement.lang,
-  settled_ms = 150; // a slider must rest for this time before the server is asked for a number
+  settled_ms = 150; // a slider must rest for this time before a number is requested
 
 const number = (value, step) =>
   value

@@ -10,7 +10,8 @@
 struct kd_orbit_lanes {
     struct kd_orbit_path *path[KD_ORBIT_LANES]; /* all different */
     double h[KD_ORBIT_LANES];
-    uint64_t steps[KD_ORBIT_LANES]; /* steps for each path; a path with 0 steps is not moved, but must be set */
+    /* number of steps of each path; a path with 0 steps is not moved, but its pointer must be set */
+    uint64_t steps[KD_ORBIT_LANES];
     /* Receive the largest absolute drift after any step. If all are NULL, drifts are not computed. */
     struct kd_orbit_drift *worst[KD_ORBIT_LANES];
     /* Called after a step in which w has stopped growing, with the path up to date; may be NULL. */

@@ -1,4 +1,4 @@
-"""The client for asyncio; client.py, which blocks, is made of it by generate.py."""
+"""The client for asyncio, for use in one event loop. generate.py makes client.py, which blocks, from this file."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ AGAIN_S = 1  # seconds before a request whose connection broke is sent again
 
 
 class AsyncClient:
-    """A client of the server at an address such as "http://127.0.0.1:8080/", for use in one event loop.
+    """A client of the server at an address such as "http://127.0.0.1:8080/".
 
     timeout: seconds without a byte after which a request fails. patience: seconds for which a request is repeated while
     the server is busy (429, 503, 507), at the intervals that it asks for, before the refusal is raised. For the same

@@ -26,7 +26,7 @@ AGAIN_S = 1  # seconds before a request whose connection broke is sent again
 
 
 class Client:
-    """A client of the server at an address such as "http://127.0.0.1:8080/", for use in one event loop.
+    """A client of the server at an address such as "http://127.0.0.1:8080/".
 
     timeout: seconds without a byte after which a request fails. patience: seconds for which a request is repeated while
     the server is busy (429, 503, 507), at the intervals that it asks for, before the refusal is raised. For the same

@@ -13,7 +13,7 @@ from .frame import Frame
 
 # G m_sun / c^2 (nominal solar mass parameter, IAU 2015 resolution B3) and the parsec (resolution B2), m.
 SUN_M, PARSEC_M = 1.3271244e20 / 299792458.0**2, 3.0856775814913673e16
-# ehtim's names of the sources that the scene's source.name knows.
+# ehtim's names of the sources that the scene's field source.name can name.
 NAMES = {"m87": "M87", "sgra": "SGRA"}
 STOKES = ("stokes_q", "stokes_u", "stokes_v")
 

@@ -41,7 +41,7 @@ export async function settled(asked) {
 export async function follow(orbit) {
   const { series, ...answer } = await postJson('v1/orbits', orbit),
     at = name => series.columns.indexOf(name),
-    rows = series.rows.filter(row => row[at('t')] != null), // all but the row of the horizon
+    rows = series.rows.filter(row => row[at('t')] != null), // all rows except that of the horizon
     turns = Math.abs(rows.at(-1)[at('phi')] - rows[0][at('phi')]) / (2 * Math.PI),
     samples = Math.min(Math.round(24 * turns), 3000);
   if (samples > 1.2 * orbit.samples) return follow({ ...orbit, samples });

@@ -208,7 +208,7 @@ export async function openOrbits() {
     await show(answer, said);
   }
 
-  // If the requested orbit does not exist, the previous one stays under its own name.
+  // If the requested orbit does not exist, the previous orbit stays visible, with its own name.
   function keep() {
     if (!shown) return;
     byId('orbits').dataset.kept = true;

@@ -97,8 +97,8 @@ export class Plane {
     this.redraw();
   }
 
-  // The middle and the reach of a preset; for a snapshot, those of its bodies about the first one. A middle away from
-  // the hole is followed.
+  // The middle and the reach of a preset. For a snapshot: those of its bodies about the first body. If the middle is
+  // not the hole, the view follows the bodies.
   around(preset) {
     const all = this.all(),
       middle = preset?.centre ?? (!preset && all.length ? all[0].x : [0, 0, 0]);

@@ -28,7 +28,7 @@ def _even(file: DumpFile, name: str, values: Numbers, must: str) -> None:
 
 
 def _coordinates(file: DumpFile, shape: tuple[int, int, int]) -> tuple[Numbers, Numbers, Numbers | None]:
-    """r of the rows; theta, (rows, columns); phi of the layers."""
+    """Returns r of the rows, theta of shape (rows, columns), and phi of the layers."""
     arrays = {name: file.array("grid_out/" + name, shape) for name in ("r", "th", "ph")}
 
     def read(name: str, at: Any) -> Numbers:
