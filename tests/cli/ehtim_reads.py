@@ -272,8 +272,9 @@ print(json.dumps([float(numpy.exp(-0.5 * model.Dphi_exact(a * scale, b * scale, 
             self.assertAlmostEqual(ours / before / factor, 1, delta=1e-6)
 
     def test_a_simulated_observation(self):
-        """ehtim reads the uvfits that kerrd observe writes: the visibilities are those of the JSON to the file's single
-        precision, errors, stations and places those of the given file, and there is no polarisation."""
+        """ehtim reads the uvfits that kerrd observe writes. The visibilities are those of the JSON, to the file's
+        single precision. Errors, stations and their positions are those of the given file, and there is no
+        polarisation."""
         code = """
 import json, sys
 import ehtim, numpy

@@ -301,8 +301,9 @@ class Files(support.Case):
         self.assertEqual(self.read("a.fits"), self.read("b.fits"))
 
     def test_ehtim_would_say_the_same(self):
-        """Sums, the direction of polarisation (from north towards east) and the offset of the light's centroid from the
-        centre are computed from the arrays, and compared with ehtim's numbers for the same picture."""
+        """Three numbers are computed from the arrays and compared with ehtim's numbers for the same picture: the sums,
+        the direction of polarisation (from north towards east), and the offset of the light's centroid from the
+        centre."""
         fixture = json.loads(pathlib.Path(__file__).with_name("ehtim_numbers.json").read_text())
         self.good("render", *fixture["scene"], "-o", self.path("a.fits"))
         units = self.opened(self.path("a.fits"))

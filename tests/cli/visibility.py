@@ -220,9 +220,9 @@ class Visibility(Case):
         self.assertGreater(abs(rows[0] / rows[1] - 1), 0.05)
 
     def test_a_spectrum_of_a_disk_at_one_frequency(self):
-        """Pictures of a disk at each frequency have the flux of kerrd's integral over the disk's image, in double
-        precision with rays in closed form, which contains only the direct image. The visibility at length 0 equals
-        that flux."""
+        """Pictures of a disk at each frequency have the flux of kerrd's integral over the disk's image. This integral
+        is in double precision with rays in closed form, and contains only the direct image. The visibility at length 0
+        equals that flux."""
         disk = {
             "inner": "isco",
             "outer": 40,

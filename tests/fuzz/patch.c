@@ -6,8 +6,8 @@
 
 #include <cjson/cJSON.h>
 
-/* True if a patch has members with a meaning beyond RFC 7396: a style sets other fields, an object in place of a list
- * changes the list's elements, and an old name of an element is a member of its own. */
+/* True if a patch has members with a meaning beyond RFC 7396. These are a style, which sets other fields; an object in
+ * place of a list, which changes the list's elements; and an old name of an element. */
 static bool is_special(const cJSON *patch)
 {
     bool special = false;

@@ -69,8 +69,8 @@ static double at(double p[H][W], double x, double y)
 
 struct ring { double diameter, scatter; };
 
-/* Measures the ring about a centre: its diameter, twice the mean over directions of the radius of largest brightness,
- * and the scatter of this radius (EHT Collaboration 2019, ApJL 875, L4, section 9). */
+/* Measures the ring about a centre (EHT Collaboration 2019, ApJL 875, L4, section 9). Its diameter is twice the mean,
+ * over directions, of the radius of largest brightness. Also gives the scatter of this radius. */
 static struct ring about(double p[H][W], double x0, double y0)
 {
     enum { DIRECTIONS = 90 };

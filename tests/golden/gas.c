@@ -290,7 +290,7 @@ static void nothing_in_common(void **state)
 }
 
 /* Two measures are constant in time within the scatter of patterns: the power of the pattern's waves in bands, and the
- * pattern's change from pixel to pixel along a radius, which winding up would increase. */
+ * pattern's change from pixel to pixel along a radius. Winding up of the pattern would increase the second one. */
 static void nothing_winds_up(void **state)
 {
     (void)state;

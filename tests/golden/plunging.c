@@ -148,10 +148,10 @@ static void redshift_of_light(void **state)
             assert_true(judged[sense][k] > 500);
 }
 
-/* Face-on, without redshift: the optical depth of thin gas, ring by ring, is that of the flow: the rate of particles
- * through a circle of 2 pi r at u^r, divided by the number of particles per area of the disk at its edge. The error is
- * the Poisson error of 10 000 parcels for each seed. Depths are below 0.05, since clumpy gas shines less than even gas,
- * by half the depth. */
+/* Face-on and without redshift, the optical depth of thin gas, ring by ring, is that of the flow. This is the rate of
+ * particles through a circle of 2 pi r at u^r, divided by the number of particles per area of the disk at its edge. The
+ * error is the Poisson error of 10 000 parcels for each seed. Depths are below 0.05, since clumpy gas shines less than
+ * even gas, by half the depth. */
 static void surface_density(void **state)
 {
     (void)state;

@@ -132,8 +132,8 @@ static void asymmetries(void **state)
     kd_frame_finish(&a);
 }
 
-/* The rays of 2 x 2 samples are the pixels of a picture twice as large: the average in linear light is the
- * same up to the rounding to 16 bits, whose step in linear light is at most 4e-5. */
+/* The rays of 2 x 2 samples are the pixels of a picture twice as large. Their average in linear light is the same up to
+ * the rounding to 16 bits; a step of 16 bits is at most 4e-5 in linear light. */
 static void samples_are_averages(void **state)
 {
     (void)state;

@@ -16,8 +16,8 @@ void studio_close(void);
 /* True if kernels can compute in double precision; otherwise prints that `what` is skipped. */
 bool studio_has_float64(const char *what);
 
-/* A picture of the sky, for sky.image: longitude as colour, a grid every 30 degrees, discs of 12 degrees: orange at
- * l = 0, red at 90, green at 180, blue at 270, white at the north pole. The hash is made up. */
+/* A picture of the sky, for sky.image. It shows longitude as colour, a grid every 30 degrees, and discs of 12 degrees:
+ * orange at l = 0, red at 90, green at 180, blue at 270, white at the north pole. The hash is made up. */
 #define STUDIO_SKY "736b792d6f662d7468652d73747564696f2d0000000000000000000000000001"
 
 /* A preset (NULL: "smooth") with a JSON document merged over it. An invalid scene ends the program. */

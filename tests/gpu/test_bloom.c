@@ -53,8 +53,8 @@ static void make_light(int width, int height)
     }
 }
 
-/* Spread light leaves its place and arrives elsewhere: the sum of each channel is conserved, also at the picture's
- * edges and for sizes that are no multiple of a grid's cell. Pixels are rounded to 16 bits, 1e-5 on average. */
+/* Spread light leaves its place and arrives elsewhere. The sum of each channel is conserved, also at the picture's
+ * edges, and for sizes that are not a multiple of a grid's cell. Pixels are rounded to 16 bits, 1e-5 on average. */
 static void energy(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
 /* Tests of the echo of a flash. Its light is compared with sums over rays of the Kerr-Schild oracle, both from the lamp
- * to the disk and from the disk to the observer, and with the impulse response of physics/disk/echo.h, whose rays,
- * table and sums are not those of a picture. Far from the hole the ring is where a parabolic mirror would show it. */
+ * to the disk and from the disk to the observer. It is also compared with the impulse response of physics/disk/echo.h,
+ * whose rays, table and sums are not those of a picture. Far from the hole the ring is where a parabolic mirror would
+ * show it. */
 #include "render_support.h"
 
 #include "kerr_schild.h"

@@ -1,5 +1,5 @@
-/* Tests of layers. They are compared with the Kerr-Schild oracle, which shares no equation with the kernels: it
- * integrates the photon's momentum in Cartesian coordinates, and g and the angle to the disk's normal follow from the
+/* Tests of layers. They are compared with the Kerr-Schild oracle, which shares no equation with the kernels. The oracle
+ * integrates the photon's momentum in Cartesian coordinates; g and the angle to the disk's normal follow from the
  * metric in the plane alone. Layers of light are compared with the picture's own linear light.
  *
  * The tolerance of a number is some roundings of a float, times the sensitivity of the number to the ray. This
@@ -530,8 +530,8 @@ static void test_tiny_fields(void **state)
     }
 }
 
-/* At one frequency a place is seen as B_nu(g T) f^-4, with T from the flux at its radius times the hardening f, from
- * Rayleigh and Jeans's end to the highest frequency that is accepted. */
+/* At one frequency a place is seen as B_nu(g T) f^-4, where T follows from the flux at its radius, times the hardening
+ * f. Tested from the Rayleigh-Jeans limit to the highest frequency that is accepted. */
 static void test_one_frequency(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
-/* Tests of lens maps from listed rays in double precision, compared with the kernels' in single precision: the two
- * compute the ray of a pixel differently, and there are three methods of tracing a ray. Also tests rays whose tracing
- * was given up. */
+/* Tests of lens maps from listed rays in double precision, compared with lens maps by kernels in single precision. The
+ * two compute the ray of a pixel differently, and there are three methods of tracing a ray. Also tests rays whose
+ * tracing was given up. */
 #include "render_support.h"
 
 #include "physics/spacetime/kerr.h"

@@ -228,8 +228,8 @@ static double sum_of(const struct kd_frame *frame, const struct kd_scene *scene,
     return sum * step * step;
 }
 
-/* The values of a light curve equal sums of the layers: on a grid of rays, with more rays at the critical curve,
- * through a volume, and through one that polarises light itself. Pictures do not change. */
+/* The values of a light curve equal sums of the layers. Tested on a grid of rays, with more rays at the critical curve,
+ * through a volume, and through a volume that polarises light itself. Pictures do not change. */
 static void test_layers(void **state)
 {
     (void)state;

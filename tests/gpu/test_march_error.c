@@ -1,5 +1,5 @@
-/* Tests that a frame's stated error of its volumes agrees with a march of 16 times as many steps, on rays of 4 times as
- * many steps, over all pixels of the frame. */
+/* Tests a frame's stated error of its volumes, over all pixels of the frame. For comparison, the frame is rendered by a
+ * march of 16 times as many steps, on rays of 4 times as many steps. */
 #include "render_support.h"
 
 #include "kerr_schild.h"

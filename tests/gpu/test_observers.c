@@ -137,8 +137,8 @@ static void photon(const struct seer *seer, int face, double x, double y, double
     ks_seen(&f, k, p);
 }
 
-/* The kernels' starting values, in their arithmetic: E, which is the redshift, L, p_theta and p^r of each pixel of the
- * whole sky, relative to the size of the tetrad's legs. */
+/* The kernels' starting values for each pixel of the whole sky, in the kernels' arithmetic: E (the redshift), L,
+ * p_theta and p^r, relative to the size of the tetrad's legs. */
 static double constants(const struct seer *seer)
 {
     const struct ks_place at = place_of(seer);

@@ -292,8 +292,8 @@ static void test_period(void **state)
     }
 }
 
-/* With slow light the centroid of a small spot at t + D is that with fast light at t, where D is the delay of the ray
- * from there, by the oracle. */
+/* With slow light, the centroid of a small spot at t + D equals the centroid without slow light at t. D is the delay of
+ * the ray from the spot, by the oracle. */
 static void test_slow_light(void **state)
 {
     (void)state;

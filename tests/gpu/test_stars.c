@@ -658,8 +658,8 @@ static void bright_images(void **state)
     kd_frame_finish(&again);
 }
 
-/* With diffuse light on the sky, bright images are searched for in the same lens map, which then has footprints:
- * cached light of one kind of map is not used for the other. */
+/* With diffuse light on the sky, bright images are searched for in the same lens map, which then has footprints. Cached
+ * light of one kind of map, with or without footprints, must not be used for the other. */
 static void bright_images_before_spread_light(void **state)
 {
     (void)state;

@@ -2,8 +2,8 @@
  * the real ones.
  *
  * The scene's time selects the behaviour. t >= 0 takes t milliseconds, in slices of 10, and 30 times as long with
- * several rays a pixel. -1 loses the device, which can be reopened if its name is "mends"; -1.5 loses it only the first
- * time; -2 runs out of memory; -3 fails. The exposure "auto" alternates between 1 stop and -1. Rays on the device cross
+ * several rays a pixel. -1 loses the device, which can be reopened if its name is "mends". -1.5 loses it only the first
+ * time. -2 runs out of memory; -3 fails. The exposure "auto" alternates between 1 stop and -1. Rays on the device cross
  * once, at 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a
  * millisecond.
  *

@@ -50,8 +50,8 @@ struct ks_path ks_trace(struct ks_photon photon, int max_crossings);
 struct ks_path ks_trace_long(struct ks_photon photon, int max_crossings);
 
 /* Medium along a ray: light emitted and optical depth per unit of the affine parameter. `photon` is the arriving photon
- * at that place: r, u, p_r and p_theta are those of the place, phi is its azimuth minus the observer's, and delay is
- * the Boyer-Lindquist time that light takes from it. */
+ * at that place. r, u, p_r and p_theta are its values at the place, phi is the azimuth of the place minus the
+ * observer's, and delay is the Boyer-Lindquist time of the light from the place. */
 typedef void ks_medium(void *user, const struct ks_photon *photon, double r, double u, double light_and_depth[2]);
 
 /* Light emitted and absorbed along the path back in time, between two radii, until it ends or first crosses the

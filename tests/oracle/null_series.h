@@ -1,6 +1,6 @@
 /* Null geodesics of Kerr by Taylor series in extended precision (long double: 64 bits of significand on x86, 113 on
- * aarch64): crossings of the equatorial plane, to 1e-3 of the resolution of double precision, some tenths of a
- * millisecond each.
+ * aarch64): crossings of the equatorial plane. Errors are 1e-3 of the resolution of double precision. A ray takes some
+ * tenths of a millisecond.
  *
  * It uses neither elliptic functions nor steps of a fixed order, but the equations in Mino time of
  * tests/oracle/null_reference.py,

@@ -1,6 +1,6 @@
-/* Tests of bodies that whirl round an unstable circular orbit, for E about 1 and L on both sides of the circle's:
- * the answer must be right within the error that it states, or be refused. Reference: quadrature with 30 digits,
- * tests/oracle/whirl_reference.py. */
+/* Tests of bodies that whirl round an unstable circular orbit, for E about 1 and L on both sides of the circle's L.
+ * Either the answer is right within the error that it states, or the request is refused. Reference: quadrature with 30
+ * digits, tests/oracle/whirl_reference.py. */
 #include "orbit/run.h"
 #include "whirl_reference.h"
 

@@ -270,7 +270,7 @@ static void circles(void **state)
 }
 
 /* Seen from infinity in the plane, the shadow ends on one side at the impact parameter of the photon orbit that turns
- * with the hole, and on the other side at that of the hole with the opposite spin. */
+ * with the hole. On the other side it ends at the impact parameter for the hole with the opposite spin. */
 static void edges_of_the_shadow(void **state)
 {
     (void)state;

@@ -285,8 +285,8 @@ static void too_much_charge(void **state)
 }
 
 /* Radial parts of the rates of phi and t in Mino time where the horizons are close, sqrt(1 - a^2 - q^2) from 5e-7 to
- * 1.4e-3: quadrature of the metric's rates in 40 digits between the roots of the radial potential, for the constants of
- * motion that the library has. */
+ * 1.4e-3. The reference is a quadrature of the metric's rates in 40 digits between the roots of the radial potential,
+ * for the same constants of motion as in the library. */
 static void rates_about_close_horizons(void **state)
 {
     static const struct {

@@ -192,7 +192,7 @@ static void the_edge_of_the_shadow(void **state)
 }
 
 /* Synge 1966: for an observer at rest at r the hole's disk has the angular radius sin(angle) = sqrt(27 (1 - 2/r))/r,
- * more than a right angle inside r = 3; the solid angle is that of a spherical cap. */
+ * which is more than a right angle inside r = 3. The solid angle is that of a spherical cap. */
 static void synges_angle(void **state)
 {
     (void)state;

@@ -139,8 +139,8 @@ static void pulsars(void **state)
 }
 
 /* The chirp obeys f' = 96/5 pi^(8/3) Mc^(5/3) f^(11/3). Known numbers: 4.4 kHz for the last stable orbit of one solar
- * mass; 134 Hz one second before the end for 1.21 solar masses (Maggiore 4.20), which is 2.8 % more than Kepler's law
- * gives for the wave of a circle at that time. */
+ * mass; 134 Hz one second before the end for 1.21 solar masses (Maggiore 4.20). The latter is 2.8 % more than Kepler's
+ * law gives for the wave of a circle at that time. */
 static void chirp(void **state)
 {
     (void)state;

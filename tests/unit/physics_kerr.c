@@ -21,8 +21,8 @@ static void close_to(const char *what, double a, double r, double got, double wa
                  fabs(got / want - 1), relative);
 }
 
-/* The header promises 1e-14 for the ISCO and a few ulp for the horizon; the other radii are one or two elementary
- * functions of a, well conditioned in a and 1 - a: a few ulp, 1e-14. */
+/* The header promises 1e-14 for the ISCO and a few ulp for the horizon. The other radii are one or two elementary
+ * functions of a, well conditioned in a and 1 - a, so their errors are a few ulp; the bound is 1e-14. */
 static void special_radii(void **state)
 {
     (void)state;

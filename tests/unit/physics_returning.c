@@ -319,8 +319,8 @@ static void the_kernel_is_that_of_followed_rays(void **state)
     free(table);
 }
 
-/* The gas radiates what accretion releases, and nothing else: E at infinity of all light that leaves the converged disk
- * for good is 1 - E(ISCO), and the light that returns for the first time arrives without loss. The work F_t of the
+/* The gas radiates exactly the energy that accretion releases. E at infinity of all light that leaves the converged
+ * disk for good is 1 - E(ISCO), and the light that returns for the first time arrives without loss. The work F_t of the
  * stress is part of this balance. */
 static void energy_is_conserved(void **state)
 {

@@ -3,8 +3,8 @@
 
 promises.py ROOT PROGRAM     exit 1 naming each that does not hold. Exit 77: there is no readelf.
 
-- PROGRAM is linked with the libraries below alone. A new one needs a line with its use: an archive library that serves
-  one format of many, or codecs that nothing uses, cost users tens of megabytes.
+- PROGRAM is linked with the libraries below alone. A new library needs a line that states its use. Otherwise users
+  might have to install tens of megabytes for an archive library that serves one format of many, or for unused codecs.
 - SECURITY.md names a private way to report vulnerabilities. Each maintainer's address in the packages has a valid form
   and is explained in SECURITY.md, so that nobody waits for an answer from an address that does not exist.
 - README.md states how long the tests take and that scripts/test names the skipped ones, as docs/testing.md explains

@@ -269,9 +269,10 @@ static void separatrix_by_known_ones(void **state)
     kd_quantity_answer_finish(&turns);
 }
 
-/* Compared with closed forms for spin 0.9: the retrograde ISCO; a parabola, whose p is twice the marginally bound
- * radius 2 - a + 2 sqrt(1 - a) (Bardeen, Press & Teukolsky 1972; a < 0 for the retrograde one); the photon orbits in
- * the equator (same paper) and over the poles (Teo 2003, Gen. Rel. Grav. 35, 1909). */
+/* Separatrices and photon orbits are compared with closed forms for spin 0.9. These are the retrograde ISCO; a
+ * parabola, whose p is twice the marginally bound radius 2 - a + 2 sqrt(1 - a) (Bardeen, Press & Teukolsky 1972; a < 0
+ * for the retrograde one); the photon orbits in the equator (same paper) and over the poles (Teo 2003, Gen. Rel. Grav.
+ * 35, 1909). */
 static void separatrix_of_a_spinning_hole(void **state)
 {
     (void)state;

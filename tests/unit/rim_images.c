@@ -45,8 +45,8 @@ static void look(double spin, double inclination)
 
 static const double step = 2 * 0.36397023426620236135 / WIDTH; /* tan(20 degrees) */
 
-/* The azimuth that a ray of impact parameter b covers from RADIUS to infinity: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2
- * + 2 w^3), in to the turning point w_t and out again; the substitution w = w_t sin^2 removes the zero of the root.
+/* The azimuth that a ray of impact parameter b covers from RADIUS to infinity: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 +
+ * 2 w^3), in to the turning point w_t and out again. The substitution w = w_t sin^2 removes the zero of the root.
  * Midpoint rule. */
 static double swept(double b)
 {

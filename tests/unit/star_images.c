@@ -133,8 +133,8 @@ static void doubles_and_holes(void **state)
     assert_int_equal(seen.n, 1);
 }
 
-/* A sky folded along the column FOLD: x is mapped to (x - FOLD)^2, so that a star at some distance on one side of
- * the caustic has two images at the square root of it, and none on the other side. */
+/* A sky folded along the column FOLD: x is mapped to (x - FOLD)^2. A star at a distance d on one side of the caustic
+ * then has two images, at sqrt(d) on either side of the column; a star on the other side has none. */
 #define FOLD 70.37
 static struct kd_vec folded(double x, double y)
 {

@@ -1,9 +1,9 @@
 /* Tests the error that a disk's spectrum states against its true error, over a random sample of spins, radii, limb
- * darkening and frequencies, at 80 to 87 degrees, where the image is most curved: at least 999 of 1000 must be within
- * the stated error. The true error is found with more rings and directions, and with rays traced individually instead
- * of the table. A repetition with half as many of each gives its uncertainty. Within 3 degrees of edge on, where the
- * spectrum is summed over columns, the true error is found with eight grids of rays, each at a random place of its
- * field.
+ * darkening and frequencies. Inclinations are 80 to 87 degrees, where the image is most curved. At least 999 of 1000
+ * must be within the stated error. The true error is found with more rings and directions, and with rays traced
+ * individually instead of the table. A repetition with half as many of each gives its uncertainty. Within 3 degrees of
+ * edge on, where the spectrum is summed over columns, the true error is found with eight grids of rays, each at a
+ * random place of its field.
  *
  *     unit_told_spectra [SPECTRA [SEED [SIDE]]]     a long run: 200 take some ten minutes. With SIDE all are within 3
  *                                                   degrees of edge on, compared with grids of SIDE^2 rays */

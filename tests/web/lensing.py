@@ -327,8 +327,9 @@ class Lensing(Browser):
         page.wait_for_selector("#overlay .over-ring", state="detached")
 
     def test_scales_are_drawn_by_the_page(self):
-        """The pictures of M87* arrive without scales, and the page draws them: the length and the beam in proportion to
-        the picture's width on the sky, and white at the brightness temperature that the exposure gives it."""
+        """The pictures of M87* arrive without scales, and the page draws the scales. The length and the beam are in
+        proportion to the picture's width on the sky. White is at the brightness temperature that follows from the
+        exposure."""
         page = self.open("lang=en&preset=m87&style.exposure=-1&camera.field_m=40")
         page.wait_for_selector("#stage .key-ticks span >> nth=2")
         asked = [r.post_data_json for r in self.requests if "/v1/sessions?" in r.url and r.method == "POST"]

@@ -1,5 +1,5 @@
-// Charts by uPlot. This module adds to uPlot: curves with their own columns of x, marks, a legend that hides curves and
-// shows their values, reading by keyboard, and a table of numbers beside each chart.
+// Charts by uPlot. This module adds to uPlot: curves with their own columns of x, marks, and a legend that hides curves
+// and shows their values. Charts can be read by keyboard, and each has a table of its numbers.
 import { el, svg } from './dom.js';
 import { number, t } from '../words/i18n.js';
 import { numbers, shared } from './numbers.js';

@@ -1,7 +1,7 @@
 // The card "What is this light?" explains in sentences where the light of one pixel comes from. A drawing beside them
 // shows the pixel's ray past the hole, and the numbers are folded below. A tap or the arrow keys choose the pixel. If
-// the card was opened by its button or key, it follows the pointer and explains the pixel under the resting pointer,
-// until a tap or an arrow key pins a pixel.
+// the card was opened by its button or key, it explains the pixel under the pointer whenever the pointer rests. This
+// ends when a tap or an arrow key pins a pixel.
 import { byId, el, latest } from '../base/dom.js';
 import { duration, number, said, t, tell } from '../words/i18n.js';
 import { buildInset } from './inset.js';

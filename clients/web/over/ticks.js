@@ -20,8 +20,8 @@ export function stokesOf(buffer) {
 
 const degrees = (q, u) => (90 / Math.PI) * Math.atan2(u, q);
 
-// Sums over the picture: the polarised fraction, its angle, and beta 2 (Palumbo, Wong & Prather 2020), the part that
-// turns with the azimuth round the middle, from north to east.
+// Sums over the picture: the polarised fraction, its angle, and beta 2 (Palumbo, Wong & Prather 2020). beta 2 is the
+// part that turns with the azimuth round the middle, from north to east.
 function sums(pixels, columns, rows) {
   const all = { i: 0, q: 0, u: 0, re: 0, im: 0 };
   for (const [k, [i, q, u]] of pixels.entries()) {

@@ -44,9 +44,9 @@ function poll(url) {
   return one;
 }
 
-// Returns the session as the server describes it, { id, token, revision, … }, the window's size, the share of its width
-// that is kept in motion, and the requests in progress. Returns null if the server opened no session; the caller then
-// opens a session itself and shows the error.
+// Returns the session as the server describes it, { id, token, revision, … }; the window's size; the fraction of its
+// width that is kept in motion; and the requests in progress. Returns null if the server opened no session; the caller
+// then opens a session itself and shows the error.
 async function open() {
   const size = windowSize(stage),
     keeps = kept(),

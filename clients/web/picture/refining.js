@@ -1,5 +1,5 @@
-// Progress of a picture that takes long, the first one or a finer one: the share done and the seconds left, in words
-// and as a bar at the picture's edge.
+// Shows the progress of a picture that takes long, whether it is the first one or a finer one. The fraction done and
+// the seconds left are shown in words, and as a bar at the picture's edge.
 import { byId, seen } from '../base/dom.js';
 import { number, t } from '../words/i18n.js';
 import { getJson } from '../base/server.js';

@@ -7,8 +7,8 @@ import { physics } from '../base/server.js';
 
 const usual_rate = 8; // rate of time in M a second, unless another one was chosen
 
-// Properties of a scene that the server states: an emitter with separate photometry, light of higher image orders,
-// which can ring, and whether another time or azimuth would change the picture.
+// Properties of a scene that the server states: whether it has an emitter with separate photometry; whether it has
+// light of higher image orders, which can ring; and whether another time or azimuth would change the picture.
 export const apart = scene => scene.emitters.find(emitter => emitter.apart);
 // The modes of a ringdown are known for uncharged holes only.
 const canRing = scene =>

@@ -40,9 +40,9 @@ bool kd_corona_source_of(const struct kd_hole *hole, double radius, double heigh
 }
 
 /* The ray of a photon that leaves along the unit vector m. Returns energy, momentum and solid of struct
- * kd_corona_photon. The ray is that of a photon which arrives with the same E and L and with opposite p_r and p_theta,
- * and is traced back (null_geodesic.h): both paths are the same, because the metric does not change under (t, phi) ->
- * (-t, -phi). */
+ * kd_corona_photon. Instead of this photon, one that arrives with the same E and L, and with opposite p_r and p_theta,
+ * is traced back (null_geodesic.h). Both paths are the same, because the metric does not change under (t, phi) -> (-t,
+ * -phi). */
 static struct kd_corona_photon send(const struct kd_corona_source *source, const double m[3], struct kd_null_ray *ray)
 {
     const struct kd_vantage *at = &source->frame.at;

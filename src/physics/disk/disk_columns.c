@@ -160,7 +160,7 @@ static void add_column(const struct column *column)
 }
 
 /* Between the ends of the inner and of the outer ring, columns are evenly spaced in asinh(alpha/HOLE), but denser
- * towards both ends: there light grows as the square root of the distance from the end. */
+ * towards both ends. There the light grows as the square root of the distance from the end. */
 static void add_columns(const struct kd_disk_image *image, const struct kd_disk_columns *c, double from, double to,
                         int n)
 {

@@ -3,8 +3,8 @@
  *
  * The disk is opaque and infinitely thin, from `inner` to `outer`; its plane is transparent beyond `outer` and dark
  * within `inner`. A ray therefore shows the upper face at its first crossing of the plane, or, past the outer edge, the
- * lower face at its second. At 90 degrees both faces appear edge on: their near sides have no width, and each shows its
- * far side, lifted by the hole's lensing, in one half of the image. */
+ * lower face at its second. At 90 degrees both faces appear edge on, and their near sides have no width. Each face
+ * shows its far side, lifted by the hole's lensing, in one half of the image. */
 #ifndef KD_PHYSICS_DISK_DISK_COLUMNS_H
 #define KD_PHYSICS_DISK_DISK_COLUMNS_H
 

@@ -31,8 +31,8 @@ void kd_disk_places(const struct kd_disk_image *image, double inner, double oute
                     void (*each)(void *user, const struct kd_disk_place *place), void *user);
 
 /* flux: W m^-2 Hz^-1 at each of n frequencies, in Hz. *error_out: largest relative error at frequencies whose flux
- * exceeds 1e-6 of the maximum, estimated as the change from half as many points. KD_ENOMEM; KD_EINVAL: the result is
- * not a number. */
+ * exceeds 1e-6 of the maximum. It is estimated as the change from a sum with half as many points. KD_ENOMEM; KD_EINVAL:
+ * the result is not a number. */
 enum kd_status kd_disk_spectrum(const struct kd_disk_image *image, const struct kd_disk_spectrum_params *params,
                                 const double *frequencies, int n, double *flux, double *error_out,
                                 struct kd_error *error);

@@ -1,5 +1,5 @@
-/* Profile of a narrow emission line of a thin disk's gas, as an observer at infinity sees it: the number of photons
- * by energy, in units of the energy in the gas's frame. Double precision; any thread. G = c = M = 1.
+/* Profile of a narrow emission line of a thin disk's gas, as an observer at infinity sees it. The profile is the number
+ * of photons by energy, in units of the energy in the gas's frame. Double precision; any thread. G = c = M = 1.
  *
  * The gas moves on circular orbits from `inner` >= ISCO to `outer`. It emits epsilon(r) f(mu) photons per time, solid
  * angle and area across the light. mu is the cosine of the angle between light and normal. Per area of the disk, the

@@ -56,8 +56,8 @@ static struct light light_of(const struct ring *o, double sin_rho, double cos_ch
                             .seen = o->ut * (o->lapse + (o->drag - o->omega) * l) };
 }
 
-/* sin(rho) from x = ln tan(rho/2). x resolves rho near 0 and near pi: the dark disk round the hole is a small part of
- * the sky at large r, and nearly all of it close to the hole. */
+/* sin(rho) from x = ln tan(rho/2). x resolves rho near 0 and near pi. This is needed because the dark disk round the
+ * hole is a small part of the sky at large r, and nearly all of it close to the hole. */
 static double sine(double x) { return 1 / cosh(x); }
 
 /* The closed form of a ray of E > 0. */

@@ -11,12 +11,12 @@
  *
  *   d = rho/rho_c(angle) - 1
  *
- * positive outside. At an edge two Mino times are equal: the time of the n-th crossing, from the polar motion, and the
- * time at which the ray has the source's radius, from the radial motion. Both are smooth functions of ln|d|, the second
- * almost linear, and roots are sought in ln|d|. d enters through kd_null_roots_beside and is never added to 1 before it
- * matters, so that it may be arbitrarily small. Its relative error is some 1e-15 (n + 1), times 1/(1 - |a|)^(1/2) along
- * the flat side of a hole near a = 1. Only the point (alpha, beta) itself no longer resolves positions with d <
- * 1e-15. */
+ * positive outside. At an edge two Mino times are equal. One is the time of the n-th crossing, from the polar motion;
+ * the other is the time at which the ray has the source's radius, from the radial motion. Both are smooth functions of
+ * ln|d|, the second almost linear, and roots are sought in ln|d|. d enters through kd_null_roots_beside and is never
+ * added to 1 before it matters, so that it may be arbitrarily small. Its relative error is some 1e-15 (n + 1), times
+ * 1/(1 - |a|)^(1/2) along the flat side of a hole near a = 1. Only the point (alpha, beta) itself no longer resolves
+ * positions with d < 1e-15. */
 #ifndef KD_PHYSICS_NULL_LENSING_H
 #define KD_PHYSICS_NULL_LENSING_H
 

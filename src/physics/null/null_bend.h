@@ -2,9 +2,9 @@
  * round, across the axis or along the equator. They can therefore be interpolated from a few rays. The direction of
  * escape cannot. Double precision; pure; any thread.
  *
- * The ray turns by `turn` in a plane through the hole, initially spanned by the observer's place o and the tangent
- * t, and this plane is dragged about the axis by `drag`. The ray traced back ends at Rz(drag) (cos(turn) o +
- * sin(turn) t), with o = (sin, 0, cos) of the observer, t = t_theta e_theta + t_phi e_phi.
+ * The ray turns by `turn` in a plane through the hole. Initially the plane is spanned by the observer's place o and the
+ * tangent t; it is dragged about the axis by `drag`. The ray traced back ends at Rz(drag) (cos(turn) o + sin(turn) t),
+ * with o = (sin, 0, cos) of the observer, t = t_theta e_theta + t_phi e_phi.
  *
  * With u = cos(theta) = sqrt(z) cos x (null_polar.h), x' = sqrt(N + a^2 u^2) in Mino time, and L = sqrt(N + a^2), the
  * angle iota with cos(iota) = lambda/L is the inclination of a plane in which x is the angle from the highest latitude.

@@ -16,9 +16,9 @@
  *   1/w^2 = (-w'/w)' + K w + C w^2,   1/w = -s (ln((1 + s w')/w))' + w^2 (K + C w)/(1 + s w'),   s = 1 on the way
  *                                     in, -1 on the way out.
  *
- * A ray that is followed back out of the horizon has no Boyer-Lindquist azimuth and time there, but those of ingoing
- * coordinates, phi + Int a/Delta dr and t + Int (2r - q^2)/Delta dr. With W = 1 + (a^2 - a lambda) w^2, w'^2 = W^2 - D
- * k w^2, k = eta + (lambda - a)^2, and s the sign of the energy at infinity,
+ * A ray that is followed back out of the horizon has no Boyer-Lindquist azimuth and time there. Instead those of
+ * ingoing coordinates are used, phi + Int a/Delta dr and t + Int (2r - q^2)/Delta dr. With W = 1 + (a^2 - a lambda)
+ * w^2, w'^2 = W^2 - D k w^2, k = eta + (lambda - a)^2, and s the sign of the energy at infinity,
  *
  *   chi' = a (G - 1),   t' = 1/w^2 + a^2 n_z^2 + (2/w - q^2) G,   G = (W + s w')/D = k w^2/(W - s w'):
  *

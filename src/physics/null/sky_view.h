@@ -1,6 +1,6 @@
-/* The distant sky for an observer at a finite radius: in which directions it is visible, how its light is shifted,
- * and the size of the dark disk of the hole. Double precision, pure functions, any thread. Units G = c = M = 1;
- * angles in radians.
+/* The distant sky for an observer at a finite radius: the directions in which it is visible, the shift of its light,
+ * and the size of the dark disk of the hole. Double precision, pure functions, any thread. Units G = c = M = 1; angles
+ * in radians.
  *
  * A photon seen with local energy 1 in the direction (right, up, inwards), a unit vector of tetrad.h, has the energy
  * at infinity

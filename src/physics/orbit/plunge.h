@@ -1,5 +1,5 @@
 /* Plunge of neutral matter from the ISCO of Kerr, with or without charge: the equatorial geodesic with the energy and
- * angular momentum of the innermost stable circular orbit, which leaves that orbit infinitely slowly and falls into the
+ * angular momentum of the innermost stable circular orbit. It leaves that orbit infinitely slowly and falls into the
  * horizon. Its radial potential has a triple root, so that proper time, azimuth and coordinate time are elementary
  * functions of r. Double precision, pure, any thread. G = c = M = 1; spin signed as in physics/spacetime/kerr.h.
  *

@@ -75,8 +75,8 @@ enum kd_status kd_orbit_from_state(const struct kd_hole *hole, double r, double 
 struct kd_orbit_state kd_orbit_start(const struct kd_orbit *orbit, double r, bool outward);
 
 /* A whirl is a long stay near an unstable circular orbit that the constants nearly describe. Returns the factor by
- * which relative errors of the constants are amplified in the length of the whirl ahead: the size of the terms of W
- * divided by W, at the minimum of W. The time until the motion passes the minimum, or turns there, grows as the
+ * which relative errors of the constants are amplified in the length of the whirl ahead. It is the size of the terms of
+ * W divided by W, at the minimum of W. The time until the motion passes the minimum, or turns there, grows as the
  * logarithm of this factor. Returns 0 if no such minimum lies ahead, and for an unstable circular orbit itself. *r (may
  * be NULL): radius of the whirl. */
 double kd_orbit_whirl(const struct kd_orbit *orbit, const struct kd_orbit_state *start, double *r);

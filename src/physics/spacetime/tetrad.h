@@ -6,8 +6,8 @@
  * has the covector sum of x_i e_i. For a photon of local energy 1 along the unit vector m, x is (1, m). For a body of
  * velocity v, x is gamma (1, v).
  *
- * A covector p is stored by covariant components in the form that kernels start from, which is finite on the axis
- * and at a horizon: E = -p_t, L/sin(theta) = p_phi/sin(theta), p_theta, and Delta p_r = Sigma p^r, the velocity
+ * A covector p is stored by covariant components in the form that kernels start from. All of them are finite on the
+ * axis and at a horizon: E = -p_t, L/sin(theta) = p_phi/sin(theta), p_theta, and Delta p_r = Sigma p^r, the velocity
  * dr/dlambda in Mino time. */
 #ifndef KD_PHYSICS_SPACETIME_TETRAD_H
 #define KD_PHYSICS_SPACETIME_TETRAD_H

@@ -332,8 +332,8 @@ class Client:
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike = None, **settings: Any
     ) -> answers.Comparison:
         """Compares a scene with an observation. Returns chi^2, and `columns` as arrays. The observation is a file
-        (uvfits, or the EHT's CSV), its bytes, the hash of an asset on the server, or the name of an observation that
-        the server has: compare("m87-2017-04-05-lo", preset="m87", average_s=600)."""
+        (uvfits, or the EHT's CSV) or its bytes. It may also be the hash of an asset on the server, or the name of an
+        observation that the server has: compare("m87-2017-04-05-lo", preset="m87", average_s=600)."""
         document = self._observed(observation, scene, settings)
         told: answers.Comparison = self._run(calls.compare(document))
         return told

@@ -262,8 +262,8 @@ def stitched(
     retries: int = 3,
     **options: Any,
 ) -> Any:
-    """Renders one picture of any size on all workers, from tiles of at most tile x tile pixels: uint8 of shape (height,
-    width, 3), or with `layers` a dict of float32 arrays.
+    """Renders one picture of any size on all workers, from tiles of at most tile x tile pixels. Returns uint8 of shape
+    (height, width, 3), or with `layers` a dict of float32 arrays.
 
     scene: must have image.width and image.height, else ValueError; docs/scene.md lists what a tile cannot have. The
     other arguments are those of sweep().

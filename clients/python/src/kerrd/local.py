@@ -57,9 +57,10 @@ def _build(tree: Path) -> None:
 
 
 def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = False) -> str:
-    """The path of the program: the argument, $KERRD, the program of this package's wheel, the PATH, or the build of the
-    source tree that this package was installed from with -e. build: if no program exists, build that source tree by
-    scripts/setup, which may install packages. Raises NoBinary if there is no program."""
+    """The path of the program: the argument, or without an argument $KERRD. If neither is given: the program of this
+    package's wheel, otherwise the one in the PATH, otherwise, for a package installed with -e, the build of its source
+    tree. build: if no program exists, build that source tree by scripts/setup, which may install packages. Raises
+    NoBinary if there is no program."""
     for said in (binary, os.environ.get("KERRD")):
         if said:
             found = shutil.which(os.fspath(said))

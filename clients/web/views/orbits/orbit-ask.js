@@ -3,7 +3,7 @@
 import { physics, postJson } from '../../base/server.js';
 
 // Inside the separatrix there is no rosette. It is replaced by a plunge with the energy of the last orbit that turns
-// back, and with L^2 and Q multiplied by the ratio of p to the separatrix's p.
+// back. L^2 and Q are multiplied by the ratio of p to the separatrix's p.
 async function plunge(asked, edge) {
   const { duration: _, seen: __, ...alone } = asked,
     share = asked.orbit.p / edge,

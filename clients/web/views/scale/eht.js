@@ -1,6 +1,6 @@
-// M87* and Sgr A* beside the measurements of the Event Horizon Telescope, at one scale on the sky: the rendered
-// picture, the same picture through the telescope's beam, and the measured ring with its error. A slider blends from
-// one to the next.
+// M87* and Sgr A* beside the measurements of the Event Horizon Telescope, at one scale on the sky. There are three
+// stages: the rendered picture, the same picture through the telescope's beam, and the measured ring with its error. A
+// slider blends from one to the next.
 import { byId, el, svg } from '../../base/dom.js';
 import { persistent } from '../../base/again.js';
 import { number, t } from '../../words/i18n.js';

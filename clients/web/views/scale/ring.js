@@ -1,5 +1,5 @@
-// The diameter of a ring in a picture through a beam: the radius of the largest brightness at 48 angles, about the
-// centre for which these radii spread least (as in EHT Collaboration 2019, ApJL 875, L4, section 9).
+// The diameter of a ring in a picture through a beam, as in EHT Collaboration 2019, ApJL 875, L4, section 9. It follows
+// from the radii of largest brightness at 48 angles, about the centre for which these radii spread least.
 const angles = 48,
   fwhm = 2 * Math.sqrt(2 * Math.log(2)), // width at half height over the standard deviation
   least_uas = 5,
