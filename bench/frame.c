@@ -95,7 +95,8 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
           *turned = o->turn ? cJSON_AddArrayToObject(root, "turned") : NULL;
     enum kd_status status = one_frame(renderer, &scene, o->live, first, error); /* compiles the kernels */
     for (int k = 0; k < o->repeat && !status; k++) {
-        scene.camera.inclination_deg += 1e-3; /* so that the map must be traced again, with the same amount of work */
+        /* the inclination changes, so that the map must be traced again with the same amount of work */
+        scene.camera.inclination_deg += 1e-3;
         status = one_frame(renderer, &scene, o->live, cold, error);
         if (!status && !o->live)
             status = one_frame(renderer, &scene, false, reused, error);

@@ -499,7 +499,7 @@ def live(world, a, harm):
             next_fault = now + times.expovariate(a.faults / (60 * a.minutes - 60))
         elif (not samples or now >= samples[-1]["s"] + 1) and (got := server.sample()):
             samples.append({"s": round(now, 1), **got, **world.answers})
-        if harm and now >= 60 * a.minutes - 30:  # so that all requests can end
+        if harm and now >= 60 * a.minutes - 30:  # faults end here, so that all requests can end
             world.failing.clear()
     return samples, killed
 

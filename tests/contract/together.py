@@ -486,7 +486,8 @@ TOGETHER = [
             "position is %.9g M from the hole; it must be more than %g M, inside which the hole captures everything",
             "a snapshot cannot have this body, because it is captured by the hole or faster than c",
             "name is not a string of at most %zu bytes",  # a schema counts characters, not bytes
-            "r is %.16g; it must be above the horizon at %.9g",  # this sentence and the next two: with gravity "kerr"
+            # this sentence and the next two are given with gravity "kerr"
+            "r is %.16g; it must be above the horizon at %.9g",
             "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
             "double precision cannot follow the motion from r = %.16g",
         ),

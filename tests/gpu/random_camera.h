@@ -53,7 +53,7 @@ static void random_camera(struct kd_random *random, int side, struct kd_scene *s
     c->inclination_deg = below(random, 3) ? between(random, 0, 180) : angles[below(random, 5)];
     s->image.width = s->image.height = side;
     s->image.critical_factor = 1;
-    s->accuracy.orders = below(random, 2) ? 1 : 3; /* so that few kernels have to be compiled */
+    s->accuracy.orders = below(random, 2) ? 1 : 3; /* only two values, so that few kernels have to be compiled */
     s->sky.model = KD_SKY_GRID;
     if (!below(random, 8)) {
         c->r = INFINITY;

@@ -100,7 +100,7 @@ static void assert_same_readers(struct kd_scene scene)
     scene.image.bit_depth = 16;
     struct kd_frame of_texels = rendered(&scene);
     other = scene;
-    for (int i = 0; i < 4; i++) { /* as many lens maps as the cache holds */
+    for (int i = 0; i < 4; i++) { /* the cache holds four lens maps */
         other.camera.inclination_deg += 1;
         struct kd_frame between = rendered(&other);
         kd_frame_finish(&between);

@@ -623,7 +623,7 @@ static void test_each_is_a_picture(void **state)
                 scene.polarization.model = turns ? KD_POLARIZATION_SCATTERING : KD_POLARIZATION_SYNCHROTRON;
                 if (kind == KD_LAYER_brightness_temperature || kind == KD_LAYER_specific_intensity ||
                     kind == KD_LAYER_jy_per_pixel ||
-                    kind == KD_LAYER_stokes_v) { /* these exist only for matter at a radio frequency */
+                    kind == KD_LAYER_stokes_v) { /* these layers exist only for matter at a radio frequency */
                     scene.disk.model = KD_DISK_NONE;
                     scene.volume.model = KD_VOLUME_RIAF;
                     scene.polarization.model =

@@ -648,7 +648,7 @@ static void volumes(void **state)
                     near("its light", (double)v->light[c], (double)alone.told->radiance[c],
                          5e-4 * (double)alone.told->radiance[c]);
                 lit[k] += v->light[0] > 0;
-                /* these are behind the shell's matter */
+                /* light of places behind the shell's matter */
                 dim += hides && k && v->light[0] < 0.9f * alone.told->middle.light[0];
                 kd_frame_finish(&alone);
             }

@@ -238,7 +238,7 @@ static void space_is_black(void **state)
         scene.camera.projection = KD_PROJECTION_AUTO;
         scene.camera.pitch_deg = 80;
         scene.sky.limit_mag = 14;
-        scene.sky.brightness = i ? 1 : INFINITY; /* both for a given and for the default brightness */
+        scene.sky.brightness = i ? 1 : INFINITY; /* tests both a given brightness and the default */
         scene.style.exposure = INFINITY;
         struct kd_frame frame = shot(&scene);
         const uint8_t *shown = frame.layers[0].data;

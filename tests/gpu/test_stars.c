@@ -32,7 +32,7 @@ static struct kd_scene scene_of(double spin, double inclination)
     scene.camera.fov_deg = FIELD;
     scene.disk.model = KD_DISK_NONE;
     scene.sky.model = KD_SKY_CATALOGUE;
-    scene.sky.limit_mag = -1; /* so bright that no other star passes the limit */
+    scene.sky.limit_mag = -1; /* a limit so bright that no other star is shown */
     scene.sky.brightness = 1;
     scene.sky.milky_way = 0;
     scene.style.exposure = 0;
@@ -351,7 +351,7 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
                  near = edge(scene, behind);
     const double tx = far * cos(ahead) - near * cos(behind), ty = far * sin(ahead) - near * sin(behind),
                  length = hypot(tx, ty);
-    const bool fast = fabs(scene->spacetime.spin) > 0.9; /* for fast holes the sky changes faster */
+    const bool fast = fabs(scene->spacetime.spin) > 0.9; /* about fast holes the sky changes faster along the picture */
     const double outwards = (fast ? 0.003 : 0.01) * fmin(off, 0.1) * curve,
                  along_ = (fast ? 0.001 : 0.03) * sqrt(fmin(off, 0.1)) * curve;
     static const double weights[] = { 8.0 / 12, -1.0 / 12 };

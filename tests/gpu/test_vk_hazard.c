@@ -56,7 +56,7 @@ static void apart(void **state)
     (void)state;
     assert_false(add(1, 0, 100, COMPUTE, true));
     assert_false(add(1, 100, 200, COMPUTE, true)); /* adjacent */
-    assert_false(add(2, 0, 200, COMPUTE, true));   /* no hazard: this is another buffer */
+    assert_false(add(2, 0, 200, COMPUTE, true));   /* no hazard: another buffer is used */
     assert_false(add(3, 0, 200, COMPUTE, false));
     assert_false(add(3, 0, 200, TRANSFER, false));
     assert_true(add(1, 199, 300, COMPUTE, true)); /* the ranges overlap by one byte */

@@ -12,7 +12,7 @@
 
 #include <stdbool.h>
 
-struct ks_photon {  /* as it arrives at the observer, covariant Boyer-Lindquist components */
+struct ks_photon {  /* A photon as it arrives at the observer, by its covariant Boyer-Lindquist components. */
     double a, r, u; /* spin; radius and cos(theta) of the observer */
     double energy, momentum, p_r, p_theta;
     double phi, delay; /* azimuth and delay of the path before a start that stands for infinity */

@@ -120,7 +120,7 @@ class Dumps(unittest.TestCase):
         dumps.write_athdf(self.path("both.athdf"), SMALL, any_flow(a), a=a, fine=[(0, 0, 0)], single=False)
         both = kerrd.matter(self.path("both.athdf"), **options)
         coarse = kerrd.matter(self.path("one.athdf"), **options)
-        inner = (slice(0, 24), slice(0, 16), slice(0, 4))  # of the refined block
+        inner = (slice(0, 24), slice(0, 16), slice(0, 4))  # zones of the refined block
         np.testing.assert_array_equal(both.arrays["density"][inner], fine.arrays["density"][inner])
         outside = both.arrays["density"][24:]
         np.testing.assert_array_equal(

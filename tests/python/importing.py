@@ -38,7 +38,7 @@ GOLD = {
     4: (1e5, 0, 10 / 3, 1, 0.9, 0.272950),
     5: (1e6, 0, 100 / 3, 1, 0.9, 0.0257013),
 }
-LAPSE = math.sqrt(1 - 2 / 1000)  # of an observer at rest at 1000 M
+LAPSE = math.sqrt(1 - 2 / 1000)  # lapse of an observer at rest at 1000 M
 RIAF_60_JY = 3.0402554  # ipole's model/riaf/riaf.txt: 223.005 GHz, 60 degrees, unpolarised
 
 # S. Chandrasekhar 1960, Radiative Transfer, table XXIV: the cosine, and intensity and polarised fraction of light from

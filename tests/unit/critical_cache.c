@@ -51,7 +51,7 @@ static void made_once(void **state)
     scene.image.samples = 3;
     scene.style.exposure = 1;
     assert_int_equal(check(&scene), 0);
-    scene.camera.field_m = 1e-6; /* no pixels: an empty list is cached as well */
+    scene.camera.field_m = 1e-6; /* no pixel is on the curve: an empty list is cached as well */
     assert_int_equal(check(&scene), 1);
     assert_int_equal(check(&scene), 0);
 }

@@ -26,7 +26,7 @@ static void all_are_there(void **state)
         assert_non_null(kd_emitters[i]->present);
         assert_true(kd_emitters[i]->n_sentences > 0); /* each has approximations */
         assert_true(!kd_emitters[i]->fill ||
-                    kd_emitters[i]->depends[0].size); /* otherwise the numbers would be filled only once */
+                    kd_emitters[i]->depends[0].size); /* without dependencies the numbers would be filled only once */
     }
 }
 
@@ -520,7 +520,7 @@ static void pictures_of_the_sky(void **state)
     assert_true(says(&scene, "sky: the light between the stars is a photograph") &&
                 says(&scene, "sky: a picture of three colours has no spectrum"));
     assert_true(kd_emit_device_bytes(&scene) > 3 * stands_in);
-    scene.sky.milky_way = 0; /* no light at all */
+    scene.sky.milky_way = 0; /* now the sky has no light at all */
     assert_true(!says(&scene, "sky:") && kd_emit_needs(&scene) == KD_LENS_W && !kd_emit_device_bytes(&scene));
 }
 

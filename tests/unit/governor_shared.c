@@ -152,7 +152,7 @@ static void parts_are_equal_on_any_machine(void **state)
         for (int i = 0; i < n; i++)
             assert_true(d.sharers[i].sim.governor.share >= 0.999 / n);
         if (rung(s) + 1 < s->sim.governor.ladder.n_rungs &&
-            sum.used > 0.9) { /* otherwise the machine is too slow even for the lowest rung, or it is idle */
+            sum.used > 0.9) { /* in other cases the machine is too slow even for the lowest rung, or it is idle */
             assert_true(cost <= 1.1001 * may_take(period * share, truth.fixed));
             assert_true(sum.most <= 1.25 * sum.least);
             reached++;

@@ -67,7 +67,7 @@ static void frequencies_are_the_averages(void **state)
         struct kd_orbit_bound b = bound_of(&o);
         struct kd_orbit_frequencies f = kd_orbit_frequencies_of(&b);
         double bound = 1e-14 * condition(e);
-        if (e->e == 0 && e->p < 6.01) /* so near the ISCO, Upsilon_r is the square root of a difference of 1e-4 */
+        if (e->e == 0 && e->p < 6.01) /* so close to the ISCO, Upsilon_r is the square root of a difference of 1e-4 */
             bound = 1e-12;
         close_to(i, "Upsilon_r", f.mino_r, e->mino_r, 2 * bound * e->mino_r);
         close_to(i, "Upsilon_theta", f.mino_theta, e->mino_theta, bound * e->mino_theta);

@@ -14,7 +14,7 @@ static void expect_refused(const char *text, size_t length, const char *pointer,
     kd_scene_defaults(&scene);
     scene.camera.r = 12;
     before = scene;
-    /* of exactly this size, so that a sanitizer detects a read past the end; NULL for no bytes */
+    /* The block has exactly this size, so that a sanitizer detects a read past the end. NULL for no bytes. */
     char *exact = length ? malloc(length) : NULL;
     if (length)
         memcpy(exact, text, length);
@@ -353,7 +353,8 @@ static void random_damage_is_harmless(void **state)
         for (uint64_t n = 1 + support_random(&seed) % 3; n; n--)
             length = length ? mutate(text, length, capacity, &seed) : 0;
         text = realloc(text,
-                       length ? length : 1); /* of exactly this size, so that a sanitizer detects a read past the end */
+                       /* The block has exactly this size, so that a sanitizer detects a read past the end. */
+                       length ? length : 1);
         struct kd_error error = { 0 };
         if (kd_scene_from_json(&target, text, length, &error)) {
             refused++;

@@ -648,7 +648,8 @@ static void long_strings_with_escapes_are_read_in_pieces(void **state)
         assert_memory_equal(all + length * i, one, length);
     cJSON_Delete(root);
     free(text);
-    /* otherwise glibc would fill the memory in one long piece, which is not the reader's work */
+    /* M_PERTURB is switched off: otherwise glibc would fill the memory in one long piece, which is not the reader's
+     * work */
     mallopt(M_PERTURB, 0);
     const size_t many = (size_t)12 << 20;
     text = malloc(2 * many + 10);

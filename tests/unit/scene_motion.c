@@ -29,7 +29,7 @@ static void a_smooth_disk_rests(void **state)
     assert_true(kd_emit_moves(&scene));
     scene.motion.time_rate = 0;
     assert_false(kd_emit_moves(&scene));
-    for (int sign = -1; sign <= 1; sign += 2) { /* also at the limits of time */
+    for (int sign = -1; sign <= 1; sign += 2) { /* tested at both limits of time */
         scene.motion.time_rate = sign * 1e6;
         scene.top.time = sign * (1e12 - 1);
         assert_true(kd_emit_moves(&scene));

@@ -16,7 +16,8 @@ static struct kd_canvas canvas_of(uint32_t width, uint32_t height, int depth, in
 {
     const size_t bytes = (size_t)3 * width * height * (depth == 16 ? 2 : 1);
     struct kd_canvas canvas = { malloc(bytes), width, height,
-                                depth }; /* of exactly this size, so that a sanitizer detects a write past the end */
+                                /* the block has exactly this size, so that a sanitizer detects a write past the end */
+                                depth };
     assert_non_null(canvas.pixels);
     memset(canvas.pixels, value, bytes);
     return canvas;

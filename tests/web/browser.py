@@ -135,7 +135,7 @@ class Browser(unittest.TestCase):
             + "#"
             + ("" if "pace=" in fragment else "pace=fast&")
             + (fragment if "preset=" in fragment else "preset=default&" + fragment)
-        )  # this scene does not depend on the first view
+        )  # with a preset, the scene does not depend on the first view
         page.wait_for_selector(wait, timeout=PATIENCE_MS, state="attached")
         return page
 

@@ -73,7 +73,7 @@ export function play(url, repeated) {
   speaker.loop = Boolean(repeated);
   if (repeated) timer = setTimeout(() => (speaker.loop = false), repeated_ms);
   return speaker.play().catch(error => {
-    if (error.name !== 'AbortError') throw error; // otherwise another sound has replaced this one
+    if (error.name !== 'AbortError') throw error; // an AbortError means that another sound has replaced this one
   });
 }
 

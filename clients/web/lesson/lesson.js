@@ -110,7 +110,7 @@ function panel(scene, session) {
   const present = () => ({
     session: session()?.split('/').at(-1),
     link: linkOf(scene).slice(0, 8000),
-    about: describe(scene).slice(0, 300), // this has at most 900 bytes
+    about: describe(scene).slice(0, 300), // 300 characters are at most 900 bytes
     lang,
   });
 

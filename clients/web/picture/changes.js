@@ -56,7 +56,7 @@ export function follow(scene, document, now) {
     ['r', 'infinity'],
   ]) {
     const there = document.camera?.[name] ?? usual;
-    if (scene.begun('camera.' + name) !== there) continue; // it has been moved by a user since
+    if (scene.begun('camera.' + name) !== there) continue; // the user has moved this value since
     moved['camera.' + name] = camera[name];
     (document.camera ??= {})[name] = camera[name];
   }

@@ -162,7 +162,7 @@ static double beyond(const struct kd_hole *hole, const struct ring *o, double is
 struct sky {
     int panels;
     double ends[PANELS + 1];
-    struct parts parts; /* for the last chi that was computed */
+    struct parts parts; /* parts of the sky for the last chi that was computed */
 };
 
 static struct sky sky_of(const struct kd_hole *hole, const struct ring *o, double isco)

@@ -148,7 +148,7 @@ static struct place aim_at(const struct kd_critical *c, double angle)
         return see(c, c->high);
     struct aim aim = { c, cos(angle), sin(angle) };
     double at = angle == M_PI ? c->low : kd_root(miss, &aim, c->low, c->high);
-    if (isnan(at)) /* no root, because the angle is within rounding of an end */
+    if (isnan(at)) /* no root is sought, because the angle is within rounding of an end */
         at = angle < 1 ? c->high : c->low;
     return see(c, at);
 }

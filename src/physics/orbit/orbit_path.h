@@ -47,7 +47,7 @@ struct kd_spring {
 };
 
 struct kd_orbit_path {
-    /* not used here; for callers */
+    /* not read by the integrator; for callers only */
     struct kd_orbit orbit;
     enum kd_orbit_method method;
     bool factored, ingoing;

@@ -144,7 +144,7 @@ function build(stage, scene) {
     speak();
   }
   const speak = paced(() => canvas.setAttribute('aria-label', describe(other)));
-  let source = null; // none while the other side has the data
+  let source = null; // there is no source while the other side shows the data
   const open = () =>
     (source ??= openSource(
       other,

@@ -160,7 +160,7 @@ export async function openPlayground() {
     if (same(hand.aims, mine)) {
       hand.aim({ armed: false, body: null });
       choose(id ?? null);
-    } // otherwise the user has aimed again meanwhile
+    } // if the aim differs, the user has aimed again meanwhile
     const name = plane.names.get(id) ?? '';
     say(t('playground.goes-at-c', '{0} goes at {1} c.', name, number(Math.hypot(...v), 3)));
   }

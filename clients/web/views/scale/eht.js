@@ -237,7 +237,8 @@ async function slide(root) {
     const at = slider.valueAsNumber,
       beam = Math.min(at, 1),
       ring = Math.max(at - 1, 0);
-    root.style.setProperty('--sharp', beam < 1 ? 1 : 0); // otherwise it would shine through the dimmed pictures
+    // the sharp picture is hidden, because it would shine through the dimmed pictures
+    root.style.setProperty('--sharp', beam < 1 ? 1 : 0);
     root.style.setProperty('--beam', beam);
     root.style.setProperty('--ring', ring);
     const nearest = Math.round(at);
