@@ -1,7 +1,6 @@
-"""Faults beneath the real program on a device, as a server and as `kerrd render`.
-
-Memory and files fail, caches are damaged, pipes are closed, clocks jump. Allocations of the Vulkan driver itself never
-fail here; docs/faults-vulkan.md has the faults of drivers.
+"""Tests of the real program on a device, as a server and as `kerrd render`, with injected faults. Memory and files
+fail, caches are damaged, pipes are closed, clocks jump. Allocations of the Vulkan driver itself never fail here;
+docs/faults-vulkan.md has the faults of drivers.
 
 device.py FAULTS KERRD serve                 some faults of each series
 KD_WHOLE=1 device.py FAULTS KERRD serve      all of them

@@ -1,4 +1,4 @@
-"""Disks that are full, fail, or are slow, with a renderer without a device.
+"""Tests with disks that are full, fail, or are slow, and a renderer without a device.
 
 An accepted request is completed when there is room again. A refused request leaves no files.
 

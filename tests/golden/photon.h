@@ -1,5 +1,5 @@
-/* For the Kerr-Schild oracle: the photon that a pixel with one ray sees, through a plane camera or a static observer's
- * pinhole camera. */
+/* Makes the photon that a pixel with one ray sees, for the Kerr-Schild oracle, through a plane camera or a static
+ * observer's pinhole camera. */
 #ifndef KD_TESTS_GOLDEN_PHOTON_H
 #define KD_TESTS_GOLDEN_PHOTON_H
 

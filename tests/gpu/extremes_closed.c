@@ -1,5 +1,5 @@
-/* The closed form at the extremes, compared with Taylor series to 20 digits (tests/oracle/null_reference.py extremes).
- * The other files compare the kernels with the closed form. */
+/* Tests of the closed form at the extremes, compared with Taylor series to 20 digits (tests/oracle/null_reference.py
+ * extremes). The other files compare the kernels with the closed form. */
 #include "extremes.h"
 
 #include "physics/null/null_geodesic.h"

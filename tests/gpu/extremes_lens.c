@@ -1,5 +1,5 @@
-/* Lens maps of pictures at the extremes: every plane is finite; radii, azimuths and fates against the closed form,
- * for cameras at infinity and at rest in a locally non-rotating frame next to the horizon.
+/* Tests of lens maps of pictures at the extremes, for cameras at infinity, and at rest in a locally non-rotating frame
+ * next to the horizon. Every plane must be finite. Radii, azimuths and fates are compared with the closed form.
  *
  * A picture's ray has labels of single precision. The labels of a finite camera are sums such as E = e_t + e_phi m_phi,
  * which lose digits where the terms cancel. Rays that change their kind when all inputs move by a few roundings are

@@ -1,6 +1,6 @@
-/* Whole pictures at the extremes, from JSON to pixels: one pixel, one row or column, many bands, odd shapes;
- * denormal numbers and zeros of either sign; next to the horizon. Radiance and the report are finite, radiance is
- * not negative, nothing is written beyond the last pixel, and light is where it must be. */
+/* Tests of whole pictures at the extremes, from JSON to pixels: one pixel, one row or column, many bands, odd shapes;
+ * denormal numbers and zeros of either sign; next to the horizon. Radiance and the report must be finite, radiance must
+ * not be negative, nothing may be written beyond the last pixel, and light must be where it is expected. */
 #include "extremes.h"
 
 #include "render/device/device_internal.h"

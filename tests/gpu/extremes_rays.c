@@ -1,6 +1,6 @@
-/* Listed rays at the extremes, by the engine in Mino time in both precisions, compared with the closed form and with
- * their own stated errors. A result may be wrong only if the engine marks the ray as undecided or states a large enough
- * error. From a finite radius every second ray starts outwards. */
+/* Tests of listed rays at the extremes, by the engine in Mino time in both precisions. They are compared with the
+ * closed form and with their own stated errors. A result may be wrong only if the engine marks the ray as undecided or
+ * states a large enough error. From a finite radius every second ray starts outwards. */
 #include "extremes.h"
 
 #include "physics/spacetime/kerr.h"

@@ -1,5 +1,5 @@
-"""The header of an answer fits into the buffers of proxies, whatever the scene shows: nginx accepts 4096 bytes by
-default. daemon.py checks this bound for the answers of all tests; this file adds the scenes with the longest
+"""Tests that the header of an answer fits into the buffers of proxies, whatever the scene shows. nginx accepts 4096
+bytes by default. daemon.py checks this bound for the answers of all tests; this file adds the scenes with the longest
 headers."""
 
 import json

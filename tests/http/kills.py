@@ -3,7 +3,7 @@
     kills.py SERVER [OPTION...]         5 kills
     KD_KILLS=30 kills.py SERVER         as many as that
 
-Needs no device with fake_server; the seed is printed and taken from KD_SEED."""
+With fake_server no device is needed. The seed is printed, and can be given as KD_SEED."""
 
 import json
 import os

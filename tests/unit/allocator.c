@@ -1,5 +1,5 @@
-/* A long-running process returns large blocks to the kernel, and its threads share heaps: checked with the C
- * library's own statistics. */
+/* Tests that a long-running process returns large blocks to the kernel, and that its threads share heaps. Both are
+ * checked with the C library's own statistics. */
 #include "base/allocator.h"
 #include "base/cores.h"
 

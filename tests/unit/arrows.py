@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Includes point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and cli on top.
+"""Checks that includes point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and
+cli on top.
 
 arrows.py SRC exit 1 naming every forbidden #include in SRC, after checking that planted ones are found
 """

@@ -1,7 +1,7 @@
-/* Lines of disks seen next to edge on and exactly so, compared with sums over rays that are integrated in Kerr-Schild
- * coordinates (tests/oracle/kerr_schild.h). There is one ray in each field of a grid over the image plane, at a random
- * place in the field. The rays share no equation with the code under test, which sums rays in closed form along
- * columns.
+/* Tests of lines of disks seen next to edge-on and exactly edge-on. They are compared with sums over rays that are
+ * integrated in Kerr-Schild coordinates (tests/oracle/kerr_schild.h). There is one ray in each field of a grid over the
+ * image plane, at a random place in the field. The rays share no equation with the code under test, which sums rays in
+ * closed form along columns.
  *
  *     unit_edge_on_lines [SIDE [CASE]]     SIDE^2 rays, 100 without; 2000 (4 million) take a quarter of an hour */
 #include "base/random.h"

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Frame times for the simulations of governor.c: kd_bench_frame at each resolution of the ladder, on this machine.
+"""Measures frame times for the simulations of governor.c, by kd_bench_frame at each resolution of the ladder, on this
+machine.
 
 governor_record.py BUILD > governor_recorded.h
 """

@@ -1,4 +1,5 @@
-/* Governors of sessions that share a device: each yields to the others, and recovers when they stop. */
+/* Tests of governors of sessions that share a device: each session yields to the others, and recovers when they
+ * stop. */
 #include "shared_device.h"
 
 #include <setjmp.h>

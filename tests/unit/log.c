@@ -1,4 +1,4 @@
-/* Log lines: one for each event whatever a message contains, as text and as JSON. */
+/* Tests of log lines: there is one line for each event, whatever its message contains, both as text and as JSON. */
 #include "base/log.h"
 #include "base/utf8.h"
 

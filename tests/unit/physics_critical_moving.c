@@ -1,6 +1,6 @@
-/* The critical curve of observers inside the horizon and of those that move in latitude. Light a microradian to either
- * side of the curve is traced back in Kerr-Schild coordinates, from frames computed in these coordinates. On one side
- * it must come from the sky, on the other side from the hole. */
+/* Tests of the critical curve of observers inside the horizon, and of observers that move in latitude. Light a
+ * microradian to either side of the curve is traced back in Kerr-Schild coordinates, from frames computed in these
+ * coordinates. On one side it must come from the sky, on the other side from the hole. */
 #include "kerr_schild.h"
 #include "physics/null/critical.h"
 

@@ -1,5 +1,6 @@
-/* Light about holes whose horizons are close to each other, where the integrals over 1/(r - r+) and 1/(r - r-) agree in
- * many digits. Their difference gives the integral over 1/Delta. The reference is a quadrature in 38 digits. */
+/* Tests of light about holes whose horizons are close to each other, where the integrals over 1/(r - r+) and 1/(r - r-)
+ * agree in many digits. Their difference gives the integral over 1/Delta. The reference is a quadrature in 38
+ * digits. */
 #include "null_close.h"
 
 #include "physics/math/carlson.h"

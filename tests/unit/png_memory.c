@@ -1,5 +1,5 @@
-/* Each allocation fails in turn. The result must be KD_ENOMEM, the output buffer must be unchanged, and nothing may
- * leak. */
+/* Tests of PNG with failing allocations: each allocation fails in turn. The result must be KD_ENOMEM, the output buffer
+ * must be unchanged, and nothing may leak. */
 #include "base/parallel.h"
 #include "image/png.h"
 #include "image/png_live.h"

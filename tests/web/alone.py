@@ -1,4 +1,4 @@
-"""The picture alone, in all of the window: alone.py KERRD FOLDER (browser.py)."""
+"""Tests of the picture alone, in all of the window: alone.py KERRD FOLDER (browser.py)."""
 
 from browser import AT_REST, FINE, Browser, main
 

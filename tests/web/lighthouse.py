@@ -1,4 +1,4 @@
-"""Scores of the landing by Lighthouse: lighthouse.py KERRD, run by scripts/matrix.
+"""Tests the scores that Lighthouse gives the first page: lighthouse.py KERRD, run by scripts/matrix.
 
 Accessibility, best practices and SEO must be at least 95 of 100. The largest paint and the layout shift are only
 printed, because they depend on the machine.
