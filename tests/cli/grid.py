@@ -162,7 +162,8 @@ class Grid(Case):
         self.assertGreater(json.loads(done.stderr)["flux_jy"], 0)
 
     def test_uneven_columns(self):
-        """Columns that are denser at the plane, and in some rows more than in others, become the torus as even ones do."""
+        """On columns that are denser at the plane, and in some rows more than in others, the torus gives the same light
+        as on even columns."""
         self.layers = "brightness_temperature"
         want, off = self.maps()[self.layers], []
         self.sampled(192, 192)

@@ -212,7 +212,7 @@ static void test_crossings(void **state)
     }
 }
 
-/* Directions in the sky and fates are those of the oracle. */
+/* Directions in the sky and fates are compared with the oracle's. */
 static void test_ends(void **state)
 {
     (void)state;

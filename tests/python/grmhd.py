@@ -38,7 +38,7 @@ def nmse(got, want):
 
 
 def any_flow(a, seed=5):
-    """A smooth flow without a symmetry: density, energy, and and an arbitrary unit vector u with an arbitrary b
+    """A smooth flow without a symmetry: density, energy, and an arbitrary unit vector u with an arbitrary b
     perpendicular to it."""
     random = np.random.default_rng(seed).normal(size=(8, 3))
 

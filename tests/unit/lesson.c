@@ -52,7 +52,7 @@ static void test_who_has_answered_stays(void **state)
     assert_ptr_equal(pupil(100), &one->pupils[4]);
     assert_ptr_equal(pupil(101), &one->pupils[5]);
     assert_int_equal(one->pupils[3].answered, 2);
-    assert_ptr_equal(pupil(102), &one->pupils[3]); /* the last place whose pupil is absent */
+    assert_ptr_equal(pupil(102), &one->pupils[3]); /* the last entry whose pupil is absent */
     assert_int_equal(one->pupils[3].answered, 0);
     assert_null(pupil(103));
 }

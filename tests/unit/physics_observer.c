@@ -122,8 +122,8 @@ static void everywhere(check *each)
         assert_true(seen[k] > (int)(COUNT(spins) * COUNT(angles) * COUNT(heights)) / 2);
 }
 
-/* The relative rounding of Delta or g_tt, which vanish at the edge. It is the rounding of r, or the shift of the edge
- * by the rounding of cos(theta), divided by the distance to the edge. */
+/* The relative rounding error of Delta or g_tt, which vanish at the edge of the region where the observer exists. It is
+ * the rounding of r, or the shift of the edge by the rounding of cos(theta), divided by the distance to the edge. */
 static double rounding(const struct kd_observer_motion *m, const struct kd_vantage *at)
 {
     double edge = fmax(kd_observers[m->observer].outside(&at->hole, at->u), at->hole.outer),

@@ -76,7 +76,8 @@ class Queues(unittest.TestCase):
                     self.near(found, MEAN * load / (1 - load))
 
     def test_works_of_one_length(self):
-        """The wait is half of that with exponential lengths (Pollaczek and Khinchine)."""
+        """With pieces of equal length the wait is half of the wait with exponentially distributed lengths (Pollaczek
+        and Khinchine)."""
         found, _ = waits(1, 0.7, 10000, lambda rng: MEAN, 5)
         self.near(found, MEAN * 0.7 / (1 - 0.7) / 2)
 

@@ -219,7 +219,7 @@ static void bombs_are_refused(void **state)
     free(text);
 }
 
-/* 32 levels pass the scan and then fail because there is no such field; one more fails in the scan. */
+/* 32 nested levels pass the scan, and then fail because there is no such field; 33 levels fail in the scan. */
 static void depth_limit_is_exact(void **state)
 {
     (void)state;

@@ -143,7 +143,7 @@ class Listed(Embed):
             }""",
             self.base,
         )
-        self.complaints.clear()  # the browser reports the expected refusal as a complaint
+        self.complaints.clear()  # the browser reports the expected refusal as an error in the console
         self.assertGreaterEqual(told.pop("rays"), 64 * 36)
         self.assertGreater(told.pop("approximations"), 3)
         wanted = {

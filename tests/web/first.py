@@ -206,7 +206,8 @@ class First(Browser):
         self.assertTrue(page.is_disabled("#undo"))
 
     def test_too_few_live_pictures_are_followed_by_the_recording(self):
-        """With a view in the address ahead.js begins no recording, so that the pictures are counted (drift.js)."""
+        """If the address names a view, ahead.js does not begin a recording. The pictures of the trial are then counted
+        (drift.js), and the recording follows."""
         page, release, _ = self.landed(lambda n: n < 2, "&view=lensing")
         page.wait_for_selector(self.LOOP)
         order = page.evaluate("[...document.querySelectorAll('#picture, #moving, #loop')].map(({ id }) => id)")

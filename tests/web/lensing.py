@@ -387,7 +387,7 @@ class Lensing(Browser):
     def test_the_style_of_a_radio_telescope(self):
         """A style's fields appear when it is chosen. Without false colours their controls are hidden. If one of them
         prevents a change, the page explains this."""
-        self.expected = "422"  # the answer to a colour bar without its colours
+        self.expected = "422"  # the server's answer to a colour bar without false colours
         page = self.open("lang=en&preset=edge-on")
         self.open_groups(page)
         field = lambda path: page.locator(f'[data-path="{path}"]')

@@ -427,7 +427,8 @@ class Pages(Browser):
             ("spot", "preset=hot-spot&pause=1", "#light .body")
         ]
         for i, (view, fragment, there) in enumerate(scenes):
-            lang = ("en", "it")[i % 2]  # the languages take turns, because the rules do not depend on words
+            # each view is tested in one language only, because the rules do not depend on words
+            lang = ("en", "it")[i % 2]
             with self.subTest(view=view, lang=lang):
                 page = self.open(f"lang={lang}&{fragment}", there)
                 self.open_groups(page)
