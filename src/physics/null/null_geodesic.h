@@ -81,4 +81,8 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray);
 /* Like kd_null_trace, without the errors, which are 0; takes a quarter to a third of the time. */
 struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray);
 
+/* Like kd_null_trace_fast, without phi, delay, sky_u and sky_phi, which are NaN: fate, turn, and r and sense of each
+ * crossing are the same to the bit. Takes a third of the time of kd_null_trace_fast. */
+struct kd_null_path kd_null_trace_radii(const struct kd_null_ray *ray);
+
 #endif

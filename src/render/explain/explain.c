@@ -44,9 +44,9 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
     };
     const double alpha_beta[] = { x->label.alpha, x->label.beta };
     const struct kd_ray_labels ray = { alpha_beta, &x->label.outward, 1 };
-    enum kd_status status = x->motion.within
-                                ? kd_ray_within(&x->motion, x->frame.reversed, x->crossings, &x->end, error)
-                                : kd_rays_closed(&params, &ray, true, x->crossings, &x->end, NULL, NULL, error);
+    enum kd_status status =
+        x->motion.within ? kd_ray_within(&x->motion, x->frame.reversed, x->crossings, &x->end, error)
+                         : kd_rays_closed(&params, &ray, KD_CLOSED_ERRORS, x->crossings, &x->end, NULL, NULL, error);
     for (uint32_t n = 0; n < x->end.n_crossings && !status; n++) {
         struct kd_ray_crossing *c = &x->crossings[n];
         c->phi = kd_ray_path_phi(&x->frame, c->phi);

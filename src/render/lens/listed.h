@@ -30,9 +30,8 @@ enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan 
                              const struct kd_camera_label *labels, size_t n, float *planes, uint64_t *undecided,
                              struct kd_error *error);
 
-/* Traces the rays of a plan by any engine, as kd_rays_device and kd_rays_closed do, but without g and errors. */
-enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                             const struct kd_setting *by, const struct kd_ray_labels *rays,
+/* Computes the radii of the crossings, and the fates, of rays of a plan in closed form (KD_CLOSED_RADII). */
+enum kd_status kd_lens_radii(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_ray_labels *rays,
                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, struct kd_error *error);
 
 #endif
