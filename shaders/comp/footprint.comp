@@ -8,14 +8,14 @@
  *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
  *
  * The derivative comes from differences to neighbouring rays of the same order or fate. Neighbours on both sides give
- * the derivative to second order, and so do two neighbours on one side, at the edge of the picture or of the buffer.
- * One neighbour gives it to first order. A ray without neighbours is isolated at an edge, and its footprint is
- * KD_FOOTPRINT_EDGE. Half the second difference is added, because a map that turns back within a step still has a size;
- * this term is of second order, too.
+ * the derivative to second order. At the edge of the picture or of the buffer, two neighbours on one side give it to
+ * second order as well. One neighbour gives it to first order. A ray without neighbours is isolated at an edge, and its
+ * footprint is KD_FOOTPRINT_EDGE. Half the second difference is added, because a map that turns back within a step
+ * still has a size; this term is of second order, too.
  *
  * Rays on listed pixels are on a square grid, treated separately for each pixel, or on a lattice (ray/place.glsl). On a
- * lattice J is the least-squares fit to the differences to neighbours in this pixel and adjacent ones, for a step as
- * long as the side of the area of one ray. Residuals of the fit are added like the second difference.
+ * lattice J is a least-squares fit to the differences to neighbours in this pixel and in adjacent pixels. Its step is
+ * the side of a square with the area of one ray. Residuals of the fit are added like the second difference.
  *
  * Differences are between 32-bit numbers: a footprint below about 1e-6 of r, or 1e-6 radians, is noise. */
 #version 450

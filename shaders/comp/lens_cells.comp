@@ -87,7 +87,7 @@ uvec2 edge_of_five(uint k)
 }
 uvec2 within_five(uint k) { return uvec2(k % 3u + 1u, k / 3u + 1u); }
 
-/* Makes a place a node. word: of the index. */
+/* Makes the ray at place `at` a node. word: the index's word for that place. */
 void make_node(uint node, uint word, uvec2 at)
 {
     number[word] = node + 1u;
@@ -95,7 +95,7 @@ void make_node(uint node, uint word, uvec2 at)
 }
 
 /* Lists the missing nodes of a cell's four quarters, or of a block, and the two rays that check each quarter or the
- * block. stage: that of these rays. */
+ * block. stage: the stage at which these rays are traced. */
 void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
 {
     const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
@@ -175,8 +175,8 @@ void tell(inout kd_line_told t, vec3 v[6])
         tell(told, v); \
     } while (++axis < 2u);
 
-/* Distance of the cell's middle from the direction to the hole, in steps between rays; for a sphere or a dome a radian.
- * Rounding moves a ray by a fraction of this distance. */
+/* Distance of the cell's middle from the direction to the hole, in steps between rays. For a sphere or a dome this
+ * distance is taken as one radian. Rounding moves a ray by a fraction of this distance. */
 float steps_to_hole(uvec2 corner, uint side)
 {
     ivec2 middle = place_of(corner + uvec2(side / 2u));

@@ -1,6 +1,7 @@
 /* Kernel: makes the lens map in closed form, for an observer at infinity or outside the photon orbits. It computes the
- * radii of the crossings and, if the scene requires them, their azimuths and radial slopes, the direction in which a
- * ray escapes and its fate. It makes all planes of shared/lens.h except the delay and alpha.
+ * radii of the crossings. If the scene requires them, it also computes the azimuths and radial slopes of the crossings,
+ * a ray's fate, and the direction in which the ray escapes. It makes all planes of shared/lens.h except the delay and
+ * alpha.
  *
  * The times at which a ray crosses the plane are known (polar.glsl), and from them its radius (arc.glsl). The azimuth
  * by which the hole drags the ray is an integral over each half period, by Gauss-Legendre quadrature. The nodes of the
@@ -183,8 +184,8 @@ void main()
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
-    /* Far out, the scale of w is E divided by the larger of E and |(l, p)|. That divisor is at least a.scale /
-     * sqrt(3), and at least 1. The scale is at most that of the horizon. */
+    /* Far out, the scale of w is E divided by the larger of E and |(l, p)|. This divisor is at least a.scale / sqrt(3),
+     * and at least 1. The scale of w is at most the scale at the horizon. */
     const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
     bool open = !kd_is_decided(barrier, start, kd_start_noise(m, start, rounding)) || is_open(leg, polar, margins);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);

@@ -2,9 +2,9 @@
  * pixels as whole words: RGB of 8 bits in three, of 16 bits in six, packed without padding as a PNG encoder needs them.
  * Invocations after the last pixel write zeros.
  *
- * This file is compiled to eight kernels: KD_TEXELS reads the radiance as texels of four floats, three of which are
- * four pixels; KD_BLOOM removes the light that a lens spreads, and adds what arrives; KD_HEAT shows the luminance
- * after the tone curve in false colour. */
+ * This file is compiled to eight kernels, for all combinations of three macros. KD_TEXELS reads the radiance as texels
+ * of four floats, three of which are four pixels. KD_BLOOM removes the light that a lens spreads, and adds the light
+ * that arrives. KD_HEAT shows the luminance after the tone curve in false colour. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -193,9 +193,9 @@ void main()
         tau += h * float(min(j, STEPS));
         float left = h * float(STEPS - min(j, STEPS)), ahead = left * abs(y.dw);
         /* The error of w comes from the steps and from rounding. The error of the steps is the difference of the two
-         * integrations, if that is small. As two wrong paths may meet by chance, it is taken to be at least the
-         * error at the last crossing times the growth of the variation since then. Rounding adds about ten
-         * operations of a unit roundoff each, amplified by the variation. It adds the same amount again through the
+         * integrations, if that is small. Two wrong paths may agree by chance. So the error of the steps is taken to be
+         * at least the error at the last crossing, times the growth of the variation since then. Rounding adds about
+         * ten operations of a unit roundoff each, amplified by the variation. It adds the same amount again through the
          * time of the crossing, and the drift of the first integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);

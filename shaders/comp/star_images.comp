@@ -9,8 +9,8 @@
  * there is clearly only one root. Each root counts once: there are up to four where a caustic passes.
  *
  * A star's flux F in an image is F dOmega/dOmega_s. Divided by the solid angle of a pixel it is the mean radiance
- * there, and the pixel's own solid angle cancels: the radiance is F over the solid angle of the sky that the map takes
- * a pixel to at the star's place, |det J|/cos(angle to the ray). The light is spread as in ray/star_light.glsl.
+ * there, and the pixel's own solid angle cancels: the radiance is F divided by the solid angle of the sky to which the
+ * map takes a pixel at the star's place, |det J|/cos(angle to the ray). The light is spread as in ray/star_light.glsl.
  *
  * Rays of the rim (ray/rim.glsl) are processed likewise, with their own steps, and the size of these steps in the
  * picture.

@@ -12,8 +12,8 @@
  * is nearly singular, on the caustic, the derivative does not describe the whole patch; e makes room for the rest.
  *
  * There the parallelogram is much wider than the patch. So a star must also be in a rectangle along the patch's long
- * axis, that contains the patch by the map's derivatives of first and second order. They need all eight rays about the
- * ray. */
+ * axis, which contains the patch by the map's derivatives of first and second order. These derivatives need all
+ * eight rays about the ray. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -166,8 +166,9 @@ vec2 linear_of(kd_tile t, vec2 p)
 }
 
 /* Bounds for stars in the cells of a tile: the largest coordinates by the linear map, and the least area that the map
- * takes a ray's cell to, relative to that of the linear map. Both are those of nine places: middle, sides and corners.
- * Between these, a parabola with second derivative c exceeds its values at distances `far` by up to c far^2/8. */
+ * takes a ray's cell to, relative to that of the linear map. Both are taken over nine places: middle, sides and
+ * corners. Between these, a parabola with second derivative c exceeds its values at distances `far` by up to c
+ * far^2/8. */
 struct kd_bounds {
     vec2 most;
     float sharp;
@@ -205,10 +206,10 @@ vec2 place_of(kd_tile t, vec2 linear)
 /* Solid angle to which the map takes a ray's cell at a place. */
 float area(kd_tile t, vec2 p) { return abs(determinant_of(derivative(t, p)) * t.det) * (1.0 / float(HALF * HALF)); }
 
-/* Spreads the light of star k, whose place is this many rays from the middle ray (x, y) of a tile. magnified: its
- * flux over the solid angle of the sky that a pixel is mapped to. Where two tiles meet they share the light, with
- * weights that go from 0 to 1 over a fifth of a step, because their maps differ slightly; two rays do so in
- * star_images.comp. */
+/* Spreads the light of star k, whose place is this many rays from the middle ray (x, y) of a tile. magnified: its flux
+ * divided by the solid angle of the sky to which the map takes a pixel. Where two tiles meet they share the light, with
+ * weights that go from 0 to 1 over a fifth of a step, because their maps differ slightly. Two rays share light in the
+ * same way in star_images.comp. */
 void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
     vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);

@@ -9,8 +9,8 @@
 #define KD_BLOCK_flash(F, U, A) \
     F(since)               /* time from the peak at the lamp to the time that the picture shows, M */ \
     F(sharp)               /* log2(e)/(2 duration^2) */ \
-    F(period) F(per_period) /* between flashes, M, and its inverse; 0: there is one flash */ \
-    F(brightness) F(power) /* at the peak where the disk is lit most; power of g */ \
+    F(period) F(per_period) /* time between flashes, M, and its inverse; 0: there is one flash */ \
+    F(brightness) F(power) /* brightness at the peak of a flash, where the disk is lit most; power of g */ \
     F(temperature)         /* K */
 /* clang-format on */
 #define KD_TABLES_flash(T)

@@ -28,8 +28,8 @@
     F(warp)        /* displacement at one standard deviation of an octave, in its own cells */ \
     F(loudness)    /* s_0, the amplitude of the first octave */ \
     F(persistence) /* s_(k+1)/s_k, the ratio of successive amplitudes */ \
-    F(finer)       /* squared ratio of the ray's steps, in cells, of successive octaves, including displacement */ \
-    F(depth)       /* optical depth along the normal where the flux is largest */
+    F(finer) /* squared ratio of the ray's steps, counted in cells of successive octaves, including displacement */ \
+    F(depth) /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
 /* Tables. The row of a ring: azimuth minus the observer's in radians, Omega, and the factor that converts a place in
  * its plane to a place in the next ring's plane. The row of an octave: drift of the lattice, as a fraction of a cell
@@ -45,7 +45,7 @@
 
 #ifdef KD_EMIT_CODE
 const uint KD_GAS_TAKEN = (TRAITS_gas & KD_TRAIT_GAS_OCTAVES) >> KD_TRAIT_GAS_SHIFT;
-/* the scene's gas, thin or thick, is shown as it was when its light left it */
+/* the scene's gas, thin or thick, is shown as it was when its light left the gas */
 const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u;
 
 /* Gradient at a point of a lattice that repeats after 65536 cells, times 32768. */
@@ -165,7 +165,7 @@ kd_glow kd_gas_glow(kd_sample s)
             flux += light.y * square.x * square.x;
         }
         float taken = 1.0 - exp(-emission.gas.depth * flux * more / max(s.cosine, 1e-6));
-        /* elsewhere g may be NaN, because there is no u^t inside the photon orbit */
+        /* where alpha is 0, g may be NaN: inside the photon orbit there is no u^t */
         gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0;
     }
     gas.t *= sqrt(sqrt(more));

@@ -56,7 +56,7 @@ float kd_grid_frame(kd_midst p)
     float at = emission.plasma.grid_now;
     if (KD_GRID_SLOW) {
         float ago = p.ago;
-        /* a loop as below */
+        /* a loop instead of an if, as below */
         for (uint n = 0u; n < (emission.plasma.grid_late > 0.0 ? 1u : 0u); n++)
             ago -= kd_grid_later(p.w);
         at -= emission.plasma.grid_per_time * ago;
@@ -126,7 +126,7 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     }
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
-    /* loops as above; one of the two has no rounds */
+    /* loops instead of an if, as above; one of the two has no rounds */
     KD_GRID_SUM(kd_grid_whole, emission.plasma.grid_packed == 0u ? times : 0u)
     KD_GRID_SUM(kd_grid_packed, emission.plasma.grid_packed == 0u ? 0u : times)
     return sum;

@@ -18,7 +18,7 @@
     F(steep)               /* distance from the axis over scale height; 0: no layer */ \
     F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power of r at which it falls */ \
     F(power_index) F(power_light) F(power_depth) /* numbers for a power law of electrons */ \
-    F(torus_momentum) F(torus_edge) F(torus_index) /* angular momentum; offset of ln h; density: power of h - 1 */ \
+    F(torus_momentum) F(torus_edge) F(torus_index) /* angular momentum; offset of ln h; density's power of h - 1 */ \
     U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: axisymmetric */ \
     U(grid_steps) U(grid_place_rows) /* cells in theta, and rows, of the table of uneven columns; 0: they are even */ \
     /* first coordinate in each direction (log2 for r), and nodes per unit of it */ \
@@ -31,7 +31,7 @@
     U(grid_packed)         /* 1: a node is one quad, else two */ \
     /* a packed node: least values and ranges of log2 of density and Theta; units of velocity and field */ \
     F(grid_density) F(grid_densities) F(grid_heat) F(grid_heats) F(grid_speed) F(grid_scale) \
-    F(kappa) F(kappa_width) /* of a kappa distribution: `kappa` is log2(kappa - 3); */ \
+    F(kappa) F(kappa_width) /* for a kappa distribution: `kappa` is log2(kappa - 3); */ \
     /* the other numbers are as in physics/disk/synchrotron.h */ \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
     F(kappa_depth_sharp)

@@ -94,8 +94,8 @@ float kd_stokes_converts(float log2_x)
  *   Shcherbakov 2008   K0/K2 (1 - 0.11 ln(1 + 0.035 X))
  *   Dexter 2016        (K0 - 0.43793091 ln(1 + 0.00185777 X^1.50316886))/K2
  *
- * The latter is a fit for hot electrons. For Theta below 1/2, where both are nearly K0/K2, the former is used. k:
- * from kd_stokes_bessel. */
+ * Dexter's form is a fit for hot electrons. For Theta below 1/2, where both forms are nearly K0/K2, Shcherbakov's is
+ * used. k: from kd_stokes_bessel. */
 float kd_stokes_rotates(vec3 k, float log2_x)
 {
     float x = exp2(clamp(log2_x, -60.0, 60.0));

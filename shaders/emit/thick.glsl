@@ -19,7 +19,7 @@
 #define KD_THICK_NOISE 5.237147522273636
 #define KD_THICK_FAINT 0.15 /* octaves fainter than this fraction of the first do not shorten stretches */
 #define KD_THICK_HASTE \
-    4.0 /* slow light: M of time per M along the ray by which a grain is shortened, at most. Beyond that, next to the \
+    4.0 /* slow light: largest time, in M per M along the ray, that shortens a grain. Beyond that, next to the \
          * horizon, the gas is hardly visible */
 /* Streaks fade out where the gas, along its normal, has less than this fraction of the optical depth at the ray's
  * innermost crossing of the plane. Light is proportional to depth times flux, that is, to the square of depth: the
@@ -116,7 +116,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     kd_gas_ring one = kd_gas_ring(in_one, k * (KD_GAS_OCTAVES + 1u), KD_GAS_SLOW ? ring.y * p.ago : 0.0);
     kd_gas_ring two = kd_gas_ring(vec2(ring.z * in_one.x - ring.w * in_one.y, ring.w * in_one.x + ring.z * in_one.y),
                                   (k + 1u) * (KD_GAS_OCTAVES + 1u), 0.0);
-    if (KD_GAS_SLOW) { /* at that time the angle between the rings was different */
+    if (KD_GAS_SLOW) { /* when the light left the gas, the angle between the rings was different */
         vec4 next_ring = kd_table_row(gas, two.row);
         two.ahead = next_ring.y * p.ago;
         psi = kd_cos_sin(p.phi - next_ring.x + two.ahead + emission.gas.shear * ((x - 1.0) * KD_GAS_RING));

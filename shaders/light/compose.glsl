@@ -1,5 +1,6 @@
-/* Composes light along one ray, front to back, from the emitters of the scene. It iterates over the list of emitters
- * and knows no names. Kernels supply samples: crossings from a lens map (transfer.comp), or points along the path. */
+/* Composes light along one ray, front to back, from the emitters of the scene. The code iterates over the list of
+ * emitters and contains no emitter's name. Kernels supply samples: crossings from a lens map (transfer.comp), or points
+ * along the path. */
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL
 

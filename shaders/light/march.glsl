@@ -1,12 +1,12 @@
 /* The march: light along a ray through volumes, composed with the crossings of the lens map in their order
  * (docs/physics/volume.md).
  *
- * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Within a step it is the quintic
- * that fits y, y' and y'' at both ends (Hermite's; its error, like the integrator's, is of sixth order in the step). A
- * step is split where w or u turns and where the plane is crossed, so that both are monotone in each part. In each part
- * Newton's method finds the range inside the volumes' bounds. This range is integrated in stretches with three
- * Gauss-Legendre nodes each. A stretch is as long as the grain, the depth and the distance allow; one that turns out
- * too long is repeated.
+ * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Within a step the ray is the
+ * quintic that fits y, y' and y'' at both ends (Hermite's; its error, like the integrator's, is of sixth order in the
+ * step). A step is split where w or u turns and where the plane is crossed, so that both are monotone in each part. In
+ * each part Newton's method finds the range inside the volumes' bounds. This range is integrated in stretches with
+ * three Gauss-Legendre nodes each. A stretch is as long as the grain, the depth and the distance allow; one that turns
+ * out too long is repeated.
  *
  * Needs inputs.glsl; KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map; and
  * KD_MARCH_GIVEN_UP(beam) for a ray whose end is not found. */
@@ -518,7 +518,7 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
                         to);
         kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
         uint order = 0u;
-        /* order of the next crossing; of the previous one while the ray moves away from the plane */
+        /* order of the next crossing, or of the previous crossing while the ray moves away from the plane */
         if (KD_OVERS || (KD_MARCH_TURNS && ORDERS > 0)) {
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves =

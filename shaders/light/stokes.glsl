@@ -25,7 +25,7 @@ struct kd_stokes {
     float depth;
     vec3 takes, turns;
 };
-/* The effect of such a length on the observer's side: on light from behind, and its own light. */
+/* The effect of such a length at its side towards the observer: on light from behind, and by its own light. */
 struct kd_stokes_cell {
     kd_jones passes;
     vec4 light;
@@ -48,7 +48,7 @@ kd_jones kd_jones_times(kd_jones a, kd_jones b)
     return kd_jones(s, re, im);
 }
 
-/* The form one S + (b c + (b c)*) S + two c S c*, where b c = p + i q and c = re + i im. */
+/* The form `one` S + (b c + (b c)*) S + `two` c S c*, where b c = p + i q and c = re + i im. */
 vec4 kd_stokes_forms(vec4 s, float one, vec3 p, vec3 q, float two, vec3 re, vec3 im)
 {
     vec3 v = s.yzw, across = cross(re, im);

@@ -189,8 +189,8 @@ void store_light(uint at, vec3 light)
     radiance[3 * at + 2] = light.b;
 }
 
-/* After the light of the band's pixels follow, one number a pixel each: the separate luminance; Stokes Q, U and V of
- * all light; Q and U of the separate light. */
+/* Numbers that follow the light of the band's pixels, one for each pixel in each plane: the separate luminance; Stokes
+ * Q, U and V of all light; Q and U of the separate light. */
 const uint STOKES_AT = KD_SEPARATE_PHOTOMETRY ? 4u : 3u;
 void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 {

@@ -59,9 +59,9 @@ kd_geodesic kd_geodesic_of(kd_ray ray, kd_hole_numbers hole, float u, float s)
     return m;
 }
 
-/* A, K and Q are multiplied by this factor before they are squared; the result is multiplied by the inverse factor. It
- * is 1 unless their squares exceed a float's range, as for a fast observer far away. The factors are powers of two, so
- * that no digit changes. */
+/* A, K and Q are multiplied by this factor before they are squared; the result is multiplied by the inverse factor. The
+ * factor is 1 unless the squares exceed a float's range, as for a fast observer far away. The factors are powers of
+ * two, so that no digit changes. */
 float kd_squared_by(kd_geodesic m) { return max(abs(m.a2), abs(m.k)) > 1e15 ? 8.673617379884035e-19 : 1.0; }
 float kd_squared_back(float by) { return by < 1.0 ? 1152921504606846976.0 : 1.0; }
 

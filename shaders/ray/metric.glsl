@@ -53,8 +53,8 @@ float kd_body_quadratic(float moving)
     return c2;
 }
 
-/* The circular orbit at w = 1/r: all, its 1/Omega; and rest = P^2 r^(1/2)/s^2, whose root over r^(3/4) and `all` gives
- * 1/u^t (orbit.glsl). one_minus_a: 1 - a in full precision.
+/* The circular orbit at w = 1/r. all: its 1/Omega. rest: P^2 r^(1/2)/s^2, so that 1/u^t is r^(3/4) sqrt(rest) / all
+ * (orbit.glsl). one_minus_a: 1 - a in full precision.
  *
  * With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3. Near the ISCO of a fast hole the
  * left-hand side loses all digits. */

@@ -4,7 +4,7 @@
 #define KD_STAR_LIST_GLSL
 
 #include "shared/faces.h"
-/* the number of pairs; from word 2 on the pairs, a ray and a star each */
+/* word 0: the number of pairs; from word 2 on: the pairs, each a ray and a star */
 layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; };
 #ifdef KD_TEXELS
 layout(set = 0, binding = 4) uniform textureBuffer stars;

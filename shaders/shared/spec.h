@@ -4,15 +4,17 @@
 #ifndef KD_SPEC_H
 #define KD_SPEC_H
 
-/* SIGHT: projection of the camera, KD_SIGHT_ of interface.h. CRITICAL: rays of each listed pixel (ray/place.glsl),
- * 0: rays of the picture's grid; GENERATOR, SHIFT: their lattice. */
+/* SIGHT: projection of the camera, KD_SIGHT_ of interface.h. CRITICAL: number of rays of each listed pixel
+ * (ray/place.glsl); 0: rays of the picture's grid. GENERATOR, SHIFT: parameters of the lattice of a listed pixel's
+ * rays. */
 /* clang-format off */
 #define KD_SPEC_LENS_CLOSED(U, B) \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIGHT, 0) U(3, CRITICAL, 0) U(4, GENERATOR, 1) U(5, SHIFT, 0)
 /* clang-format on */
 
-/* STEPS: per half period, a multiple of 4 for the quadrature; METHOD: order of the Nystroem method, 4 or 6; INGOING:
- * the observer falls, its azimuth is in ingoing coordinates, and it may be inside the outer horizon. */
+/* STEPS: number of steps in a half period, a multiple of 4 for the quadrature. METHOD: order of the Nystroem method, 4
+ * or 6. INGOING: the observer falls. Its azimuth is then in ingoing coordinates, and it may be inside the outer
+ * horizon. */
 /* clang-format off */
 #define KD_SPEC_LENS_MAP(U, B) \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, STEPS, 8) U(3, METHOD, 6) U(4, SIGHT, 0) \
@@ -53,9 +55,9 @@
  * list have the lowest numbers. */
 #define KD_SPEC_PARTICLES(U, B) B(0, SWING, true) B(1, LIST, false) B(2, PLUNGE, false)
 
-/* SEPARATE_PHOTOMETRY: the luminance of some emitter is kept separately; FINITE: solid angles of an observer at a
- * finite radius; STOKES: Stokes Q, U and V follow the radiance; STOKES_APART: then Q and U of the separate luminance
- * follow. */
+/* SEPARATE_PHOTOMETRY: the luminance of some emitter is kept separately. FINITE: the observer is at a finite radius, so
+ * solid angles are used. STOKES: Stokes Q, U and V follow the radiance. STOKES_APART: Q and U of the separate luminance
+ * follow these. */
 #define KD_SPEC_PHOTOMETRY(U, B) \
     B(0, SEPARATE_PHOTOMETRY, false) B(1, FINITE, false) B(2, STOKES, false) B(3, STOKES_APART, false)
 
@@ -75,8 +77,8 @@
 /* AROUND: the picture shows all directions, so its right and left edges adjoin. */
 #define KD_SPEC_BLOOM_GRID(U, B) B(0, AROUND, false)
 
-/* ACES: the film-like curve; WIDE: 16 bits a channel; NEUTRAL: the curve that keeps colours; without either light is
- * clipped. COLUMNS: columns of cells of the bloom grid that the four pixels of an invocation read together; 0: each
+/* ACES: the film-like curve; WIDE: 16 bits a channel; NEUTRAL: the curve that keeps colours; without either flag, light
+ * is clipped. COLUMNS: columns of cells of the bloom grid that the four pixels of an invocation read together; 0: each
  * pixel reads its own. */
 #define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) U(3, COLUMNS, 0) B(4, AROUND, false)
 

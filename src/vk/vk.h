@@ -73,21 +73,21 @@ const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device was chosen */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* number of warnings and errors so far */
 /* When the driver compiles a kernel. EARLY: when its pipeline is created. LATE: at its first dispatch, on the device's
- * queue; the driver then stores it in files for other devices of the process, as lavapipe does. LATE_KEEPS_NOTHING: the
- * same, but it stores nothing. dir: the folder of these files, "" if it is unknown. Any thread. */
+ * queue; the driver then stores it in files for other devices of the process, as lavapipe does. LATE_KEEPS_NOTHING: as
+ * LATE, but the driver stores nothing. dir: the folder of these files, "" if it is unknown. Any thread. */
 enum kd_vk_compiling { KD_VK_COMPILES_EARLY, KD_VK_COMPILES_LATE, KD_VK_COMPILES_LATE_KEEPS_NOTHING };
 enum kd_vk_compiling kd_vk_compiling(const struct kd_vk *vk, char dir[4096]);
-/* Identifies the folders of these files. The result changes if they are removed and made again. 0: there are none. Any
- * thread. */
+/* Identifies the folders in which the driver stores compiled kernels. The result changes if the folders are removed and
+ * made again. 0: there are none. Any thread. */
 uint64_t kd_vk_compiled_id(const struct kd_vk *vk);
 /* Path of a file in the cache directory that belongs to this device and driver version, as the pipeline cache does;
  * malloc'd. NULL if there is no such directory. Any thread. */
 char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);
 
-/* Buffers are suballocated from a few large allocations. Each can be bound as any kind, and copied from and to.
- * UPLOAD and READBACK are host-visible and persistently mapped. A submission sees what the host has written to an
- * UPLOAD buffer before kd_vk_submit. After kd_vk_wait the host sees what the device has written to an UPLOAD or
- * READBACK buffer. Both hold even if the memory is not coherent. Only the device may write a READBACK buffer. */
+/* Buffers are suballocated from a few large allocations. Each can be bound as any kind, and copied from and to. UPLOAD
+ * and READBACK are host-visible and persistently mapped. A submission sees what the host has written to an UPLOAD
+ * buffer before kd_vk_submit. After kd_vk_wait the host sees what the device has written to an UPLOAD or READBACK
+ * buffer. Both statements hold even if the memory is not coherent. Only the device may write a READBACK buffer. */
 enum kd_vk_memory { KD_VK_DEVICE, KD_VK_UPLOAD, KD_VK_READBACK };
 enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory, const char *name,
                                    struct kd_vk_buffer **out, struct kd_error *error);
@@ -170,9 +170,9 @@ enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *er
 /* Drops what was recorded but not submitted. */
 void kd_vk_discard(struct kd_vk *vk);
 
-/* Device time by the name of the pass, since the last reset, of those submissions that kd_vk_submit or kd_vk_wait
- * has found finished. pass: a copy of the caller's name, valid while the device lives. Beyond KD_VK_MAX_PASSES
- * names, the others are added up as "other". There are none if the device has no timestamps. */
+/* Device time by the name of the pass, since the last reset, of those submissions that kd_vk_submit or kd_vk_wait has
+ * found finished. pass: a copy of the caller's name, valid while the device lives. Beyond KD_VK_MAX_PASSES names, the
+ * others are added up as "other". There are no times if the device has no timestamps. */
 struct kd_vk_time {
     const char *pass;
     double ms;

@@ -1,4 +1,4 @@
-/* Memory limit for pictures: the minimum of the device's memory, the --memory option and, if the device uses host
+/* Memory limit for pictures. It is the least of the device's memory, the --memory option and, if the device uses host
  * memory, the memory that the host has left. */
 #ifndef KD_RENDER_DEVICE_MEMORY_SHARE_H
 #define KD_RENDER_DEVICE_MEMORY_SHARE_H

@@ -26,7 +26,7 @@ struct kd_panoramas {
     bool recalled;                               /* `made` was read from the file */
     const struct kd_panorama *fresh;             /* a new Milky Way that must be written to the file, or NULL */
     uint64_t used;
-    const struct kd_assets *assets; /* NULL: there are none */
+    const struct kd_assets *assets; /* NULL: there are no assets */
     char *file; /* file in which the first Milky Way is stored for later processes; NULL: none, or already written */
     /* true on a device that only compiles: panoramas are black, which takes no time to make, and have a Milky Way's
      * size */

@@ -84,7 +84,7 @@ struct kd_store {
     struct kd_vk_buffer *sample_head;    /* head of the lists, on the host */
     struct kd_vk_buffer *undecided;      /* rays that the kernels leave undecided (frame/settle.c): a counter, then the
                                             places of at most kd_plan_open_most rays */
-    struct kd_vk_buffer *undecided_host; /* the same on the host */
+    struct kd_vk_buffer *undecided_host; /* copy of `undecided` on the host */
 };
 
 /* Finds the lens map of the plan; *reused is then true if the map is complete. Otherwise the map's buffers are ready

@@ -13,7 +13,7 @@
 
 #define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* largest number of bodies in a picture */
 
-/* The appearance of bodies depends on these: the hole, the observer's azimuth, and the temperature that corresponds to
+/* What the appearance of bodies depends on: the hole, the observer's azimuth, and the temperature that corresponds to
  * the disk's brightness 1. */
 struct kd_illumination;
 struct kd_bodies_view {

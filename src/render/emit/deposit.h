@@ -11,7 +11,7 @@
 extern const struct kd_emitter_buffers kd_emitter_buffers_particles;
 
 /* Positions of n particles (first, first + stride, ...) at scene->top.time, as the device computes them:
- * Boyer-Lindquist r in M, phi in turns of 2^32, latitude in radians. */
+ * Boyer-Lindquist r in M, phi in units of 2^-32 turn, latitude in radians. */
 enum kd_status kd_particles_places(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
                                    uint32_t first, uint32_t stride, size_t n, struct kd_particle_place *out,
                                    struct kd_error *error);

@@ -153,8 +153,8 @@ uint32_t kd_disk_needs(const struct kd_scene *scene);
  * to 22 M." for the noun "thin disk". */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
 void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EMIT_TOLD]);
-/* Functions that all emitters on orbits share: KD_TRAIT_... for Doppler shift and redshift, quantities of the lens
- * map that they need, and what changes their light. */
+/* Functions that all emitters on orbits share: the KD_TRAIT_... for Doppler shift and redshift; the quantities of the
+ * lens map that they need; what changes their light. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);

@@ -47,7 +47,7 @@ static double inner_radius(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Amplitude of the first octave. With it the logarithm, which is the sum of all octaves, has the standard deviation
+/* Amplitude of the first octave. It gives the logarithm, which is the sum of all octaves, the standard deviation
  * `amplitude`. */
 static double loudness(const struct kd_scene *scene)
 {

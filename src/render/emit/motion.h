@@ -10,7 +10,7 @@ enum kd_varies {
     KD_MOVES_WITH_TIME = 1, /* something moves */
     KD_DIMS_WITH_TIME = 2,  /* only the brightness changes; each pixel keeps showing the same object */
     KD_MOVES_WITH_AZIMUTH = 4,
-    KD_MOVES_BY_FALL = 8, /* the camera's radius changes, whatever the camera sees */
+    KD_MOVES_BY_FALL = 8, /* the camera falls, so its radius changes; independent of emitters */
 };
 
 /* enum kd_varies: what would change in the picture at another time or azimuth, even if all rates of the scene are 0. */

@@ -39,7 +39,7 @@ struct kd_particle_grid {
     uint32_t radii;
     uint32_t rows, columns;               /* number of intervals; columns is a power of 2 */
     uint32_t plunging;                    /* number of falling particles; 0: they have no grid */
-    uint32_t plunge_rows, plunge_columns; /* size of their grid */
+    uint32_t plunge_rows, plunge_columns; /* size of the falling particles' grid */
     /* rows from the start of the plunge to its end; rows before the start, for slow light */
     uint32_t lap_rows, lead_rows;
     uint32_t unit;  /* weight of one particle, chosen so that a node fits in 16 bits */
@@ -55,11 +55,12 @@ uint32_t kd_particle_guide(const struct kd_particle_grid *grid, uint32_t particl
 /* The guiding radius inside which a fraction q of the particles lies. */
 double kd_particle_radius(const struct kd_scene *scene, double q);
 
-/* Guiding orbit k: its radius, angular frequencies in rad/M, and the largest swings of ln r and of phi in radians. */
+/* Guiding orbit k: its radius, angular frequencies in rad/M, and the largest amplitudes of its epicycles in ln r and in
+ * phi, radians. */
 struct kd_particle_orbit { double r, omega, kappa, vertical, swing_r, swing_phi; };
 struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_t radii, uint32_t k);
 
-/* A particle's epicycles: fractions of the largest swings, and phases at time 0 in radians. */
+/* A particle's epicycles: fractions of the largest amplitudes, and phases at time 0 in radians. */
 struct kd_particle_swing { double radial, radial_phase, vertical, vertical_phase; };
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle);
 
@@ -72,7 +73,7 @@ double kd_particle_plunge_depth(const struct kd_scene *scene);
  * remaining delay is short. */
 double kd_particle_delay(const struct kd_scene *scene);
 
-/* A particle's position: Boyer-Lindquist r in M, phi in turns of 2^32, latitude in radians. */
+/* A particle's position: Boyer-Lindquist r in M, phi in units of 2^-32 turn, latitude in radians. */
 struct kd_particle_place {
     float r;
     uint32_t phi;
@@ -91,7 +92,8 @@ uint64_t kd_particle_plunge_words(const struct kd_particle_grid *grid);
 struct kd_particles_push kd_particle_push(const struct kd_scene *scene, const struct kd_particle_grid *grid,
                                           double time);
 
-/* The device's result for a listed particle: a row, or the phase of a plunge in turns of 2^32; azimuth; latitude. */
+/* The device's result for a listed particle: a row of the grid, or the phase of a plunge in units of 2^-32; azimuth;
+ * latitude. */
 struct kd_particle_listed {
     union {
         float row;

@@ -1,4 +1,4 @@
-/* Kernels for the explanations of a picture's pixels, before anyone asks for one. */
+/* Makes the kernels that explain a picture's pixels, before an explanation is requested. */
 #ifndef KD_RENDER_EXPLAIN_AHEAD_H
 #define KD_RENDER_EXPLAIN_AHEAD_H
 

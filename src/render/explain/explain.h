@@ -74,9 +74,9 @@ extern const struct kd_format kd_format_pixel;
 /* Sets the pixel of a plan from "X,Y", in pixels from the picture's upper left corner. Returns KD_EINVAL if it is not a
  * place in the picture. */
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error);
-/* Reduces the scene and its plan to the plan's pixel with a margin, if nothing of the pixel depends on the rest of the
- * picture (render/plan/tile.h), that is, if the exposure is a number and there is no bloom and no beam. Otherwise
- * leaves scene and plan unchanged. */
+/* Reduces the scene and its plan to the plan's pixel with a margin (render/plan/tile.h). Does so only if the pixel does
+ * not depend on the rest of the picture: the exposure must be a number, and there must be no bloom and no beam.
+ * Otherwise leaves scene and plan unchanged. */
 enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
                                  struct kd_error *error);
 /* Requests additional output by a word. The only word is "steps", for the engine's steps along the middle ray. Returns

@@ -41,7 +41,7 @@ enum kd_status kd_ray_within(const struct kd_ray_motion *motion, bool reversed, 
                              struct kd_ray_end *end, struct kd_error *error);
 
 /* The frame in which a ray's azimuths and times are given: the observer's azimuth and time. If the ray's energy at
- * infinity is negative, it rotates the other way (view/camera.h). */
+ * infinity is negative, the frame rotates the other way (view/camera.h). */
 struct kd_ray_path_frame {
     double azimuth, twist;
     bool reversed;

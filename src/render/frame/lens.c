@@ -463,8 +463,8 @@ done:
     return status;
 }
 
-/* Lights all bands. Points of light need the complete map of a band before the light of that band is made; if all
- * maps are cached, they also need those of the adjacent bands. */
+/* Lights all bands. Points of light need the complete map of a band before the light of that band is made. If all maps
+ * are cached, points of light also need the maps of the adjacent bands. */
 static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double transfer_ns)
 {
     const struct kd_plan *p = j->plan;

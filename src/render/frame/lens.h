@@ -24,8 +24,8 @@ static inline uint32_t kd_frame_slice_at_most(const struct kd_frame_job *j, doub
     return items;
 }
 
-/* The kernels that trace rays and that compute their light: on listed pixels by their lattice, on the grid if all
- * members of the lattice are 0. *out is NULL if no kernel traces. */
+/* Get the kernels that trace rays and that compute their light. The kernels process listed pixels with the given
+ * lattice, or the picture's grid if all members of the lattice are 0. *out is NULL if no kernel traces. */
 enum kd_status kd_frame_trace_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                      const struct kd_vk_pipeline **out);
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, int makes,
@@ -55,7 +55,7 @@ enum kd_status kd_frame_list_rays(struct kd_frame_job *job, const struct kd_lens
 /* Pixels of a list whose lens map fits in one buffer. */
 struct kd_frame_part {
     const struct kd_frame_list *list;
-    uint64_t first, n; /* range among those pixels */
+    uint64_t first, n; /* range of the part among the pixels of the list */
     struct kd_vk_buffer *lens;
     struct kd_slice push;
 };

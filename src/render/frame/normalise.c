@@ -87,8 +87,8 @@ static double guess(const struct search *s, double x, double y, const double at[
     return at[0] + (part > MARGIN && part < 1 - MARGIN ? part : 0.5) * (at[1] - at[0]);
 }
 
-/* Finds *x, ln of the scale, starting from its value, by regula falsi in ln flux over ln scale; the value at a retained
- * end is halved each time (Dowell & Jarratt 1971, BIT 11, 168). */
+/* Finds *x, the ln of the scale, by regula falsi in ln flux over ln scale, starting from the given *x. If an end of the
+ * bracket is retained, the value there is halved each time (Dowell & Jarratt 1971, BIT 11, 168). */
 static enum kd_status find(struct search *s, int side, double within, double *x)
 {
     double at[2] = { -INFINITY, INFINITY }, off[2] = { 0 }, last = NAN, before = NAN, jy = 0;

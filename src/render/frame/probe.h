@@ -60,7 +60,8 @@ struct kd_probed_met {
     bool met;
     uint32_t emitter, which; /* emitter: index in kd_emitters; which: index in the emitter's list */
     uint32_t order;          /* number of crossings of the plane before the surface */
-    /* w: 1/r; u: cos(theta); phi: azimuth (source minus observer); g: redshift factor; cosine: of the emission angle */
+    /* w: 1/r; u: cos(theta); phi: azimuth (source minus observer); g: redshift factor; cosine: cosine of the emission
+     * angle */
     float w, u, phi, g, cosine;
     /* light: before absorption in front of the surface; through: transmission of all matter in front */
     float light[3], through;

@@ -9,7 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-#define LIST_GROUPS 128 /* workgroups of kernels whose invocations share a list; with 8192 an H200 is no faster */
+/* number of workgroups for kernels whose invocations share a list; with 8192 groups an H200 is no faster */
+#define LIST_GROUPS 128
 /* The number of such workgroups for each core, if the device is a CPU. There a group costs 15 us even if its list is
  * already done, and a rim has several grids. */
 #define LIST_GROUPS_CORE 4

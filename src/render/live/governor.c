@@ -32,8 +32,9 @@ enum {
     MOVING_AUDIT = 4, /* frames that will be refined audit one in this many rays */
     /* image.critical_factor for a picture that is replaced before the eye can examine it: 4 rays instead of 16 */
     DRAGGED_CRITICAL = 2,
-    FEW = 4,    /* this many slow frames in a row are a sign of load instead of a spike */
-    ENOUGH = 8, /* number of frames of which the middle half contains neither of two spikes */
+    FEW = 4, /* this many slow frames in a row are a sign of load instead of a spike */
+    /* least number of frames for a mean: the middle half of so many frames contains neither of two spikes */
+    ENOUGH = 8,
     MISSES = 3, /* number of lens maps that may be missing when the rung changes */
 };
 

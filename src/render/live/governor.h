@@ -1,6 +1,6 @@
-/* The governor of a live session: decides what to render next, and at what quality, so that frames come in time while
- * the scene changes and reach the requested quality when it rests. Pure: no clock, no device, no allocation. Times are
- * milliseconds of any steady clock. One owner at a time.
+/* The governor of a live session decides what to render next, and at what quality. While the scene changes, frames come
+ * in time. When the scene rests, frames reach the requested quality. Pure: no clock, no device, no allocation. Times
+ * are milliseconds of any steady clock. One owner at a time.
  *
  *     struct kd_governor governor;
  *     kd_governor_init(&governor, kd_governor_params(.target_ms = 33));
@@ -20,8 +20,9 @@
  * shown.
  *
  * The cost of a frame has a fixed part, a part for each ray, and a part for each pixel. Only the parts that depend on
- * size can be reduced. Their time budget is the target minus the fixed part, but at least half the target, and at least
- * a quarter of the fixed part: ten million particles then slow the frames down, but do not shrink the picture as well.
+ * size can be reduced. Their time budget is the target minus the fixed part. It is at least half the target, and at
+ * least a quarter of the fixed part. Ten million particles thus slow the frames down, but do not shrink the picture as
+ * well.
  *
  * While the scene changes, a rung of quality.h's ladder is in force:
  * - Frames that trace their rays cost orders of magnitude more than frames that find their lens map cached. So each
@@ -49,7 +50,7 @@
  * While the lens changes, frames on any rung but the first have an image.critical_factor of at most 2. There are then
  * fewer rays next to the critical curve. The number of these rays is proportional to the picture's width, so with few
  * of them the cost of a frame is nearly proportional to the picture's size. Frames in which only time advances keep all
- * of these rays, even if no lens map is cached and each frame traces: the ring stands still, and four rays a pixel
+ * of these rays, even if no lens map is cached and each frame traces. The ring then stands still, and four rays a pixel
  * would show as dots.
  *
  * If other sessions move too, kd_governor_share sets the fraction of the device's time for this one. Its target is then
@@ -104,7 +105,7 @@ struct kd_frame_decision {
     struct kd_quality quality;
     /* 0: render now. Otherwise the time for which there is nothing to render; INFINITY: the session rests */
     double wait_ms;
-    bool refining; /* the scene rests, and this frame is a step upwards */
+    bool refining; /* the scene rests, and this frame is a step up the ladder */
     /* 1 or 4: one in this many of the sampled rays is audited. The audit runs on one core and takes a third of a
      * small frame */
     uint32_t audit;
@@ -173,13 +174,13 @@ void kd_governor_init(struct kd_governor *governor, const struct kd_governor_par
  * changes as other sessions stop or begin; set it before kd_governor_expect and before each kd_governor_frame. */
 void kd_governor_share(struct kd_governor *governor, double share);
 
-/* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place
- * of bounds.scale. If the target is smaller, all other qualities are reduced first, and then the frame rate, down to
- * one frame every patience_ms (INFINITY: no limit). If the narrowest frames were measured to take longer than
- * patience_ms, frames become narrower after all, down to a quarter. They stay so until the scene changes its kind,
- * or until wide frames are estimated to be well within patience_ms. Part of a frame's time does not depend on its
- * size, so the estimate is the line through two measurements: the last wide frames, and the first narrow ones right
- * after them. */
+/* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place of
+ * bounds.scale. If frames of this width take longer than the target, all other qualities are reduced first. Then the
+ * frame rate is reduced, down to one frame every patience_ms (INFINITY: no limit). If the narrowest frames were
+ * measured to take longer than patience_ms, frames become narrower after all, down to a quarter. They stay so until the
+ * scene changes its kind, or until wide frames are estimated to be well within patience_ms. Part of a frame's time does
+ * not depend on its size, so the estimate is the line through two measurements: the last wide frames, and the first
+ * narrow ones right after them. */
 void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
 /* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: the lens

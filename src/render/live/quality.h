@@ -44,8 +44,9 @@ enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
 
 struct kd_ladder {
     /* The ladder downwards from the requested quality. It reduces samples first, because a moving picture needs its
-     * pixels more than smooth edges; then resolution; then orders (not for the projection "ring"); then the steps
-     * along a ray; and last, for volumes, the steps through them. Each rung takes less work than the one before. */
+     * pixels more than smooth edges. Next it reduces resolution, then orders (not for the projection "ring"), then the
+     * steps along a ray. Last, for volumes, it reduces the steps through them. Each rung takes less work than the one
+     * before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
     /* The ladder upwards for a scene at rest: full resolution with one ray a pixel, then more rays, all with at

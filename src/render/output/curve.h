@@ -4,7 +4,7 @@
 
 #include "render/output/series.h"
 
-/* COLUMN(name); the centroids are NAN if there are none. A row is plain data, so rows can be stored in files. */
+/* The columns, as COLUMN(name). Undefined centroids are NAN. A row is plain data, so rows can be stored in files. */
 /* clang-format off */
 #define KD_CURVE_COLUMNS_(COLUMN) \
     COLUMN(frame) COLUMN(t) COLUMN(flux) COLUMN(centroid_x) COLUMN(centroid_y) COLUMN(spots_flux) \

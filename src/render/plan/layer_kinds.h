@@ -1,6 +1,7 @@
 /* Table of the layers that a frame may have besides the picture: the C side of shaders/shared/layers.h, with units,
- * colours and names. To add one: its line there, its row in layer_kinds.c, its word in the row image.layers of the
- * field table, its section in docs/layers.md. Constant data and pure functions of valid scenes, any thread. */
+ * colours and names. To add a layer, write its line there, its row in layer_kinds.c, its word in the row image.layers
+ * of the field table, and its section in docs/layers.md. Constant data and pure functions of valid scenes, any
+ * thread. */
 #ifndef KD_RENDER_PLAN_LAYER_KINDS_H
 #define KD_RENDER_PLAN_LAYER_KINDS_H
 

@@ -1,8 +1,8 @@
 /* The passes of a frame and their costs, as two lists. Plan, capacity, cost measurement, the device's JSON, its cached
  * costs and sessions iterate over them. Constant data and pure functions, any thread.
  *
- * To add a pass: its line here, its number of invocations in pass.c, its file in src/render/frame/, and its call in
- * frame.c, where it is named by kd_passes[KD_PASS_...].name. A pass that belongs to an emitter is defined in the
+ * To add a pass, write its line here, its number of invocations in pass.c, its file in src/render/frame/, and its call
+ * in frame.c, which names it by kd_passes[KD_PASS_...].name. A pass that belongs to an emitter is defined in the
  * emitter's files only (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h); it appears below as
  * KD_EMIT_PASSES. */
 #ifndef KD_RENDER_PLAN_PASS_H
@@ -27,7 +27,7 @@ struct kd_scene;
     F(PIXEL_POST, "pixel_post", 30) \
     F(RAY_MARCH, "ray_march", 4000)     /* light of a ray through volumes */ \
     F(RAY_REFINED, "ray_refined", 400)  /* a ray planned for refinement, including its selection */ \
-    F(RAY_STARS, "ray_stars", 220)      /* a search for stars by a ray, and their images */ \
+    F(RAY_STARS, "ray_stars", 220)      /* a ray's search for stars, and the images of these stars */ \
     F(SAMPLE_STARS, "sample_stars", 90) /* light of a ray under a sky of stars */
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,

@@ -1,11 +1,11 @@
 /* Photometry: flux and centroid of a picture, from linear radiance. Flux and centroid are independent of the exposure.
  * They depend on the resolution only because rays miss the light between them.
  *
- * The flux is the sum over the pixels of luminance times solid angle. At infinity solid angle is the area in the
- * image plane, so the unit of the flux is M^2 times the unit of brightness (the disk's maximum); divided by D^2 it
- * is the flux at the distance D. At a finite radius the unit is sr times that of brightness. The centroid, weighted
- * likewise, is (alpha, beta) in M; at a finite radius it is the mean direction, in degrees to the right of the hole
- * and above it. Neither depends on the camera's aim and roll.
+ * The flux is the sum over the pixels of luminance times solid angle. At infinity solid angle is the area in the image
+ * plane. The unit of the flux is then M^2 times the unit of brightness (the disk's maximum), and the flux at the
+ * distance D is this number divided by D^2. At a finite radius the unit is sr times that of brightness. The centroid
+ * has the same weights. It is (alpha, beta) in M; at a finite radius it is the mean direction, in degrees to the right
+ * of the hole and above it. Neither depends on the camera's aim and roll.
  *
  * For polarised light Stokes Q, U and V are the same sums of the layers of these names, in the unit of the flux.
  * They are relative to the top of the picture, which rotates with the camera's roll.

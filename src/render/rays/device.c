@@ -286,9 +286,9 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
     return status;
 }
 
-/* Number of rays of the next slice, after one of m rays that took `ms`. least_ms: time of the smallest slices so far.
- * On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a slice is
- * doubled while its time is within 1.25 times least_ms, and may otherwise take 1.5 times least_ms if that exceeds
+/* Number of rays of the next slice. The last slice had m rays and took `ms`. least_ms: time of the smallest slices so
+ * far. On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a slice
+ * is doubled while its time is within 1.25 times least_ms, and may otherwise take 1.5 times least_ms if that exceeds
  * TARGET_MS. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {

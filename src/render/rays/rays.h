@@ -77,13 +77,13 @@ struct kd_ray_end {
 /* True if two ends are equal bit for bit, ignoring padding. */
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
 
-/* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set.
- * With a tolerance, each ray that is undecided or exceeds it by its own error estimate is traced again with more steps
- * in double precision, then in closed form. If a ray still exceeds the tolerance then, double precision cannot meet it.
- * rays: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n. renderer
- * may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. Returns
- * KD_EINVAL with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the
- * precision. */
+/* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set. With a
+ * tolerance, each ray that is undecided, or whose own error estimate exceeds the tolerance, is traced again with more
+ * steps in double precision, then in closed form. If a ray still exceeds the tolerance then, double precision cannot
+ * meet it. rays: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n.
+ * renderer may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread.
+ * Returns KD_EINVAL with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks
+ * the precision. */
 enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *rays,
                              size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
                              kd_progress_fn progress, void *user, struct kd_error *error);

@@ -16,7 +16,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The linearised map about a place: n + dx * across + dy * down. area: the volume spanned by the three. */
+/* The linearised map about a place: n + dx * across + dy * down. area: the volume that n, across and down span. */
 struct kd_sky_tangent {
     struct kd_vec n, across, down;
     double area;

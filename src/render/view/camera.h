@@ -46,8 +46,8 @@ void kd_camera_direction(const struct kd_camera_exact *camera, double x, double 
 /* As kd_camera_direction, but the vector is not normalised; for a camera at infinity it is (alpha, beta, 0). */
 void kd_camera_look(const struct kd_camera_exact *camera, double x, double y, double out[3]);
 
-/* The place in the picture, in rays as in kd_camera_direction, at which the camera sees a direction of any length; at
- * infinity the direction is alpha and beta. False if the direction is behind a pinhole. */
+/* The place in the picture at which the camera sees a direction. The place is in rays, as in kd_camera_direction. The
+ * direction may have any length; at infinity it is alpha and beta. False if the direction is behind a pinhole. */
 bool kd_camera_seen(const struct kd_camera_exact *camera, const double direction[3], double *x, double *y);
 
 /* Labels from E, L/sin(theta), and beta |E|. */

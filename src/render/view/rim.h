@@ -39,8 +39,8 @@ struct kd_rim {
      * come from the rim; between the two, both share the light */
     double none, full;
     double last; /* the least relative distance from the curve of the rim's rays */
-    /* rough estimate in rad of how the shift of the sky between the outermost and the innermost ray varies along the
-     * curve: its largest change from one point to the next */
+    /* rough estimate in rad of the largest change, from one point of the curve to the next, of the shift of the sky
+     * between the outermost and the innermost ray */
     double winds;
     double pixel; /* size of a pixel on the plane */
     bool flat;

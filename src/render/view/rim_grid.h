@@ -66,9 +66,9 @@ bool kd_rim_is_thinned(const struct kd_scene *scene, const struct kd_rim *rim);
 #define KD_RIM_FAINTEST (3.3 * KD_RIM_BRIGHTEST / KD_STAR_LEAST)
 
 /* Layout of the buffer: the rim's edges (KD_RIM_EDGES numbers), then for each grid the directions of its rays
- * (rim_sky.h), three planes of numbers, and its table. A table has KD_RIM_TABLE numbers for the borders of its part,
- * in its own columns and rows; then for each column the curve's point x, y and its derivative by column. A grid
- * begins at an offset where a buffer may be bound. */
+ * (rim_sky.h), three planes of numbers, and its table. A table has KD_RIM_TABLE numbers for the borders of the grid's
+ * part, in the grid's columns and rows. Then it has, for each column, the curve's point x, y and the derivative of that
+ * point by column. A grid begins at an offset where a buffer may be bound. */
 #define KD_RIM_TABLE 6
 #define KD_RIM_ALIGN 64u
 static inline uint32_t kd_rim_grid_rays(const struct kd_rim_grid *grid) { return grid->columns * grid->rows; }

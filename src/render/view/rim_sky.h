@@ -2,9 +2,9 @@
  * 1e-4 to 1e-2 rad of a ray's final direction.
  *
  * The angles of physics/null/null_bend.h are smooth functions of the curve's point and of the logarithm of the
- * distance. In each grid they are computed at some tens to hundreds of rays and interpolated to the others by
- * polynomials through Chebyshev extrema, along the curve and across it. The number of nodes is chosen so that the
- * interpolation at rays between them is accurate to KD_RIM_EXACT. Pure; any thread. */
+ * distance. In each grid these angles are computed at some tens to hundreds of rays. For the other rays they are
+ * interpolated by polynomials through Chebyshev extrema, along the curve and across it. The number of nodes is chosen
+ * so that the interpolation at rays between them is accurate to KD_RIM_EXACT. Pure; any thread. */
 #ifndef KD_RENDER_VIEW_RIM_SKY_H
 #define KD_RENDER_VIEW_RIM_SKY_H
 
