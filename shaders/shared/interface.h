@@ -311,8 +311,8 @@
 #define KD_LIGHT_SUMS 8
 #define KD_LIGHT_SUMS_STOKES 16
 
-/* Histogram of luminance for auto exposure, with eight bins a stop: a bin is the exponent of a float and the first
- * three bits of its fraction. Bin 0 is black; bin FIRST is 2^-40. */
+/* Histogram of luminance for auto exposure, with eight bins a stop. A bin number is the exponent of a float, followed
+ * by the first three bits of its fraction. Bin 0 is black; bin FIRST is 2^-40. */
 #define KD_HISTOGRAM_BINS 512
 #define KD_HISTOGRAM_FIRST 696 /* (127 - 40) * 8 */
 

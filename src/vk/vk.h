@@ -80,8 +80,8 @@ enum kd_vk_compiling kd_vk_compiling(const struct kd_vk *vk, char dir[4096]);
 /* Identifies the folders in which the driver stores compiled kernels. The result changes if the folders are removed and
  * made again. 0: there are none. Any thread. */
 uint64_t kd_vk_compiled_id(const struct kd_vk *vk);
-/* Path of a file in the cache directory that belongs to this device and driver version, as the pipeline cache does;
- * malloc'd. NULL if there is no such directory. Any thread. */
+/* Path of a file in the cache directory; malloc'd. Like the pipeline cache, the file belongs to this device and driver
+ * version. NULL if there is no such directory. Any thread. */
 char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);
 
 /* Buffers are suballocated from a few large allocations. Each can be bound as any kind, and copied from and to. UPLOAD
@@ -98,7 +98,7 @@ uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer);
 uint64_t kd_vk_allocated(const struct kd_vk *vk); /* bytes allocated from the device, for all buffers */
 
 /* The way in which a kernel accesses a binding. A software device reads a storage buffer separately for each lane, with
- * a check for each word; it reads uniform buffers and texels by vector gathers. On other devices the kinds differ
+ * a check for each word. It reads uniform buffers and texels by vector gathers. On other devices the kinds differ
  * little. Only storage can be written or be as large as max_binding_bytes. So a kernel that reads bands of pixels as
  * texels needs a variant that reads them as storage. */
 enum kd_vk_kind {
@@ -132,10 +132,10 @@ enum kd_status kd_vk_pipeline_create(struct kd_vk *vk, const struct kd_vk_pipeli
                                      struct kd_vk_pipeline **out, struct kd_error *error);
 void kd_vk_pipeline_destroy(struct kd_vk *vk, struct kd_vk_pipeline *pipeline);
 
-/* To run work, record it with the functions below, then call kd_vk_submit. Commands run in the order of recording. The
- * layer inserts barriers that follow from the declared accesses: between commands that touch the same buffer if one of
- * them writes, before reads by the host, and after earlier submissions. Passes are timed: the times of passes with the
- * same name add up over dispatches and submissions. */
+/* To run work, record it with the functions below, then call kd_vk_submit. Commands run in the order of recording. From
+ * the declared accesses, the layer derives barriers and inserts them. They stand between commands that touch the same
+ * buffer if one of them writes, before reads by the host, and after earlier submissions. Passes are timed. The times of
+ * passes with the same name add up over dispatches and submissions. */
 struct kd_vk_binding {
     struct kd_vk_buffer *buffer;
     /* size 0: to the end of the buffer, for texels only complete ones; offset: a multiple of 256 */
@@ -170,7 +170,7 @@ enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *er
 /* Drops what was recorded but not submitted. */
 void kd_vk_discard(struct kd_vk *vk);
 
-/* Device time by the name of the pass, since the last reset, of those submissions that kd_vk_submit or kd_vk_wait has
+/* Device time by the name of the pass, since the last reset. Only submissions count that kd_vk_submit or kd_vk_wait has
  * found finished. pass: a copy of the caller's name, valid while the device lives. Beyond KD_VK_MAX_PASSES names, the
  * others are added up as "other". There are no times if the device has no timestamps. */
 struct kd_vk_time {

@@ -11,8 +11,8 @@
 #include <stdint.h>
 
 enum kd_engine {
-    /* elliptic functions: on the CPU in double precision (the reference), or, for rays outside the photon orbits, on
-     * the device in single precision */
+    /* elliptic functions. On the CPU in double precision (the reference), or on the device in single precision for rays
+     * outside the photon orbits */
     KD_ENGINE_CLOSED,
     KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4 */
     KD_ENGINE_MINO_RKN6, /* Mino time on the device: Albrecht's Nystroem method of order 6 */

@@ -2,13 +2,13 @@
  *
  * A set has one or more views; a view is one hole seen by one observer at infinity. Positions come from a
  * low-discrepancy sequence (M. Roberts 2018, "The unreasonable effectiveness of quasirandom sequences": multiples of
- * 1/g and 1/g^2 modulo 1, g the plastic number), so that none lies on an axis of symmetry. Positions are not rounded:
+ * 1/g and 1/g^2 modulo 1, g the plastic number). None of them lies on an axis of symmetry. Positions are not rounded:
  * if an engine rounds them to single precision, that counts as the engine's error.
  *
  * Only the near-critical set has rays within 5 % of the critical curve. All crossings of order 2 belong to such rays.
  * Near the curve the error of any method is the rounding error times a condition number of several hundred. rho is the
- * distance in the image plane from the centre that physics/null/critical.h defines; rho_c is that of the critical
- * curve. Pure; any thread. */
+ * distance in the image plane from the centre that physics/null/critical.h defines. rho_c is the value of rho on the
+ * critical curve. Pure; any thread. */
 #ifndef KD_RENDER_ACCURACY_SETS_H
 #define KD_RENDER_ACCURACY_SETS_H
 

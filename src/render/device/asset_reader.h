@@ -1,5 +1,5 @@
-/* A queue of requests for objects that are made from assets and take too long for the thread that owns the device:
- * panoramas and grids of matter. A thread makes them one after the other, and ends when there is no request. The
+/* A queue of requests for panoramas and grids of matter. These objects are made from assets, which takes too long for
+ * the thread that owns the device. A thread makes them one after the other, and ends when there is no request. The
  * owner caches the results. Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_ASSET_READER_H
 #define KD_RENDER_DEVICE_ASSET_READER_H
@@ -52,9 +52,9 @@ void kd_asset_reader_init(struct kd_asset_reader *reader, const struct kd_asset_
 /* Stops first. */
 void kd_asset_reader_finish(struct kd_asset_reader *reader);
 
-/* Adds a request unless the object is cached. A waiting client calls this again from time to time, so that an object
- * that was evicted meanwhile is made once more. Does nothing if no thread can be created. Returns whether the
- * request is in progress. Called with the lock. */
+/* Adds a request unless the object is cached. A waiting client calls this again from time to time; an object that was
+ * evicted meanwhile is then made once more. Does nothing if no thread can be created. Returns whether the request is in
+ * progress. Called with the lock. */
 bool kd_asset_reader_begin(struct kd_asset_reader *reader, const struct kd_asset_request *request);
 /* Waits until the object is cached, and makes it on the calling thread if the reader's thread does not run. On failure
  * returns the error of `make`. Called with the lock. */

@@ -1,4 +1,4 @@
-/* Matter on a grid, on the host and on the device: reads volume.grid and uploads it when the asset has changed
+/* Matter on a grid, on the host and on the device. Reads volume.grid, and uploads it when the asset has changed
  * (kd_emitter_buffers_plasma of render/emit/own.h). A thread reads the grids (asset_reader.h). The descriptions of
  * recent grids stay cached, without their nodes. Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_GRIDS_H
@@ -28,9 +28,9 @@ struct kd_grids {
 };
 void kd_grids_init(struct kd_grids *grids, const struct kd_assets *assets, void (*made)(void *user), void *user);
 
-/* Starts reading the grid of a scene, if the scene has a grid that is neither cached nor on the device. Returns
- * whether the reading is in progress. A waiting client calls this again from time to time, so that a grid that was
- * evicted meanwhile is read once more. */
+/* Starts reading the grid of a scene, if the scene has a grid that is neither cached nor on the device. Returns whether
+ * the reading is in progress. A waiting client calls this again from time to time; a grid that was evicted meanwhile is
+ * then read once more. */
 bool kd_grid_begin(struct kd_grids *grids, const struct kd_scene *scene);
 /* Waits for the grid in progress and drops all other requests. `made` is not called again before a new request. */
 void kd_grids_stop(struct kd_grids *grids);

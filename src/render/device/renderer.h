@@ -44,8 +44,8 @@ void kd_renderer_destroy(struct kd_renderer *renderer);
 
 /* Closes a device that has failed and reopens it. Measurements and data cached on the host are kept, so that later
  * pictures are the same as before. Buffers and kernels are made again when needed. Returns KD_EDEVICE in three cases:
- * the device hangs and cannot be closed (kd_renderer_hangs); it is unavailable now; or another device has taken its
- * place. The call may be repeated. */
+ * the device hangs and cannot be closed (kd_renderer_hangs), the device is unavailable now, or another device has taken
+ * its place. The call may be repeated. */
 enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error);
 /* True if the device has missed a deadline. It can then be neither closed nor reopened, and the process should soon
  * end by _exit. */
@@ -103,8 +103,8 @@ struct kd_accuracy_report {
     /* relative change of the light of these rays; the divisor is at least KD_MARCH_DARK times the brightest light.
      * volume_error: 90th percentile; volume_error_worst: largest. 1 if light is not finite or a ray has no end */
     double volume_error, volume_error_worst;
-    /* for the displayed picture: number of rays given up in volumes, which are magenta, plus number of pixels whose
-     * light is not finite */
+    /* of the displayed picture: number of rays that were given up in volumes (they are magenta), plus number of pixels
+     * whose light is not finite */
     uint64_t lost;
 };
 

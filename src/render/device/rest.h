@@ -25,8 +25,8 @@ enum kd_cache_kind {
 #define KD_IDLE_ASIDES_BYTES (128ull << 20)
 /* Limit for lens maps that are kept besides the one in use. */
 #define KD_KEPT_MAPS_BYTES (512ull << 20)
-/* Limit for all kinds together at rest. If it is exceeded, the device is closed and reopened, because lavapipe
- * otherwise keeps some memory of each kernel that it has ever compiled (an LLVM context is never emptied). */
+/* Limit for all kinds together at rest. If it is exceeded, the device is closed and reopened. Otherwise lavapipe would
+ * keep some memory of each kernel that it has ever compiled, because an LLVM context is never emptied. */
 #define KD_REST_BYTES (256ull << 20)
 /* above this, any moment without work counts as rest (server/render/rest.c); KD_REST_BYTES is the limit after a rest */
 #define KD_REST_SOON_BYTES (768ull << 20)

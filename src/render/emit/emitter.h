@@ -1,9 +1,9 @@
 /* Emitters: everything that adds light to a ray, absorbs it or changes it. This is the C side of the table in
  * shaders/shared/emitters.h, with one file for each. Plan, needs of the lens map, motion, device data and
- * approximations iterate over the table and know no emitter by name.
+ * approximations iterate over the table. Their code names no emitter.
  *
- * To add an emitter, write its line in that list, shaders/emit/NAME.glsl, src/render/emit/NAME.c with `const struct
- * kd_emitter kd_emit_NAME`, and its section in the field table. Constant data and pure functions of valid scenes;
+ * To add an emitter, write its line in that list, and its section in the field table. Write shaders/emit/NAME.glsl, and
+ * src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`. Constant data and pure functions of valid scenes;
  * any thread. */
 #ifndef KD_RENDER_EMIT_EMITTER_H
 #define KD_RENDER_EMIT_EMITTER_H
@@ -45,9 +45,9 @@ struct kd_emitter {
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
     /* enum kd_varies: the causes for which its light changes; NULL: its light never changes */
     unsigned (*varies)(const struct kd_scene *scene);
-    /* The emitter's own device buffers, their bytes, and the invocations of the pass that fills them before light is
-     * computed (KD_PASS_name of its GLSL file). NULL: the emitter has none. If only `invocations` is NULL, the host
-     * fills the buffers. */
+    /* The emitter's own device buffers, and their bytes. Also the number of invocations of the pass that fills them
+     * before light is computed (KD_PASS_name of its GLSL file). NULL: the emitter has none. If only `invocations` is
+     * NULL, the host fills the buffers. */
     const struct kd_emitter_buffers *own;
     uint32_t quads; /* the emitter reads a buffer of quads if it has any of these traits; 0: it never does */
     uint64_t (*device_bytes)(const struct kd_scene *scene);
@@ -160,9 +160,9 @@ uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
 /* The largest effective temperature of the disk, in K, in the frame of the gas. Returning light is included. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
-/* Computes temperatures of black bodies that are as bright as the smooth disk at n radii r, including fade and
- * opacity, relative to kd_disk_peak_temperature. If light returns, this makes a table in 0.1 to 0.3 s, so it must
- * not be called with a lock. */
+/* Computes, for n radii r, the temperature of a black body that is as bright as the smooth disk there, including fade
+ * and opacity. The temperatures are relative to kd_disk_peak_temperature. If light returns, this makes a table in 0.1
+ * to 0.3 s, so it must not be called with a lock. */
 void kd_disk_heats(const struct kd_scene *scene, size_t n, const double r[], double out[]);
 static inline double kd_disk_heat(const struct kd_scene *scene, double r)
 {

@@ -5,9 +5,9 @@
  * The position at any time t is a closed form. Angular frequencies are in double. Their phases at t reach the device as
  * 32-bit fractions of a turn. Their sums wrap exactly, so t may be arbitrarily large.
  *
- * The rows of the grid are steps of log r from edge to edge, its columns steps of azimuth. The light of the smooth disk
- * is multiplied by the ratio of the number counted at a node to the number expected there. Falling particles have a
- * grid of their own, over phase and azimuth at the ISCO.
+ * The rows of the grid are steps of log r from edge to edge, its columns steps of azimuth. At a node, the light of the
+ * smooth disk is multiplied by the ratio of the counted number of particles to the expected number. Falling particles
+ * have a grid of their own, over phase and azimuth at the ISCO.
  *
  * To first order in the amplitude (J. Binney & S. Tremaine, Galactic Dynamics, section 3.2.3, with the frequencies of
  * Kerr),
@@ -64,9 +64,9 @@ struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_
 struct kd_particle_swing { double radial, radial_phase, vertical, vertical_phase; };
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle);
 
-/* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has such gas. The optical depth follows
- * from the surface density of the gas in its own frame, divided by that of the disk just outside the ISCO: a particle
- * has the same opacity inside and outside the ISCO. */
+/* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has such gas. A particle has the same
+ * opacity inside and outside the ISCO. So the optical depth is proportional to the surface density of the gas in its
+ * own frame, relative to that of the disk just outside the ISCO. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
 /* The time before scene->top.time for which the grid is computed: about the light delay of a near camera, so that the

@@ -42,8 +42,9 @@ enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
 /* Relative difference between the mean of the rays' light and the pixel's light. */
 double kd_explained_sum_error(const struct kd_probed_pixel *pixel);
-/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many of them
- * are known: 4, or 3 (without V) if only light of the plane is polarised, or 0 if the scene is not polarised. */
+/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many of them are
+ * known: 4 for polarised volumes, 3 (without V) if only light of the plane is polarised, 0 if the scene is not
+ * polarised. */
 enum { KD_EXPLAINED_STOKES = 4 };
 int kd_explained_stokes(const struct kd_probed_ray *ray, double out[KD_EXPLAINED_STOKES]);
 /* kd_explained_evpa: angle of the electric field. kd_explained_polarized: degree of polarisation. NAN if undefined. */

@@ -39,11 +39,10 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *job, const struc
                                      struct kd_vk_buffer *lens, int camera);
 struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
                                         struct kd_vk_buffer *lens, uint32_t band, int camera, int makes);
-/* Rays through volumes that a driver stopped early are listed. kd_frame_forget_lost empties the list, which is
- * stored behind the light of a band or of a sample; call it before any of that light is computed.
- * kd_frame_follow_lost continues the rays listed since then. `base` is the dispatch that lit their pixels, and
- * `march` has its push constants. Each group of listed rays takes `turns` dispatches. The function submits what is
- * recorded, and waits. */
+/* Rays through volumes that a driver stopped early are listed. The list is stored behind the light of a band or of a
+ * sample. kd_frame_forget_lost empties the list; call it before any of that light is computed. kd_frame_follow_lost
+ * continues the rays listed since then. `base` is the dispatch that lit their pixels, and `march` has its push
+ * constants. Each group of listed rays takes `turns` dispatches. The function submits what is recorded, and waits. */
 enum kd_status kd_frame_forget_lost(struct kd_frame_job *job, struct kd_vk_buffer *light, const char *pass);
 enum kd_status kd_frame_follow_lost(struct kd_frame_job *job, const struct kd_vk_dispatch *base,
                                     const struct kd_slice *march, const struct kd_critical_lattice *lattice,

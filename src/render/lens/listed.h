@@ -1,6 +1,6 @@
-/* Makes the lens map of a picture from listed rays, for pictures that request it: by any engine, in double
- * precision, with the camera in double. It is slower than the kernels that derive each ray from its pixel, because
- * rays pass through the host. Render thread. */
+/* Makes the lens map of a picture from listed rays, for pictures that request it. Any engine may trace them, in double
+ * precision, and the camera is computed in double. This is slower than the kernels that derive each ray from its pixel,
+ * because rays pass through the host. Render thread. */
 #ifndef KD_RENDER_LENS_LISTED_H
 #define KD_RENDER_LENS_LISTED_H
 

@@ -49,8 +49,9 @@ struct kd_ladder {
      * before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
-    /* The ladder upwards for a scene at rest: full resolution with one ray a pixel, then more rays, all with at
-     * most the profile "balanced"; last, the requested quality. Each step takes more work than the one before. */
+    /* The ladder upwards for a scene at rest. It begins with full resolution and one ray a pixel. The next steps have
+     * more rays; all of these have at most the profile "balanced". The last step is the requested quality. Each step
+     * takes more work than the one before. */
     struct kd_rung steps[KD_LADDER_STEPS];
     size_t n_steps;
 };

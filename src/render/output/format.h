@@ -66,7 +66,7 @@ struct kd_format {
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
 
-/* Format of the scenes' files that are joined to a cube: FITS with exactly the layers that image.layers names, so
+/* Format of the scenes' files that are joined to a cube. It is FITS with exactly the layers that image.layers names, so
  * that all scenes have the same layers. It is not in the table. Defined in fits.c. */
 extern const struct kd_format kd_format_cubed;
 

@@ -41,8 +41,8 @@ struct kd_march {
 /* The march for a scene with volumes or bodies, whose rays are traced with this setting. */
 struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_setting *rays);
 
-/* The march of a live view while it changes on a slow machine: the fewest stretches, no finer octaves of noise, and
- * an error measured on a quarter of the rays. */
+/* The march of a live view while it changes on a slow machine. It has the fewest stretches and no finer octaves of
+ * noise, and its error is measured on a quarter of the rays. */
 struct kd_march kd_march_sketch(struct kd_march march, const struct kd_scene *scene);
 
 /* The given march with the numbers of steps and stretches multiplied by KD_MARCH_FINER. */

@@ -3,7 +3,7 @@
  *
  * To add a pass, write its line here, its number of invocations in pass.c, its file in src/render/frame/, and its call
  * in frame.c, which names it by kd_passes[KD_PASS_...].name. A pass that belongs to an emitter is defined in the
- * emitter's files only (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h); it appears below as
+ * emitter's files only (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h). Below, all such passes appear as
  * KD_EMIT_PASSES. */
 #ifndef KD_RENDER_PLAN_PASS_H
 #define KD_RENDER_PLAN_PASS_H
@@ -18,8 +18,8 @@ struct kd_capacity;
 struct kd_plan;
 struct kd_scene;
 
-/* Performance figures: nanoseconds per item, measured on frames. F(id, word, guess): the word is used by GET /v1/device
- * and in the cache; the guess is lavapipe's value, used until the figure has been measured. */
+/* Performance figures: nanoseconds per item, measured on frames. F(id, word, guess): GET /v1/device and the cache use
+ * the word. The guess is lavapipe's value; it is used until the figure has been measured. */
 #define KD_FIGURES(F) \
     F(RAY_RADIUS, "ray_radius", 30)           /* a ray of a lens map of radii only, in closed form */ \
     F(RAY_FULL, "ray_full", 150)              /* any other ray that a kernel traces */ \

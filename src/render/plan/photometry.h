@@ -7,8 +7,8 @@
  * has the same weights. It is (alpha, beta) in M; at a finite radius it is the mean direction, in degrees to the right
  * of the hole and above it. Neither depends on the camera's aim and roll.
  *
- * For polarised light Stokes Q, U and V are the same sums of the layers of these names, in the unit of the flux.
- * They are relative to the top of the picture, which rotates with the camera's roll.
+ * For polarised light, the same sums of the layers Q, U and V give Stokes Q, U and V, in the unit of the flux. Stokes Q
+ * and U are relative to the top of the picture, which rotates with the camera's roll.
  *
  * shaders/comp/photometry.comp sums 64 pixels at a time in 32 bits, to 3e-7; these sums are added in double. */
 #ifndef KD_RENDER_PLAN_PHOTOMETRY_H

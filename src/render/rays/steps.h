@@ -1,5 +1,5 @@
-/* Records each step of one ray as the device takes it: the kernels of device.c are compiled with KD_TRACE and write
- * their state after each step. For `kerrd rays --trace` and for explaining a pixel. Render thread. */
+/* Records each step of one ray as the device takes it. For this, the kernels of device.c are compiled with KD_TRACE and
+ * write their state after each step. For `kerrd rays --trace` and for explaining a pixel. Render thread. */
 #ifndef KD_RENDER_RAYS_STEPS_H
 #define KD_RENDER_RAYS_STEPS_H
 

@@ -19,9 +19,9 @@
 struct kd_sky_picture {
     uint32_t width, height;
     float *texels;
-    /* Texels of a row are narrower towards the poles. If set, each level is averaged along rows over 1/cos(latitude)
-     * texels, so that a row is as coarse there as at the equator; otherwise the poles would look like stars with many
-     * rays. */
+    /* Texels of a row are narrower towards the poles. If `even` is set, each level is averaged along rows over
+     * 1/cos(latitude) texels, so that a row is as coarse there as at the equator. Otherwise the poles would look like
+     * stars with many rays. */
     bool even;
 };
 void kd_sky_picture_finish(struct kd_sky_picture *picture);

@@ -1,5 +1,5 @@
-/* Finds the images of stars under a map of rays to the sky: for each star the places of rays that end at it. Pure; any
- * thread.
+/* Finds the images of stars under a map of rays to the sky. For each star these are the places of the rays that end at
+ * it. Pure; any thread.
  *
  * Neighbouring rays form triangles, which the map takes to triangles of the sky. A star within a triangle of the sky
  * has an image in the corresponding triangle of rays, at the same barycentric coordinates. From there Newton's method

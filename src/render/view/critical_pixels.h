@@ -1,5 +1,5 @@
 /* Lists the pixels that the critical curve passes, which get more rays than others. Image orders from 2 on (for a
- * distant observer from 1 on) are rings thinner than a pixel: with one ray a pixel they would show as dots. Double
+ * distant observer from 1 on) are rings thinner than a pixel. With one ray a pixel they would show as dots. Double
  * precision; pure, any thread.
  *
  * In units of the shadow's radius the images of order n lie within about e^(-pi n) of the curve (lensing.h). Those

@@ -5,9 +5,9 @@
  * valid.
  *
  * The rim lies on a plane. For an observer at infinity this is the plane of (alpha, beta) about the curve's middle. For
- * other observers it is the tangent plane of the sphere of directions at the curve's middle, with tangents of angles as
- * coordinates. A place has a turn u round the curve, KD_RIM_ANGLES for a whole turn, and l = log(off): its distance
- * from the middle is 1 + off times that of the curve's point.
+ * other observers it is the tangent plane of the sphere of directions at the curve's middle. Its coordinates are
+ * tangents of angles. A place has two coordinates. u is the turn round the curve, KD_RIM_ANGLES for a whole turn. l is
+ * log(off), where the place's distance from the middle is 1 + off times that of the curve's point.
  *
  * The innermost rays are KD_RIM_LEAST from the curve. They are nearer if the brightest star could still be seen there,
  * down to KD_RIM_NEAREST. An image at the relative distance `off`, of a star of flux F, has at least the radiance F off
@@ -28,8 +28,8 @@
  * observer can make stars brighter. */
 #define KD_RIM_SEEN 0.1
 #define KD_RIM_PIXELS 14.0 /* width of the rim in pixels; within it neighbouring pixels end far apart on the sky */
-/* The width of the rim is at least this times its radius in pixels. Beyond that width the rounding of 32 bits, 7e-6
- * divided by the distance, is less than half a percent of the step from pixel to pixel. */
+/* The width of the rim is at least this times its radius in pixels. The rounding of 32 bits is 7e-6 divided by the
+ * distance. Beyond this width it is less than half a percent of the step from pixel to pixel. */
 #define KD_RIM_NOISE 1.3e-3
 #define KD_RIM_MOST 1.0 /* the width of the rim is at most this fraction of its radius */
 

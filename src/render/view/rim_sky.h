@@ -1,4 +1,4 @@
-/* Follows the rays of the rim (rim_grid.h) in double precision: so near to the critical curve single precision loses
+/* Follows the rays of the rim (rim_grid.h) in double precision. So near to the critical curve, single precision loses
  * 1e-4 to 1e-2 rad of a ray's final direction.
  *
  * The angles of physics/null/null_bend.h are smooth functions of the curve's point and of the logarithm of the
