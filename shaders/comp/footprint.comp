@@ -11,7 +11,7 @@
  * the derivative to second order. At the edge of the picture or of the buffer, two neighbours on one side give it to
  * second order as well. One neighbour gives it to first order. A ray without neighbours is isolated at an edge, and its
  * footprint is KD_FOOTPRINT_EDGE. Half the second difference is added, because a map that turns back within a step
- * still has a size; this term is of second order, too.
+ * still has a size. This term is also of second order.
  *
  * Rays on listed pixels are on a square grid, treated separately for each pixel, or on a lattice (ray/place.glsl). On a
  * lattice J is a least-squares fit to the differences to neighbours in this pixel and in adjacent pixels. Its step is
@@ -132,8 +132,8 @@ kd_oval on_grid(kd_which which, uint at, kd_grid grid)
     return KD_NO_OVAL;
 }
 
-/* Sums for a least-squares linear map: those of v v^T, of d v^T, and of d.d; and the number of neighbours that lack
- * the crossing or end that the ray has. */
+/* Sums for a least-squares linear map: those of v v^T, of d v^T, and of d.d. Also the number of neighbours that lack
+ * the crossing, or the end, that the ray has. */
 struct kd_fit {
     float xx, xy, yy;
     vec3 dx, dy;

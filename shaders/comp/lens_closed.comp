@@ -49,7 +49,8 @@ struct kd_leg {
     bool crossed;   /* `last` is not the start any more */
 };
 
-/* Upper bound of the time to the horizon, or to infinity for a ray that starts outwards, from the least value of R. */
+/* Upper bound of the time to the horizon; for a ray that starts outwards, of the time to infinity. It follows from the
+ * least value of R. */
 float time_limit(kd_turning_point b, kd_state start, float e, bool falls)
 {
     float e2 = e * e, least = min(e2, start.dw * start.dw);
@@ -90,7 +91,7 @@ void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_a
     leg.alive = leg.alive && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
 }
 
-/* True if polar.first is a valid time. If A > 0 and Q < 0 there is no such time, and where Q nearly vanishes, rounding
+/* True if polar.first is a valid time. If A > 0 and Q < 0 there is no such time. Where Q nearly vanishes, rounding
  * decides (polar.glsl). u'^2 = Q + A u^2 - e u^4 is at most s^2/4e, so that the greatest speed is s / 2 sqrt(e). The
  * ray reaches the plane no sooner than at this speed. If A < 0 and Q = 0, the ray stays in the plane. Its half periods
  * are counted as usual, although it crosses nothing. */

@@ -1,6 +1,6 @@
 /* Kernel: converts light to pixels: exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four
- * pixels as whole words: RGB of 8 bits in three, of 16 bits in six, packed without padding as a PNG encoder needs them.
- * Invocations after the last pixel write zeros.
+ * pixels as whole words: three words for RGB of 8 bits, six words for RGB of 16 bits. They are packed without padding,
+ * as a PNG encoder needs them. Invocations after the last pixel write zeros.
  *
  * This file is compiled to eight kernels, for all combinations of three macros. KD_TEXELS reads the radiance as texels
  * of four floats, three of which are four pixels. KD_BLOOM removes the light that a lens spreads, and adds the light

@@ -110,9 +110,9 @@ float drifted(kd_geodesic m, kd_state y, float time)
 }
 
 /* For a method of order p, the results with all steps and with half the steps differ by 2^p - 1 times the remaining
- * error, 15 or 63 times. LEFT times this difference is about thirty times the remaining error. It is a bound even if
- * the steps are too coarse for that law. lost_in_a_turn: error of steps of length h over a half turn, for rays that
- * have no crossing to show it. */
+ * error, that is, 15 or 63 times. LEFT times this difference is about thirty times the remaining error. It is a bound
+ * even if the steps are too coarse for that law. lost_in_a_turn: error of steps of length h over a half turn, for rays
+ * that have no crossing to show it. */
 const float LEFT = METHOD == 4 ? 2.0 : 0.5;
 float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 

@@ -182,8 +182,8 @@ void main()
 
     /* lavapipe leaves all loops of an invocation after 65535 rounds, including rounds of inner loops; the variables
      * then hold intermediate values. This limit is lower, and a ray that needs more rounds stays undecided. With the
-     * most steps that src/render/rays/check.c accepts, these rounds are 16 half turns (Tao's method) or 60; a ray
-     * that passes the hole takes 8 to 13. */
+     * most steps that src/render/rays/check.c accepts, these rounds are 16 half turns for Tao's method and 60 for the
+     * others. A ray that passes the hole takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;

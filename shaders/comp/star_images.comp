@@ -12,7 +12,7 @@
  * there, and the pixel's own solid angle cancels: the radiance is F divided by the solid angle of the sky to which the
  * map takes a pixel at the star's place, |det J|/cos(angle to the ray). The light is spread as in ray/star_light.glsl.
  *
- * Rays of the rim (ray/rim.glsl) are processed likewise, with their own steps, and the size of these steps in the
+ * Rays of the rim (ray/rim.glsl) are processed in the same way, with their own steps and the size of these steps in the
  * picture.
  *
  * Code for several rays or starts is in loops that are not unrolled, and no array has a variable index. Drivers
@@ -111,8 +111,8 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
     }
 }
 
-/* Ray k of the twelve rays that 5 x 5 rays without the corners have beyond 3 x 3: the middles of the left, right, upper
- * and lower sides, then the two rays beside each of these. */
+/* Ray k of the outer twelve rays. They are the 5 x 5 rays without the corners and without the inner 3 x 3. First come
+ * the middles of the left, right, upper and lower sides, then the two rays beside each of these. */
 ivec2 outer(int k)
 {
     int side = k < 4 ? k : (k - 4) / 2, far = (side & 1) == 0 ? -2 : 2, near = k < 4 ? 0 : (k & 1) == 0 ? 1 : -1;

@@ -1,8 +1,8 @@
 /* The smooth thin disk as an emitter.
  *
- * An element at radius r emits as a black body of temperature T(r). By Liouville I_nu/nu^3 is constant along the ray,
- * so the element is seen as a black body of g T, with bolometric intensity g^4 F / pi. Radiance is in units of the
- * largest surface brightness at g = 1. */
+ * An element at radius r emits as a black body of temperature T(r). By Liouville's theorem I_nu/nu^3 is constant along
+ * the ray. So the element is seen as a black body of temperature g T, with the bolometric intensity g^4 F / pi.
+ * Radiance is in units of the largest surface brightness at g = 1. */
 #ifndef KD_BLOCK_disk
 #define KD_DISK_TABLE 1024
 /* clang-format off */

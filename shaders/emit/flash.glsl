@@ -1,5 +1,5 @@
-/* The echo of a flash: a lamp on the axis flashes, and its light runs over the thin disk, whose gas shines at once in
- * proportion to the light that it receives. The gas is shown at the time when the light of each ray left it.
+/* The echo of a flash. A lamp on the axis flashes, and its light runs over the thin disk. The disk's gas shines at
+ * once, in proportion to the light that it receives. The gas is shown at the time when the light of each ray left it.
  *
  * Gas at r receives what the lamp sent t_1(r) before (emit/lamp.glsl). I_nu/nu^3 is constant along the ray, so
  * I_nu ~ nu^-index is multiplied by g^(3 + index). The light in all rays together, over time, is the impulse response

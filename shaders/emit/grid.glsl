@@ -46,8 +46,8 @@ float kd_grid_fallen(float r)
 /* Time of ingoing Kerr-Schild coordinates minus Boyer-Lindquist time. The advanced time has dv = dt + dr (r^2 +
  * a^2)/Delta (B. Carter 1968, Phys. Rev. 174, 1559), and the time of Kerr-Schild coordinates is v - r. The difference
  * is int (2r - q^2)/Delta dr = ln(Delta/4) + (2 - q^2) int dr/Delta, because Delta' = 2r - 2. Without spin and charge
- * it is 2 ln(r/2 - 1). It falls without bound at the horizon, as does the time at which light left there: the two add
- * up, and nothing cancels. */
+ * it is 2 ln(r/2 - 1). This difference falls without bound at the horizon. So does the time at which light left there;
+ * the two add up, and nothing cancels. */
 float kd_grid_later(float w) { return kd_log(0.25 * kd_horizons(w, cam.root) / (w * w)) - kd_late(w); }
 
 /* The frame at a place, as a number with a fraction. Before the first frame and after the last one, that frame. */

@@ -14,8 +14,8 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* A place on one of the grids, which begins at node `first`: the row, and the azimuth in turns on the rows before and
- * after the place. */
+/* A place on one of the grids. The grid begins at node `first`. The place has a row, and an azimuth in turns on the
+ * rows before and after it. */
 struct kd_density_place {
     uint first, rows, columns;
     float row, before, after;

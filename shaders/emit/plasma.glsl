@@ -2,9 +2,9 @@
  * magnetic field by power laws, as used by A. E. Broderick, H.-Y. Pu and others. The state at a point is one struct,
  * kd_plasma. Light and, if requested, polarisation follow from it.
  *
- * nu_obs is the observed frequency, and the affine parameter is measured by the observer's energy. Per unit of it,
- * light grows by (nu_obs/nu)^2 j_nu and optical depth by (nu/nu_obs) alpha_nu: I/nu^3, j/nu^2 and alpha nu are
- * invariant (Rybicki & Lightman 1979, 4.9), and nu/nu_obs = -k.u. */
+ * nu_obs is the observed frequency, and the affine parameter is measured by the observer's energy. Per unit of that
+ * parameter, light grows by (nu_obs/nu)^2 j_nu and optical depth by (nu/nu_obs) alpha_nu. The reason is that I/nu^3,
+ * j/nu^2 and alpha nu are invariant (Rybicki & Lightman 1979, 4.9). nu/nu_obs is -k.u. */
 #ifndef KD_BLOCK_plasma
 /* clang-format off */
 #define KD_BLOCK_plasma(F, U, A) \
@@ -159,9 +159,9 @@ kd_equilibrium kd_torus_at(kd_metric g, kd_midst p)
     return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0, 0.0), ln_h);
 }
 
-/* State of the matter at a place, for an arriving photon. energy: -k.u, the frequency in the frame of the matter over
- * the observed one; frequency: log2 of that frequency in GHz; field: the unit vector along B, b.u = 0, as contravariant
- * components t, r, theta, phi of Boyer-Lindquist coordinates. */
+/* State of the matter at a place, for an arriving photon. energy: -k.u, the ratio of the frequency in the frame of the
+ * matter to the observed one. frequency: log2 of the former in GHz. field: the unit vector along B, with b.u = 0, as
+ * contravariant components t, r, theta, phi of Boyer-Lindquist coordinates. */
 struct kd_plasma {
     kd_electrons electrons;
     kd_flow flow;
@@ -310,8 +310,8 @@ kd_radiates kd_plasma_gives(kd_plasma m)
 }
 
 /* Makes the medium from logarithms. Where the depth exceeds 2^24 per length, light and depth are reduced by the same
- * factor, because such matter shows only its own light. Light of such matter is correct up to 6e28 K. Light of thin
- * matter is limited to 2^99 per length, beyond the range of layers (src/render/frame/layers.c). */
+ * factor. This is allowed because such matter shows only its own light. Light of such matter is correct up to 6e28 K.
+ * Light of thin matter is limited to 2^99 per length, beyond the range of layers (src/render/frame/layers.c). */
 kd_medium kd_plasma_medium(float light, float depth, float grain)
 {
     float over = max(depth - 24.0, 0.0);

@@ -31,8 +31,8 @@ struct kd_stokes_cell {
     vec4 light;
 };
 
-/* below this |lambda|, or below a tenth of a larger depth, differences of nearly equal numbers are replaced by series:
- * at this limit both forms are accurate to about 1e-6 */
+/* below this |lambda|, or below a tenth of a larger depth, series replace differences of nearly equal numbers. At this
+ * limit both forms are accurate to about 1e-6 */
 #define KD_STOKES_NEAR 0.25
 
 vec2 kd_complex_times(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x); }
@@ -94,8 +94,8 @@ vec2 kd_stokes_mean(vec2 y, vec2 passes)
     return y2 < 0.25 ? sum : vec2(dot(size, y), size.y * y.x - size.x * y.y) / y2;
 }
 
-/* The means of s^k exp(-t s), k from 1 to 6, by the stable recursion: upwards if t is large, otherwise downwards
- * from a sum of positive terms. */
+/* The means of s^k exp(-t s), k from 1 to 6, by the recursion that is stable: upwards if t is large, otherwise
+ * downwards from a sum of positive terms. */
 struct kd_stokes_moments { float m1, m2, m3, m4, m5, m6; };
 kd_stokes_moments kd_stokes_moments_of(float t)
 {

@@ -168,8 +168,8 @@ uint light_at(uint x, uint y)
 #ifdef KD_PROBE
 #include "light/numbers.glsl"
 
-/* Follows one ray, given by the push constants: on the grid its row of rays is row0 and its column `rows`; on listed
- * pixels it is ray number `ray` of pixel number row0 in the list. */
+/* Follows one ray, given by the push constants. On the grid the ray is in row row0 and column `rows` of the rays. On
+ * listed pixels it is ray number `ray` of pixel number row0 in the list. */
 void main()
 {
     kd_camera_read();
@@ -210,7 +210,7 @@ void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 }
 
 /* COLUMNS: an invocation lights KD_TRANSFER_ROWS pixels of a column, with one ray each and without diffuse light behind
- * them. Pixels without light are left as they are: they were set to black before.
+ * them. Pixels without light are not written; they were set to black before.
  *
  * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So a first loop finds what has
  * light, which is cheap, and a second one lights only that. With diffuse light on the sky every pixel has light, and
@@ -430,8 +430,8 @@ void main()
     store_ray(to, beam, true);
 }
 #else
-/* The march processes one ray an invocation: lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535
- * passes in total, which the successive rays of a pixel through turbulent gas would reach. */
+/* The march processes one ray an invocation. lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535
+ * passes in total; the successive rays of a pixel through turbulent gas would reach that limit. */
 void main()
 {
     kd_camera_read();

@@ -75,8 +75,8 @@ vec3 kd_direction_pull(kd_geodesic m, vec3 n)
 }
 
 /* Direction of a ray that escapes soon after its start, with psi counted from the start. The function takes four steps
- * of the vector equation of escape.glsl; for a quarter radian the error of a step is below a float's. A ray that never
- * meets the plane, with b < a, is such a ray if it starts outside the photon orbits. */
+ * of the vector equation of escape.glsl. For a quarter radian the error of a step is below the rounding of a float. A
+ * ray that never meets the plane, with b < a, is such a ray if it starts outside the photon orbits. */
 kd_direction kd_arc_direction_soon(kd_geodesic m, kd_ray ray, float u, float s, float time)
 {
     vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);

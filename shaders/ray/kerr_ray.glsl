@@ -17,9 +17,10 @@ struct kd_ray {
     float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
 };
 
-/* Bounds of the rounding error of R = W^2 - D K w^2, for all rays of an observer. E, L and p_theta are sums of terms,
- * with errors of some roundoffs of the terms' sizes, which are at most size_e, |L| + d_l and |p| + d_p. With j = |a|
- * size_e, and h for w at the horizon, W has an error of w + wl |l| and K one of l^2 + p^2 + p |p| + l |l| + k:
+/* Bounds of the rounding error of R = W^2 - D K w^2, for all rays of an observer. E, L and p_theta are sums of terms.
+ * Their errors are some roundoffs of the terms' sizes, and these sizes are at most size_e, |L| + d_l and |p| + d_p.
+ * With j = |a| size_e, and h for w at the horizon, W has an error of w + wl |l| and K one of l^2 + p^2 + p |p| + l |l|
+ * + k:
  *   w = size_e + |a| h^2 (j + s d_l),  wl = |a| s h^2,  p = d_p,  l = d_l + 2 s j,  k = j ((1 + u^2) j + s d_l),
  * and `least` is of second order (kd_camera_exact of src/render/view/camera.c). */
 struct kd_rounding {

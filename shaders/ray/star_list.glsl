@@ -1,5 +1,5 @@
-/* The list of stars in cells, shared by the kernels that search stars, and their output: pairs of a ray and a star,
- * and rays still to be searched. Bindings 3 to 6. Needs sky_map.glsl. */
+/* Buffers shared by the kernels that search stars: the list of stars in cells, and the kernels' output. The output is
+ * pairs of a ray and a star, and rays still to be searched. Bindings 3 to 6. Needs sky_map.glsl. */
 #ifndef KD_STAR_LIST_GLSL
 #define KD_STAR_LIST_GLSL
 

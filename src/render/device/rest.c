@@ -42,8 +42,8 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
 }
 
 /* Resident memory that belongs to no other category is divided between heap and `other`. Heap memory counts as heap
- * only up to the size of this remainder: device memory counts in full although some of its pages may never have been
- * touched, so the remainder may be smaller than the heap. */
+ * only up to the size of this remainder. Device memory counts in full although some of its pages may never have been
+ * touched. So the remainder may be smaller than the heap. */
 void kd_renderer_cached(const struct kd_renderer *r, uint64_t out[KD_N_CACHE_KINDS])
 {
     const uint64_t left = more_than(resident_bytes(), r->started_bytes + named_bytes(r, out)),

@@ -49,7 +49,7 @@ static double luminance_quantile(const uint32_t *counts, double share)
     return log2(ldexp(1 + (code & 7) / 8.0, (code >> 3) - 127));
 }
 
-/* Computes the exposure for "auto". sRGB clips at 1, so the brightest pixels are exposed to 1; the top four in a
+/* Computes the exposure for "auto". sRGB clips at 1, so the brightest pixels are exposed to 1. The top four in a
  * thousand of the pixels with light are ignored. The film-like curve has a long shoulder, so with it the brightest
  * pixels may be above white. The larger the range from the median to these pixels, the further above white they may be.
  * The dim side of a beamed disk thus stays visible. all: no pixels are ignored, because light smoothed by a beam

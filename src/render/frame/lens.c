@@ -385,7 +385,7 @@ static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
 }
 
 /* Lights rows whose map is recorded or made, and reports their progress. A slice of a sampled map has at least the rows
- * of a block, so its light may take several submissions. map_ns and light_ns: times of a row of pixels. */
+ * of a block. So its light may take several submissions. map_ns and light_ns: times of a row of pixels. */
 static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *whole, double map_ns, double light_ns)
 {
     struct slice part = *whole;

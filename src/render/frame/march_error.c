@@ -1,5 +1,5 @@
-/* Measures the error of light from volumes. The first ray of each pixel of a lattice is traced again by the same
- * kernel into a separate buffer, once as in the picture and once KD_MARCH_FINER times as finely. */
+/* Measures the error of light from volumes. On a lattice of pixels, the first ray of each pixel is traced twice more by
+ * the same kernel into a separate buffer: once as in the picture, and once KD_MARCH_FINER times as finely. */
 #include "render/frame/lens.h"
 
 #include <math.h>

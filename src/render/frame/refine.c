@@ -144,8 +144,8 @@ done:
     return status;
 }
 
-/* For a device that only compiles and so would choose no pixel: refines one pixel with each source of rays, to compile
- * the kernels. */
+/* For a device that only compiles. Such a device would choose no pixel, so this refines one pixel with each source of
+ * rays, to compile the kernels. */
 static enum kd_status rehearse(struct kd_frame_job *j)
 {
     struct kd_pixel pixel = { 0, 0 };

@@ -109,8 +109,8 @@ static struct kd_vk_binding lens_of(const struct part *part)
                                     part->rim ? 12ull * kd_rim_grid_rays(part->rim) : 0, false };
 }
 
-/* Makes pairs of rays and stars. A picture is searched by large tiles, then by small tiles and listed rays; the rim
- * is searched by small tiles and rays. */
+/* Makes pairs of rays and stars. A picture is searched by large tiles, then by small tiles and listed rays. The rim is
+ * searched by small tiles and rays. */
 static enum kd_status search(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;

@@ -286,8 +286,8 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
     }
 }
 
-/* Traces rays by the steps of physics/null/null_course.h in ingoing coordinates, for an observer inside the horizon,
- * where closed forms do not apply. */
+/* Traces rays for an observer inside the horizon, where closed forms do not apply. Uses the steps of
+ * physics/null/null_course.h in ingoing coordinates. */
 static enum kd_status trace_within(struct work *w, const struct kd_scene *scene, struct kd_error *error)
 {
     const size_t orders = w->plan->lens.orders ? w->plan->lens.orders : 1;

@@ -435,7 +435,7 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
     const struct kd_scene *const asked = &still;
     /* bodies of a playground are counted only in the scene's work, and their memory may be freed after this call */
     kd_scene_show(&still, NULL);
-    /* If the scene does not move and only its motion was changed, the picture shown is already right; the scene is
+    /* If the scene does not move and only its motion was changed, the picture shown is already right. The scene is
      * rendered once more all the same. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) &&
                       !kd_emit_moves(asked);

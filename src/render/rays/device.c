@@ -13,10 +13,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few
- * rays, and later ones as many as take TARGET_MS. A ray's cost varies by a factor of a million between the fastest
- * engine on a GPU and Tao's with the most steps on one core. A slice is submitted in parts of at most CHUNK rays;
- * the device traces one part while the host unpacks the part before. */
+/* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few rays,
+ * and later ones as many as take TARGET_MS. A ray's cost varies by a factor of a million between the fastest engine on
+ * a GPU and Tao's with the most steps on one core. A slice is submitted in parts of at most CHUNK rays. The device
+ * traces one part while the host unpacks the part before. */
 #define LEAST 32u
 #define MOST (1u << 20)
 #define CHUNK 65536u

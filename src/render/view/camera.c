@@ -104,8 +104,8 @@ double kd_camera_pixel(const struct kd_scene *scene)
     return (isinf(c->r) ? c->field_m : 2 * tan(0.5 * c->fov_deg * (M_PI / 180))) / scene->image.width;
 }
 
-/* Upper bound on the sum of the terms' sizes minus the size of their sum: twice the constant, plus twice the smaller
- * of the other two terms, which may cancel. */
+/* Upper bound on the sum of the terms' sizes minus the size of their sum. It is twice the constant, plus twice the
+ * smaller of the other two terms, which may cancel. */
 static double more_than_sum(double constant, double across, double up)
 {
     return 2 * (fabs(constant) + fmin(fabs(across), fabs(up)));
