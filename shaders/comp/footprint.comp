@@ -1,7 +1,7 @@
 /* Kernel: footprint of each ray: the size of the area that the ray stands for, on the disk for each crossing, and in
  * the sky (shared/lens.h).
  *
- * A step of the camera is a square in the picture. To first order the map takes the square to a parallelogram. It
+ * A step of the camera is a square in the picture. To first order the map takes the square to a parallelogram. The map
  * takes a disc of one step's diameter to an ellipse. The footprint is the long axis of that ellipse, the largest
  * singular value of the map's derivative J:
  *

@@ -1,8 +1,8 @@
 /* Kernel: fills a lens map from the nodes of its smooth cells (ray/cells.glsl). The polynomials through the nodes give
- * w, azimuth and slope of each ray's crossings, or where in the sky it ends. Their derivatives give the footprints. An
- * invocation processes a column of rays of a cell: it reduces 25 nodes to five numbers for the column, and these to one
- * number for each ray. All values are relative to the cell's middle node, so that rounding is relative to the change
- * within the cell.
+ * w, azimuth and slope of each ray's crossings, or where in the sky it ends. The polynomials' derivatives give the
+ * footprints. An invocation processes a column of rays of a cell. It reduces 25 nodes to five numbers for the column,
+ * and these five to one number for each ray. All values are relative to the cell's middle node, so that rounding is
+ * relative to the change within the cell.
  *
  * The map is already initialised: the planes of w are 0, and all fates are captured. */
 #version 450

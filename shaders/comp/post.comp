@@ -75,10 +75,10 @@ vec3 neutral(vec3 c)
     return peak < start ? c : bright;
 }
 
-/* The encoding of c in [0, 1] by IEC 61966-2-1, times LEVELS. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s
- * = c^(1/4). It is the minimax polynomial for c from 0.0031308 to 1 among those that are 1 at 1, accurate to 3.4e-7.
- * 2e-7 is added, so that roundoff leaves white at 65535. The total error is below 5.4e-7, a thirtieth of a step of
- * 16 bits. */
+/* The encoding of c in [0, 1] by IEC 61966-2-1, times LEVELS. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s =
+ * c^(1/4). This is the minimax polynomial for c from 0.0031308 to 1 among those that are 1 at 1, accurate to 3.4e-7.
+ * 2e-7 is added, so that roundoff leaves white at 65535. The total error is below 5.4e-7, a thirtieth of a step of 16
+ * bits. */
 vec3 srgb(vec3 c)
 {
     const float unit = float(LEVELS);

@@ -150,9 +150,9 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
-/* Change of the number of turns about the axis in a step from x to y, which atan2 does not give. It changes where the
- * chord crosses the half plane x < 0. Very close to the axis the ray and the chord may pass the axis on opposite
- * sides. */
+/* Change of the number of turns about the axis in a step from x to y, which atan2 does not give. The number of turns
+ * changes where the chord crosses the half plane x < 0. Very close to the axis the ray and the chord may pass the axis
+ * on opposite sides. */
 float turned(vec3 x, vec3 y)
 {
     if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)

@@ -5,8 +5,8 @@
  * About its ray the map is taken as quadratic, in the plane of the sky perpendicular to the ray (orthographic
  * projection). Its coefficients come from the eight surrounding rays: the linear ones by least squares, the others by
  * second differences. On the rim the map is of higher order, from twenty rays. Beside rays that do not escape, and at
- * edges, it is of first order, from the rays that exist. Roots are found by Newton's method, from four starts unless
- * there is clearly only one root. Each root counts once: there are up to four where a caustic passes.
+ * edges, the map is of first order, from the rays that exist. Roots are found by Newton's method, from four starts
+ * unless there is clearly only one root. Each root counts once: there are up to four where a caustic passes.
  *
  * A star's flux F in an image is F dOmega/dOmega_s. Divided by the solid angle of a pixel it is the mean radiance
  * there, and the pixel's own solid angle cancels: the radiance is F divided by the solid angle of the sky to which the
@@ -229,8 +229,9 @@ bool is_plain(kd_patch m)
     return 1.2 * (all.x + all.y) * (abs(j[0].x) + abs(j[0].y) + abs(j[1].x) + abs(j[1].y)) < 0.7 * abs(det);
 }
 
-/* Where two cells meet they share the light, with weights that go from 0 to 1 over a fifth of a step. Their maps put an
- * image at slightly different places; by sharing, no image is lost or counted twice. */
+/* Where two cells meet, they share the light, with weights that go from 0 to 1 over a fifth of a step. The maps of the
+ * two cells put an image at slightly different places. Because the light is shared, no image is lost or counted
+ * twice. */
 float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
 
 /* A place p in a ray's cell. place: in the picture, in its steps; steps: squared steps of the picture per squared step

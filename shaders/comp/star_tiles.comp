@@ -1,9 +1,9 @@
 /* Kernel: lists pairs of a ray and a star that the ray may see, from square tiles of the lens map. Each ray stands for
  * a cell of the picture one step wide; star_images.comp finds the star's image in it.
  *
- * Nine rays of a tile, three by three, give the map over the tile to second order. It maps places in the tile to the
- * plane of the sky perpendicular to the middle ray. A tile is simple under three conditions. All nine rays escape. The
- * map's derivative changes by less than KD_STAR_TILE_BENT of itself. The map then has a unique inverse there, which
+ * Nine rays of a tile, three by three, give the map over the tile to second order. This map takes places in the tile to
+ * the plane of the sky perpendicular to the middle ray. A tile is simple under three conditions. All nine rays escape.
+ * The map's derivative changes by less than KD_STAR_TILE_BENT of itself. The map then has a unique inverse there, which
  * Newton's method finds. The corners show that terms of third order are less than KD_STAR_TILE_OFF rays.
  *
  * Other tiles are listed. A large tile, KD_STAR_TILE rays a side, is listed as small tiles of three rays a side, for
@@ -46,7 +46,7 @@ const float NEAR = TILE == KD_STAR_TILE || AT_RIM ? 0.72 : 0.65;
 
 /* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2 + aaa u^3 + aab u^2 v + abb u v^2 + bbb v^3, where u
  * and v go from -1 at the tile's first rays to 1 at its last. The terms from the second order on are in units of a and
- * b. Those of third order are 0 if the tile is not smooth. */
+ * b. The terms of third order are 0 if the tile is not smooth. */
 struct kd_tile {
     vec3 n, e1, e2;
     vec2 a, b, aa, ab, bb, aaa, aab, abb, bbb;

@@ -4,7 +4,7 @@
  * converts coordinate differences from its centre to lengths in the orthonormal frame of zero angular momentum there:
  * along r, theta and phi, stretched by the metric. In that frame the light that arrives at one time is a plane wave, t
  * = n.Y, where n is the direction of propagation. In the frame of a body of velocity v, the wave has the time t' =
- * gamma (t - v.Y). It meets the body where
+ * gamma (t - v.Y). The wave meets the body where
  *
  *   b^2 + t'^2 = R^2,   b^2 = Y^2 - t^2.
  *

@@ -26,13 +26,13 @@ struct kd_glow {
  * M^2. */
 struct kd_spread { vec3 plane, rise; };
 /* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: their derivatives by Mino time in the direction of
- * tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures. They
- * belong to the arriving photon, which has p_r = dw/kd_delta(w) and p_theta = du/sin(theta). speed: length in (r, r n),
- * M, per unit of Mino time, as if space were flat, where n is the direction from the hole; grains are in this unit of
- * length. phi: azimuth, source minus observer. spread: the ellipse that the ray stands for. phi and spread are 0
- * without KD_TRAIT_AZIMUTH. order: order of the nearest crossing of the plane on the ray, which changes at the extremes
- * of cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the ray's
- * innermost crossing of the plane; 0: unknown. */
+ * tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures. These
+ * constants belong to the arriving photon, which has p_r = dw/kd_delta(w) and p_theta = du/sin(theta). speed: length in
+ * (r, r n), M, per unit of Mino time, as if space were flat, where n is the direction from the hole; grains are in this
+ * unit of length. phi: azimuth, source minus observer. spread: the ellipse that the ray stands for. phi and spread are
+ * 0 without KD_TRAIT_AZIMUTH. order: order of the nearest crossing of the plane on the ray, which changes at the
+ * extremes of cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the
+ * ray's innermost crossing of the plane; 0: unknown. */
 struct kd_midst {
     float w, u, dw, du, energy, momentum, q, speed, phi;
     kd_spread spread;

@@ -307,8 +307,8 @@ kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, u
 
 /* Light of a node is attenuated by half its own depth and all depth before it. By Gauss's method of three stages
  * (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij, the attenuation is sum_j a_ij/b_j x_j. This function
- * returns the difference between the two attenuations, to first order in depth. It is 0 where light is proportional to
- * depth, because the sum over the three nodes is then exact. */
+ * returns the difference between the two attenuations, to first order in depth. The difference is 0 where light is
+ * proportional to depth, because the sum over the three nodes is then exact. */
 vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 {
     float x = one.w + two.w + three.w;

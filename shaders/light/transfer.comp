@@ -1,7 +1,7 @@
 /* Kernel: makes light (linear sRGB radiance) from the lens map. An invocation lights a pixel, or a column of
- * KD_TRANSFER_ROWS pixels. Variants: KD_MARCH is for scenes with volumes; it follows the rays themselves, one ray of
- * each pixel, which slice.ray numbers. KD_PIECES continues the rays that KD_MARCH could not complete, one piece at a
- * time. */
+ * KD_TRANSFER_ROWS pixels. There are two variants. KD_MARCH is for scenes with volumes: it follows the rays themselves,
+ * and a dispatch follows the ray with the number slice.ray of each pixel. KD_PIECES continues the rays that KD_MARCH
+ * could not complete, one piece at a time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require

@@ -18,8 +18,8 @@ kd_camera_block cam;
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 layout(push_constant) uniform Slice { kd_slice slice_; };
 
-/* kd_camera_read reads `cam` and `slice`. It must be called before the first branch, because after a branch lavapipe
- * reads them again for each lane and each use. */
+/* kd_camera_read reads `cam` and `slice`. Call it before the first branch, because after a branch lavapipe reads them
+ * again for each lane and each use. */
 kd_slice slice;
 void kd_camera_read()
 {

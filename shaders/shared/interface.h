@@ -35,8 +35,8 @@
  * frame. On a sphere and a dome the steps are angles, and c0, cx and cy point ahead, to the right and up. The direction
  * is then cos(y) (cos(x) c0 + sin(x) cx) + sin(y) cy on a sphere, and cos(d) c0 + sin(d) (x cx + y cy) / d with d^2 =
  * x^2 + y^2 on a dome. A photon from there moves along m = -k, and has E = e_t + m_r e_r + m_theta e_theta + m_phi
- * e_phi. L/sin(theta) follows likewise from l_, p_theta from p_, and dw/dtau of the traced ray from dw_. These are
- * components of the observer's tetrad (src/physics/spacetime/tetrad.h). */
+ * e_phi. L/sin(theta) follows likewise from l_, p_theta from p_, and dw/dtau of the traced ray from dw_. The numbers
+ * named with _t, _r, _theta and _phi are components of the observer's tetrad (src/physics/spacetime/tetrad.h). */
 /* clang-format off */
 #define KD_CAMERA_FIELDS_(F, U) \
     F(c0x) F(c0y) F(c0z) F(cxx) F(cxy) F(cxz) F(cyx) F(cyy) F(cyz) \
@@ -73,7 +73,7 @@
     /* sample: pixels in a row (0: no sample, all pixels are lit), and the first column; row0 is the first row */ \
     U(columns) U(first) \
     U(every_x) U(every_y)   /* distance of the sample's columns and of its rows */ \
-    /* index at which the stored light of the sample begins; its pixels are in order of rows */ \
+    /* index at which the stored light of the sample begins; the pixels follow row by row */ \
     U(to) \
     /* number of the ray in its pixel; the march adds its light to that of earlier rays */ \
     U(ray) \

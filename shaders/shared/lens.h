@@ -16,8 +16,8 @@
  *   FATE     KD_FATE_... of interface.h
  *   SKY_FOOTPRINT  size of a ray's footprint on the sky, radians
  *
- * Shapes need footprints. Footprints need W and PHI, or SKY_U, SKY_PHI and FATE; they are KD_FOOTPRINT_EDGE if a ray
- * has no neighbours. */
+ * Shapes need footprints. Footprints need W and PHI, or SKY_U, SKY_PHI and FATE. The footprint of a ray without
+ * neighbours is KD_FOOTPRINT_EDGE. */
 #ifndef KD_LENS_H
 #define KD_LENS_H
 

@@ -37,9 +37,9 @@ static void lacks(struct kd_vk_info *info, const char *what)
     snprintf(info->missing + used, sizeof info->missing - used, "%s%s", used ? ", " : "", what);
 }
 
-/* Score of a queue family. It must compute. A family with timestamps is better. Among equals a family without graphics
- * is better, because there our work and the desktop's frames do not wait for each other. Among equal families the first
- * is used. */
+/* Score of a queue family. The family must support compute. A family with timestamps is better. Among equals a family
+ * without graphics is better, because there our work and the desktop's frames do not wait for each other. Among equal
+ * families the first is used. */
 static int family_points(const VkQueueFamilyProperties *family)
 {
     if (!(family->queueFlags & VK_QUEUE_COMPUTE_BIT) || !family->queueCount)

@@ -1,5 +1,5 @@
-/* Texel views of a buffer. A buffer caches the views with which it was bound, because most of them are used again. It
- * frees them when it is destroyed. */
+/* Texel views of a buffer. A buffer caches the views with which it was bound, because most of them are used again. The
+ * views are freed when the buffer is destroyed. */
 #ifndef KD_VK_VIEW_H
 #define KD_VK_VIEW_H
 

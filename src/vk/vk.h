@@ -164,8 +164,7 @@ enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
  * KD_VK_IN_FLIGHT submissions are under way it waits for the oldest. */
 #define KD_VK_IN_FLIGHT 4
 enum kd_status kd_vk_submit(struct kd_vk *vk, uint64_t *ticket, struct kd_error *error);
-/* Waits for a ticket (0: everything submitted). If the deadline passes, it returns KD_EDEVICE and the device is
- * lost. */
+/* Waits for a ticket (0: everything submitted). Returns KD_EDEVICE if the deadline passes; the device is then lost. */
 enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *error);
 /* Drops what was recorded but not submitted. */
 void kd_vk_discard(struct kd_vk *vk);

@@ -4,8 +4,8 @@
  *
  * An engine's errors are the differences of its results (render/rays/rays.h) from those of KD_ENGINE_CLOSED, on named
  * sets of rays (render/accuracy/sets.h). An error covers all orders together, over the crossings that both methods have
- * from the ISCO to KD_ACCURACY_FAR. Errors of r and g are relative, those of phi (radians) and delay (M) absolute. A
- * ray whose fate or number of crossings differs from the closed form's is counted in `differ`. */
+ * from the ISCO to KD_ACCURACY_FAR. Errors of r and g are relative. Errors of phi (radians) and delay (M) are absolute.
+ * A ray whose fate or number of crossings differs from the closed form's is counted in `differ`. */
 #ifndef KD_RENDER_ACCURACY_TABLE_H
 #define KD_RENDER_ACCURACY_TABLE_H
 

@@ -47,8 +47,8 @@ bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *sc
  * requests the panorama. */
 void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
 /* Gets the panorama of a scene that has one, and waits for it if necessary. A Milky Way takes some tenths of a second,
- * a large picture a second. It is valid until the next call. Render thread only. Returns KD_EINVAL at /sky/image if the
- * asset is gone or is not a valid picture, or KD_ENOMEM. */
+ * a large picture a second. The panorama is valid until the next call. Render thread only. Returns KD_EINVAL at
+ * /sky/image if the asset is gone or is not a valid picture, or KD_ENOMEM. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene,
                               const struct kd_panorama **out, struct kd_error *error);
 /* Waits for the panorama in progress and drops all other requests. `made` is not called again before a new request. */

@@ -47,11 +47,12 @@ void kd_renderer_destroy(struct kd_renderer *renderer);
  * the device hangs and cannot be closed (kd_renderer_hangs), the device is unavailable now, or another device has taken
  * its place. The call may be repeated. */
 enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error);
-/* True if the device has missed a deadline. It can then be neither closed nor reopened, and the process should soon
- * end by _exit. */
+/* True if the device has missed a deadline. The device can then be neither closed nor reopened, and the process should
+ * soon end by _exit. */
 bool kd_renderer_hangs(const struct kd_renderer *renderer);
 
-/* A copy of the present capacity, for kd_plan_make. Its accuracy table stays the renderer's. Any thread. */
+/* A copy of the present capacity, for kd_plan_make. The accuracy table in the copy still belongs to the renderer. Any
+ * thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
 /* Starts reading a scene's sky.image and volume.grid unless they are cached; reading takes up to some seconds.
  * Returns whether the reading is in progress. A render would hold the device while it waits for the reading. So a
@@ -72,8 +73,8 @@ const char *kd_renderer_device(const struct kd_renderer *renderer);
 const char *kd_renderer_driver(const struct kd_renderer *renderer);
 /* Bytes of device memory in the renderer's buffers after the last frame. Any thread. */
 uint64_t kd_renderer_held(const struct kd_renderer *renderer);
-/* Path of a file that belongs to this version of device and driver (vk/vk.h). It is malloc'd, or NULL if there is no
- * folder. Any thread. */
+/* Path of a file that belongs to this version of device and driver (vk/vk.h). The path is malloc'd, or NULL if there is
+ * no folder. Any thread. */
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
 

@@ -39,8 +39,8 @@ struct kd_lens_map {
     /* the light of stars seen through this map: KD_STAR_LIGHT words for each pixel of a band; no buffers: no frame had
      * stars */
     struct kd_bands star_light;
-    struct kd_rim rim; /* the rim of the map's camera, for images of stars of high orders, if there is a rim and it was
-                          requested */
+    /* the rim of the map's camera, for images of stars of high orders; set if there is a rim and it was requested */
+    struct kd_rim rim;
     struct kd_rim_grids rim_grids;
     bool rim_known; /* true if rim and rim_grids are set */
     bool rim_traced;

@@ -43,7 +43,7 @@ struct kd_emitter {
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
-    /* enum kd_varies: the causes for which its light changes; NULL: its light never changes */
+    /* enum kd_varies: the causes that change the emitter's light; NULL: its light never changes */
     unsigned (*varies)(const struct kd_scene *scene);
     /* The emitter's own device buffers, and their bytes. Also the number of invocations of the pass that fills them
      * before light is computed (KD_PASS_name of its GLSL file). NULL: the emitter has none. If only `invocations` is
@@ -57,9 +57,9 @@ struct kd_emitter {
     /* Least and largest r at which the emitter emits or absorbs, M; NULL: anywhere. Crossings outside the range of all
      * emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
-    /* For ALONG emitters: the least and the largest |cos(theta)| at which they emit or absorb; NULL: 0 and 1.
-     * The march takes the outermost bounds that `reach`, `hollow` and `height` give for the scene's volumes, and
-     * resolves these bounds to a float's accuracy. It resolves an edge inside them only as finely as the emitter's
+    /* For ALONG emitters: the least and the largest |cos(theta)| at which they emit or absorb; NULL: 0 and 1. The march
+     * takes the outermost bounds that `reach`, `hollow` and `height` give for the scene's volumes, and resolves these
+     * bounds to a float's accuracy. The march resolves an edge inside these bounds only as finely as the emitter's
      * grain requires. */
     double (*hollow)(const struct kd_scene *scene), (*height)(const struct kd_scene *scene);
     /* Radius in M of a sphere within `reach` at which light or optical depth has an edge. The march finds this edge
@@ -122,7 +122,7 @@ struct kd_work {
     float log2_of[KD_EMITTER_COUNT][2];
 };
 struct kd_work kd_emit_work(const struct kd_scene *scene);
-/* True if the emitters take about the same time in a picture of the same size. They do if the kinds are equal and no
+/* True if the emitters take about the same time in a picture of the same size. This holds if the kinds are equal and no
  * number differs by more than a factor of two. */
 bool kd_work_alike(const struct kd_work *a, const struct kd_work *b);
 /* Calls take(user, approximation) for each approximation that is in force. */
@@ -172,7 +172,8 @@ static inline double kd_disk_heat(const struct kd_scene *scene, double r)
 }
 /* The inner edge of the disk, M. */
 double kd_disk_inner(const struct kd_scene *scene);
-/* Fill in the colours and the luminous efficiency of black bodies. They do not depend on the scene; 15 ms each. */
+/* Fill in the tables of the colours and of the luminous efficiency of black bodies. The tables do not depend on the
+ * scene. Each takes 15 ms. */
 void kd_colour_tables(struct kd_emit_tables *out);
 void kd_luminous_table(struct kd_emit_tables *out);
 

@@ -61,9 +61,9 @@ struct kd_matter_grid {
     bool packed, whole; /* whole: the file asks for nodes that are not packed */
     double least[2], range[2], speed;
     /* For columns that are not evenly spaced: a table that gives the column at theta, as a number with a fraction, by
-     * bilinear interpolation. It has `steps` cells in theta from 0 to pi for each pair of adjacent rows, or one such
-     * set of cells for all rows. A cell has four floats: the column at the cell's beginning and at its end, each in one
-     * row and in the next row. NULL: the columns are evenly spaced. */
+     * bilinear interpolation. The table has `steps` cells in theta from 0 to pi for each pair of adjacent rows, or one
+     * such set of cells for all rows. A cell has four floats: the column at the cell's beginning and at its end, each
+     * in one row and in the next row. NULL: the columns are evenly spaced. */
     float *places;
     uint32_t steps, place_rows;
 };

@@ -2,12 +2,12 @@
  * orbits are `radii` circular ones with equal numbers of particles. All of this follows from a hash of the particle's
  * number and the seed; nothing is stored. The particles with the lowest numbers fall from the ISCO instead
  * (render/emit/plunging.h). Each then starts again at another azimuth, a hash of its number and the count of its falls.
- * The position at any time t is a closed form. Angular frequencies are in double. Their phases at t reach the device as
- * 32-bit fractions of a turn. Their sums wrap exactly, so t may be arbitrarily large.
+ * The position at any time t is a closed form. Angular frequencies are in double. The phases at t reach the device as
+ * 32-bit fractions of a turn. Sums of such phases wrap exactly, so t may be arbitrarily large.
  *
- * The rows of the grid are steps of log r from edge to edge, its columns steps of azimuth. At a node, the light of the
- * smooth disk is multiplied by the ratio of the counted number of particles to the expected number. Falling particles
- * have a grid of their own, over phase and azimuth at the ISCO.
+ * The rows of the grid are steps of log r from edge to edge. The columns are steps of azimuth. At a node, the light of
+ * the smooth disk is multiplied by the ratio of the counted number of particles to the expected number. Falling
+ * particles have a grid of their own, over phase and azimuth at the ISCO.
  *
  * To first order in the amplitude (J. Binney & S. Tremaine, Galactic Dynamics, section 3.2.3, with the frequencies of
  * Kerr),

@@ -8,9 +8,9 @@
  *
  * A steady stream is uniform in time. So a particle's first coordinate is its phase: the fraction of the curve's time
  * that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel of gas is
- * at rest in both coordinates. On such a grid each cell is a parcel that is stretched as it falls. Its surface density
- * is 1/(r |u^r|) times a conserved quantity (mass: I. D. Novikov & K. S. Thorne 1973). Double precision, pure, any
- * thread. */
+ * at rest in both coordinates. On such a grid each cell is a parcel that is stretched as it falls. The surface density
+ * of the parcel is 1/(r |u^r|) times a conserved quantity (mass: I. D. Novikov & K. S. Thorne 1973). Double precision,
+ * pure, any thread. */
 #ifndef KD_RENDER_EMIT_PLUNGING_H
 #define KD_RENDER_EMIT_PLUNGING_H
 

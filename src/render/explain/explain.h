@@ -33,8 +33,8 @@ struct kd_explained {
     char why[240];   /* one sentence: where the ray ends, and why */
 };
 
-/* kd_explain explains the middle ray. kd_explain_each explains one of the rays whose mean is the pixel's light,
- * without its path. Both return KD_EINVAL for a ray that has no closed form. Call kd_explained_finish in any case. */
+/* kd_explain explains the middle ray. kd_explain_each explains one of the rays whose mean is the pixel's light, without
+ * its path. Both functions return KD_EINVAL for a ray that has no closed form. Call kd_explained_finish in any case. */
 enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *out, struct kd_error *error);
 enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *out,
                                struct kd_error *error);

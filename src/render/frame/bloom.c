@@ -64,8 +64,8 @@ done:
     return status;
 }
 
-/* Maximum number of blocks along an axis that two adjacent cells read together. They read blocks in four cells. A
- * narrow last block moves the centres of blocks closer together, which adds up to two blocks. */
+/* Maximum number of blocks along an axis that two adjacent cells read together. The two cells read blocks in four
+ * cells. A narrow last block moves the centres of blocks closer together, which adds up to two blocks. */
 static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool around)
 {
     return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1) + (around ? 1 : 0);

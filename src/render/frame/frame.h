@@ -45,12 +45,12 @@ static inline int kd_frame_bit_depth(const struct kd_frame *frame)
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error);
 
-/* Preview of a long picture, which is drawn from the top some rows at a time. Its functions are called between these
- * steps. */
+/* Preview of a long picture, which is drawn from the top some rows at a time. The hook's functions are called between
+ * these steps. */
 struct kd_preview_hook {
     bool (*wanted)(void *user);
     /* Called with a frame of full size that is black from row `rows` on. The frame has its own exposure if that is
-     * "auto", and has neither timings nor accuracy. Its layers are valid only during the call. */
+     * "auto", and has neither timings nor accuracy. The frame's layers are valid only during the call. */
     void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
 };
 

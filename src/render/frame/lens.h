@@ -15,8 +15,8 @@ static inline uint32_t kd_frame_slice(const struct kd_frame_job *j, double ns, u
 {
     return kd_slice_items(&j->r->slice_pace, ns, left);
 }
-/* Like the function above, for items of which only an upper bound of the time is known. Their time is not used to
- * measure the device. */
+/* Like the function above, for items of which only an upper bound of the time is known. The time of these items is not
+ * used to measure the device. */
 static inline uint32_t kd_frame_slice_at_most(const struct kd_frame_job *j, double ns, uint32_t left)
 {
     const uint32_t items = kd_frame_slice(j, ns, left);
@@ -63,7 +63,7 @@ struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *job, const stru
 /* Finds which of the part's pixels lie in a band: those from *from to *to - 1, counted from the part's first pixel. */
 void kd_frame_part_in_band(const struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band,
                            uint64_t *from, uint64_t *to);
-/* Uploads the places of the part's pixels. They are stored behind the planes. */
+/* Uploads the places of the part's pixels. The places are stored behind the planes. */
 enum kd_status kd_frame_upload_pixels(struct kd_frame_job *job, const struct kd_frame_part *part);
 
 /* Describes the light of the plan's pixel again, if that pixel is in the part that has just been lit. */

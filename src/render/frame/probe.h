@@ -36,8 +36,8 @@ struct kd_probed_place {
     size_t n_glows;
 };
 
-/* A stretch of the ray through volumes, for all volumes together. It is a part of a step of the march. If there are
- * many parts, it is several adjacent ones. */
+/* A stretch of the ray through volumes, for all volumes together. It is a part of a step of the march, or several
+ * adjacent parts if there are many. */
 struct kd_probed_stretch {
     uint32_t order;   /* order of the next crossing, if there is one */
     float w[2], u[2]; /* 1/r and cos(theta) at both ends of the stretch */
@@ -91,7 +91,7 @@ struct kd_probed_ray {
 struct kd_probed_pixel {
     uint32_t x, y;
     /* the middle ray of the square grid of image.samples, or the one before the middle. Layers are computed for this
-     * ray as well. It is not among `each` if the pixel has other rays */
+     * ray as well. This ray is not among `each` if the pixel has other rays */
     struct kd_probed_ray middle;
     struct kd_probed_ray *each; /* malloc'd: the rays whose mean is the pixel's light */
     uint32_t rays;

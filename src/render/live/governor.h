@@ -61,8 +61,8 @@
  * and a rung that was left because other sessions began is taken again as soon as they stop.
  *
  * If only the ringdown of a hole changes the picture, nothing moves. Frames then keep the requested size however long
- * they take; only their rays a pixel are reduced. A change of the scene's motion alone does not change the picture: it
- * is rendered once more, as at rest.
+ * they take; only their rays a pixel are reduced. A change of the scene's motion alone does not change the picture. The
+ * picture is then rendered once more, as at rest.
  *
  * After rest_ms without a change, one frame is rendered for each step of the ladder upwards, except steps below the
  * quality that is shown. Then nothing is rendered until the next change. On a shared device a frame itself may wait for
@@ -177,10 +177,10 @@ void kd_governor_share(struct kd_governor *governor, double share);
 /* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place of
  * bounds.scale. If frames of this width take longer than the target, all other qualities are reduced first. Then the
  * frame rate is reduced, down to one frame every patience_ms (INFINITY: no limit). If the narrowest frames were
- * measured to take longer than patience_ms, frames become narrower after all, down to a quarter. They stay so until the
- * scene changes its kind, or until wide frames are estimated to be well within patience_ms. Part of a frame's time does
- * not depend on its size. So the estimate is the line through two measurements: the last wide frames, and the first
- * narrow frames right after them. */
+ * measured to take longer than patience_ms, frames become narrower after all, down to a quarter. Frames stay narrower
+ * until the scene changes its kind, or until wide frames are estimated to be well within patience_ms. Part of a frame's
+ * time does not depend on its size. So the estimate is the line through two measurements: the last wide frames, and the
+ * first narrow frames right after them. */
 void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
 /* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: the lens map

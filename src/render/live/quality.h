@@ -22,13 +22,13 @@ struct kd_quality {
     bool final;  /* everything is as requested */
 };
 
-/* Makes the scene to render: *asked at this quality. It is valid if *asked is; with quality.final it equals *asked,
- * byte for byte. */
+/* Makes the scene to render: *asked at this quality. The result is valid if *asked is valid. With quality.final it
+ * equals *asked, byte for byte. */
 void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *asked, struct kd_scene *out);
 
 struct kd_rung {
     struct kd_quality quality;
-    /* the work of a rung. rays: their number, weighted by the cost of one ray; pixels: their number */
+    /* the work of a rung. rays: number of rays, weighted by the cost of one ray. pixels: number of pixels */
     double rays, pixels;
 };
 

@@ -67,7 +67,7 @@ KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
 
 /* Format of the scenes' files that are joined to a cube. It is FITS with exactly the layers that image.layers names, so
- * that all scenes have the same layers. It is not in the table. Defined in fits.c. */
+ * that all scenes have the same layers. This format is not in the table. Defined in fits.c. */
 extern const struct kd_format kd_format_cubed;
 
 /* The first format is the default. Defined in formats.c. */

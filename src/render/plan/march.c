@@ -39,10 +39,10 @@ static double closeness(const struct kd_scene *scene)
 }
 
 /* Errors measured in the preset thick-disk at 320 x 180, against 16 times as many stretches. In nine of ten rays, the
- * relative error of light is at most 8e-3 for fine = 4, 1.6e-3 for fine = 8 and 5e-4 for fine = 12. It falls no faster,
- * because noise is smooth to the second derivative only. Closer rays resolve noise that is much finer than stretches,
- * and then the error falls more slowly. For fine = 9 it is 8e-4 at 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x
- * 720; for fine = 3 it is 1.3e-2, 1.5e-2 and 1.8e-2 at these sizes. */
+ * relative error of light is at most 8e-3 for fine = 4, 1.6e-3 for fine = 8 and 5e-4 for fine = 12. The error falls no
+ * faster than this, because noise is smooth to the second derivative only. Closer rays resolve noise that is much finer
+ * than stretches, and then the error falls more slowly. For fine = 9 it is 8e-4 at 320 x 180, 1.4e-3 at 640 x 360 and
+ * 2e-3 at 1280 x 720; for fine = 3 it is 1.3e-2, 1.5e-2 and 1.8e-2 at these sizes. */
 static uint32_t fine_of(double error, const struct kd_scene *scene)
 {
     double fine = BALANCED * sqrt(sqrt(1e-4 / error));

@@ -1,5 +1,5 @@
 /* Photometry: flux and centroid of a picture, from linear radiance. Flux and centroid are independent of the exposure.
- * They depend on the resolution only because rays miss the light between them.
+ * Their only dependence on the resolution is that rays miss the light between them.
  *
  * The flux is the sum over the pixels of luminance times solid angle. At infinity solid angle is the area in the image
  * plane. The unit of the flux is then M^2 times the unit of brightness (the disk's maximum), and the flux at the

@@ -1,5 +1,5 @@
-/* Device resources for the parts of a picture: bytes, bindings, workgroups. Each function sets its part of a plan;
- * they are called in this order. Any thread. */
+/* Device resources for the parts of a picture: bytes, bindings, workgroups. Each function sets its part of a plan; the
+ * functions are called in this order. Any thread. */
 #ifndef KD_RENDER_PLAN_ROOM_H
 #define KD_RENDER_PLAN_ROOM_H
 

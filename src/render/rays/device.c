@@ -257,7 +257,7 @@ enum kd_status kd_rays_device_ask(struct kd_renderer *r, const struct kd_rays_pa
     return none ? KD_OK : kernel_of(r, params, told, &later, NULL);
 }
 
-/* Prepares the renderer for a slice. It may have been used for other rays since the last slice. */
+/* Prepares the renderer for a slice, because it may have been used for other rays since the last slice. */
 static enum kd_status prepare(struct work *w, size_t n)
 {
     enum kd_status status = kernel_of(w->r, w->params, w->told != NULL, &w->pipeline, w->error);

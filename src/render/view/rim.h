@@ -9,9 +9,9 @@
  * tangents of angles. A place has two coordinates. u is the turn round the curve, KD_RIM_ANGLES for a whole turn. l is
  * log(off), where the place's distance from the middle is 1 + off times that of the curve's point.
  *
- * The innermost rays are KD_RIM_LEAST from the curve. They are nearer if the brightest star could still be seen there,
- * down to KD_RIM_NEAREST. An image at the relative distance `off`, of a star of flux F, has at least the radiance F off
- * (radius/pixel)^2. It is not much brighter unless the star is next to a caustic. */
+ * The innermost rays are KD_RIM_LEAST from the curve. These rays are nearer, down to KD_RIM_NEAREST, if the brightest
+ * star could still be seen there. An image at the relative distance `off`, of a star of flux F, has at least the
+ * radiance F off (radius/pixel)^2. It is not much brighter unless the star is next to a caustic. */
 #ifndef KD_RENDER_VIEW_RIM_H
 #define KD_RENDER_VIEW_RIM_H
 
