@@ -24,7 +24,7 @@
 #define KD_BLOCK_stokes(F, U, A) \
     F(turn) F(convert) /* log2 of the power law's factors of rho_V and rho_Q */ \
     F(gamma2)          /* log2 of the square of the power law's least gamma */ \
-    /* for a kappa distribution: physics/disk/synchrotron.h */ \
+    /* parameters of a kappa distribution, as in physics/disk/synchrotron.h */ \
     F(kappa_light_q) F(kappa_light_q_sharp) F(kappa_light_v_low) F(kappa_light_v_high) \
     F(kappa_depth_q) F(kappa_depth_q_sharp) F(kappa_depth_v_low) F(kappa_depth_v_high) F(kappa_depth_v_sharp) \
     U(kappa_node) F(kappa_past) /* Marszewski's next lower kappa; fraction of the way from it to the next one */ \

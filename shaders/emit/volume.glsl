@@ -10,7 +10,7 @@
 /* clang-format off */
 #define KD_BLOCK_volume(F, U, A) \
     F(inner) F(outer)      /* M */ \
-    F(emissivity)          /* per unit of length, 1/M, in units of the disk's largest surface brightness */ \
+    F(emissivity)          /* emission per unit of length, 1/M; the unit is the disk's largest surface brightness */ \
     F(opacity)             /* optical depth per unit of length, 1/M */ \
     F(temperature)         /* K: temperature of the black body that has the colour of the light */
 /* clang-format on */

@@ -280,7 +280,7 @@ void light_rows(uint x, uint y, uint end)
             vec3 behind = ENDS ? beam.through * background(uvec2(x, row), at, light_at(x, row)) : vec3(0.0);
             store(light_at(x, row), beam.light + behind, beam.apart, stokes, stokes_apart);
         }
-        uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* all crossings of this ray */
+        uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* bits of all crossings of this ray */
         lit &= beam.through > 0.0 ? lit - 1u : ~hidden;
     } while (lit != 0u);
 }

@@ -50,7 +50,8 @@ kd_direction kd_arc_direction(kd_geodesic m, kd_arcs a, kd_azimuth azimuth, floa
 {
     kd_direction o;
     float unit2 = a.unit * a.unit, d = m.energy2 * unit2 * (max(m.q, 0.0) * unit2);
-    kd_lattice l = kd_lattice_of(a.l.a, d, 0.25 * a.l.a * d); /* for u'^2 = Q + A u^2 - e u^4 */
+    /* lattice of the polar motion, u'^2 = Q + A u^2 - e u^4 */
+    kd_lattice l = kd_lattice_of(a.l.a, d, 0.25 * a.l.a * d);
     kd_arc z = kd_arc_twice(l, kd_arc_short(l, 0.5 * time * a.scale));
     /* u and u' over sqrt(Q), because Q may be 0. */
     float inv = 1.0 / (1.0 + 0.25 * d * z.g * z.g), rise = 0.5 * z.dg * inv;

@@ -232,7 +232,7 @@
     U(pixels_x) \
     F(left) F(top)           /* for a tile: place of its first pixel in the picture */ \
     U(counter)               /* index of the word that counts pixels whose light is not finite; 0: not counted */ \
-    F(bloom)                 /* fraction of light above white that is spread; this and the rest: only with bloom */ \
+    F(bloom) /* fraction of light above white that is spread; this and all later members are used only with bloom */ \
     F(scale_x) F(scale_y)    /* cells a pixel */ \
     U(cells_x) U(cells_y)
 /* clang-format on */

@@ -122,7 +122,7 @@ void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct 
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
 /* like kd_kernels_texels, for this number of bytes of any data */
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes);
-/* like kd_kernels_texels, for any lens map, with one number in each texel: software devices read such texels in less
+/* like kd_kernels_texels, for any lens map, with one number in each texel. Software devices read such texels in less
  * than half the time */
 bool kd_kernels_map_as_texels(const struct kd_vk *vk);
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);

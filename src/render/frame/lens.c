@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
+static const struct kd_critical_lattice on_grid; /* all members 0 means rays of the grid */
 
 /* Number of rows of pixels of a band, from `row` on, that one submission processes. A slice of a sampled map ends at
  * the end of a block, so that no block is traced twice. */

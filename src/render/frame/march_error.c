@@ -17,7 +17,7 @@ static uint32_t above(const struct kd_march_sample *s, uint32_t row)
 /* Lights the sample's pixels of a band, writes to the buffer from index `to` on, and submits. */
 static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct kd_march *march, uint32_t to)
 {
-    static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
+    static const struct kd_critical_lattice on_grid; /* all members 0 means rays of the grid */
     const struct kd_plan *p = j->plan;
     const struct kd_march_sample *s = &p->light.march.sample;
     const uint32_t first = kd_frame_band_first(j, band), from = above(s, first),

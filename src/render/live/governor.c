@@ -441,7 +441,7 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
                       !kd_emit_moves(asked);
     const bool same_work = kd_work_alike(&work, &g->work);
     if (g->gave_way && !(same_ladder(&g->asked, asked) && same_work))
-        give_way(g, &g->paces[1], false); /* another kind of scene gets a new try */
+        give_way(g, &g->paces[1], false); /* for another kind of scene the requested width is tried again */
     if (!g->ladders || !same_ladder(&g->asked, asked))
         change_ladder(g, asked);
     for (int i = 0; i < 2 && !same_work; i++)

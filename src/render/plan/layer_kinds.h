@@ -29,7 +29,7 @@ struct kd_layer_kind {
     /* the scale of its colours; an end that is NAN is replaced by the picture's least or largest value */
     struct kd_map_scale scale;
     const char *const *classes; /* for CATEGORICAL: names of the values 0, 1, ...; NULL: their numbers */
-    uint32_t n_classes;         /* 0: given by the largest value */
+    uint32_t n_classes;         /* number of classes; 0: the largest value gives it */
 };
 extern const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT];
 /* True if the layer is a quantity of polarised light. */

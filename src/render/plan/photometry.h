@@ -32,7 +32,7 @@ struct kd_light {
 struct kd_light_report {
     bool measured;              /* true if the plan requested it (kd_plan_light.photometry) */
     bool polarized, circular;   /* polarized: whether there are Q and U; circular: whether there is V */
-    struct kd_light all, spots; /* all: for the whole picture; spots: for the contribution of its hot spots */
+    struct kd_light all, spots; /* all: light of the whole picture; spots: light of its hot spots */
 };
 
 /* kd_light_fraction: degree of linear polarisation. kd_light_evpa: angle of the electric field from the top of the
