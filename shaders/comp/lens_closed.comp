@@ -113,7 +113,7 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
         lens[at + kd_plane(KD_LENS_SLOPE) * slice.stride] = any ? leg.next.dw : 0.0;
 }
 
-/* Stores where the ray ends; returns whether that is certain. nodes, z: of the leg that the ray does not complete.
+/* Stores where the ray ends. Returns true if that is certain. nodes, z: of the leg that the ray does not complete.
  * before: time from the last crossing to the start, if the leg begins with the start. */
 bool keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg,
               kd_arc middle, float leg_z, float before, bool decided)

@@ -234,9 +234,9 @@ bool is_plain(kd_patch m)
  * twice. */
 float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
 
-/* A place p in a ray's cell. place: in the picture, in its steps; steps: squared steps of the picture per squared step
- * of the ray; share: fraction of the image that comes from this grid, rather than from the rim or another grid; energy:
- * energy at infinity of light that is measured as 1. */
+/* A place p in a ray's cell. place: place in the picture, in its steps. steps: squared steps of the picture per squared
+ * step of the ray. share: fraction of the image that comes from this grid, rather than from the rim or another grid.
+ * energy: energy at infinity of light that is measured as 1. */
 struct kd_star_pixel {
     vec2 place;
     float steps, share, energy;

@@ -11,7 +11,7 @@
 #ifndef KD_BLOCK_debris
 /* clang-format off */
 #define KD_BLOCK_debris(F, U, A) \
-    U(turn) U(rows) U(columns)      /* nodes of a whole turn; rows of nodes; nodes a row */ \
+    U(turn) U(rows) U(columns)      /* number of nodes of a whole turn, of rows of nodes, and of nodes in a row */ \
     F(first_row) F(first_column) F(rows_octave) /* first node; rows in which r doubles, counted from r = 1 */ \
     F(depth)                    /* D, divided by the area of a node at r = 1 */ \
     F(temperature)              /* temperature, relative to the disk's largest */

@@ -31,7 +31,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Gas at a crossing: its observed temperature over the disk's largest, and its opacity. */
+/* Gas at a crossing. t: its observed temperature divided by the disk's largest. alpha: its opacity. */
 struct kd_gas { float t, alpha; };
 
 /* B_nu(t T)/B_nu(T) for the disk's largest colour temperature T. With x = h nu/(k T) and m(y) = (1 - exp(-y))/y the

@@ -67,8 +67,8 @@
 #ifdef KD_EMIT_CODE
 #include "emit/synchrotron.glsl"
 
-/* The metric at a place, relative to observers of zero angular momentum: their lapse^2 and angular velocity,
- * g_phiphi, g_rr and Sigma/r^2 (Bardeen, Press & Teukolsky 1972). */
+/* The metric at a place, relative to observers of zero angular momentum. lapse2, omega: square of their lapse, and
+ * their angular velocity. round_: g_phiphi. radial: g_rr. sigma: Sigma/r^2 (Bardeen, Press & Teukolsky 1972). */
 struct kd_metric { float lapse2, omega, round_, radial, sigma; };
 kd_metric kd_metric_at(float w, float u)
 {
@@ -78,8 +78,8 @@ kd_metric kd_metric_at(float w, float u)
                      at.sigma);
 }
 
-/* Velocity of matter: u^t; u_phi, where u^phi - omega u^t = u_phi/g_phiphi; u^r; and u^theta, which is 0 except on a
- * grid. */
+/* Velocity of matter. time: u^t. round_: u_phi, where u^phi - omega u^t = u_phi/g_phiphi. out_: u^r. down: u^theta,
+ * which is 0 except on a grid. */
 struct kd_flow { float time, round_, out_, down; };
 const bool KD_PLASMA_GRID = (TRAITS_plasma & KD_TRAIT_PLASMA_GRID) != 0u;
 

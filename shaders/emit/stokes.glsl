@@ -260,7 +260,8 @@ void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth
                                depth * vec3(whole * of.depth.x * c, of.depth.y), vec3(whole * turns.x * c, turns.y));
 }
 
-/* A stretch: the transfer in front of it, its light as far as it arrives, and the matter at its three nodes. */
+/* A stretch. front: the transfer by all matter in front of it. light: its light that arrives. one, two, three: the
+ * matter at its three nodes. */
 struct kd_stokes_trial {
     kd_jones front;
     vec4 light;

@@ -8,8 +8,8 @@
  * three Gauss-Legendre nodes each. A stretch is as long as the grain, the depth and the distance allow. A stretch that
  * turns out too long is repeated.
  *
- * Needs inputs.glsl; KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map; and
- * KD_MARCH_GIVEN_UP(beam) for a ray whose end is not found. */
+ * Needs inputs.glsl and two macros. KD_MARCH_MEET(beam, w, n, place, at) composes crossing n of the lens map.
+ * KD_MARCH_GIVEN_UP(beam) is for a ray whose end is not found. */
 #ifndef KD_MARCH_GLSL
 #define KD_MARCH_GLSL
 

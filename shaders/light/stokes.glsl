@@ -18,8 +18,8 @@ struct kd_jones {
     vec2 s;
     vec3 re, im;
 };
-/* A length of matter: its light; its depth for I; its absorption of Q, U and V; and the rotation that it gives to Q, U
- * and V. */
+/* A length of matter. light: its light. depth: its depth for I. takes: its absorption of Q, U and V. turns: the
+ * rotation that it gives to Q, U and V. */
 struct kd_stokes {
     vec4 light;
     float depth;

@@ -4,9 +4,9 @@
 
 #include "ray/hole.glsl"
 
-/* a^2 w^2; Delta/r^2, at least 1e-30; A/r^4; Sigma/r^2; and the angular velocity of an observer of zero angular
- * momentum (Bardeen, Press & Teukolsky 1972, with 2r - q^2 for 2r). The square of that observer's lapse is sigma delta
- * / area. u: cosine of the polar angle. s2: square of its sine. */
+/* aw2: a^2 w^2. delta: Delta/r^2, at least 1e-30. area: A/r^4. sigma: Sigma/r^2. omega: angular velocity of an observer
+ * of zero angular momentum (Bardeen, Press & Teukolsky 1972, with 2r - q^2 for 2r). The square of that observer's lapse
+ * is sigma delta / area. u: cosine of the polar angle. s2: square of its sine. */
 struct kd_place { float aw2, delta, area, sigma, omega; };
 kd_place kd_place_at(float w, float u, float s2)
 {

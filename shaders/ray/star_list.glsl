@@ -20,7 +20,7 @@ uint cell_at(uint of) { return cells[of]; }
 layout(set = 0, binding = 6) buffer Listed
 {
     uint listed[];
-}; /* numbers of tiles and of rays; the tiles, with room for push.tiles of them; then the rays */
+}; /* the number of tiles and the number of rays; then the tiles, with room for push.tiles of them; then the rays */
 
 /* The cells of a face that lie in a rectangle. */
 struct kd_cells {

@@ -112,7 +112,7 @@
     U(origin_x) U(origin_y) /* ray at the origin of the single rays' places: row and column of the buffer */
 /* clang-format on */
 /* Push constants of lens_cells.comp and lens_fill.comp, for a lens map traced at nodes and interpolated
- * (src/render/frame/sample.c). Places are those of rays in this picture; cells are aligned to the whole picture. */
+ * (src/render/frame/sample.c). Places count in rays of this picture. Cells are aligned to the whole picture. */
 /* clang-format off */
 #define KD_SAMPLE_FIELDS_(F, U) \
     U(origin_x) U(origin_y) /* place of the first block's first ray; signed integers */ \

@@ -61,8 +61,8 @@
 #define KD_SPEC_PHOTOMETRY(U, B) \
     B(0, SEPARATE_PHOTOMETRY, false) B(1, FINITE, false) B(2, STOKES, false) B(3, STOKES_APART, false)
 
-/* For star_tiles.comp, star_search.comp and star_images.comp. VISIBLE: brightness weighted as by the eye; TILE: rays
- * along the sides of a tile; RIM: as in ray/rim.glsl. */
+/* For star_tiles.comp, star_search.comp and star_images.comp. VISIBLE: brightness is weighted as by the eye. TILE: rays
+ * along the sides of a tile. RIM: as in ray/rim.glsl. */
 /* clang-format off */
 #define KD_SPEC_STARS(U, B) \
     U(0, QUANTITIES, 1) \

@@ -41,7 +41,7 @@ static bool has_layer(const struct kd_vk_functions *fn, const char *name)
     return found;
 }
 
-/* True if a layer has an extension; layer NULL: whether the loader or a driver has it. */
+/* True if a layer has an extension. If layer is NULL: true if the loader or a driver has it. */
 static bool has_extension(const struct kd_vk_functions *fn, const char *layer, const char *name)
 {
     uint32_t n = 0;

@@ -111,9 +111,9 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
  * most four. If a kernel fails, the next kd_kernels_get reports its error. */
 void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
-/* kd_kernels_make in three steps. The first ends recording and returns the noted kernels; the second makes them; the
- * third adds them to the cache. The second may run on any thread while another thread uses the device, as long as
- * the device stays open. */
+/* kd_kernels_make in three steps. The first function ends recording and returns the noted kernels. The second makes
+ * them. The third adds them to the cache. The second may run on any thread while another thread uses the device, as
+ * long as the device stays open. */
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
 void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);

@@ -54,10 +54,9 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer);
 /* A copy of the present capacity, for kd_plan_make. The accuracy table in the copy still belongs to the renderer. Any
  * thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
-/* Starts reading a scene's sky.image and volume.grid unless they are cached; reading takes up to some seconds.
- * Returns whether the reading is in progress. A render would hold the device while it waits for the reading. So a
- * client should poll this function until the reading is done, and render then; others can use the device meanwhile.
- * Any thread. */
+/* Starts reading a scene's sky.image and volume.grid unless they are cached. Reading takes up to some seconds. Returns
+ * whether the reading is in progress. A render would hold the device while it waits for the reading. So a client should
+ * poll this function until the reading is done, and render then. Others can use the device meanwhile. Any thread. */
 bool kd_renderer_assets_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky (panoramas.h). Any thread. */
 void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash);

@@ -100,7 +100,7 @@ static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
     struct kd_kernel_requests latest;
     kd_kernels_list(&r->kernels, &latest);
     enum kd_status status = kd_renderer_reopen(r, error);
-    if (status && !r->vk) /* reopening failed for whatever reason, so there is no device */
+    if (status && !r->vk) /* there is no device, because reopening failed */
         status = error->status = KD_EDEVICE;
     if (status)
         return status;

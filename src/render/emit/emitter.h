@@ -20,8 +20,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* An approximation (approximation.h). in_force: whether it applies to a scene that has the emitter, with these rays;
- * NULL: always. */
+/* An approximation (approximation.h). in_force: true if the approximation applies to a scene that has the emitter, with
+ * these rays. NULL: it always applies. */
 struct kd_sentence {
     const char *name, *text;
     bool (*in_force)(const struct kd_scene *scene, const struct kd_setting *rays);

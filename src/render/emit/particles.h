@@ -37,7 +37,7 @@ struct kd_particles_push; /* push constants of particles.comp: render/view/layou
 struct kd_particle_grid {
     uint32_t count; /* number of particles; 0: the disk is smooth */
     uint32_t radii;
-    uint32_t rows, columns;               /* number of intervals; columns is a power of 2 */
+    uint32_t rows, columns;               /* number of intervals along each axis; columns is a power of 2 */
     uint32_t plunging;                    /* number of falling particles; 0: they have no grid */
     uint32_t plunge_rows, plunge_columns; /* size of the falling particles' grid */
     /* rows from the start of the plunge to its end; rows before the start, for slow light */

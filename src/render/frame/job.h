@@ -194,7 +194,7 @@ enum kd_status kd_frame_post(struct kd_frame_job *job);
 enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out); /* the kernel */
 /* Runs the passes from light to pixels, in order. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
-/* kd_frame_add_layers allocates the layers of a plan other than the picture. The second function copies them to the
+/* kd_frame_add_layers allocates the layers of a plan other than the picture. kd_frame_layers copies these layers to the
  * host, as far as light is complete. A single requested layer replaces the picture, in false colour. */
 enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_picture *picture,
                                    struct kd_error *error);

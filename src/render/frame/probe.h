@@ -26,8 +26,8 @@ struct kd_probed_glow {
 struct kd_probed_place {
     uint32_t order;                 /* image order of the crossing */
     float w, phi, slope, footprint; /* values of the lens map; 0 if the map does not hold the quantity */
-    /* Properties that gas at the place has or would have. g: redshift factor; temperature: in K; angle: between light
-     * and normal in the frame of the gas, in radians */
+    /* Properties that gas at the place has or would have. g: redshift factor. temperature: in K. angle: angle between
+     * light and normal in the frame of the gas, in radians */
     float g, temperature, angle;
     float through;  /* transmission of all matter in front of the place */
     bool polarized; /* the light is polarised, and the next members are Q/I and U/I */

@@ -141,7 +141,8 @@ struct kd_governor {
     struct kd_governor_params params;
     double share;
     struct kd_scene asked;
-    struct kd_work work; /* cost of frames, apart from their size, when measurements began */
+    /* properties of the scene that determine the cost of frames, besides their size, when measurements began */
+    struct kd_work work;
     struct kd_ladder ladder;
     uint32_t ladders, revision;
     struct kd_pace paces[2]; /* [0]: for frames that reuse their lens map; [1]: for frames that trace it */

@@ -11,8 +11,8 @@
     COLUMN(spots_centroid_x) \
     COLUMN(spots_centroid_y) COLUMN(width) COLUMN(height)
 /* clang-format on */
-/* Columns of polarised light, in three groups: for all light; for all light, if it has circular polarisation as well;
- * for the spots' light. NAN if undefined. */
+/* Columns of polarised light, in three groups: for all light; for all light with circular polarisation; for the spots'
+ * light. NAN if undefined. */
 #define KD_CURVE_STOKES_(COLUMN) COLUMN(stokes_q) COLUMN(stokes_u) COLUMN(polarization_fraction) COLUMN(evpa)
 #define KD_CURVE_CIRCULAR_(COLUMN) COLUMN(stokes_v)
 /* clang-format off */

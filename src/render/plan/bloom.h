@@ -23,8 +23,8 @@ struct kd_bloom {
     double share;                /* fraction of the spread light on each grid: equal for each octave of the angle */
     uint32_t block_x, block_y;   /* sides in pixels of the blocks whose light is summed first */
     uint32_t blocks_x, blocks_y; /* number of blocks */
-    /* Offsets in one buffer, multiples of 256: of each grid; of the sum of each grid with the coarser ones; of the
-     * blocks. bytes: the buffer's size. */
+    /* Offsets in one buffer, each a multiple of 256. light: of each grid. sums: of the sum of each grid with the
+     * coarser grids. blocks: of the blocks. bytes: the buffer's size. */
     uint64_t light[KD_BLOOM_LEVELS], sums[KD_BLOOM_LEVELS], blocks, bytes;
 };
 

@@ -5,9 +5,8 @@
 
 #include "render/rays/rays.h"
 
-/* kd_rays_trace for KD_ENGINE_CLOSED, with checked params. Long lists are divided among the cores; progress is
- * called on the calling thread. With errors = false, errors are NaN and no g is computed; this takes a third of the
- * time. */
+/* kd_rays_trace for KD_ENGINE_CLOSED, with checked params. Long lists are divided among the cores. progress is called
+ * on the calling thread. With errors = false, errors are NaN and no g is computed, which takes a third of the time. */
 enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays, bool errors,
                               struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
                               void *user, struct kd_error *error);

@@ -1,6 +1,6 @@
 /* Reads sky.image, a picture of the whole sky in a PNG file. Pure; any thread.
  *
- * The file has 8 or 16 bits a channel, is taken as sRGB whatever it declares, and has the axes of panorama.h. The
+ * The file has 8 or 16 bits a channel and the axes of panorama.h. It is taken as sRGB, whatever it declares. The
  * picture is resampled by area averages. The number of rows becomes the nearest power of two, at most
  * KD_SKY_IMAGE_ROWS, because a device cannot bind more at once. A texel then covers 5.3 minutes of arc. White becomes
  * 1. */

@@ -74,7 +74,7 @@ uint32_t kd_camera_sight(const struct kd_scene *scene)
                                                                      : KD_SIGHT_PINHOLE;
 }
 
-/* A sphere fills the picture whatever its sides; a dome's circle touches the nearer sides. */
+/* A sphere fills the picture, whatever the picture's sides. A dome's circle touches the nearer sides. */
 static void turns(struct kd_camera_exact *o, double width, double height)
 {
     o->turn_x = o->sight == KD_SIGHT_SPHERE ? 4 / width : o->sight == KD_SIGHT_DOME ? 2 / fmin(width, height) : 0;

@@ -42,9 +42,9 @@ struct kd_beam_blur_push { KD_BEAM_BLUR_FIELDS_(F, U) };
 #undef F
 #undef U
 
-/* Sizes for post.comp: the number of workgroups for a number of pixels; the bytes of radiance that these workgroups
- * read, in blocks of four pixels; the bytes of packed pixels that they write, a multiple of what one workgroup
- * writes. */
+/* Sizes for post.comp. kd_post_groups: number of workgroups for a number of pixels. kd_post_radiance_bytes: bytes of
+ * radiance that these workgroups read, in blocks of four pixels. kd_post_bytes: bytes of packed pixels that they write,
+ * a multiple of what one workgroup writes. */
 static inline uint32_t kd_post_groups(uint64_t pixels)
 {
     const uint64_t each = KD_GROUP_SIZE * KD_POST_PIXELS;

@@ -35,8 +35,8 @@
 
 struct kd_rim {
     bool there;
-    /* relative distances from the curve: beyond `none`, all images come from the picture's grid; within `full`, all
-     * come from the rim; between the two, both share the light */
+    /* relative distances from the curve. Beyond `none`, all images come from the picture's grid. Within `full`, all
+     * come from the rim. Between the two, grid and rim share the light */
     double none, full;
     double last; /* the least relative distance from the curve of the rim's rays */
     /* rough estimate in rad of the largest change, from one point of the curve to the next, of the shift of the sky

@@ -13,10 +13,10 @@
 
 #define KD_RIM_EXACT 1e-6 /* rad */
 
-/* Writes a rim's buffer as rim_grid.h describes it: edges; for each grid the directions from which rays come, unit
- * vectors in the hole's frame as in the lens map (x of all rays row by row, then y, then z); and the tables. About
- * 0.2 us a ray. Returns KD_ENOMEM, or KD_EINVAL if a ray of the rim does not escape, which cannot happen after
- * kd_rim_of. */
+/* Writes a rim's buffer as rim_grid.h describes it: the edges, then for each grid the directions from which its rays
+ * come, and its table. Directions are unit vectors in the hole's frame, as in the lens map: x of all rays row by row,
+ * then y, then z. About 0.2 us a ray. Returns KD_ENOMEM, or KD_EINVAL if a ray of the rim does not escape, which cannot
+ * happen after kd_rim_of. */
 enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_rim_grids *grids,
                           float *out, struct kd_error *error);
 
