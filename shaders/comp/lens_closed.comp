@@ -193,7 +193,8 @@ void main()
     uint crossings = leg.alive && polar.crosses ? 1u : 0u;
     const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;
     uint n = 1;
-    if (!PHI && !SKY) { /* without drag a half period costs as much as storing zeros for a missing crossing */
+    /* all orders are followed: without drag a half period costs as much as storing zeros for a missing crossing */
+    if (!PHI && !SKY) {
         for (; n < ORDERS; n++) {
             bool before = leg.alive;
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);

@@ -30,7 +30,7 @@ float kd_volume_energy(kd_midst p)
 
 /* The march finds the edges of all volumes together. Edges of the shell may be inside other volumes. There a stretch is
  * no longer than the distance to the edge, or than this fraction of r. The fraction is the uncertainty of the shell's
- * length at `balanced`. The fraction is smaller for finer stretches. */
+ * length at `balanced`, and is smaller for finer stretches. */
 #define KD_VOLUME_EDGE 2.5e-4
 float kd_volume_grain(float r, float grain)
 {

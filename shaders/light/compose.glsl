@@ -82,7 +82,7 @@ const int KD_VOLUMES =
 #define KD_EMIT_END_CODE
 #include "shared/emitters.h"
 
-/* Whether anything is visible at crossings, and whether some luminance is kept separately. */
+/* True if anything is visible at crossings; true if some luminance is kept separately. */
 #define KD_OR_TRAITS_(number, name) | TRAITS_##name
 const uint KD_ALL_TRAITS =
     0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);

@@ -23,7 +23,7 @@ enum kd_vk_type { KD_VK_OTHER, KD_VK_CPU, KD_VK_VIRTUAL, KD_VK_INTEGRATED, KD_VK
 const char *kd_vk_type_name(enum kd_vk_type type); /* such as "discrete GPU"; never NULL */
 
 struct kd_vk_info {
-    uint32_t index; /* N in --device N */
+    uint32_t index; /* the N of the option --device N */
     char name[256], driver[256], driver_info[256];
     enum kd_vk_type type;
     uint32_t api_version; /* packed as by VK_MAKE_API_VERSION */

@@ -16,13 +16,13 @@
 #include <stdint.h>
 
 enum kd_accuracy_set {
-    KD_ACCURACY_BULK,          /* a = 0.9, i = 70, +-12 M */
+    KD_ACCURACY_BULK,          /* a = 0.9, i = 70 degrees, positions within +-12 M */
     KD_ACCURACY_NEAR_CRITICAL, /* a = 0.9, i = 70 degrees: |rho/rho_c - 1| is 5e-2, 5e-3, ... 5e-6, alternately inside
                                   and outside the critical curve */
     KD_ACCURACY_NEAR_AXIS, /* a = 0.9: one view at i = 0.001 degrees, with positions within +-12 M; another at i = 70
                               degrees, with alpha = 0 or +-1e-12 to +-1e-2 */
-    KD_ACCURACY_EDGE_ON,   /* a = 0.9: i = 90 and 89.99, +-12 M */
-    KD_ACCURACY_NEAR_EXTREMAL, /* a = 0.9999, i = 70, +-12 M */
+    KD_ACCURACY_EDGE_ON,   /* a = 0.9, i = 90 and 89.99 degrees, positions within +-12 M */
+    KD_ACCURACY_NEAR_EXTREMAL, /* a = 0.9999, i = 70 degrees, positions within +-12 M */
     KD_ACCURACY_SETS
 };
 

@@ -57,7 +57,7 @@ enum kd_kernel {
     KD_KERNEL_BEAM_SPREAD,
     KD_KERNEL_BEAM_SPREAD_TEXELS,
     KD_KERNEL_POST,
-    KD_KERNEL_POST_TEXELS, /* the variant of the kernel above for texels; kd_kernel_post chooses */
+    KD_KERNEL_POST_TEXELS, /* the variant of the kernel above for texels; kd_kernel_post chooses between the two */
     KD_KERNEL_POST_BLOOM,
     KD_KERNEL_POST_BLOOM_TEXELS,
     KD_KERNEL_POST_HEAT,

@@ -103,7 +103,7 @@ struct kd_accuracy_report {
     /* relative change of the light of these rays; the divisor is at least KD_MARCH_DARK times the brightest light.
      * volume_error: 90th percentile; volume_error_worst: largest. 1 if light is not finite or a ray has no end */
     double volume_error, volume_error_worst;
-    /* of the displayed picture: number of rays that were given up in volumes (they are magenta), plus number of pixels
+    /* number of rays that were given up in volumes and are magenta in the displayed picture, plus number of its pixels
      * whose light is not finite */
     uint64_t lost;
 };

@@ -123,8 +123,9 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
                 sum.of[q] += w[j] * at[j].of[q];
         if (!follow_on(f, along_u, place, line, &want))
             return -1;
-        if (apart(&sum, &want) > 0.1 * KD_RIM_EXACT) /* stricter, because the error is larger between the lines, and
-                                                      * next to a caustic for images */
+        /* the bound is stricter than KD_RIM_EXACT, because errors are larger between the lines, and larger for images
+         * next to a caustic */
+        if (apart(&sum, &want) > 0.1 * KD_RIM_EXACT)
             return 0;
     }
     return 1;
