@@ -26,9 +26,9 @@ struct kd_renderer_params {
     /* called on another thread when kd_renderer_assets_begin may have a new result; may be NULL */
     void (*asset_read)(void *user);
     void *asset_read_user;
-    /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. background:
-     * the picture is rendered by kd_render_in_background, so others may use the renderer before this returns. If the
-     * function returns false, the picture is abandoned with KD_ECANCELLED. If it is NULL, the thread that owns the
+    /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. background: the
+     * picture is rendered by kd_render_in_background, so others may use the renderer before this returns. If the
+     * function returns false, the picture is abandoned with KD_ECANCELLED. If `lacks` is NULL, the thread that owns the
      * device makes the kernels. */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;

@@ -78,8 +78,8 @@ enum kd_status kd_frame_forget_open(struct kd_frame_job *job, const struct kd_fr
 enum kd_status kd_frame_settle(struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band);
 
 /* Rays of pixels on a square grid, interpolated in the lens map of the picture's grid (comp/between.comp).
- * kd_frame_has_between: whether that map has one ray a pixel and is complete. kd_frame_mark_between: writes a byte
- * for each pixel, 1 if interpolation is accurate and 0 if it is not; waits for the device. */
+ * kd_frame_has_between: true if that map has one ray a pixel and is complete. kd_frame_mark_between: writes a byte for
+ * each pixel, 1 if interpolation is accurate and 0 if it is not; waits for the device. */
 bool kd_frame_has_between(const struct kd_frame_job *job);
 enum kd_status kd_frame_mark_between(struct kd_frame_job *job, const struct kd_critical_pixels *pixels, uint8_t *marks);
 enum kd_status kd_frame_between(struct kd_frame_job *job, const struct kd_frame_part *part);

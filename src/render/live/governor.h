@@ -193,8 +193,8 @@ void kd_governor_changed(struct kd_governor *governor, double now, const struct 
 
 /* Sets the expected cost of a frame at the requested quality, for example from its plan. The cost chooses the first
  * rung. Without it, frames start on the top rung or stay on the present one. The cost is ignored once frames of this
- * kind were measured, so this function may be called after each change. A frame that traced while few of its kind were
- * measured, such as a step of refinement, has the same effect with better data. */
+ * kind were measured, so this function may be called after each change. A traced frame, such as a step of refinement,
+ * has the same effect with better data while few frames of its kind were measured. */
 void kd_governor_expect(struct kd_governor *governor, const struct kd_frame_cost *cost);
 
 /* Decides what to do now. Call after kd_governor_changed. */

@@ -111,8 +111,8 @@ static double more_than_sum(double constant, double across, double up)
     return 2 * (fabs(constant) + fmin(fabs(across), fabs(up)));
 }
 
-/* Sets the bounds on rounding errors of rays (kd_rounding of shaders/ray/kerr_ray.glsl). width, height: of the whole
- * picture, in steps. The components of a unit vector are sums of three orthogonal terms, whose sizes add up to at
+/* Sets the bounds on rounding errors of rays (kd_rounding of shaders/ray/kerr_ray.glsl). width, height: size of the
+ * whole picture, in steps. The components of a unit vector are sums of three orthogonal terms, whose sizes add up to at
  * most sqrt(3). */
 static void bound_rounding(struct kd_camera_exact *o, double width, double height)
 {
