@@ -22,7 +22,7 @@
     F(depth)               /* optical depth where r |u^r| is 1, for the expected number of particles */ \
     F(log_first) F(step_)  /* the table's first argument, and its entries per unit */ \
     F(laps) F(turns)       /* per M: fraction of the way from start to end, and turns of the orbit at the ISCO */ \
-    U(at)                  /* offset of this grid, which follows that of the other particles */ \
+    U(at)                  /* offset of this grid, which follows the grid of the other particles */ \
     U(rows) U(columns) \
     U(lap_rows) U(lead_rows) /* rows from start to end; rows before the start */
 /* clang-format on */

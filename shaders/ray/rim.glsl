@@ -20,8 +20,8 @@ vec3 kd_camera_look(vec2 place)
            y * vec3(cam.cyx, cam.cyy, cam.cyz);
 }
 
-/* The place of a direction in the picture; and the squared steps of the picture per unit of area about `ahead` on the
- * direction's plane. steps is 0 behind a pinhole. */
+/* Where the camera sees a direction: the place in the picture, and the squared steps of the picture per unit of area
+ * about `ahead` on the direction's plane. steps is 0 behind a pinhole. */
 struct kd_seen {
     vec2 place;
     float steps;

@@ -29,8 +29,8 @@ float map_at(uint at) { return lens[at]; }
 layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) } emission_;
 #include "light/tables.glsl"
 
-/* These are read before the first branch, because after a branch lavapipe reads them again for each lane and each
- * use. */
+/* The numbers below are read before the first branch, because after a branch lavapipe reads them again for each lane
+ * and each use. */
 kd_star_push push;
 struct kd_sky_emission {
     kd_frame_block frame;

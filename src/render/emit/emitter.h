@@ -69,7 +69,8 @@ struct kd_emitter {
      * has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
     void (*tables)(struct kd_emit_tables *out, const struct kd_scene *scene);
-    struct kd_scene_part depends[KD_EMITTER_PARTS]; /* ends at the first part of size 0 */
+    /* parts of the scene on which the numbers and tables depend; the list ends at the first part of size 0 */
+    struct kd_scene_part depends[KD_EMITTER_PARTS];
     const struct kd_sentence *sentences;
     size_t n_sentences;
     const struct kd_emitter *kind; /* an emitter whose approximations also apply to this one; NULL: none */

@@ -63,7 +63,7 @@ struct kd_probed_met {
     /* w: 1/r; u: cos(theta); phi: azimuth (source minus observer); g: redshift factor; cosine: cosine of the emission
      * angle */
     float w, u, phi, g, cosine;
-    /* light: before absorption in front of the surface; through: transmission of all matter in front */
+    /* light: light before absorption in front of the surface; through: transmission of all matter in front */
     float light[3], through;
 };
 

@@ -10,7 +10,7 @@
 #include "render/frame/frame.h"
 
 #define KD_QUALITY 90      /* quality of lossy formats if no other is requested */
-#define KD_QUALITY_MAX 100 /* the smallest is 1 */
+#define KD_QUALITY_MAX 100 /* largest quality; the smallest is 1 */
 
 /* A frame and how it was made. */
 struct kd_picture {
