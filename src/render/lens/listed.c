@@ -38,7 +38,7 @@ static void finish(struct work *w)
 static enum kd_status init(struct work *w, const struct kd_scene *scene, const struct kd_plan *plan, size_t n,
                            struct kd_error *error)
 {
-    uint32_t orders = plan->lens.orders ? plan->lens.orders : 1; /* at least one, because engines need one */
+    uint32_t orders = plan->lens.orders ? plan->lens.orders : 1; /* at least one order, because engines need one */
     *w = (struct work) { .plan = plan, .n = n, .twist = kd_camera_twist(scene) };
     w->alpha_beta = malloc(2 * n * sizeof *w->alpha_beta);
     w->energy = malloc(n * sizeof *w->energy);
@@ -253,7 +253,7 @@ done:
     return status;
 }
 
-/* fraction of the horizon's radius: crossings from outside that are nearer to the horizon count as on it */
+/* fraction of the horizon's radius. Crossings from outside that are nearer to the horizon count as crossings on it */
 #define NEAR 1e-4
 enum { PLACES = 2048 };
 
@@ -296,8 +296,8 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
     }
 }
 
-/* Traces rays by the steps of physics/null/null_course.h in ingoing coordinates, for an observer inside the horizon,
- * where closed forms do not apply. */
+/* Traces rays for an observer inside the horizon, where closed forms do not apply. Uses the steps of
+ * physics/null/null_course.h in ingoing coordinates. */
 static enum kd_status trace_within(struct work *w, const struct kd_scene *scene, struct kd_error *error)
 {
     const size_t orders = w->plan->lens.orders ? w->plan->lens.orders : 1;

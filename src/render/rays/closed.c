@@ -159,8 +159,8 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
 }
 
-/* True if the photon leaves the gas outwards. Inside the ISCO the closed form gives its radial direction, because a
- * ray that starts inwards and is captured never turns. */
+/* True if the photon leaves the gas outwards. Inside the ISCO the closed form gives the photon's radial direction,
+ * because a ray that starts inwards and is captured never turns. */
 static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                             const struct kd_ray_end *end, uint32_t crossing)
 {

@@ -100,7 +100,7 @@ done:
     return status;
 }
 
-/* Drops the errors of rays without numbers, for all engines: a ray without a crossing that does not escape has no
+/* Drops the errors of rays without numbers, for all engines. A ray without a crossing that does not escape has no
  * number that could be wrong, unless a crossing may be missing. */
 static void drop_idle_errors(struct kd_ray_end *ends, size_t n)
 {
