@@ -3,10 +3,10 @@
 
 compile.py GLSLANG SPIRV_OPT DEPFILE OUTPUT INPUT NAME [OPTION of glslangValidator ...]
 
-In the output of glslangValidator each variable is in memory, and each function is separate. A driver converts that to
-single assignment before it removes the code that the specialisation constants exclude. The conversion takes two thirds
+In the output of glslangValidator each variable is in memory, and each function is separate. A driver converts this
+code to single assignment before it removes what the specialisation constants exclude. The conversion takes two thirds
 of the time that lavapipe needs for a pipeline, so it is done here, once. The passes neither reorder nor fold
-arithmetic, so that the numbers stay the same to the bit. With KD_SPIRV_PLAIN the file also has NAME_plain: the module
+arithmetic. The numbers therefore stay the same to the bit. With KD_SPIRV_PLAIN the file also has NAME_plain: the module
 before these passes, with its functions and their names, for tests that read it.
 """
 

@@ -1,7 +1,7 @@
-/* Kernel: blurs a grid of cells by a Gaussian along one axis (render/plan/beam.h). An invocation makes four cells
- * that are adjacent along the axis. They share the cells that they read, because the weights of a cell are those of
- * the previous cell, shifted by one. ROWS: blurs along columns, from row to row. Beyond the ends of the grid there
- * is no light. */
+/* Kernel: blurs a grid of cells by a Gaussian along one axis (render/plan/beam.h). An invocation makes four cells that
+ * are adjacent along the axis. The sums for these four cells read the same cells, because the weights for a cell are
+ * those for the previous cell, shifted by one. ROWS: blurs along columns, from row to row. Beyond the ends of the grid
+ * there is no light. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

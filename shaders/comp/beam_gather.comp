@@ -1,7 +1,7 @@
 /* Kernel: converts rows of light to rows of cells (render/plan/beam.h). An invocation makes one cell of one row. If
  * cells are larger than pixels, the cell's light is the mean of the row's adjacent pixels, weighted by a quadratic
- * B-spline of the cells' width; otherwise it is the light of its pixel. Light that is NaN, or 10^30 and more, counts as
- * 0, because it would spread over the whole picture. */
+ * B-spline of the cells' width. Otherwise it is the light of the cell's own pixel. Light that is NaN, or 10^30 and
+ * more, counts as 0, because it would spread over the whole picture. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

@@ -1,17 +1,17 @@
 /* Kernel: makes the lens map of a square grid of rays on listed pixels. It interpolates in the map of the picture's
- * grid, which has one ray in the middle of each pixel. Interpolated rays need no tracing, and they give the source
- * across the pixel, as the ray bundle of James, von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32,
- * 065001, appendix A.2) does to first order.
+ * grid, which has one ray in the middle of each pixel. Interpolated rays need no tracing. They give the source across
+ * the pixel, as the ray bundle of James, von Tunzelmann, Franklin & Thorne 2015 (Class. Quantum Grav. 32, 065001,
+ * appendix A.2) does to first order.
  *
  * One biquadratic polynomial through a pixel and its eight neighbours interpolates w and each other quantity of a
  * crossing. For directions in the sky it interpolates the unit vector. At (x, y) sides of a pixel from the middle its
  * error is x(x^2 - 1)/6 of the third difference along x, at most 1/17 of it, and likewise along y.
  *
- * MARK: the kernel interpolates nothing, and writes 1 for each listed pixel where interpolation is accurate,
- * otherwise 0, in the pixel's word after the list. All nine rays must have crossings of the same orders and the same
- * fate. In the metric of the source, the second differences must be less than BENT times the first. For crossings
- * the third differences must be less than TWISTED times the first, so that the error is below 0.004 of a pixel. The
- * word is 0 at the edges of the picture, and of the band in the buffer. */
+ * MARK: the kernel interpolates nothing. In the word of each listed pixel, after the list, it writes 1 if interpolation
+ * is accurate there and 0 if not. All nine rays must have crossings of the same orders and the same fate. In the metric
+ * of the source, the second differences must be less than BENT times the first. For crossings the third differences
+ * must be less than TWISTED times the first, so that the error is below 0.004 of a pixel. The word is 0 at the edges of
+ * the picture, and of the band in the buffer. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"

@@ -2,11 +2,11 @@
  * pixels. Blocks are smaller than the cells of the finest grid. An invocation processes four columns of pixels, or one
  * block if a block is wider.
  *
- * A block's rows may be in two or more bands. Each band adds its rows to the sum of earlier bands, in order, so that
- * the result does not depend on where bands end.
+ * A block's rows may be in two or more bands. Each band adds its rows, in order, to the sum of earlier bands. So the
+ * result does not depend on where bands end.
  *
  * This file is compiled to two kernels. With KD_TEXELS the radiance is read as texels of four floats, and three texels
- * are four pixels; rows must then be multiples of four pixels. */
+ * hold four pixels. Rows must then be multiples of four pixels. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require

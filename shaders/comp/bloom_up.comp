@@ -1,5 +1,5 @@
-/* Kernel: for the cells of one grid, adds the light spread by this grid to the sum of the light spread by all coarser
- * grids, which the next coarser grid holds.
+/* Kernel: adds the light that one grid spreads to the sum of the light that all coarser grids spread. The next coarser
+ * grid holds that sum; the result is on the cells of the finer grid.
  *
  * With the weights 3 and 1 over 4 (G. Chaikin 1974) a quadratic B-spline becomes one of half the spacing. All grids
  * together are therefore a sum of such splines, whichever grid they are evaluated on. This grid's light is smoothed

@@ -1,21 +1,21 @@
 /* Kernel: footprint of each ray: the size of the area that the ray stands for, on the disk for each crossing, and in
  * the sky (shared/lens.h).
  *
- * A step of the camera is a square in the picture. To first order the map takes the square to a parallelogram. It
+ * A step of the camera is a square in the picture. To first order the map takes the square to a parallelogram. The map
  * takes a disc of one step's diameter to an ellipse. The footprint is the long axis of that ellipse, the largest
  * singular value of the map's derivative J:
  *
  *   sigma^2 = (A + B)/2 + sqrt((A - B)^2/4 + C^2),   A = |J_x|^2, B = |J_y|^2, C = J_x.J_y .
  *
  * The derivative comes from differences to neighbouring rays of the same order or fate. Neighbours on both sides give
- * the derivative to second order, and so do two neighbours on one side, at the edge of the picture or of the buffer.
- * One neighbour gives it to first order. A ray without neighbours is isolated at an edge, and its footprint is
- * KD_FOOTPRINT_EDGE. Half the second difference is added, because a map that turns back within a step still has a size;
- * this term is of second order, too.
+ * the derivative to second order. At the edge of the picture or of the buffer, two neighbours on one side give it to
+ * second order as well. One neighbour gives it to first order. A ray without neighbours is isolated at an edge, and its
+ * footprint is KD_FOOTPRINT_EDGE. Half the second difference is added, because a map that turns back within a step
+ * still has a size. This term is also of second order.
  *
  * Rays on listed pixels are on a square grid, treated separately for each pixel, or on a lattice (ray/place.glsl). On a
- * lattice J is the least-squares fit to the differences to neighbours in this pixel and adjacent ones, for a step as
- * long as the side of the area of one ray. Residuals of the fit are added like the second difference.
+ * lattice J is a least-squares fit to the differences to neighbours in this pixel and in adjacent pixels. Its step is
+ * the side of a square with the area of one ray. Residuals of the fit are added like the second difference.
  *
  * Differences are between 32-bit numbers: a footprint below about 1e-6 of r, or 1e-6 radians, is noise. */
 #version 450
@@ -132,8 +132,8 @@ kd_oval on_grid(kd_which which, uint at, kd_grid grid)
     return KD_NO_OVAL;
 }
 
-/* Sums for a least-squares linear map: those of v v^T, of d v^T, and of d.d; and the number of neighbours that lack
- * the crossing or end that the ray has. */
+/* Sums for a least-squares linear map: those of v v^T, of d v^T, and of d.d. Also the number of neighbours that lack
+ * the crossing, or the end, that the ray has. */
 struct kd_fit {
     float xx, xy, yy;
     vec3 dx, dy;

@@ -8,8 +8,9 @@
  * that a tile has the same cells as its picture.
  *
  * The tolerance is relative, for w, angles and directions alike. Where the map is steep, the rounding of the camera's
- * directions to 32 bits moves the map by more than the tolerance, and only noise would be measured. There the tolerance
- * is multiplied by CONDITION times the change of ln w, or of the angle, for a direction twice as far from the hole. */
+ * directions to 32 bits moves the map by more than the tolerance. A test against the tolerance would only measure this
+ * noise. So the tolerance is multiplied by CONDITION times the change of ln w, or of the angle, for a direction twice
+ * as far from the hole. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -87,7 +88,7 @@ uvec2 edge_of_five(uint k)
 }
 uvec2 within_five(uint k) { return uvec2(k % 3u + 1u, k / 3u + 1u); }
 
-/* Makes a place a node. word: of the index. */
+/* Makes the ray at place `at` a node. word: the index's word for that place. */
 void make_node(uint node, uint word, uvec2 at)
 {
     number[word] = node + 1u;
@@ -95,7 +96,7 @@ void make_node(uint node, uint word, uvec2 at)
 }
 
 /* Lists the missing nodes of a cell's four quarters, or of a block, and the two rays that check each quarter or the
- * block. stage: that of these rays. */
+ * block. stage: the stage at which these rays are traced. */
 void list_nodes(uint stage, uvec2 corner, uint side, bool divided)
 {
     const uint step_ = divided ? side / 8u : side / 4u, within = divided ? 38u : 9u,
@@ -137,8 +138,9 @@ uint node_along(uvec2 corner, uint side, uint axis, uint i)
     return number[word] - 1u;
 }
 
-/* Results of both lines for a quantity: largest error of the polynomials at the two rays, for each component and in
- * total; sum of the squared slopes in the middle; and the largest second difference between quarters of the side. */
+/* Results of both lines for a quantity. They are the largest error of the polynomials at the two rays, for each
+ * component and in total; the sum of the squared slopes in the middle; and the largest second difference between
+ * quarters of the side. */
 struct kd_line_told {
     vec3 off, slope2, bend;
     float apart;
@@ -175,8 +177,8 @@ void tell(inout kd_line_told t, vec3 v[6])
         tell(told, v); \
     } while (++axis < 2u);
 
-/* Distance of the cell's middle from the direction to the hole, in steps between rays; for a sphere or a dome a radian.
- * Rounding moves a ray by a fraction of this distance. */
+/* Distance of the cell's middle from the direction to the hole, in steps between rays. For a sphere or a dome this
+ * distance is taken as one radian. Rounding moves a ray by a fraction of this distance. */
 float steps_to_hole(uvec2 corner, uint side)
 {
     ivec2 middle = place_of(corner + uvec2(side / 2u));
@@ -203,9 +205,9 @@ bool islands_fit_in(uint side)
     return 0.25 * float(side) * ray > APART;
 }
 
-/* True if the function that vanishes where fates change is nonzero between the nodes; `least` is its least value at
- * them. Between nodes a curve deviates from a straight line by an eighth of its second difference. The margin is four
- * times that, plus twice the error of the polynomials. */
+/* True if the function that vanishes where fates change is nonzero between the nodes. `least` is the function's least
+ * value at the nodes. Between nodes a curve deviates from a straight line by an eighth of its second difference. The
+ * margin is four times that, plus twice the error of the polynomials. */
 bool curve_is_far(uvec2 corner, uint side, float least)
 {
     kd_line_told t = KD_NOTHING_TOLD;
@@ -236,8 +238,8 @@ bool sky_is_smooth(uvec2 corner, uint side, float far)
     return t.apart <= push.tolerance * max(1.0, steep);
 }
 
-/* True if all rays of a cell have the same number of crossings and the same fate, and its polynomials predict the rays
- * between its nodes. */
+/* True if a cell is smooth: all of its rays have the same number of crossings and the same fate, and its polynomials
+ * predict the rays between its nodes. */
 bool is_smooth(uvec2 corner, uint side, out float state)
 {
     state = state_of(node_along(corner, side, 0u, 2u));
@@ -260,7 +262,7 @@ bool is_smooth(uvec2 corner, uint side, out float state)
     return same && (!SKY || captured(state) || sky_is_smooth(corner, side, far));
 }
 
-/* Lists a cell's units of a kind. */
+/* Lists the units of one kind (crossings or the sky) of a smooth cell. */
 void list_units(uint kind, uvec2 corner, uint level)
 {
     const uint n = side_of(level) / 8u,

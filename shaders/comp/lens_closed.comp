@@ -1,6 +1,7 @@
 /* Kernel: makes the lens map in closed form, for an observer at infinity or outside the photon orbits. It computes the
- * radii of the crossings and, if the scene requires them, their azimuths and radial slopes, the direction in which a
- * ray escapes and its fate. It makes all planes of shared/lens.h except the delay and alpha.
+ * radii of the crossings. If the scene requires them, it also computes the azimuths and radial slopes of the crossings,
+ * a ray's fate, and the direction in which the ray escapes. It makes all planes of shared/lens.h except the delay and
+ * alpha.
  *
  * The times at which a ray crosses the plane are known (polar.glsl), and from them its radius (arc.glsl). The azimuth
  * by which the hole drags the ray is an integral over each half period, by Gauss-Legendre quadrature. The nodes of the
@@ -48,7 +49,8 @@ struct kd_leg {
     bool crossed;   /* `last` is not the start any more */
 };
 
-/* Upper bound of the time to the horizon, or to infinity for a ray that starts outwards, from the least value of R. */
+/* Upper bound of the time to the horizon; for a ray that starts outwards, of the time to infinity. It follows from the
+ * least value of R. */
 float time_limit(kd_turning_point b, kd_state start, float e, bool falls)
 {
     float e2 = e * e, least = min(e2, start.dw * start.dw);
@@ -89,7 +91,7 @@ void go_on(inout kd_leg leg, kd_arcs a, kd_drag_terms drag, kd_nodes nodes, kd_a
     leg.alive = leg.alive && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
 }
 
-/* True if polar.first is a valid time. If A > 0 and Q < 0 there is no such time, and where Q nearly vanishes, rounding
+/* True if polar.first is a valid time. If A > 0 and Q < 0 there is no such time. Where Q nearly vanishes, rounding
  * decides (polar.glsl). u'^2 = Q + A u^2 - e u^4 is at most s^2/4e, so that the greatest speed is s / 2 sqrt(e). The
  * ray reaches the plane no sooner than at this speed. If A < 0 and Q = 0, the ray stays in the plane. Its half periods
  * are counted as usual, although it crosses nothing. */
@@ -111,7 +113,7 @@ void keep(uint at, uint n, bool any, kd_leg leg, kd_drag_terms drag)
         lens[at + kd_plane(KD_LENS_SLOPE) * slice.stride] = any ? leg.next.dw : 0.0;
 }
 
-/* Stores where the ray ends; returns whether that is certain. nodes, z: of the leg that the ray does not complete.
+/* Stores where the ray ends. Returns true if that is certain. nodes, z: of the leg that the ray does not complete.
  * before: time from the last crossing to the start, if the leg begins with the start. */
 bool keep_end(uint at, kd_geodesic m, kd_ray ray, kd_arcs a, kd_azimuth azimuth, kd_drag_terms drag, kd_leg leg,
               kd_arc middle, float leg_z, float before, bool decided)
@@ -183,15 +185,16 @@ void main()
     leg.alive = known && leg.next.w > 0.0 && leg.next.w < edge && goes_on(leg, drag.falls, limit);
     leg.side = cam.u < 0.0 || (cam.u == 0.0 && ray.p < 0.0) ? -1.0 : 1.0;
     leg.crossed = leg.alive;
-    /* Far out, the scale of w is E divided by the larger of E and |(l, p)|. That divisor is at least a.scale /
-     * sqrt(3), and at least 1. The scale is at most that of the horizon. */
+    /* Far out, the scale of w is E divided by the larger of E and |(l, p)|. This divisor is at least a.scale / sqrt(3),
+     * and at least 1. The scale of w is at most the scale at the horizon. */
     const kd_margins margins = kd_margins_of(barrier, barrier.noise, max(1.74 * cam.size_e, cam.horizon), edge);
     bool open = !kd_is_decided(barrier, start, kd_start_noise(m, start, rounding)) || is_open(leg, polar, margins);
     keep(at, 0, leg.alive && polar.crosses, leg, drag);
     uint crossings = leg.alive && polar.crosses ? 1u : 0u;
     const uint legs = SKY && !drag.falls ? ORDERS + MORE : ORDERS;
     uint n = 1;
-    if (!PHI && !SKY) { /* without drag a half period costs as much as storing zeros for a missing crossing */
+    /* all orders are followed: without drag a half period costs as much as storing zeros for a missing crossing */
+    if (!PHI && !SKY) {
         for (; n < ORDERS; n++) {
             bool before = leg.alive;
             go_on(leg, a, drag, nh, endh, zh, azimuth.half_, polar.half_, edge, limit);

@@ -1,8 +1,8 @@
 /* Kernel: fills a lens map from the nodes of its smooth cells (ray/cells.glsl). The polynomials through the nodes give
- * w, azimuth and slope of each ray's crossings, or where in the sky it ends. Their derivatives give the footprints. An
- * invocation processes a column of rays of a cell: it reduces 25 nodes to five numbers for the column, and these to one
- * number for each ray. All values are relative to the cell's middle node, so that rounding is relative to the change
- * within the cell.
+ * w, azimuth and slope of each ray's crossings, or where in the sky it ends. The polynomials' derivatives give the
+ * footprints. An invocation processes a column of rays of a cell. It reduces 25 nodes to five numbers for the column,
+ * and these five to one number for each ray. All values are relative to the cell's middle node, so that rounding is
+ * relative to the change within the cell.
  *
  * The map is already initialised: the planes of w are 0, and all fates are captured. */
 #version 450
@@ -89,8 +89,8 @@ kd_lines lines_of(kd_column c, uint n, vec3 middle)
     return l;
 }
 
-/* Stores through max because of lavapipe. lavapipe computes a value that is only stored lane by lane, in the loop
- * that stores it. It computes the result of max for all lanes at once. */
+/* Stores through max because of lavapipe. If a value is only stored, lavapipe computes it in the loop that stores it,
+ * lane by lane. It computes the result of max for all lanes at once. */
 void put(uint at, uint plane, float value) { lens[at + plane * push.stride] = max(value, -KD_FOOTPRINT_EDGE); }
 
 /* The cell's polynomials at a ray: the value, and its change from ray to ray. */
@@ -122,8 +122,8 @@ void put_end(uint at, kd_patch_at s)
         put(at, kd_plane(KD_LENS_SKY_FOOTPRINT), kd_longest(dot(s.i, s.i), dot(s.j, s.j), dot(s.i, s.j)));
 }
 
-/* The rays of a column: index of the first one in a plane, and its place in quarters of the cell; number of rays; their
- * spacing. */
+/* The rays of a column: index of the first ray in a plane, and the place of that ray in quarters of the cell; number of
+ * rays; spacing of the rays. */
 struct kd_rows {
     uint at, n;
     float from, unit;

@@ -1,7 +1,8 @@
-/* Kernel: makes the lens map by integration, for an observer at any radius. It computes the radii of the crossings and,
- * if the scene requires them, their azimuths and radial slopes, the direction in which a ray escapes and its fate.
+/* Kernel: makes the lens map by integration, for an observer at any radius. It computes the radii of the crossings. If
+ * the scene requires them, it also computes the azimuths and radial slopes of the crossings, a ray's fate, and the
+ * direction in which the ray escapes.
  *
- * The times at which a ray crosses the plane are known in closed form (polar.glsl), so steps end exactly on the
+ * The times at which a ray crosses the plane are known in closed form (polar.glsl). So steps end exactly on the
  * crossings. Each half period has STEPS equal steps of the radial equation. All rays take the same steps: the kernel
  * needs no search, and its invocations do not diverge. From its last crossing on, a ray that escapes is followed by the
  * full vector equation of the angles.

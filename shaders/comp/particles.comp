@@ -2,9 +2,9 @@
  * or writes them to a list (src/render/emit/particles.h).
  *
  * Phases are 32-bit fractions of a turn, so that sums wrap exactly. A particle's weight is divided among the four nodes
- * around it. A word of the grid has 16 bits for its own node, to which particles on its right contribute, and 16 bits
- * for the node on its right. Two additions therefore suffice for a particle. Falling particles are on a grid of phase
- * and azimuth at the ISCO (src/render/emit/plunging.h). */
+ * around it. A word of the grid has 16 bits for its own node and 16 bits for the node to the right; particles between
+ * the two nodes contribute to both. Two additions therefore suffice for a particle. Falling particles are on a grid of
+ * phase and azimuth at the ISCO (src/render/emit/plunging.h). */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "shared/interface.h"

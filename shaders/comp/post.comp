@@ -1,10 +1,10 @@
 /* Kernel: converts light to pixels: exposure, tone map, sRGB encoding, dither, rounding. One invocation writes four
- * pixels as whole words: RGB of 8 bits in three, of 16 bits in six, packed without padding as a PNG encoder needs them.
- * Invocations after the last pixel write zeros.
+ * pixels as whole words: three words for RGB of 8 bits, six words for RGB of 16 bits. They are packed without padding,
+ * as a PNG encoder needs them. Invocations after the last pixel write zeros.
  *
- * This file is compiled to eight kernels: KD_TEXELS reads the radiance as texels of four floats, three of which are
- * four pixels; KD_BLOOM removes the light that a lens spreads, and adds what arrives; KD_HEAT shows the luminance
- * after the tone curve in false colour. */
+ * This file is compiled to eight kernels, for all combinations of three macros. KD_TEXELS reads the radiance as texels
+ * of four floats, three of which are four pixels. KD_BLOOM removes the light that a lens spreads, and adds the light
+ * that arrives. KD_HEAT shows the luminance after the tone curve in false colour. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
@@ -75,10 +75,10 @@ vec3 neutral(vec3 c)
     return peak < start ? c : bright;
 }
 
-/* The encoding of c in [0, 1] by IEC 61966-2-1, times LEVELS. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s
- * = c^(1/4). It is the minimax polynomial for c from 0.0031308 to 1 among those that are 1 at 1, accurate to 3.4e-7.
- * 2e-7 is added, so that roundoff leaves white at 65535. The total error is below 5.4e-7, a thirtieth of a step of
- * 16 bits. */
+/* The encoding of c in [0, 1] by IEC 61966-2-1, times LEVELS. Its power 1.055 c^(1/2.4) - 0.055 is a polynomial in s =
+ * c^(1/4). This is the minimax polynomial for c from 0.0031308 to 1 among those that are 1 at 1, accurate to 3.4e-7.
+ * 2e-7 is added, so that roundoff leaves white at 65535. The total error is below 5.4e-7, a thirtieth of a step of 16
+ * bits. */
 vec3 srgb(vec3 c)
 {
     const float unit = float(LEVELS);

@@ -110,9 +110,9 @@ float drifted(kd_geodesic m, kd_state y, float time)
 }
 
 /* For a method of order p, the results with all steps and with half the steps differ by 2^p - 1 times the remaining
- * error, 15 or 63 times. LEFT times this difference is about thirty times the remaining error. It is a bound even if
- * the steps are too coarse for that law. lost_in_a_turn: error of steps of length h over a half turn, for rays that
- * have no crossing to show it. */
+ * error, that is, 15 or 63 times. LEFT times this difference is about thirty times the remaining error. This product is
+ * a bound even if the steps are too coarse for that law. lost_in_a_turn: error of steps of length h over a half turn,
+ * for rays that have no crossing to show it. */
 const float LEFT = METHOD == 4 ? 2.0 : 0.5;
 float lost_in_a_turn(float h) { return METHOD == 4 ? 0.1 * h * h * h * h : 0.1 * h * h * h * h * h * h; }
 
@@ -193,10 +193,10 @@ void main()
         tau += h * float(min(j, STEPS));
         float left = h * float(STEPS - min(j, STEPS)), ahead = left * abs(y.dw);
         /* The error of w comes from the steps and from rounding. The error of the steps is the difference of the two
-         * integrations, if that is small. As two wrong paths may meet by chance, it is taken to be at least the
-         * error at the last crossing times the growth of the variation since then. Rounding adds about ten
-         * operations of a unit roundoff each, amplified by the variation. It adds the same amount again through the
-         * time of the crossing, and the drift of the first integral. */
+         * integrations, if that is small. Two wrong paths may agree by chance. So the error of the steps is taken to be
+         * at least the error at the last crossing, times the growth of the variation since then. Rounding adds about
+         * ten operations of a unit roundoff each, amplified by the variation. Rounding adds the same amount again
+         * through the time of the crossing, and through the drift of the first integral. */
         float parted = abs(p.y.z) + left * abs(p.dy.z);
         float lost = max((LEFT + min(apart / max(abs(w), 1e-30), 2.0)) * apart, lost_before * parted / spread);
         float off = lost + drifted(m, y, h * float(STEPS)) +

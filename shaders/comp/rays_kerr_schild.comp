@@ -150,9 +150,9 @@ float hermite_slope(float y0, float d0, float y1, float d1, float s)
     return d0 + s * (2.0 * c2 + 3.0 * s * c3);
 }
 
-/* Change of the number of turns about the axis in a step from x to y, which atan2 does not give. It changes where the
- * chord crosses the half plane x < 0. Very close to the axis the ray and the chord may pass the axis on opposite
- * sides. */
+/* Change of the number of turns about the axis in a step from x to y, which atan2 does not give. The number of turns
+ * changes where the chord crosses the half plane x < 0. Very close to the axis the ray and the chord may pass the axis
+ * on opposite sides. */
 float turned(vec3 x, vec3 y)
 {
     if ((x.y < 0.0) == (y.y < 0.0) || (x.x * y.y - y.x * x.y) / (y.y - x.y) > 0.0)
@@ -182,8 +182,8 @@ void main()
 
     /* lavapipe leaves all loops of an invocation after 65535 rounds, including rounds of inner loops; the variables
      * then hold intermediate values. This limit is lower, and a ray that needs more rounds stays undecided. With the
-     * most steps that src/render/rays/check.c accepts, these rounds are 16 half turns (Tao's method) or 60; a ray
-     * that passes the hole takes 8 to 13. */
+     * most steps that src/render/rays/check.c accepts, these rounds are 16 half turns for Tao's method and 60 for the
+     * others. A ray that passes the hole takes 8 to 13. */
     const uint most = min(60 * STEPS, METHOD == 2 ? 8000 : 64000);
 
     float h = 0.6 * KD_PI / float(STEPS), fate = KD_FATE_UNDECIDED, about = 0.0;

@@ -5,14 +5,14 @@
  * About its ray the map is taken as quadratic, in the plane of the sky perpendicular to the ray (orthographic
  * projection). Its coefficients come from the eight surrounding rays: the linear ones by least squares, the others by
  * second differences. On the rim the map is of higher order, from twenty rays. Beside rays that do not escape, and at
- * edges, it is of first order, from the rays that exist. Roots are found by Newton's method, from four starts unless
- * there is clearly only one root. Each root counts once: there are up to four where a caustic passes.
+ * edges, the map is of first order, from the rays that exist. Roots are found by Newton's method, from four starts
+ * unless there is clearly only one root. Each root counts once: there are up to four where a caustic passes.
  *
  * A star's flux F in an image is F dOmega/dOmega_s. Divided by the solid angle of a pixel it is the mean radiance
- * there, and the pixel's own solid angle cancels: the radiance is F over the solid angle of the sky that the map takes
- * a pixel to at the star's place, |det J|/cos(angle to the ray). The light is spread as in ray/star_light.glsl.
+ * there, and the pixel's own solid angle cancels: the radiance is F divided by the solid angle of the sky to which the
+ * map takes a pixel at the star's place, |det J|/cos(angle to the ray). The light is spread as in ray/star_light.glsl.
  *
- * Rays of the rim (ray/rim.glsl) are processed likewise, with their own steps, and the size of these steps in the
+ * Rays of the rim (ray/rim.glsl) are processed in the same way, with their own steps and the size of these steps in the
  * picture.
  *
  * Code for several rays or starts is in loops that are not unrolled, and no array has a variable index. Drivers
@@ -111,8 +111,8 @@ void refine(kd_chart c, uint at, uint x, uint y, inout kd_patch o)
     }
 }
 
-/* Ray k of the twelve rays that 5 x 5 rays without the corners have beyond 3 x 3: the middles of the left, right, upper
- * and lower sides, then the two rays beside each of these. */
+/* Ray k of the outer twelve rays. They are the 5 x 5 rays without the corners and without the inner 3 x 3. First come
+ * the middles of the left, right, upper and lower sides, then the two rays beside each of these. */
 ivec2 outer(int k)
 {
     int side = k < 4 ? k : (k - 4) / 2, far = (side & 1) == 0 ? -2 : 2, near = k < 4 ? 0 : (k & 1) == 0 ? 1 : -1;
@@ -229,13 +229,14 @@ bool is_plain(kd_patch m)
     return 1.2 * (all.x + all.y) * (abs(j[0].x) + abs(j[0].y) + abs(j[1].x) + abs(j[1].y)) < 0.7 * abs(det);
 }
 
-/* Where two cells meet they share the light, with weights that go from 0 to 1 over a fifth of a step. Their maps put an
- * image at slightly different places; by sharing, no image is lost or counted twice. */
+/* Where two cells meet, they share the light, with weights that go from 0 to 1 over a fifth of a step. The maps of the
+ * two cells put an image at slightly different places. Because the light is shared, no image is lost or counted
+ * twice. */
 float share(float x) { return clamp(3.0 - 5.0 * abs(x), 0.0, 1.0); }
 
-/* A place p in a ray's cell. place: in the picture, in its steps; steps: squared steps of the picture per squared step
- * of the ray; share: fraction of the image that comes from this grid, rather than from the rim or another grid; energy:
- * energy at infinity of light that is measured as 1. */
+/* A place p in a ray's cell. place: place in the picture, in its steps. steps: squared steps of the picture per squared
+ * step of the ray. share: fraction of the image that comes from this grid, rather than from the rim or another grid.
+ * energy: energy at infinity of light that is measured as 1. */
 struct kd_star_pixel {
     vec2 place;
     float steps, share, energy;

@@ -1,19 +1,19 @@
-/* Kernel: lists pairs of a ray and a star that it may see, ray by ray, for the rays that star_tiles.comp left over
- * because the map is not simple there. A ray stands for a cell of the picture one step wide, which the lens map takes
- * to a patch of the sky. This kernel lists the stars in a parallelogram about that patch, from the map's first
- * derivatives; star_images.comp finds the places of their images.
+/* Kernel: lists pairs of a ray and a star that the ray may see, ray by ray. It processes the rays that star_tiles.comp
+ * left over because the map is not simple there. A ray stands for a cell of the picture one step wide, which the lens
+ * map takes to a patch of the sky. This kernel lists the stars in a parallelogram about that patch, from the map's
+ * first derivatives. star_images.comp finds the places of the stars' images.
  *
  * Stars are sorted into square cells on the six faces of a cube about the sphere, the brightest of a cell first
- * (shared/faces.h). The search of a cell ends at the first star that is too faint: with twice the mean magnification of
- * a ray's patch it would brighten the pixel by less than push.least in units of sky.brightness. A patch of more than
- * KD_STAR_PATCH radians, next to the critical curve, is left out.
+ * (shared/faces.h). The search of a cell ends at the first star that is too faint. Such a star, with twice the mean
+ * magnification of a ray's patch, would brighten the pixel by less than push.least in units of sky.brightness. A patch
+ * of more than KD_STAR_PATCH radians, next to the critical curve, is left out.
  *
  * The parallelogram: with J the map's derivative, |x_i| <= KD_STAR_ROOM for x = (J^T J + e tr(J^T J))^-1 J^T p. Where J
  * is nearly singular, on the caustic, the derivative does not describe the whole patch; e makes room for the rest.
  *
  * There the parallelogram is much wider than the patch. So a star must also be in a rectangle along the patch's long
- * axis, that contains the patch by the map's derivatives of first and second order. They need all eight rays about the
- * ray. */
+ * axis, which contains the patch by the map's derivatives of first and second order. These derivatives need all
+ * eight rays about the ray. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -114,8 +114,8 @@ void search(uint at)
     long_ = kd_sky_galactic(long_);
     wide = kd_sky_galactic(wide);
     /* The rectangle about the parallelogram. e adds little to it, unless the parallelogram is thin. The rectangle is
-     * limited by the ray's size: a step of the direction moves the place on the face by at most 1 + p^2 + q^2 times as
-     * much, plus a margin because that factor grows. */
+     * limited by the ray's size. A step of the direction moves the place on the face by at most 1 + p^2 + q^2 times as
+     * much; a margin is added because that factor grows. */
     kd_face face = kd_face_of(n);
     vec2 middle = vec2(face.p, face.q), all = vec2(1.25 * reach * (1.0 + dot(middle, middle)));
     vec2 room =

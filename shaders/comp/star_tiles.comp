@@ -1,9 +1,9 @@
-/* Kernel: lists pairs of a ray and a star that it may see, from square tiles of the lens map. Each ray stands for a
- * cell of the picture one step wide; star_images.comp finds the star's image in it.
+/* Kernel: lists pairs of a ray and a star that the ray may see, from square tiles of the lens map. Each ray stands for
+ * a cell of the picture one step wide; star_images.comp finds the star's image in it.
  *
- * Nine rays of a tile, three by three, give the map over the tile to second order, from places in the tile to the plane
- * of the sky perpendicular to the middle ray. A tile is simple under three conditions. All nine rays escape. The map's
- * derivative changes by less than KD_STAR_TILE_BENT of itself, so that the map has a unique inverse there, which
+ * Nine rays of a tile, three by three, give the map over the tile to second order. This map takes places in the tile to
+ * the plane of the sky perpendicular to the middle ray. A tile is simple under three conditions. All nine rays escape.
+ * The map's derivative changes by less than KD_STAR_TILE_BENT of itself. The map then has a unique inverse there, which
  * Newton's method finds. The corners show that terms of third order are less than KD_STAR_TILE_OFF rays.
  *
  * Other tiles are listed. A large tile, KD_STAR_TILE rays a side, is listed as small tiles of three rays a side, for
@@ -44,9 +44,9 @@ const int HALF = int(TILE) / 2;
 /* upper bound of kd_tile.near: images are searched up to 0.6 */
 const float NEAR = TILE == KD_STAR_TILE || AT_RIM ? 0.72 : 0.65;
 
-/* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2 + aaa u^3 + aab u^2 v + abb u v^2 + bbb v^3, with u
- * and v from -1 to 1 from its first to its last rays. The terms from the second order on are in units of a and b. Those
- * of third order are 0 if the tile is not smooth. */
+/* The map over a tile: q = a u + b v + aa u^2 + ab u v + bb v^2 + aaa u^3 + aab u^2 v + abb u v^2 + bbb v^3, where u
+ * and v go from -1 at the tile's first rays to 1 at its last. The terms from the second order on are in units of a and
+ * b. The terms of third order are 0 if the tile is not smooth. */
 struct kd_tile {
     vec3 n, e1, e2;
     vec2 a, b, aa, ab, bb, aaa, aab, abb, bbb;
@@ -165,9 +165,10 @@ vec2 linear_of(kd_tile t, vec2 p)
            p.y * p.y * (t.bb + p.y * t.bbb + p.x * t.abb);
 }
 
-/* Bounds for stars in the cells of a tile: the largest coordinates by the linear map, and the least area that the map
- * takes a ray's cell to, relative to that of the linear map. Both are those of nine places: middle, sides and corners.
- * Between these, a parabola with second derivative c exceeds its values at distances `far` by up to c far^2/8. */
+/* Bounds for stars in the cells of a tile. One is the largest coordinates by the linear map. The other is the least
+ * area to which the map takes a ray's cell, relative to the area by the linear map. Both are taken over nine places:
+ * middle, sides and corners. Between these, a parabola with second derivative c exceeds its values at distances `far`
+ * by up to c far^2/8. */
 struct kd_bounds {
     vec2 most;
     float sharp;
@@ -205,10 +206,10 @@ vec2 place_of(kd_tile t, vec2 linear)
 /* Solid angle to which the map takes a ray's cell at a place. */
 float area(kd_tile t, vec2 p) { return abs(determinant_of(derivative(t, p)) * t.det) * (1.0 / float(HALF * HALF)); }
 
-/* Spreads the light of star k, whose place is this many rays from the middle ray (x, y) of a tile. magnified: its
- * flux over the solid angle of the sky that a pixel is mapped to. Where two tiles meet they share the light, with
- * weights that go from 0 to 1 over a fifth of a step, because their maps differ slightly; two rays do so in
- * star_images.comp. */
+/* Spreads the light of star k, whose place is this many rays from the middle ray (x, y) of a tile. magnified: its flux
+ * divided by the solid angle of the sky to which the map takes a pixel. Where two tiles meet, they share the light,
+ * because their maps differ slightly. The weights go from 0 to 1 over a fifth of a step. Two rays share light in the
+ * same way in star_images.comp. */
 void shine(uint x, uint y, vec2 place, uint k, float magnified, bool bright)
 {
     vec2 share = clamp(0.5 + 5.0 * (float(HALF) + 0.5 - abs(place)), 0.0, 1.0);

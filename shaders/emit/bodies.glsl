@@ -4,7 +4,7 @@
  * converts coordinate differences from its centre to lengths in the orthonormal frame of zero angular momentum there:
  * along r, theta and phi, stretched by the metric. In that frame the light that arrives at one time is a plane wave, t
  * = n.Y, where n is the direction of propagation. In the frame of a body of velocity v, the wave has the time t' =
- * gamma (t - v.Y). It meets the body where
+ * gamma (t - v.Y). The wave meets the body where
  *
  *   b^2 + t'^2 = R^2,   b^2 = Y^2 - t^2.
  *
@@ -18,21 +18,24 @@
 /* clang-format off */
 #define KD_BLOCK_bodies(F, U, A) \
     F(least)                  /* 1/r of the outermost place at which there may be a body */ \
-    /* a ball round all bodies, M: x and y by mirrored azimuths, 0 at the observer */ \
+    /* a ball round all bodies, M; x and y use mirrored azimuths, which are 0 at the observer */ \
     F(x) F(y) F(z) F(reach) \
     U(leaves)                   /* number of the tree's leaves, a power of two */
 /* clang-format on */
 #define KD_TABLES_bodies(T)
 #define KD_TRAIT_LIT 64u /* LIT: some bodies reflect light of the disk */
 #define KD_TRAITS_bodies(T) T(VISIBLE) T(AZIMUTH) T(LIT)
-/* A tree of balls in heap order: nodes from 1 on, with x, y, z and radius, and two children each; the last `leaves`
- * nodes belong to the bodies. The bodies follow, KD_BODY_WORDS each:
- * three rows of the map A, each with its value at the centre;
- * velocity and gamma; the velocity relative to which coordinates rotate, R, limb darkening and brightness;
- * factors of E, L, p_r and p_theta in 1/g; temperature over the disk's largest, and index of the body in the list;
- * and the disk's light that the body reflects (src/render/emit/bodies_illumination.c): its sum, and its moments along
- * r, theta and phi; the moments along rr, thetatheta and phiphi, and the light's temperature over the disk's largest;
- * the moments along rtheta, rphi and thetaphi. */
+/* A tree of balls in heap order: nodes from 1 on, with x, y, z and radius, and two children each. The last `leaves`
+ * nodes belong to the bodies. The bodies follow the tree, with KD_BODY_WORDS each, in rows of four words:
+ *   0 to 2   a row of the map A, and its value at the centre
+ *   3        velocity and gamma
+ *   4        velocity relative to which coordinates rotate, R, limb darkening, brightness
+ *   5        factors of E, L, p_r and p_theta in 1/g
+ *   6        temperature divided by the disk's largest; index of the body in the list; two unused words
+ *   7 to 9   the disk's light that the body reflects (src/render/emit/bodies_illumination.c):
+ *   7        its sum, and its moments along r, theta and phi
+ *   8        its moments along rr, thetatheta and phiphi, and its temperature divided by the disk's largest
+ *   9        its moments along rtheta, rphi and thetaphi */
 #define KD_BODY_WORDS 40
 #define KD_BUFFERS_bodies(B) B(3, stored, bodies)
 #define KD_PASS_bodies(P)

@@ -1,8 +1,8 @@
 /* Colours of black bodies, from tables that do not depend on the scene.
  *
- * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES). These are the floats whose low bits are zero, so the upper bits of a
- * temperature are its place in the table. A row holds red and blue of linear sRGB of luminance 1, and their differences
- * to the next node. Green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
+ * Nodes are at T = 2^k (1 + m/KD_COLOUR_NODES). These temperatures are the floats whose low bits are zero. So the upper
+ * bits of a temperature are its place in the table. A row holds red and blue of linear sRGB of luminance 1, and their
+ * differences to the next node. Green follows from the luminance, 0.2126 r + 0.7152 g + 0.0722 b = 1. */
 #ifndef KD_BLOCK_colour
 #define KD_BLOCK_colour(F, U, A)
 #define KD_COLOUR_NODES 64 /* nodes an octave */

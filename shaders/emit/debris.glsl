@@ -1,17 +1,17 @@
 /* Debris that tides have torn off bodies, as an emitter: a density on the plane of the disk
  * (src/scene/dynamic_bodies.h, src/playground/show.h).
  *
- * Where the column density is S bodies per M^2, debris is a black body of one temperature with an optical depth D S. It
- * moves with its local mean velocity (v_r, v_phi) relative to the observer of zero angular momentum there (Bardeen,
- * Press & Teukolsky 1972). In the equatorial plane, with A = (r^2 + a^2)^2 - a^2 Delta, lapse^2 is r^2 Delta/A, g_rr =
- * r^2/Delta, g_phiphi = A/r^2, the dragging 2ar/A, and
+ * Where the column density is S bodies per M^2, debris is a black body of one temperature with an optical depth D S.
+ * Debris moves with its local mean velocity (v_r, v_phi) relative to the observer of zero angular momentum there
+ * (Bardeen, Press & Teukolsky 1972). In the equatorial plane, with A = (r^2 + a^2)^2 - a^2 Delta, lapse^2 is r^2
+ * Delta/A, g_rr = r^2/Delta, g_phiphi = A/r^2, the dragging 2ar/A, and
  *
  *   1/g = gamma ((E - dragging L)/lapse - v_r p_r/sqrt(g_rr) - v_phi L/sqrt(g_phiphi)),
  *   light = (1 - exp(-D S)) B(g T). */
 #ifndef KD_BLOCK_debris
 /* clang-format off */
 #define KD_BLOCK_debris(F, U, A) \
-    U(turn) U(rows) U(columns)      /* nodes of a whole turn; rows of nodes; nodes a row */ \
+    U(turn) U(rows) U(columns)      /* number of nodes of a whole turn, of rows of nodes, and of nodes in a row */ \
     F(first_row) F(first_column) F(rows_octave) /* first node; rows in which r doubles, counted from r = 1 */ \
     F(depth)                    /* D, divided by the area of a node at r = 1 */ \
     F(temperature)              /* temperature, relative to the disk's largest */

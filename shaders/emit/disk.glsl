@@ -1,8 +1,8 @@
 /* The smooth thin disk as an emitter.
  *
- * An element at radius r emits as a black body of temperature T(r). By Liouville I_nu/nu^3 is constant along the ray,
- * so the element is seen as a black body of g T, with bolometric intensity g^4 F / pi. Radiance is in units of the
- * largest surface brightness at g = 1. */
+ * An element at radius r emits as a black body of temperature T(r). By Liouville's theorem I_nu/nu^3 is constant along
+ * the ray. So the element is seen as a black body of temperature g T, with the bolometric intensity g^4 F / pi.
+ * Radiance is in units of the largest surface brightness at g = 1. */
 #ifndef KD_BLOCK_disk
 #define KD_DISK_TABLE 1024
 /* clang-format off */
@@ -11,15 +11,15 @@
     F(fade)                /* reciprocal width of the outer fade, 1/M */ \
     F(opacity) \
     F(peak)                /* largest effective temperature times the hardening, K */ \
-    F(luminous)            /* log2 of the fraction of such a black body's light that the eye perceives */ \
-    F(quanta)              /* x = h nu/(k T) of the observed frequency at that temperature */ \
+    F(luminous) /* log2 of the fraction of light that the eye perceives, for a black body of temperature `peak` */ \
+    F(quanta)              /* x = h nu/(k T) of the observed frequency at the temperature `peak` */ \
     F(quanta_mean)         /* (1 - exp(-x))/x */
 /* clang-format on */
 #define KD_ATMOSPHERE_ROWS 64
-/* disk: (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next row; for
- * reflected light T_c/T_peak, and r^3 times its flux divided by that of a black body of T_c. atmosphere: emitted
- * intensity over that of an isotropic surface of the same flux, against the square root of the cosine to the normal;
- * in each row the coefficients of a cubic of the place in its cell. */
+/* disk: (T/T_peak) r^(3/4) against y = sqrt(1 - r_isco/r) in [0, 1], and its difference to the next row. For reflected
+ * light also T_c/T_peak, and r^3 times the flux of this light divided by that of a black body of T_c. atmosphere:
+ * emitted intensity divided by that of an isotropic surface of the same flux, against the square root of the cosine to
+ * the normal. Each row has the coefficients of a cubic in the place within its cell. */
 #define KD_TABLES_disk(T) T(disk, KD_DISK_TABLE) T(atmosphere, KD_ATMOSPHERE_ROWS)
 #define KD_TRAIT_VISIBLE 8u      /* brightness is weighted by the eye's sensitivity instead of being bolometric */
 #define KD_TRAIT_LIMB 128u       /* the light depends on the angle of emission: the table `atmosphere` */
@@ -31,11 +31,11 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Gas at a crossing: its observed temperature over the disk's largest, and its opacity. */
+/* Gas at a crossing. t: its observed temperature divided by the disk's largest. alpha: its opacity. */
 struct kd_gas { float t, alpha; };
 
-/* B_nu(t T)/B_nu(T) for the disk's largest colour temperature T. With x = h nu/(k T) and m(y) = (1 - exp(-y))/y it is
- * t exp(x (1 - 1/t)) m(x)/m(x/t), whose factors keep their digits for small and large x. */
+/* B_nu(t T)/B_nu(T) for the disk's largest colour temperature T. With x = h nu/(k T) and m(y) = (1 - exp(-y))/y the
+ * ratio is t exp(x (1 - 1/t)) m(x)/m(x/t), whose factors keep their digits for small and large x. */
 float kd_disk_intensity(float t)
 {
     float x = emission.disk.quanta, y = min(x / t, 1e30),
@@ -56,7 +56,7 @@ vec3 kd_black_body(float t, uint traits)
     return weight * kd_colour_of(at);
 }
 
-/* Place in the table of the disk: row, and share of the way to the next. */
+/* Place in the table of the disk: the row, and the fraction of the way to the next row. */
 struct kd_disk_row {
     uint row;
     float x;
@@ -126,8 +126,8 @@ kd_gas kd_disk_gas(kd_sample s, uint traits)
     float t = kd_disk_heat(s.w) * kd_orbit_cooled(s.w, s.energy, s.momentum, traits);
 
     bool inside = r >= emission.disk.r_in && r <= emission.disk.r_out;
-    /* Elsewhere t may be NaN: inside the photon orbit u^t does not exist, and E (r^(3/2) + a) - L, the divisor of g,
-     * may vanish. */
+    /* Outside the disk t may be NaN: inside the photon orbit u^t does not exist, and E (r^(3/2) + a) - L, the divisor
+     * of g, may vanish. */
     return kd_gas(inside ? t : 0.0, inside ? emission.disk.opacity * kd_disk_fade(r) : 0.0);
 }
 

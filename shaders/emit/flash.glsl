@@ -1,5 +1,5 @@
-/* The echo of a flash: a lamp on the axis flashes, and its light runs over the thin disk, whose gas shines at once in
- * proportion to the light that it receives. The gas is shown at the time when the light of each ray left it.
+/* The echo of a flash. A lamp on the axis flashes, and its light runs over the thin disk. The disk's gas shines at
+ * once, in proportion to the light that it receives. The gas is shown at the time when the light of each ray left it.
  *
  * Gas at r receives what the lamp sent t_1(r) before (emit/lamp.glsl). I_nu/nu^3 is constant along the ray, so
  * I_nu ~ nu^-index is multiplied by g^(3 + index). The light in all rays together, over time, is the impulse response
@@ -9,8 +9,8 @@
 #define KD_BLOCK_flash(F, U, A) \
     F(since)               /* time from the peak at the lamp to the time that the picture shows, M */ \
     F(sharp)               /* log2(e)/(2 duration^2) */ \
-    F(period) F(per_period) /* between flashes, M, and its inverse; 0: there is one flash */ \
-    F(brightness) F(power) /* at the peak where the disk is lit most; power of g */ \
+    F(period) F(per_period) /* time between flashes, M, and its inverse; 0: there is one flash */ \
+    F(brightness) F(power) /* brightness at the peak of a flash, where the disk is lit most; power of g */ \
     F(temperature)         /* K */
 /* clang-format on */
 #define KD_TABLES_flash(T)

@@ -4,9 +4,9 @@
 #define KD_BLOCK_frame(F, U, A) \
     U(pixels_x)            /* a row */ \
     U(band_pixels)         /* number of pixels whose light one buffer holds; the separate luminance follows it */ \
-    F(azimuth)             /* of the observer, radians */ \
+    F(azimuth)             /* azimuth of the observer, radians */ \
     F(delay)               /* the light delay for which moving emitters are shown at the scene's time, M */ \
-    F(w_least) F(w_most)   /* 1/r of crossings at which something may emit light */ \
+    F(w_least) F(w_most)   /* range of 1/r in which crossings may have light */ \
     F(along_least) F(along_most) /* range of 1/r of all volumes together */ \
     F(along_hollow) F(along_u)   /* least and largest |cos(theta)| of all volumes together */ \
     F(along_knot)          /* 1/r of a sphere at which the light of a volume has an edge; 0: none */ \

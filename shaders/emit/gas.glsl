@@ -1,12 +1,12 @@
-/* Turbulent gas in place of the smooth disk: the disk's temperature and optical depth are multiplied by a procedural
- * pattern, and the opacity of a crossing depends on the length of the ray's path through the gas.
+/* Turbulent gas in place of the smooth disk. A procedural pattern multiplies the disk's temperature and optical depth.
+ * The opacity of a crossing depends on the length of the ray's path through the gas.
  *
  * Pattern. Rings, KD_GAS_RING apart in ln r, rotate rigidly with the Omega of their middle. Each has its own noise in
  * the plane that rotates with it. The noise is evaluated at K (r/r_j) (cos psi, sin psi), psi = phi - Omega_j t + shear
- * ln(r/r_j): features grow with r, there is no seam in phi, and nothing winds up at any t. The noises b of the two
- * rings about a place are added with weights w_1^2 + w_2^2 = 1, so that the variance is the same everywhere. Octaves
- * are those of fractional Brownian motion. The lattice of each octave is rotated, shifted at random and drifting, and
- * is displaced by the octaves before it (domain warp).
+ * ln(r/r_j). So features grow with r, there is no seam in phi, and the pattern does not wind up with time. The noises b
+ * of the two rings about a place are added with weights w_1^2 + w_2^2 = 1, so that the variance is the same everywhere.
+ * Octaves are those of fractional Brownian motion. The lattice of each octave is rotated, shifted at random and
+ * drifting, and is displaced by the octaves before it (domain warp).
  *
  * Let n = sum of s_k b_k, where b_k has variance 1 and is nearly Gaussian. Flux and depth are multiplied by exp(n - sum
  * s_k^2/2), whose mean is 1. A black body of T^4 proportional to that flux changes colour and brightness consistently.
@@ -28,12 +28,12 @@
     F(warp)        /* displacement at one standard deviation of an octave, in its own cells */ \
     F(loudness)    /* s_0, the amplitude of the first octave */ \
     F(persistence) /* s_(k+1)/s_k, the ratio of successive amplitudes */ \
-    F(finer)       /* squared ratio of the ray's steps, in cells, of successive octaves, including displacement */ \
-    F(depth)       /* optical depth along the normal where the flux is largest */
+    F(finer) /* squared ratio of the ray's steps, counted in cells of successive octaves, including displacement */ \
+    F(depth) /* optical depth along the normal where the flux is largest */
 #define KD_GAS_ROWS (KD_GAS_RINGS * (KD_GAS_OCTAVES + 1))
-/* Tables. The row of a ring: azimuth minus the observer's in radians, Omega, and the factor that converts a place in
- * its plane to a place in the next ring's plane. The row of an octave: drift of the lattice, as a fraction of a cell
- * and whole cells. */
+/* Tables. The row of a ring holds the ring's azimuth minus the observer's in radians, Omega, and the factor that
+ * converts a place in the ring's plane to a place in the next ring's plane. The row of an octave holds the drift of the
+ * lattice, as a fraction of a cell and whole cells. */
 #define KD_TABLES_gas(T) T(gas, KD_GAS_ROWS)
 #define KD_TRAIT_GAS_DEEP 64u /* opacity by optical depth */
 #define KD_TRAIT_GAS_SHIFT 8u /* number of octaves from this bit on; 0: no turbulence */
@@ -45,7 +45,7 @@
 
 #ifdef KD_EMIT_CODE
 const uint KD_GAS_TAKEN = (TRAITS_gas & KD_TRAIT_GAS_OCTAVES) >> KD_TRAIT_GAS_SHIFT;
-/* the scene's gas, thin or thick, is shown as it was when its light left it */
+/* the scene's gas, thin or thick, is shown as it was when its light left the gas */
 const bool KD_GAS_SLOW = ((TRAITS_gas | TRAITS_thick) & KD_TRAIT_SLOW) != 0u;
 
 /* Gradient at a point of a lattice that repeats after 65536 cells, times 32768. */
@@ -103,8 +103,8 @@ vec4 kd_gas_lattice(kd_gas_ring ring, uint octave)
     return at;
 }
 
-/* The area of the pattern, in cells, that one ray stands for: the sum of the squared semi-axes of its footprint there,
- * and the product of the squared semi-axes. A step (dr, r dphi) is a step of (dr, r dphi + shear dr) K/r cells. */
+/* The area of the pattern, in cells, that one ray stands for. It is given by the sum and the product of the squared
+ * semi-axes of the ray's footprint there. A step (dr, r dphi) is a step of (dr, r dphi + shear dr) K/r cells. */
 struct kd_gas_steps { float sum, product; };
 
 kd_gas_steps kd_gas_footprint(kd_sample s)
@@ -117,9 +117,9 @@ kd_gas_steps kd_gas_footprint(kd_sample s)
     return kd_gas_steps(all * (1.0 + shear * (shear * i + 2.0 * c)), all * all * both * (1.0 - j * j));
 }
 
-/* Fraction of an octave that remains in the mean over a ray's footprint: the variance of this noise, averaged along a
- * line of q cells, is about its variance at a point over 1 + 0.66 q^2. The fraction is set to 0 where it is small, to
- * avoid flickering aliases; the loop over octaves ends there. */
+/* Fraction of an octave that remains in the mean over a ray's footprint. Averaged along a line of q cells, this noise
+ * has about the variance that it has at a point, divided by 1 + 0.66 q^2. The fraction is set to 0 where it is small,
+ * to avoid flickering aliases; the loop over octaves ends there. */
 float kd_gas_left(kd_gas_steps q)
 {
     float fine = 1.0 + 0.66 * q.sum + 0.4356 * q.product, cut = clamp(1.8 - 0.5 * q.sum, 0.0, 1.0);
@@ -165,7 +165,7 @@ kd_glow kd_gas_glow(kd_sample s)
             flux += light.y * square.x * square.x;
         }
         float taken = 1.0 - exp(-emission.gas.depth * flux * more / max(s.cosine, 1e-6));
-        /* elsewhere g may be NaN, because there is no u^t inside the photon orbit */
+        /* where alpha is 0, g may be NaN: inside the photon orbit there is no u^t */
         gas.alpha = gas.alpha > 0.0 ? gas.alpha * taken : 0.0;
     }
     gas.t *= sqrt(sqrt(more));

@@ -46,8 +46,8 @@ float kd_grid_fallen(float r)
 /* Time of ingoing Kerr-Schild coordinates minus Boyer-Lindquist time. The advanced time has dv = dt + dr (r^2 +
  * a^2)/Delta (B. Carter 1968, Phys. Rev. 174, 1559), and the time of Kerr-Schild coordinates is v - r. The difference
  * is int (2r - q^2)/Delta dr = ln(Delta/4) + (2 - q^2) int dr/Delta, because Delta' = 2r - 2. Without spin and charge
- * it is 2 ln(r/2 - 1). It falls without bound at the horizon, as does the time at which light left there: the two add
- * up, and nothing cancels. */
+ * it is 2 ln(r/2 - 1). This difference falls without bound at the horizon. So does the time at which light left there;
+ * the two add up, and nothing cancels. */
 float kd_grid_later(float w) { return kd_log(0.25 * kd_horizons(w, cam.root) / (w * w)) - kd_late(w); }
 
 /* The frame at a place, as a number with a fraction. Before the first frame and after the last one, that frame. */
@@ -56,7 +56,7 @@ float kd_grid_frame(kd_midst p)
     float at = emission.plasma.grid_now;
     if (KD_GRID_SLOW) {
         float ago = p.ago;
-        /* a loop as below */
+        /* a loop instead of an if, as below */
         for (uint n = 0u; n < (emission.plasma.grid_late > 0.0 ? 1u : 0u); n++)
             ago -= kd_grid_later(p.w);
         at -= emission.plasma.grid_per_time * ago;
@@ -126,7 +126,7 @@ kd_grid_node kd_grid_at(kd_midst p, float log2_r)
     }
     kd_grid_node sum = kd_grid_node(vec4(0.0), vec4(0.0));
     vec4 weights = vec4(1.0 - part.x, part.x, 1.0 - part.x, part.x) * vec4(1.0 - part.yy, part.yy);
-    /* loops as above; one of the two has no rounds */
+    /* loops instead of an if, as above; one of the two has no rounds */
     KD_GRID_SUM(kd_grid_whole, emission.plasma.grid_packed == 0u ? times : 0u)
     KD_GRID_SUM(kd_grid_packed, emission.plasma.grid_packed == 0u ? 0u : times)
     return sum;

@@ -63,8 +63,8 @@ kd_medium kd_jets_along(kd_midst p)
     float up = clamp((r - inner) / (KD_JETS_RISE * inner), 0.0, 1.0),
           down = clamp((outer - r) / (KD_JETS_FADE * outer), 0.0, 1.0);
     float along = up * up * (3.0 - 2.0 * up) * down * down * (3.0 - 2.0 * down);
-    /* Both powers and the brightness are computed in one exponential. g to the 12th may be 2^92 and r/inner to the 10th
-     * 2^199: computed separately they would overflow, even if their product is 1. */
+    /* Both powers and the brightness are computed in one exponential. g to the 12th may be 2^92, and r/inner to the
+     * 10th may be 2^199. If they were computed separately, they would overflow even if their product is 1. */
     float light = exp2(clamp(emission.jets.brightness - emission.jets.falloff * log2(r / inner) -
                                  emission.jets.power * log2(kd_jets_energy(p)),
                              -126.0, 120.0));

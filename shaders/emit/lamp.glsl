@@ -6,8 +6,8 @@
 #define KD_BLOCK_lamp(F, U, A) \
     F(first) F(per_row)    /* ln r of the first row; rows for each unit of ln r */
 /* clang-format on */
-/* lamp: coordinate time of the light from the lamp to r, less r, and its difference to the next row; r^3 times the
- * light that the gas receives, over the largest on the disk, and its difference to the next row. */
+/* lamp: for light that goes from the lamp to r, the coordinate time minus r, and its difference to the next row. Then
+ * r^3 times the light that the gas receives, divided by the largest on the disk, and its difference to the next row. */
 #define KD_TABLES_lamp(T) T(lamp, KD_LAMP_TABLE)
 #define KD_TRAITS_lamp(T)
 #define KD_BUFFERS_lamp(B)
@@ -15,7 +15,7 @@
 #endif
 
 #ifdef KD_EMIT_CODE
-/* Time from the lamp to r = 1/w, less r, and the light received there. */
+/* Time of the light from the lamp to r = 1/w, minus r; and the light received there. */
 vec2 kd_lamp_at(float w)
 {
     float at = max((-log(w) - emission.lamp.first) * emission.lamp.per_row, 0.0);

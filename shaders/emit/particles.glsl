@@ -8,13 +8,14 @@
 /* clang-format on */
 #define KD_TABLES_particles(T)
 #define KD_TRAITS_particles(T) KD_TRAITS_disk(T) T(SLOW)
-#define KD_BUFFERS_particles(B) B(0, floats, density) /* on the disk's grid, then on the grid of plunge.glsl */
+/* the density on the disk's grid, then that on the grid of plunge.glsl */
+#define KD_BUFFERS_particles(B) B(0, floats, density)
 #define KD_PASS_particles(P) P(particles, PARTICLE, "particle", 40)
 #endif
 
 #ifdef KD_EMIT_CODE
-/* A place on one of the grids, which begins at node `first`: the row, and the azimuth in turns on the rows before and
- * after the place. */
+/* A place on one of the grids. The grid begins at node `first`. The place has a row, and an azimuth in turns on the
+ * rows before and after it. */
 struct kd_density_place {
     uint first, rows, columns;
     float row, before, after;

@@ -2,9 +2,9 @@
  * magnetic field by power laws, as used by A. E. Broderick, H.-Y. Pu and others. The state at a point is one struct,
  * kd_plasma. Light and, if requested, polarisation follow from it.
  *
- * nu_obs is the observed frequency, and the affine parameter is measured by the observer's energy. Per unit of it,
- * light grows by (nu_obs/nu)^2 j_nu and optical depth by (nu/nu_obs) alpha_nu: I/nu^3, j/nu^2 and alpha nu are
- * invariant (Rybicki & Lightman 1979, 4.9), and nu/nu_obs = -k.u. */
+ * nu_obs is the observed frequency, and the affine parameter is measured by the observer's energy. Per unit of that
+ * parameter, light grows by (nu_obs/nu)^2 j_nu and optical depth by (nu/nu_obs) alpha_nu. The reason is that I/nu^3,
+ * j/nu^2 and alpha nu are invariant (Rybicki & Lightman 1979, 4.9). nu/nu_obs is -k.u. */
 #ifndef KD_BLOCK_plasma
 /* clang-format off */
 #define KD_BLOCK_plasma(F, U, A) \
@@ -18,7 +18,7 @@
     F(steep)               /* distance from the axis over scale height; 0: no layer */ \
     F(field) F(field_index) /* log2 of B^2/n at r = 1 M, gauss^2 cm^3; power of r at which it falls */ \
     F(power_index) F(power_light) F(power_depth) /* numbers for a power law of electrons */ \
-    F(torus_momentum) F(torus_edge) F(torus_index) /* angular momentum; offset of ln h; density: power of h - 1 */ \
+    F(torus_momentum) F(torus_edge) F(torus_index) /* angular momentum; offset of ln h; density's power of h - 1 */ \
     U(grid_rows) U(grid_columns) U(grid_layers) /* nodes in r, theta and phi; 1 layer: axisymmetric */ \
     U(grid_steps) U(grid_place_rows) /* cells in theta, and rows, of the table of uneven columns; 0: they are even */ \
     /* first coordinate in each direction (log2 for r), and nodes per unit of it */ \
@@ -31,7 +31,7 @@
     U(grid_packed)         /* 1: a node is one quad, else two */ \
     /* a packed node: least values and ranges of log2 of density and Theta; units of velocity and field */ \
     F(grid_density) F(grid_densities) F(grid_heat) F(grid_heats) F(grid_speed) F(grid_scale) \
-    F(kappa) F(kappa_width) /* of a kappa distribution: `kappa` is log2(kappa - 3); */ \
+    F(kappa) F(kappa_width) /* for a kappa distribution: `kappa` is log2(kappa - 3); */ \
     /* the other numbers are as in physics/disk/synchrotron.h */ \
     F(kappa_light_low) F(kappa_light_high) F(kappa_light_sharp) F(kappa_depth_low) F(kappa_depth_high) \
     F(kappa_depth_sharp)
@@ -67,8 +67,8 @@
 #ifdef KD_EMIT_CODE
 #include "emit/synchrotron.glsl"
 
-/* The metric at a place, relative to observers of zero angular momentum: their lapse^2 and angular velocity,
- * g_phiphi, g_rr and Sigma/r^2 (Bardeen, Press & Teukolsky 1972). */
+/* The metric at a place, relative to observers of zero angular momentum. lapse2, omega: square of their lapse, and
+ * their angular velocity. round_: g_phiphi. radial: g_rr. sigma: Sigma/r^2 (Bardeen, Press & Teukolsky 1972). */
 struct kd_metric { float lapse2, omega, round_, radial, sigma; };
 kd_metric kd_metric_at(float w, float u)
 {
@@ -78,8 +78,8 @@ kd_metric kd_metric_at(float w, float u)
                      at.sigma);
 }
 
-/* Velocity of matter: u^t; u_phi, where u^phi - omega u^t = u_phi/g_phiphi; u^r; and u^theta, which is 0 except on a
- * grid. */
+/* Velocity of matter. time: u^t. round_: u_phi, where u^phi - omega u^t = u_phi/g_phiphi. out_: u^r. down: u^theta,
+ * which is 0 except on a grid. */
 struct kd_flow { float time, round_, out_, down; };
 const bool KD_PLASMA_GRID = (TRAITS_plasma & KD_TRAIT_PLASMA_GRID) != 0u;
 
@@ -159,9 +159,9 @@ kd_equilibrium kd_torus_at(kd_metric g, kd_midst p)
     return kd_equilibrium(kd_flow(sqrt((1.0 + u2) / g.lapse2), sqrt(g.round_ * u2) * sign(l), 0.0, 0.0), ln_h);
 }
 
-/* State of the matter at a place, for an arriving photon. energy: -k.u, the frequency in the frame of the matter over
- * the observed one; frequency: log2 of that frequency in GHz; field: the unit vector along B, b.u = 0, as contravariant
- * components t, r, theta, phi of Boyer-Lindquist coordinates. */
+/* State of the matter at a place, for an arriving photon. energy: -k.u, the ratio of the frequency in the frame of the
+ * matter to the observed one. frequency: log2 of the former in GHz. field: the unit vector along B, with b.u = 0, as
+ * contravariant components t, r, theta, phi of Boyer-Lindquist coordinates. */
 struct kd_plasma {
     kd_electrons electrons;
     kd_flow flow;
@@ -310,8 +310,8 @@ kd_radiates kd_plasma_gives(kd_plasma m)
 }
 
 /* Makes the medium from logarithms. Where the depth exceeds 2^24 per length, light and depth are reduced by the same
- * factor, because such matter shows only its own light. Light of such matter is correct up to 6e28 K. Light of thin
- * matter is limited to 2^99 per length, beyond the range of layers (src/render/frame/layers.c). */
+ * factor. This is allowed because such matter shows only its own light. Light of such matter is correct up to 6e28 K.
+ * Light of thin matter is limited to 2^99 per length, beyond the range of layers (src/render/frame/layers.c). */
 kd_medium kd_plasma_medium(float light, float depth, float grain)
 {
     float over = max(depth - 24.0, 0.0);

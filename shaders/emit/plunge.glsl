@@ -17,12 +17,12 @@
 #define KD_BLOCK_plunge(F, U, A) \
     F(first) F(last)       /* w at the start and at the end of the plunge */ \
     F(energy) F(j)         /* constants of the gas: E, and L - aE */ \
-    F(stretch) F(bend)     /* numbers of u^r; without charge 1 and 0 */ \
+    F(stretch) F(bend)     /* coefficients of u^r in the formula above; without charge 1 and 0 */ \
     F(temperature)         /* temperature, relative to the disk's largest */ \
     F(depth)               /* optical depth where r |u^r| is 1, for the expected number of particles */ \
     F(log_first) F(step_)  /* the table's first argument, and its entries per unit */ \
     F(laps) F(turns)       /* per M: fraction of the way from start to end, and turns of the orbit at the ISCO */ \
-    U(at)                  /* offset of this grid, which follows that of the other particles */ \
+    U(at)                  /* offset of this grid, which follows the grid of the other particles */ \
     U(rows) U(columns) \
     U(lap_rows) U(lead_rows) /* rows from start to end; rows before the start */
 /* clang-format on */

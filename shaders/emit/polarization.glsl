@@ -68,8 +68,8 @@ vec2 kd_polarization_right(uvec2 place)
     return vec2(ab.x - turn * ab.y, ab.y + turn * ab.x);
 }
 
-/* Polarisation of light where it leaves the gas: its fraction, and kappa of its electric field, up to a positive or
- * negative factor. */
+/* Polarisation of light where it leaves the gas. It consists of the polarised fraction, and of kappa of the electric
+ * field, up to a positive or negative factor. */
 struct kd_polarized {
     float fraction;
     vec2 kappa;

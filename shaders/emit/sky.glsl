@@ -5,13 +5,13 @@
  *
  * Diffuse light is a panorama in galactic coordinates (src/render/sky/panorama.h), interpolated between the two levels
  * of its mips that fit a ray's footprint. Texels are interpolated by a quadratic B-spline, which shows no corners when
- * the picture is magnified. Stars are points: comp/star_images.comp has spread each of their images over some pixels
- * before, and this light is read here, 64 bits a channel.
+ * the picture is magnified. Stars are points. comp/star_images.comp has already spread each of their images over some
+ * pixels. This light is read here, with 64 bits a channel.
  *
- * By Liouville I_nu/nu^3 is constant along a ray: a black body of T is seen as one of g T, with a bolometric intensity
- * g^4 times as large. g = 1/E, where E is the energy at infinity of light that the observer measures as 1. A star's
- * flux changes likewise, and is multiplied by the magnification of its solid angle. Diffuse light is shifted like the
- * light of a black body of KD_SKY_KELVIN. */
+ * By Liouville's theorem I_nu/nu^3 is constant along a ray. A black body of temperature T is therefore seen as one of g
+ * T, with a bolometric intensity g^4 times as large. g = 1/E, where E is the energy at infinity of light that the
+ * observer measures as 1. A star's flux changes in the same way, and is multiplied by the magnification of its solid
+ * angle. Diffuse light is shifted like the light of a black body of KD_SKY_KELVIN. */
 #ifndef KD_BLOCK_sky
 /* clang-format off */
 #define KD_BLOCK_sky(F, U, A) \

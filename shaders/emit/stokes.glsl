@@ -24,7 +24,7 @@
 #define KD_BLOCK_stokes(F, U, A) \
     F(turn) F(convert) /* log2 of the power law's factors of rho_V and rho_Q */ \
     F(gamma2)          /* log2 of the square of the power law's least gamma */ \
-    /* for a kappa distribution: physics/disk/synchrotron.h */ \
+    /* parameters of a kappa distribution, as in physics/disk/synchrotron.h */ \
     F(kappa_light_q) F(kappa_light_q_sharp) F(kappa_light_v_low) F(kappa_light_v_high) \
     F(kappa_depth_q) F(kappa_depth_q_sharp) F(kappa_depth_v_low) F(kappa_depth_v_high) F(kappa_depth_v_sharp) \
     U(kappa_node) F(kappa_past) /* Marszewski's next lower kappa; fraction of the way from it to the next one */ \
@@ -94,8 +94,8 @@ float kd_stokes_converts(float log2_x)
  *   Shcherbakov 2008   K0/K2 (1 - 0.11 ln(1 + 0.035 X))
  *   Dexter 2016        (K0 - 0.43793091 ln(1 + 0.00185777 X^1.50316886))/K2
  *
- * The latter is a fit for hot electrons. For Theta below 1/2, where both are nearly K0/K2, the former is used. k:
- * from kd_stokes_bessel. */
+ * Dexter's form is a fit for hot electrons. For Theta below 1/2, where both forms are nearly K0/K2, Shcherbakov's is
+ * used. k: from kd_stokes_bessel. */
 float kd_stokes_rotates(vec3 k, float log2_x)
 {
     float x = exp2(clamp(log2_x, -60.0, 60.0));
@@ -260,7 +260,8 @@ void kd_stokes_at(kd_plasma m, kd_midst p, float light, float depth, float depth
                                depth * vec3(whole * of.depth.x * c, of.depth.y), vec3(whole * turns.x * c, turns.y));
 }
 
-/* A stretch: the transfer in front of it, its light as far as it arrives, and the matter at its three nodes. */
+/* A stretch. front: the transfer by all matter in front of it. light: its light that arrives. one, two, three: the
+ * matter at its three nodes. */
 struct kd_stokes_trial {
     kd_jones front;
     vec4 light;

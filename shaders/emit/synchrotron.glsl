@@ -9,12 +9,13 @@
  *   alpha = j/B_nu (Kirchhoff)
  *
  * Power law, n(gamma) ~ gamma^-p from gamma_min to gamma_max (equations 33 and 34): j ~ nu^(-(p-1)/2), alpha ~
- * nu^(-(p+4)/2). The host has combined the constant factors into two numbers. */
+ * nu^(-(p+4)/2). The host combines the constant factors into two numbers. */
 #ifndef KD_SYNCHROTRON_GLSL
 #define KD_SYNCHROTRON_GLSL
 
 /* Electrons. density, heat, field: log2 of their density in cm^-3, of Theta = kT/(m_e c^2), and of the field in gauss.
- * cosine: of the angle between field and light in the frame of the matter; sine2: the square of the angle's sine. */
+ * cosine: cosine of the angle between field and light in the frame of the matter. sine2: square of the sine of this
+ * angle. */
 struct kd_electrons { float density, heat, field, cosine, sine2; };
 /* light: log2 of the emissivity in units of e^2/c cm^-3 GHz (e in Gaussian units), 7.69558e-22 W m^-3 Hz^-1 sr^-1.
  * depth: log2 of the absorptivity in units of that over 2h GHz^3/c^2, 52.191 m^-1. steep: relative change of light per

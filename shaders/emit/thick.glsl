@@ -8,9 +8,10 @@
  * and flux, and rotates with the Omega of the circular orbit there at any height (by the metric's u^t: -1/u^t^2 = g_tt
  * + 2 Omega g_tphi + Omega^2 g_phiphi, Bardeen, Press & Teukolsky 1972).
  *
- * From top to bottom the gas has the optical depth of the thin disk: light that crosses at an angle theta to its normal
- * in the frame of the gas is attenuated by the same factor, including opacity and fade. For a small height the picture
- * is therefore the thin disk's. Turbulence is that of gas.glsl, with a third coordinate in its noise. */
+ * From top to bottom the gas has the optical depth of the thin disk. Light that crosses at an angle theta to the
+ * normal, in the frame of the gas, is attenuated by the same factor as in the thin disk, including opacity and fade.
+ * For a small height the picture is therefore the thin disk's. Turbulence is that of gas.glsl, with a third coordinate
+ * in its noise. */
 #ifndef KD_BLOCK_thick
 #define KD_THICK_REACH 4.5 /* times H */
 /* density in the middle of the column for height 1, such that the integral over the column is 1 */
@@ -19,11 +20,11 @@
 #define KD_THICK_NOISE 5.237147522273636
 #define KD_THICK_FAINT 0.15 /* octaves fainter than this fraction of the first do not shorten stretches */
 #define KD_THICK_HASTE \
-    4.0 /* slow light: M of time per M along the ray by which a grain is shortened, at most. Beyond that, next to the \
+    4.0 /* slow light: largest time, in M per M along the ray, that shortens a grain. Beyond that, next to the \
          * horizon, the gas is hardly visible */
 /* Streaks fade out where the gas, along its normal, has less than this fraction of the optical depth at the ray's
- * innermost crossing of the plane. Light is proportional to depth times flux, that is, to the square of depth: the
- * first octave ends where 3e-9 of that crossing's light is left. Otherwise rays along a disk of 5e5 M would take
+ * innermost crossing of the plane. Light is proportional to depth times flux, that is, to the square of depth. The
+ * first octave thus ends where 3e-9 of that crossing's light is left. Otherwise rays along a disk of 5e5 M would take
  * thousands of stretches in the dark. */
 #define KD_THICK_AFAR 1e-3
 #define KD_THICK_LAYERS \
@@ -69,8 +70,8 @@ vec3 kd_thick_gradient(uint point)
     return vec3(float(int(h)), float(int(h << 10)), float(int(h << 20)));
 }
 
-/* Noise on one plane of the lattice: by its gradients, and by the gradients rotated by a quarter turn about the third
- * axis. */
+/* Noise on one plane of the lattice. The first result uses the gradients; the second uses the gradients rotated by a
+ * quarter turn about the third axis. */
 vec2 kd_thick_plane(uint x0, uint x1, uint y0, uint y1, uint z, vec3 d, vec2 t)
 {
     vec3 a = kd_thick_gradient(x0 ^ y0 ^ z), b = kd_thick_gradient(x1 ^ y0 ^ z), c = kd_thick_gradient(x0 ^ y1 ^ z),
@@ -116,7 +117,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     kd_gas_ring one = kd_gas_ring(in_one, k * (KD_GAS_OCTAVES + 1u), KD_GAS_SLOW ? ring.y * p.ago : 0.0);
     kd_gas_ring two = kd_gas_ring(vec2(ring.z * in_one.x - ring.w * in_one.y, ring.w * in_one.x + ring.z * in_one.y),
                                   (k + 1u) * (KD_GAS_OCTAVES + 1u), 0.0);
-    if (KD_GAS_SLOW) { /* at that time the angle between the rings was different */
+    if (KD_GAS_SLOW) { /* when the light left the gas, the angle between the rings was different */
         vec4 next_ring = kd_table_row(gas, two.row);
         two.ahead = next_ring.y * p.ago;
         psi = kd_cos_sin(p.phi - next_ring.x + two.ahead + emission.gas.shear * ((x - 1.0) * KD_GAS_RING));
@@ -124,7 +125,7 @@ kd_thick_stir kd_thick_excess(kd_midst p, float axis, float z, float counts)
     }
     float up = KD_THICK_LAYERS * emission.gas.cells * z / axis, sum = 0.0, loud = emission.gas.loudness, finest = 1.0;
     float shear = emission.gas.shear, per = emission.gas.cells / axis;
-    /* In cells (dr, dphi + shear dr, layers dz) the sum of an ellipse's squared semi-axes is the trace of its matrix.
+    /* The sum of an ellipse's squared semi-axes, in cells (dr, dphi + shear dr, layers dz), is the trace of its matrix.
      * The sum of the matrix's minors replaces the product of the squared semi-axes. */
     vec3 plane = p.spread.plane, rise = KD_THICK_LAYERS * p.spread.rise;
     float rr = plane.x, rf = plane.y + shear * rr, ff = plane.z + shear * (2.0 * plane.y + shear * rr), rz = rise.x,
@@ -195,7 +196,7 @@ kd_medium kd_thick_along(kd_midst p)
                              : kd_thick_stir(0.0, 0.0);
     float more = KD_THICK_TAKEN > 0u ? exp(stir.excess) : 1.0;
 
-    /* The thin disk's opacity for light at this angle, as an optical depth along the normal; transmission is
+    /* The thin disk's opacity for light at this angle, as an optical depth along the normal. The transmission is
      * computed without a difference of nearly equal numbers. */
     float f = clamp((emission.disk.r_out - r) * emission.disk.fade, 0.0, 1.0), on = f * f * (3.0 - 2.0 * f),
           off_ = (1.0 - f) * (1.0 - f) * (1.0 + 2.0 * f);

@@ -1,6 +1,6 @@
 /* A uniform shell of matter about the hole: in its own frame, emission and absorption per length are the same
- * everywhere. It is at rest for observers of zero angular momentum (Bardeen, Press & Teukolsky 1972), who measure the
- * energy
+ * everywhere. The matter is at rest for observers of zero angular momentum (Bardeen, Press & Teukolsky 1972), who
+ * measure the energy
  *
  *   -k.U = (E - omega L) sqrt(A/(Sigma Delta)),   omega = 2 a r/A,   A = (r^2 + a^2)^2 - a^2 Delta sin^2(theta).
  *
@@ -10,7 +10,7 @@
 /* clang-format off */
 #define KD_BLOCK_volume(F, U, A) \
     F(inner) F(outer)      /* M */ \
-    F(emissivity)          /* per unit of length, 1/M, in units of the disk's largest surface brightness */ \
+    F(emissivity)          /* emission per unit of length, 1/M; the unit is the disk's largest surface brightness */ \
     F(opacity)             /* optical depth per unit of length, 1/M */ \
     F(temperature)         /* K: temperature of the black body that has the colour of the light */
 /* clang-format on */
@@ -30,7 +30,7 @@ float kd_volume_energy(kd_midst p)
 
 /* The march finds the edges of all volumes together. Edges of the shell may be inside other volumes. There a stretch is
  * no longer than the distance to the edge, or than this fraction of r. The fraction is the uncertainty of the shell's
- * length at `balanced`. It is smaller for finer stretches. */
+ * length at `balanced`, and is smaller for finer stretches. */
 #define KD_VOLUME_EDGE 2.5e-4
 float kd_volume_grain(float r, float grain)
 {

@@ -1,12 +1,13 @@
-/* Composes light along one ray, front to back, from the emitters of the scene. It iterates over the list of emitters
- * and knows no names. Kernels supply samples: crossings from a lens map (transfer.comp), or points along the path. */
+/* Composes light along one ray, front to back, from the emitters of the scene. The code iterates over the list of
+ * emitters and contains no emitter's name. Kernels supply samples: crossings from a lens map (transfer.comp), or points
+ * along the path. */
 #ifndef KD_COMPOSE_GLSL
 #define KD_COMPOSE_GLSL
 
 /* A sample of a ray. ago: how much earlier its light left than light that shows the scene's time. energy, momentum, q:
  * E, L and Carter's Q in units of the energy that the observer measures. footprint, shape: of the ray's footprint at
- * the sample, 0 if no emitter needs them (shared/lens.h). cosine: of the angle between light and normal in the frame of
- * the gas where the light left it, 0 if no emitter needs it (emit/cosine.glsl). */
+ * the sample, 0 if no emitter needs them (shared/lens.h). cosine: cosine of the angle between light and normal, in the
+ * frame of the gas where the light left it; 0 if no emitter needs it (emit/cosine.glsl). */
 struct kd_sample {
     float w, phi, ago, slope, energy, momentum, q, footprint, shape;
     uint order;
@@ -14,23 +15,24 @@ struct kd_sample {
 };
 /* The end of a ray that escapes. footprint: radians; energy: in units of the energy that the observer measures. */
 struct kd_end { float u, phi, footprint, energy; };
-/* Contribution of one emitter at a sample: its light, including its opacity; its opacity; and the luminance that is
- * also kept separately. */
+/* Contribution of one emitter at a sample. It has the emitter's light, with its opacity applied; the opacity; and the
+ * luminance that is also kept separately. */
 struct kd_glow {
     vec3 light;
     float alpha, apart;
 };
-/* The ellipse that a ray stands for, perpendicular to the ray, at the ray's nearest crossing of the plane: M_rr, M_rf,
- * M_ff in the plane as in KD_LENS_SHAPE (shared/lens.h), and M_rz, M_fz, M_zz, M^2; z is along the normal. */
+/* The ellipse that a ray stands for, perpendicular to the ray, at the ray's nearest crossing of the plane. plane: M_rr,
+ * M_rf, M_ff, as in KD_LENS_SHAPE (shared/lens.h). rise: M_rz, M_fz, M_zz, where z is along the normal. The unit is
+ * M^2. */
 struct kd_spread { vec3 plane, rise; };
 /* A point of a ray inside a volume. w = 1/r, u = cos(theta). dw, du: their derivatives by Mino time in the direction of
- * tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures. They
- * belong to the arriving photon, which has p_r = dw/kd_delta(w) and p_theta = du/sin(theta). speed: length in (r, r n),
- * M, per unit of Mino time, as if space were flat, where n is the direction from the hole; grains are in this unit of
- * length. phi: azimuth, source minus observer. spread: the ellipse that the ray stands for. phi and spread are 0
- * without KD_TRAIT_AZIMUTH. order: of the nearest crossing of the plane on the ray; it changes at the extremes of
- * cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the ray's innermost
- * crossing of the plane; 0: unknown. */
+ * tracing, against the light. energy, momentum, q: E, L and Q in units of the energy that the observer measures. These
+ * constants belong to the arriving photon, which has p_r = dw/kd_delta(w) and p_theta = du/sin(theta). speed: length in
+ * (r, r n), M, per unit of Mino time, as if space were flat, where n is the direction from the hole; grains are in this
+ * unit of length. phi: azimuth, source minus observer. spread: the ellipse that the ray stands for. phi and spread are
+ * 0 without KD_TRAIT_AZIMUTH. order: order of the nearest crossing of the plane on the ray, which changes at the
+ * extremes of cos(theta); 0 if nothing needs it. ago: as in kd_sample, 0 without KD_TRAIT_SLOW. nearest: 1/r of the
+ * ray's innermost crossing of the plane; 0: unknown. */
 struct kd_midst {
     float w, u, dw, du, energy, momentum, q, speed, phi;
     kd_spread spread;
@@ -41,15 +43,16 @@ struct kd_midst {
 /* The medium at a point of a ray. light: emission; depth: optical depth. Light and depth are per unit of the affine
  * parameter lambda, which is normalised by the observer's energy. Along a ray d lambda = (r^2 + a^2 u^2) d tau, and
  * matter of velocity U measures the path length -k.U d lambda. With emissivity j and opacity alpha per length in the
- * matter's frame, depth = alpha (-k.U) and bolometric light = j (-k.U)^-3, where 1/(-k.U) is g. grain: M along the ray
- * over which the medium changes by about its own size; where there is no matter, the distance to the matter. */
+ * matter's frame, depth = alpha (-k.U) and bolometric light = j (-k.U)^-3, where 1/(-k.U) is g. grain: length in M
+ * along the ray over which the medium changes by about its own size. Where there is no matter, it is the distance to
+ * the matter. */
 struct kd_medium {
     vec3 light;
     float depth, grain;
 };
-/* A surface that a ray meets. time: Mino time from the observer; body: the body's number, or KD_NOBODY; crossed: number
- * of crossings of the plane before the surface; w, u, phi and dw, du: as in kd_midst; energy, momentum: E and L;
- * cosine: of the emission angle in the frame of the surface. */
+/* A surface that a ray meets. time: Mino time from the observer. body: the body's number, or KD_NOBODY. crossed: number
+ * of crossings of the plane before the surface. w, u, phi and dw, du: as in kd_midst. energy, momentum: E and L.
+ * cosine: cosine of the emission angle in the frame of the surface. */
 struct kd_met {
     float time;
     uint body, crossed;
@@ -79,7 +82,7 @@ const int KD_VOLUMES =
 #define KD_EMIT_END_CODE
 #include "shared/emitters.h"
 
-/* Whether anything is visible at crossings, and whether some luminance is kept separately. */
+/* True if anything is visible at crossings; true if some luminance is kept separately. */
 #define KD_OR_TRAITS_(number, name) | TRAITS_##name
 const uint KD_ALL_TRAITS =
     0u KD_EMITTERS(KD_OR_TRAITS_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_, KD_NO_EMITTER_);

@@ -30,7 +30,7 @@ layout(set = 0, binding = 1, std140) uniform Emission { KD_EMIT_BLOCKS(MEMBER) }
 struct kd_emission { KD_EMIT_BLOCKS(MEMBER) } emission;
 #define READ(number, name) emission.name = emission_.name;
 #include "light/tables.glsl"
-/* The emitters' buffers are texels if the map is, because lavapipe reads storage buffers lane by lane, at ten times the
+/* The emitters' buffers are texels if the map is. lavapipe reads storage buffers lane by lane, at ten times the
  * cost. */
 #define KD_OWN_stored(number, member) \
     layout(set = 0, binding = KD_OWN_BINDING + number) readonly buffer Own_##member { float member[]; };

@@ -34,8 +34,8 @@ float kd_layer_depth(kd_sample s)
     return beam.through > 0.0 ? -log(beam.through) : uintBitsToFloat(KD_INFINITE_BITS);
 }
 
-/* Least size of a footprint. A ray without neighbours has no footprint. Neither has a ray whose neighbours are
- * indistinguishable from it in 32 bits (comp/footprint.comp). */
+/* Least size of a footprint. A ray has no footprint if it has no neighbours, or if its neighbours are indistinguishable
+ * from it in 32 bits (comp/footprint.comp). */
 #define KD_FOOTPRINT_LEAST 1e-6 /* relative to r, and in radians */
 float kd_layer_size(float footprint, float least)
 {

@@ -1,15 +1,15 @@
 /* The march: light along a ray through volumes, composed with the crossings of the lens map in their order
  * (docs/physics/volume.md).
  *
- * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Within a step it is the quintic
- * that fits y, y' and y'' at both ends (Hermite's; its error, like the integrator's, is of sixth order in the step). A
- * step is split where w or u turns and where the plane is crossed, so that both are monotone in each part. In each part
- * Newton's method finds the range inside the volumes' bounds. This range is integrated in stretches with three
- * Gauss-Legendre nodes each. A stretch is as long as the grain, the depth and the distance allow; one that turns out
- * too long is repeated.
+ * The ray is traced again by the steps of ray/escape.glsl, which are long and accurate. Within a step the ray is the
+ * quintic that fits y, y' and y'' at both ends (Hermite's; its error, like the integrator's, is of sixth order in the
+ * step). A step is split where w or u turns and where the plane is crossed, so that both are monotone in each part. In
+ * each part Newton's method finds the range inside the volumes' bounds. This range is integrated in stretches with
+ * three Gauss-Legendre nodes each. A stretch is as long as the grain, the depth and the distance allow. A stretch that
+ * turns out too long is repeated.
  *
- * Needs inputs.glsl; KD_MARCH_MEET(beam, w, n, place, at), which composes crossing n of the lens map; and
- * KD_MARCH_GIVEN_UP(beam) for a ray whose end is not found. */
+ * Needs inputs.glsl and two macros. KD_MARCH_MEET(beam, w, n, place, at) composes crossing n of the lens map.
+ * KD_MARCH_GIVEN_UP(beam) is for a ray whose end is not found. */
 #ifndef KD_MARCH_GLSL
 #define KD_MARCH_GLSL
 
@@ -33,11 +33,11 @@
 #define KD_MARCH_TOO_LONG 1.5 /* a stretch that is longer by this factor than its nodes allow is repeated */
 /* largest factor by which a grain is lengthened for matter that is barely visible behind other matter */
 #define KD_MARCH_BEHIND 1.5
-/* limit of loop passes, more than any ray needs: lavapipe may end a loop before its condition does, and unfinished work
+/* limit of loop passes, more than any ray needs. lavapipe may end a loop before its condition does, and unfinished work
  * must be detected */
 #define KD_MARCH_LOOPS 65536u
-/* least Delta w^4 of a turning ray; below it the ray is as close to the horizon as 32 bits resolve, and its time there
- * has no valid digits, but stays finite */
+/* least Delta w^4 of a turning ray. Below it the ray is as close to the horizon as 32 bits resolve. The ray's time
+ * there has no valid digits, but stays finite */
 #define KD_MARCH_CLOSE 1e-8
 /* Largest number of loop passes for one stretch, including the root finding for the ends of its part. */
 #define KD_MARCH_STRETCH (4u + 3u * (KD_THICK_TAKEN + 4u + (KD_HAS(stokes) ? 12u : 0u)))
@@ -46,8 +46,8 @@
 #define KD_MARCH_OPAQUE slice.opaque /* a ray ends where less than this fraction of the light behind is transmitted */
 
 /* A driver's limit on loops may stop a ray. Such a ray is traced again in pieces, one dispatch each (KD_PIECES). left:
- * loop passes that this piece may still take. waits: no passes were left before the ray's end. The other members tell
- * where to continue: completed steps, the place within the next step, and the length of the next stretch. */
+ * loop passes that this piece may still take. waits: no passes were left before the ray's end. The other members say
+ * where to continue: number of completed steps, place within the next step, and length of the next stretch. */
 #ifdef KD_PIECES
 struct kd_march_piece {
     uint left, steps;
@@ -134,8 +134,8 @@ struct kd_march_drag {
     float ago;
 };
 
-/* A step of the ray. Within it chi is a cubic. ago is a quintic and, if the ray does not turn, the difference of
- * kd_march_edge: along = 1 inwards, -1 outwards. */
+/* A step of the ray. Within the step chi is a cubic. The delay is the quintic ago plus along * kd_march_edge. along: 1
+ * inwards, -1 outwards, 0 if the ray turns. */
 struct kd_stride {
     kd_quintic w, u, x, y;
     float h, c0, c1, c2, c3, way;
@@ -251,8 +251,8 @@ vec3 kd_march_shorter(vec3 m, vec2 d, float less)
            dd * vec3(d.x * d.x, d.x * d.y, d.y * d.y);
 }
 
-/* The ellipse across a ray that the ray stands for, at its crossing n of the plane. The footprint's axis along the ray
- * is multiplied by the cosine of the angle to the normal, so that the ellipse lies across the ray. The axis then has
+/* The ellipse across a ray that the ray stands for, at its crossing n of the plane. To put the ellipse across the ray,
+ * the footprint's axis along the ray is multiplied by the cosine of the angle to the normal. The axis then has
  * components in the plane (times the cosine again) and along the normal (times the sine). outwards: 1 if the ray is
  * traced outwards, -1 if inwards. The result is zero for a ray without that crossing. */
 kd_spread kd_march_spread(kd_geodesic m, kd_ray ray, uint n, uint at, float outwards)
@@ -307,8 +307,8 @@ kd_midst kd_midst_of(kd_geodesic m, kd_ray ray, kd_stride s, kd_spread spread, u
 
 /* Light of a node is attenuated by half its own depth and all depth before it. By Gauss's method of three stages
  * (Hairer, Norsett & Wanner 1993, II.7), with coefficients a_ij, the attenuation is sum_j a_ij/b_j x_j. This function
- * returns the difference between the two attenuations, to first order in depth. It is 0 where light is proportional to
- * depth, because the sum over the three nodes is then exact. */
+ * returns the difference between the two attenuations, to first order in depth. The difference is 0 where light is
+ * proportional to depth, because the sum over the three nodes is then exact. */
 vec3 kd_march_rest(vec4 one, vec4 two, vec4 three)
 {
     float x = one.w + two.w + three.w;
@@ -411,9 +411,9 @@ bool kd_march_meets(kd_geodesic m, kd_ray ray)
     return ray.w >= w || ray.e * ray.e + w2 * (m.a2 + w * (2.0 * m.k - w * m.d)) > 0.0;
 }
 
-/* State of a ray: the current step goes from p to q. side: side of the plane that p is on; crossed: crossings so far;
- * stretch: length of the next stretch, in Mino time; steps: number of steps; goes: there is a current step; lost: the
- * ray's end was not found; left: Mino time from p to a surface that ends the ray (light/meet.glsl). */
+/* State of a ray. The current step goes from p to q. side: side of the plane that p is on. crossed: number of crossings
+ * so far. stretch: length of the next stretch, in Mino time. steps: number of steps. goes: there is a current step.
+ * lost: the ray's end was not found. left: Mino time from p to a surface that ends the ray (light/meet.glsl). */
 struct kd_march_way {
     kd_geodesic m;
     kd_path p, q;
@@ -518,7 +518,7 @@ void kd_march_through(inout kd_beam beam, inout kd_march_way y, kd_ray ray, uvec
                         to);
         kd_spread spread = kd_spread(vec3(0.0), vec3(0.0));
         uint order = 0u;
-        /* order of the next crossing; of the previous one while the ray moves away from the plane */
+        /* order of the next crossing, or of the previous crossing while the ray moves away from the plane */
         if (KD_OVERS || (KD_MARCH_TURNS && ORDERS > 0)) {
             uint passed = y.crossed + (t >= plane ? 1u : 0u);
             bool leaves =

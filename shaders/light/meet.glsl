@@ -47,7 +47,8 @@ bool kd_met_near(kd_met_end a, kd_met_end b, vec4 ball)
     return (g0 < 0.0 && g1 >= 0.0 && dot(z, z) < reach * reach) || dot(z0, z0) < in0 * in0 || dot(z1, z1) < in1 * in1;
 }
 
-/* A point of a ray in the frame of a body: t' w; the square of b w; and Mino time, in steps, per unit of t'. */
+/* A point of a ray in the frame of a body. ahead: t' w. off2: square of b w. rate: Mino time, in steps, per unit of
+ * t'. */
 struct kd_met_sight { float ahead, off2, rate; };
 
 kd_met_sight kd_met_sight_of(kd_met_end e, vec4 a, vec4 b, vec4 c, vec4 v, float turn)

@@ -1,7 +1,8 @@
-/* Describes what each emitter contributes to one ray, in the kernel that makes the picture: transfer.comp compiled with
- * KD_PROBE writes records to binding 3 instead of light; otherwise this compiles to nothing. The first number is the
- * count of records, including those that did not fit. The two sums follow at fixed places, in this order, so that other
- * records cannot displace them. A record is KD_PROBE_RECORD numbers, the first of which is its kind:
+/* Describes what each emitter contributes to one ray, in the kernel that makes the picture. If transfer.comp is
+ * compiled with KD_PROBE, it writes records to binding 3 instead of light. Otherwise this file compiles to nothing. The
+ * first number is the count of records, including those that did not fit. The two sums follow at fixed places, in this
+ * order, so that other records cannot displace them. A record is KD_PROBE_RECORD numbers, the first of which is its
+ * kind:
  *
  *   KD_PROBE_AT        a place: order, w, azimuth, slope, footprint, g, temperature (K), emission angle, transmission
  *                     of everything in front

@@ -18,21 +18,21 @@ struct kd_jones {
     vec2 s;
     vec3 re, im;
 };
-/* A length of matter: its light; its depth for I; its absorption of Q, U and V; and the rotation that it gives to Q, U
- * and V. */
+/* A length of matter. light: its light. depth: its depth for I. takes: its absorption of Q, U and V. turns: the
+ * rotation that it gives to Q, U and V. */
 struct kd_stokes {
     vec4 light;
     float depth;
     vec3 takes, turns;
 };
-/* The effect of such a length on the observer's side: on light from behind, and its own light. */
+/* The effect of such a length at its side towards the observer: on light from behind, and by its own light. */
 struct kd_stokes_cell {
     kd_jones passes;
     vec4 light;
 };
 
-/* below this |lambda|, or below a tenth of a larger depth, differences of nearly equal numbers are replaced by series:
- * at this limit both forms are accurate to about 1e-6 */
+/* below this |lambda|, or below a tenth of a larger depth, series replace differences of nearly equal numbers. At this
+ * limit both forms are accurate to about 1e-6 */
 #define KD_STOKES_NEAR 0.25
 
 vec2 kd_complex_times(vec2 a, vec2 b) { return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x); }
@@ -48,7 +48,7 @@ kd_jones kd_jones_times(kd_jones a, kd_jones b)
     return kd_jones(s, re, im);
 }
 
-/* The form one S + (b c + (b c)*) S + two c S c*, where b c = p + i q and c = re + i im. */
+/* The form `one` S + (b c + (b c)*) S + `two` c S c*, where b c = p + i q and c = re + i im. */
 vec4 kd_stokes_forms(vec4 s, float one, vec3 p, vec3 q, float two, vec3 re, vec3 im)
 {
     vec3 v = s.yzw, across = cross(re, im);
@@ -94,8 +94,8 @@ vec2 kd_stokes_mean(vec2 y, vec2 passes)
     return y2 < 0.25 ? sum : vec2(dot(size, y), size.y * y.x - size.x * y.y) / y2;
 }
 
-/* The means of s^k exp(-t s), k from 1 to 6, by the stable recursion: upwards if t is large, otherwise downwards
- * from a sum of positive terms. */
+/* The means of s^k exp(-t s), k from 1 to 6, by the recursion that is stable: upwards if t is large, otherwise
+ * downwards from a sum of positive terms. */
 struct kd_stokes_moments { float m1, m2, m3, m4, m5, m6; };
 kd_stokes_moments kd_stokes_moments_of(float t)
 {

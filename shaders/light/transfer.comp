@@ -1,7 +1,7 @@
 /* Kernel: makes light (linear sRGB radiance) from the lens map. An invocation lights a pixel, or a column of
- * KD_TRANSFER_ROWS pixels. Variants: KD_MARCH is for scenes with volumes; it follows the rays themselves, one ray of
- * each pixel, which slice.ray numbers. KD_PIECES continues the rays that KD_MARCH could not complete, one piece at a
- * time. */
+ * KD_TRANSFER_ROWS pixels. There are two variants. KD_MARCH is for scenes with volumes: it follows the rays themselves,
+ * and a dispatch follows the ray with the number slice.ray of each pixel. KD_PIECES continues the rays that KD_MARCH
+ * could not complete, one piece at a time. */
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -168,8 +168,8 @@ uint light_at(uint x, uint y)
 #ifdef KD_PROBE
 #include "light/numbers.glsl"
 
-/* Follows one ray, given by the push constants: on the grid its row of rays is row0 and its column `rows`; on listed
- * pixels it is ray number `ray` of pixel number row0 in the list. */
+/* Follows one ray, given by the push constants. On the grid the ray is in row row0 and column `rows` of the rays. On
+ * listed pixels it is ray number `ray` of pixel number row0 in the list. */
 void main()
 {
     kd_camera_read();
@@ -189,8 +189,8 @@ void store_light(uint at, vec3 light)
     radiance[3 * at + 2] = light.b;
 }
 
-/* After the light of the band's pixels follow, one number a pixel each: the separate luminance; Stokes Q, U and V of
- * all light; Q and U of the separate light. */
+/* Numbers that follow the light of the band's pixels, one for each pixel in each plane: the separate luminance; Stokes
+ * Q, U and V of all light; Q and U of the separate light. */
 const uint STOKES_AT = KD_SEPARATE_PHOTOMETRY ? 4u : 3u;
 void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 {
@@ -210,7 +210,7 @@ void store(uint at, vec3 light, float apart, vec3 all, vec2 spots)
 }
 
 /* COLUMNS: an invocation lights KD_TRANSFER_ROWS pixels of a column, with one ray each and without diffuse light behind
- * them. Pixels without light are left as they are: they were set to black before.
+ * them. Pixels without light are not written; they were set to black before.
  *
  * lavapipe executes both sides of a branch, and skips work only by leaving a loop. So a first loop finds what has
  * light, which is cheap, and a second one lights only that. With diffuse light on the sky every pixel has light, and
@@ -280,7 +280,7 @@ void light_rows(uint x, uint y, uint end)
             vec3 behind = ENDS ? beam.through * background(uvec2(x, row), at, light_at(x, row)) : vec3(0.0);
             store(light_at(x, row), beam.light + behind, beam.apart, stokes, stokes_apart);
         }
-        uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* all crossings of this ray */
+        uint hidden = ((1u << ORDERS) - 1u) << (ORDERS * k); /* bits of all crossings of this ray */
         lit &= beam.through > 0.0 ? lit - 1u : ~hidden;
     } while (lit != 0u);
 }
@@ -430,8 +430,8 @@ void main()
     store_ray(to, beam, true);
 }
 #else
-/* The march processes one ray an invocation: lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535
- * passes in total, which the successive rays of a pixel through turbulent gas would reach. */
+/* The march processes one ray an invocation. lavapipe (Mesa 22.3) ends all loops of eight invocations after 65 535
+ * passes in total; the successive rays of a pixel through turbulent gas would reach that limit. */
 void main()
 {
     kd_camera_read();

@@ -12,11 +12,11 @@
  *
  * g has its pole at the time from v = 0 to v = K/D, which is inside the horizon. No stretch outside the horizon lasts
  * that long. No root of f is needed. The pair (g, g') is the same for all points of a path: one pair serves the same
- * time before and after each crossing. It comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z
- * sqrt|A| = pi/2, and beyond by the duplication formula from z to 2z.
+ * time before and after each crossing. The pair comes from the Laurent series of wp (Abramowitz & Stegun 18.5) up to z
+ * sqrt|A| = pi/2. For larger z it comes from the duplication formula from z to 2z.
  *
- * The unit of time is a power of two, so that scaling causes no rounding. It is chosen such that 1 <= |A| < 4, for
- * which a half period lasts from pi/2 to pi. Rays with b below about 1 have a smaller A. Their half periods are longer,
+ * The unit of time is a power of two, so that scaling causes no rounding. This unit is chosen such that 1 <= |A| < 4. A
+ * half period then lasts from pi/2 to pi. Rays with b below about 1 have a smaller A. Their half periods are longer,
  * but these rays are captured or escape long before one ends. */
 #ifndef KD_ARC_GLSL
 #define KD_ARC_GLSL

@@ -22,7 +22,7 @@ kd_nodes kd_nodes_of(kd_lattice l, float z)
 struct kd_drag_terms {
     float a, k, e, root, unit;
     float e2, al; /* 2E, a L + q^2 E */
-    float all;    /* W = E + all w^2 */
+    float all;    /* W = E + `all` w^2 */
     bool falls;   /* true: the ray falls straight in */
 };
 

@@ -50,7 +50,8 @@ kd_direction kd_arc_direction(kd_geodesic m, kd_arcs a, kd_azimuth azimuth, floa
 {
     kd_direction o;
     float unit2 = a.unit * a.unit, d = m.energy2 * unit2 * (max(m.q, 0.0) * unit2);
-    kd_lattice l = kd_lattice_of(a.l.a, d, 0.25 * a.l.a * d); /* for u'^2 = Q + A u^2 - e u^4 */
+    /* lattice of the polar motion, u'^2 = Q + A u^2 - e u^4 */
+    kd_lattice l = kd_lattice_of(a.l.a, d, 0.25 * a.l.a * d);
     kd_arc z = kd_arc_twice(l, kd_arc_short(l, 0.5 * time * a.scale));
     /* u and u' over sqrt(Q), because Q may be 0. */
     float inv = 1.0 / (1.0 + 0.25 * d * z.g * z.g), rise = 0.5 * z.dg * inv;
@@ -75,8 +76,8 @@ vec3 kd_direction_pull(kd_geodesic m, vec3 n)
 }
 
 /* Direction of a ray that escapes soon after its start, with psi counted from the start. The function takes four steps
- * of the vector equation of escape.glsl; for a quarter radian the error of a step is below a float's. A ray that never
- * meets the plane, with b < a, is such a ray if it starts outside the photon orbits. */
+ * of the vector equation of escape.glsl. For a quarter radian the error of a step is below the rounding of a float. A
+ * ray that never meets the plane, with b < a, is such a ray if it starts outside the photon orbits. */
 kd_direction kd_arc_direction_soon(kd_geodesic m, kd_ray ray, float u, float s, float time)
 {
     vec3 n = vec3(s, 0.0, u), v = vec3(-u * ray.p, ray.l, s * ray.p);

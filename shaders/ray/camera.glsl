@@ -18,8 +18,8 @@ kd_camera_block cam;
 struct kd_slice { KD_SLICE_FIELDS_(F, U) };
 layout(push_constant) uniform Slice { kd_slice slice_; };
 
-/* kd_camera_read reads `cam` and `slice`. It must be called before the first branch, because after a branch lavapipe
- * reads them again for each lane and each use. */
+/* kd_camera_read reads `cam` and `slice`. Call it before the first branch, because after a branch lavapipe reads them
+ * again for each lane and each use. */
 kd_slice slice;
 void kd_camera_read()
 {
@@ -72,7 +72,9 @@ kd_ray kd_camera_ray(uint px, uint py)
         ray.e = cam.e_t + cam.e_r * m_r + cam.e_theta * m_theta + cam.e_phi * m_phi;
         ray.l = cam.l_t + cam.l_r * m_r + cam.l_theta * m_theta + cam.l_phi * m_phi;
         ray.p = cam.p_t - (cam.p_r * kx + cam.p_theta * ky + cam.p_phi * kz) *
-                              n; /* n is multiplied here and not through m, so that a product is rounded once less */
+                              /* n is multiplied here and not through m, because a product is then rounded one time
+                               * less */
+                              n;
         ray.w = cam.w0;
         ray.dw = cam.dw_t - (cam.dw_r * kx + cam.dw_theta * ky + cam.dw_phi * kz) * n;
     }

@@ -49,8 +49,8 @@ uint side_of(uint level) { return KD_CELL_BLOCK >> (level - 1u); }
 /* Word at which the list of units of a kind begins: 0 for crossings, 1 for the sky. */
 uint units_of(uint kind) { return KD_SAMPLE_QUEUES + blocks() * (KD_SAMPLE_QUEUED + kind * KD_SAMPLE_UNITS); }
 
-/* A unit in one word: the cell's corner in units of eight rays, the number of the unit's eight columns in the cell, and
- * the cell's level. */
+/* A unit in one word. It holds the cell's corner in units of eight rays, the number of the unit's eight columns in the
+ * cell, and the cell's level. */
 uint kd_unit(uvec2 corner, uint eight, uint level) { return corner.x + eight | corner.y << 15 | (level - 1u) << 29; }
 /* Corner of the unit's eight columns, in rays. */
 uvec2 kd_unit_corner(uint unit) { return 8u * uvec2(unit & 0x7fffu, (unit >> 15) & 0x3fffu); }

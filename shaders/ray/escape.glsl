@@ -95,7 +95,7 @@ kd_escape kd_path_escape(kd_geodesic m, kd_ray ray, kd_path p)
      * 1/sqrt(6K w), for a ray deep inside the hole. */
     float rate2 = max(ray.l * ray.l + ray.p * ray.p, ray.e * ray.e);
     float h = KD_PI / (float(STEPS) * sqrt(rate2));
-    /* Twelve half periods: after them only rays within 1e-13 of the critical curve still circle. */
+    /* The loop covers twelve half periods. After these only rays within 1e-13 of the critical curve still circle. */
     for (uint i = 0; i < 12 * STEPS; i++) {
         if (INGOING)
             h = KD_PI / (float(STEPS) * sqrt(rate2 + 6.0 * m.k * p.y.w));

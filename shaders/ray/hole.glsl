@@ -1,6 +1,6 @@
-/* The hole, as src/physics/spacetime/hole.h: Delta, the mass term, the numbers in the equations of light, and the terms
- * of azimuth and time that grow without bound at the horizon for a ray that falls in. For kernels that have `cam`
- * see also ray/metric.glsl. */
+/* Functions of the hole, as in src/physics/spacetime/hole.h: Delta, the mass term, the numbers in the equations of
+ * light, and the terms of azimuth and time that grow without bound at the horizon for a ray that falls in. Kernels that
+ * have `cam` find further functions in ray/metric.glsl. */
 #ifndef KD_HOLE_GLSL
 #define KD_HOLE_GLSL
 

@@ -17,9 +17,10 @@ struct kd_ray {
     float w, dw;   /* M/r of the observer, and dw/dtau there along the traced path */
 };
 
-/* Bounds of the rounding error of R = W^2 - D K w^2, for all rays of an observer. E, L and p_theta are sums of terms,
- * with errors of some roundoffs of the terms' sizes, which are at most size_e, |L| + d_l and |p| + d_p. With j = |a|
- * size_e, and h for w at the horizon, W has an error of w + wl |l| and K one of l^2 + p^2 + p |p| + l |l| + k:
+/* Bounds of the rounding error of R = W^2 - D K w^2, for all rays of an observer. E, L and p_theta are sums of terms.
+ * Their errors are some roundoffs of the terms' sizes, and these sizes are at most size_e, |L| + d_l and |p| + d_p.
+ * With j = |a| size_e, and h for w at the horizon, W has an error of w + wl |l| and K one of l^2 + p^2 + p |p| + l |l|
+ * + k:
  *   w = size_e + |a| h^2 (j + s d_l),  wl = |a| s h^2,  p = d_p,  l = d_l + 2 s j,  k = j ((1 + u^2) j + s d_l),
  * and `least` is of second order (kd_camera_exact of src/render/view/camera.c). */
 struct kd_rounding {
@@ -59,9 +60,9 @@ kd_geodesic kd_geodesic_of(kd_ray ray, kd_hole_numbers hole, float u, float s)
     return m;
 }
 
-/* A, K and Q are multiplied by this factor before they are squared; the result is multiplied by the inverse factor. It
- * is 1 unless their squares exceed a float's range, as for a fast observer far away. The factors are powers of two, so
- * that no digit changes. */
+/* A, K and Q are multiplied by this factor before they are squared; the result is multiplied by the inverse factor. The
+ * factor is 1 unless the squares exceed a float's range, as for a fast observer far away. The factors are powers of
+ * two, so that no digit changes. */
 float kd_squared_by(kd_geodesic m) { return max(abs(m.a2), abs(m.k)) > 1e15 ? 8.673617379884035e-19 : 1.0; }
 float kd_squared_back(float by) { return by < 1.0 ? 1152921504606846976.0 : 1.0; }
 

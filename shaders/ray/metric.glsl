@@ -4,9 +4,9 @@
 
 #include "ray/hole.glsl"
 
-/* a^2 w^2; Delta/r^2, at least 1e-30; A/r^4; Sigma/r^2; and the angular velocity of an observer of zero angular
- * momentum (Bardeen, Press & Teukolsky 1972, with 2r - q^2 for 2r). The square of that observer's lapse is sigma delta
- * / area. u: cosine of the polar angle. s2: square of its sine. */
+/* aw2: a^2 w^2. delta: Delta/r^2, at least 1e-30. area: A/r^4. sigma: Sigma/r^2. omega: angular velocity of an observer
+ * of zero angular momentum (Bardeen, Press & Teukolsky 1972, with 2r - q^2 for 2r). The square of that observer's lapse
+ * is sigma delta / area. u: cosine of the polar angle. s2: square of its sine. */
 struct kd_place { float aw2, delta, area, sigma, omega; };
 kd_place kd_place_at(float w, float u, float s2)
 {
@@ -53,8 +53,8 @@ float kd_body_quadratic(float moving)
     return c2;
 }
 
-/* The circular orbit at w = 1/r: all, its 1/Omega; and rest = P^2 r^(1/2)/s^2, whose root over r^(3/4) and `all` gives
- * 1/u^t (orbit.glsl). one_minus_a: 1 - a in full precision.
+/* The circular orbit at w = 1/r. all: its 1/Omega. rest: P^2 r^(1/2)/s^2, so that 1/u^t is r^(3/4) sqrt(rest) / all
+ * (orbit.glsl). one_minus_a: 1 - a in full precision.
  *
  * With x = sqrt(r), 1 - 3/r + 2a r^-3/2 = ((x - 1)^2 (x + 2) - 2 (1 - a)) / x^3. Near the ISCO of a fast hole the
  * left-hand side loses all digits. */

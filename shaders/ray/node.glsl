@@ -24,7 +24,7 @@ void kd_finish_node(uint at, uint crossings, bool captured, float curve)
     }
 }
 
-/* Completes a ray or a node. An open node is not listed for the host: its state says that it is open, and the rays of
+/* Completes a ray or a node. An open node is not listed for the host. Its state says that it is open, and the rays of
  * its cells are traced singly. curve: for rays, a smooth function that vanishes where fates change. */
 void kd_finish_ray(bool open, uint at, uint crossings, bool captured, float curve)
 {

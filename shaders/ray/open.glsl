@@ -15,8 +15,8 @@ void kd_leave_open(bool open, uint at)
     }
 }
 
-/* Margins of a crossing: the least distances, in units of w, from infinity and from the horizon at which rounding can
- * neither create nor remove the crossing. */
+/* Margins of a crossing: least distances, in units of w, from infinity and from the horizon. At these distances
+ * rounding can neither create nor remove the crossing. */
 struct kd_margins { float far, horizon, edge; };
 
 /* far, horizon: the scales of w far out and at the horizon. noise: rounding error of R at the turning point. The margin

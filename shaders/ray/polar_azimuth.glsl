@@ -7,9 +7,9 @@
  *     sign(L) d atan(tan x / sqrt(1 - U+)) + L e dx / (sqrt(y) sqrt(c) (sqrt(y) + sqrt(c))).
  *
  * The first term contains the whole peak and is exact; between crossings it is pi. The second is small and smooth, even
- * and periodic in x. It is computed as a cosine series through five points, whose terms fall as ((p - q)/(p + q))^k.
- * Rays with an impact parameter below about twice the spin would need many more terms. They are few in a picture, and
- * their second term is integrated in time. */
+ * and periodic in x. This term is computed as a cosine series through five points, whose terms fall as ((p - q)/(p +
+ * q))^k. Rays with an impact parameter below about twice the spin would need many more terms. Such rays are few in a
+ * picture, and their second term is integrated in time. */
 #ifndef KD_POLAR_AZIMUTH_GLSL
 #define KD_POLAR_AZIMUTH_GLSL
 

@@ -47,10 +47,10 @@ float kd_drag(kd_geodesic m, kd_state y, float e, float a, float root, float way
     return a * w * (2.0 * e - m.drag * w) / kd_horizons(w, root);
 }
 
-/* kd_drag for a ray that may come from inside the horizon or return to it. It uses ingoing coordinates (way = -1) while
- * the ray goes outwards, and outgoing ones (1) while the ray returns. Ingoing coordinates divide by D only while the
- * ray returns, and outgoing ones only while it goes outwards. Both are smooth where the ray turns, because w'^2 = W^2 -
- * D K w^2. */
+/* kd_drag for a ray that may come from inside the horizon or return to it. The function uses ingoing coordinates (way =
+ * -1) while the ray goes outwards, and outgoing ones (1) while the ray returns. Ingoing coordinates divide by D only
+ * while the ray returns, and outgoing ones only while it goes outwards. Both azimuths are smooth where the ray turns,
+ * because w'^2 = W^2 - D K w^2. */
 float kd_drag_ingoing(kd_geodesic m, kd_state y, float e, float a, float root, float way)
 {
     float w2 = y.w * y.w, speed = abs(y.dw), sum = max(e + a * (a * e - m.momentum) * w2 + speed, 1e-12);

@@ -1,7 +1,7 @@
 /* The rim of the shadow: rays next to the critical curve (src/render/view/rim.h) on several grids (rim_grid.h). Images
  * of stars of all orders are found between these rays. Binding 7. Needs sky_map.glsl and camera.glsl, and the
- * specialisation constant RIM. 0: there is no rim; 1: the rays are the picture's, and images next to the curve are left
- * to the rim; 2: the rays are those of a grid of the rim. */
+ * specialisation constant RIM. RIM 0: there is no rim. 1: the rays are the picture's, and images next to the curve are
+ * left to the rim. 2: the rays are those of a grid of the rim. */
 #ifndef KD_RIM_GLSL
 #define KD_RIM_GLSL
 
@@ -20,8 +20,8 @@ vec3 kd_camera_look(vec2 place)
            y * vec3(cam.cyx, cam.cyy, cam.cyz);
 }
 
-/* The place of a direction in the picture; and the squared steps of the picture per unit of area about `ahead` on the
- * direction's plane. steps is 0 behind a pinhole. */
+/* Where the camera sees a direction: the place in the picture, and the squared steps of the picture per unit of area
+ * about `ahead` on the direction's plane. steps is 0 behind a pinhole. */
 struct kd_seen {
     vec2 place;
     float steps;

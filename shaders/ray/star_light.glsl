@@ -1,6 +1,6 @@
-/* Spreads the light of a star's image over 3 x 3 pixels as a quadratic B-spline with a standard deviation of half a
- * pixel: the weights add up to 1, and their centre is the image's place. Light is summed in 64-bit fixed point, so
- * that the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. Needs around.glsl. */
+/* Spreads the light of a star's image over 3 x 3 pixels, as a quadratic B-spline with a standard deviation of half a
+ * pixel. The weights add up to 1, and their centre is the image's place. Light is summed in 64-bit fixed point, so that
+ * the sum does not depend on the order. Binding KD_STAR_LIGHT_BINDING. Needs around.glsl. */
 #ifndef KD_STAR_LIGHT_GLSL
 #define KD_STAR_LIGHT_GLSL
 

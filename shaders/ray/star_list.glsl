@@ -1,10 +1,10 @@
-/* The list of stars in cells, shared by the kernels that search stars, and their output: pairs of a ray and a star,
- * and rays still to be searched. Bindings 3 to 6. Needs sky_map.glsl. */
+/* Buffers shared by the kernels that search stars: the list of stars in cells, and the kernels' output. The output is
+ * pairs of a ray and a star, and rays still to be searched. Bindings 3 to 6. Needs sky_map.glsl. */
 #ifndef KD_STAR_LIST_GLSL
 #define KD_STAR_LIST_GLSL
 
 #include "shared/faces.h"
-/* the number of pairs; from word 2 on the pairs, a ray and a star each */
+/* word 0: the number of pairs; from word 2 on: the pairs, each a ray and a star */
 layout(set = 0, binding = 3) buffer Pairs { uint pairs[]; };
 #ifdef KD_TEXELS
 layout(set = 0, binding = 4) uniform textureBuffer stars;
@@ -20,7 +20,7 @@ uint cell_at(uint of) { return cells[of]; }
 layout(set = 0, binding = 6) buffer Listed
 {
     uint listed[];
-}; /* numbers of tiles and of rays; the tiles, with room for push.tiles of them; then the rays */
+}; /* the number of tiles and the number of rays; then the tiles, with room for push.tiles of them; then the rays */
 
 /* The cells of a face that lie in a rectangle. */
 struct kd_cells {

@@ -6,16 +6,16 @@
 #ifndef KD_BLOOM_GLSL
 #define KD_BLOOM_GLSL
 
-/* All in units of white, to which the exposure maps 1. FROM: light above this may be spread; KNEE: half the width of
- * the transition; MOST: the most that is spread from one place. Light near white is included, because the film-like
- * curve shows the brightest parts of many pictures there. */
+/* All three in units of white, to which the exposure maps 1. FROM: light above this may be spread. KNEE: half the width
+ * of the transition. MOST: the most light that is spread from one place. Light near white is included, because the
+ * film-like curve shows the brightest parts of many pictures there. */
 #define KD_BLOOM_FROM 0.6
 #define KD_BLOOM_KNEE 0.4
 #define KD_BLOOM_MOST 64.0
 
-/* The part of exposed light c that a lens spreads, where `strength` is the fraction for bright light. With y the
- * luminance, it is nothing if y is below FROM - KNEE, everything above FROM if y is above FROM + KNEE, and a parabola
- * between. If y is 10^30 or more, or NaN, nothing is spread. */
+/* The part of exposed light c that a lens spreads, where `strength` is the fraction for bright light. Let y be the
+ * luminance. If y is below FROM - KNEE, nothing is spread. If y is above FROM + KNEE, everything above FROM is spread.
+ * Between these values the part is a parabola in y. If y is 10^30 or more, or NaN, nothing is spread. */
 vec3 bloom_of(vec3 c, float strength)
 {
     float y = 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b;

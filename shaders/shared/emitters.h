@@ -1,5 +1,6 @@
 /* The list of emitters, which send light along a ray, absorb it or change it. Each has a line here, in the order of
- * composition at one place. The number is that of the specialisation constant TRAITS_name, counted from KD_SPEC_TRAITS.
+ * composition at one place. An emitter's number, added to KD_SPEC_TRAITS, is the id of its specialisation constant
+ * TRAITS_name.
  *
  *   AT_CROSSING   kd_name_glow(sample): light of a crossing of the equatorial plane, and its opacity
  *   HELPER        no light of its own: other emitters call its functions, so that shared values are computed once
@@ -27,7 +28,7 @@
  *   KD_PASS_name(P)         the pass that fills them, if it has one: P(name, ID, word, guess). It is timed and named
  *                           in plans by the emitter's name, and its kernel is comp/name.comp. The cost of an
  *                           invocation is measured on frames as the figure KD_NS_ID, which GET /v1/device calls
- *                           `word`; until then it is `guess`, lavapipe's nanoseconds
+ *                           `word`; until then it is `guess`, in ns on lavapipe
  *
  * and, if KD_EMIT_CODE is defined, its functions. src/render/emit/name.c computes numbers and tables
  * (src/render/emit/emitter.h). Both files are found by the name: the build reads this list (shaders/meson.build). */
@@ -55,21 +56,21 @@
 
 /* The blocks of numbers of all emitters and of the frame. */
 #define KD_EMIT_BLOCKS(B) B(-1, frame) KD_EMITTERS(B, B, B, B, B, B)
-/* All tables in sequence, by the KD_T(table, rows) defined at the place of use. */
+/* All tables in sequence. The place of use defines KD_T(table, rows), which expands each. */
 #define KD_TABLES_OF_(number, name) KD_TABLES_##name(KD_T)
 #define KD_EMIT_TABLES \
     KD_TABLES_colour(KD_T) \
         KD_EMITTERS(KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_, KD_TABLES_OF_)
-/* All buffers, by the KD_B(number, type, member) defined at the place of use. They are bindings of the kernels of
- * light, from KD_OWN_BINDING on. */
+/* All buffers. The place of use defines KD_B(number, type, member), which expands each. The buffers are bindings of the
+ * kernels of light, from KD_OWN_BINDING on. */
 #define KD_BUFFERS_OF_(number, name) KD_BUFFERS_##name(KD_B)
 #define KD_EMIT_BUFFERS \
     KD_EMITTERS(KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_, KD_BUFFERS_OF_)
 #define KD_OWN_BINDING 5
-/* Binding at which layers.comp reads the light stored by the march. It replaces the binding of the points of light,
- * because that light includes the points and a device may allow only 8 storage buffers for a kernel. */
+/* Binding at which layers.comp reads the light that the march has stored. It takes the place of the binding for points
+ * of light: the stored light includes the points, and a device may allow only 8 storage buffers for a kernel. */
 #define KD_LIGHT_BINDING (KD_OWN_BINDING + 2)
-/* All passes that belong to emitters, by the KD_P(name, ID, word, guess) defined at the place of use
+/* All passes that belong to emitters. The place of use defines KD_P(name, ID, word, guess), which expands each
  * (render/plan/pass.h). */
 #define KD_PASS_OF_(number, name) KD_PASS_##name(KD_P)
 #define KD_EMIT_PASSES KD_EMITTERS(KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_, KD_PASS_OF_)
@@ -79,7 +80,7 @@
 #define KD_TRAIT_PRESENT 1u
 #define KD_TRAIT_SEPARATE_PHOTOMETRY 32u
 #define KD_TRAIT_SLOW \
-    16u /* moving emitters are shown as they were when their light left them; for this, volumes are given the light \
+    16u /* slow light: moving emitters are shown as they were when their light left them; volumes then get the light \
          * delay */
 #define KD_TRAIT_AZIMUTH \
     0x20000000u /* for volumes: the emitter needs the azimuth of a point, and the footprint of a ray there */

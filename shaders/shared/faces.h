@@ -11,7 +11,7 @@
 #define KD_FACE_COARSE 32
 #define KD_FACE_FAR 0.06 /* distance on a face from which a search counts as wide */
 #define KD_FACES 6
-/* numbers of a table: the start of each cell, and the end, twice */
+/* words of a table: the start of each cell, and two words with the end of the last cell */
 #define KD_FACE_TABLE(side) (KD_FACES * (side) * (side) + 2)
 
 #ifdef VULKAN

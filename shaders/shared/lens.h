@@ -1,6 +1,6 @@
-/* The quantities of a lens map, in the order of their planes: first those of each crossing, with a plane for each image
- * order, then those of each ray, with one plane. A map holds the quantities of a set of bits. C and GLSL expand both
- * lists.
+/* The quantities of a lens map, in the order of their planes. The quantities of a crossing come first, and have a plane
+ * for each image order. The quantities of a ray follow, and have one plane. A map holds the quantities of a set of
+ * bits. C and GLSL expand both lists.
  *
  *   W        1/r of the crossing; 0: there is none; negative: the ray was given up on the way to it
  *   PHI      azimuth of the crossing, source minus observer, radians
@@ -16,8 +16,8 @@
  *   FATE     KD_FATE_... of interface.h
  *   SKY_FOOTPRINT  size of a ray's footprint on the sky, radians
  *
- * Shapes need footprints. Footprints need W and PHI, or SKY_U, SKY_PHI and FATE; they are KD_FOOTPRINT_EDGE if a ray
- * has no neighbours. */
+ * Shapes need footprints. Footprints need W and PHI, or SKY_U, SKY_PHI and FATE. The footprint of a ray without
+ * neighbours is KD_FOOTPRINT_EDGE. */
 #ifndef KD_LENS_H
 #define KD_LENS_H
 

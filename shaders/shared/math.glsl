@@ -5,7 +5,7 @@
 
 #define KD_PI 3.14159265358979323846
 
-/* True if x is finite, by the bits of the exponent. A comparison would not be reliable: a compiler that need not
+/* True if x is finite, by the bits of the exponent. A comparison would not be reliable. A compiler that need not
  * preserve NaN (Vulkan 1.2, shaderSignedZeroInfNanPreserve) may treat any comparison with NaN as true. */
 bool kd_is_finite(float x)
 {
@@ -51,7 +51,7 @@ float kd_turned(float d) { return d - 2.0 * KD_PI * floor(d / (2.0 * KD_PI) + 0.
 
 float kd_atan2(float y, float x) { return y < 0.0 ? -kd_angle_upper(x, -y) : kd_angle_upper(x, y); }
 
-/* A power of ten that scales a number > 0 so that its square is representable in 32 bits: squares of numbers below
+/* A power of ten that scales a number > 0 so that its square is representable in 32 bits. Squares of numbers below
  * 1e-19 or above 1e19 are not. */
 float kd_squarable(float x) { return x < 1e-10 ? 1e25 : x > 1e10 ? 1e-20 : 1.0; }
 

@@ -1,18 +1,20 @@
-/* Specialisation constants of the kernels: U(id, name, value) an unsigned one, B(id, name, value) a flag. Each list is
- * written once. GLSL declares its constants from the list, and C a struct of 32-bit members, whose offsets are checked
- * against the ids at compile time. */
+/* Specialisation constants of the kernels: U(id, name, value) is an unsigned constant, B(id, name, value) a flag. Each
+ * list is written once. GLSL declares its constants from the list. C declares a struct of 32-bit members, whose offsets
+ * are checked against the ids at compile time. */
 #ifndef KD_SPEC_H
 #define KD_SPEC_H
 
-/* SIGHT: projection of the camera, KD_SIGHT_ of interface.h. CRITICAL: rays of each listed pixel (ray/place.glsl),
- * 0: rays of the picture's grid; GENERATOR, SHIFT: their lattice. */
+/* SIGHT: projection of the camera, KD_SIGHT_ of interface.h. CRITICAL: number of rays of each listed pixel
+ * (ray/place.glsl); 0: rays of the picture's grid. GENERATOR, SHIFT: parameters of the lattice of a listed pixel's
+ * rays. */
 /* clang-format off */
 #define KD_SPEC_LENS_CLOSED(U, B) \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, SIGHT, 0) U(3, CRITICAL, 0) U(4, GENERATOR, 1) U(5, SHIFT, 0)
 /* clang-format on */
 
-/* STEPS: per half period, a multiple of 4 for the quadrature; METHOD: order of the Nystroem method, 4 or 6; INGOING:
- * the observer falls, its azimuth is in ingoing coordinates, and it may be inside the outer horizon. */
+/* STEPS: number of steps in a half period, a multiple of 4 for the quadrature. METHOD: order of the Nystroem method, 4
+ * or 6. INGOING: the observer falls. Its azimuth is then in ingoing coordinates, and it may be inside the outer
+ * horizon. */
 /* clang-format off */
 #define KD_SPEC_LENS_MAP(U, B) \
     U(0, QUANTITIES, 1) U(1, ORDERS, 3) U(2, STEPS, 8) U(3, METHOD, 6) U(4, SIGHT, 0) \
@@ -49,35 +51,35 @@
 /* For rays.comp and rays_kerr_schild.comp. METHOD: order of the Nystroem method, or one of the Kerr-Schild methods. */
 #define KD_SPEC_RAYS(U, B) U(0, ORDERS, 3) U(1, STEPS, 16) U(2, METHOD, 6)
 
-/* SWING: there are epicycles; LIST: return places instead of depositing; PLUNGE: process falling particles, which in a
- * list have the lowest numbers. */
+/* SWING: there are epicycles. LIST: return places instead of depositing weights. PLUNGE: process falling particles; in
+ * a list these have the lowest numbers. */
 #define KD_SPEC_PARTICLES(U, B) B(0, SWING, true) B(1, LIST, false) B(2, PLUNGE, false)
 
-/* SEPARATE_PHOTOMETRY: the luminance of some emitter is kept separately; FINITE: solid angles of an observer at a
- * finite radius; STOKES: Stokes Q, U and V follow the radiance; STOKES_APART: then Q and U of the separate luminance
- * follow. */
+/* SEPARATE_PHOTOMETRY: the luminance of some emitter is kept separately. FINITE: the observer is at a finite radius, so
+ * solid angles are used. STOKES: Stokes Q, U and V follow the radiance. STOKES_APART: Q and U of the separate luminance
+ * follow these. */
 #define KD_SPEC_PHOTOMETRY(U, B) \
     B(0, SEPARATE_PHOTOMETRY, false) B(1, FINITE, false) B(2, STOKES, false) B(3, STOKES_APART, false)
 
-/* For star_tiles.comp, star_search.comp and star_images.comp. VISIBLE: brightness weighted as by the eye; TILE: rays
- * along the sides of a tile; RIM: as in ray/rim.glsl. */
+/* For star_tiles.comp, star_search.comp and star_images.comp. VISIBLE: brightness is weighted as by the eye. TILE: rays
+ * along the sides of a tile. RIM: as in ray/rim.glsl. */
 /* clang-format off */
 #define KD_SPEC_STARS(U, B) \
     U(0, QUANTITIES, 1) \
     U(1, ORDERS, 3) U(2, SIDE, 1) U(3, SIGHT, 0) B(4, VISIBLE, false) U(5, TILE, 9) U(6, RIM, 0) B(7, BRIGHT, false)
 /* clang-format on */
 
-/* BLOCK_X, BLOCK_Y: sides of a block in pixels, 1, 2 or a multiple of 4; BEGUN: the first row of blocks has rows in
- * earlier bands. TAPS_X, TAPS_Y: blocks along an axis that two cells may read; RAGGED: the last block is narrower
- * than the others. */
+/* BLOCK_X, BLOCK_Y: sides of a block in pixels, 1, 2 or a multiple of 4. BEGUN: the first row of blocks has rows in
+ * earlier bands. TAPS_X, TAPS_Y: blocks along an axis that two cells may read. RAGGED: the last block is narrower than
+ * the others. */
 #define KD_SPEC_BLOOM_BRIGHT(U, B) U(0, BLOCK_X, 2) U(1, BLOCK_Y, 2) B(2, BEGUN, false)
 #define KD_SPEC_BLOOM_GATHER(U, B) U(0, TAPS_X, 7) U(1, TAPS_Y, 7) B(2, RAGGED, false) B(3, AROUND, false)
 /* AROUND: the picture shows all directions, so its right and left edges adjoin. */
 #define KD_SPEC_BLOOM_GRID(U, B) B(0, AROUND, false)
 
-/* ACES: the film-like curve; WIDE: 16 bits a channel; NEUTRAL: the curve that keeps colours; without either light is
- * clipped. COLUMNS: columns of cells of the bloom grid that the four pixels of an invocation read together; 0: each
- * pixel reads its own. */
+/* ACES: the film-like curve. NEUTRAL: the curve that keeps colours. Without either flag, light is clipped. WIDE: 16
+ * bits a channel. COLUMNS: columns of cells of the bloom grid that the four pixels of an invocation read together; 0:
+ * each pixel reads its own cells. */
 #define KD_SPEC_POST(U, B) B(0, ACES, true) B(1, WIDE, false) B(2, NEUTRAL, false) U(3, COLUMNS, 0) B(4, AROUND, false)
 
 /* For beam_gather.comp and beam_spread.comp: whether cells are larger than pixels. */

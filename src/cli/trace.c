@@ -25,7 +25,7 @@ enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, 
         .orders = (int)steps->params.orders,
     };
     enum kd_status status;
-    KD_TRY(kd_rays_closed(&steps->params, &labels, true, crossings, &out->end, NULL, NULL, error));
+    KD_TRY(kd_rays_closed(&steps->params, &labels, KD_CLOSED_ERRORS, crossings, &out->end, NULL, NULL, error));
     out->motion = kd_ray_motion_of(&ray);
     KD_TRY(kd_ray_path_draw(&out->motion, &(struct kd_ray_path_frame) { 0 }, crossings, out->end.n_crossings,
                             &out->path, error));

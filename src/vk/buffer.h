@@ -9,7 +9,7 @@
 #include "vk/vk.h"
 
 struct kd_vk_buffer {
-    struct kd_vk_retired retired; /* must be the first member, because retire.c knows only this part */
+    struct kd_vk_retired retired; /* must be the first member, because retire.c accesses only this part */
     VkBuffer handle;
     struct kd_vk_slice slice;
     uint64_t id, size;

@@ -19,7 +19,7 @@ enum kd_status kd_vk_cache_init(struct kd_vk_cache *cache, const struct kd_vk_co
                                 struct kd_error *error);
 /* If the cache has grown, writes it back atomically. Frees it. A failure to write is logged at debug level only. */
 void kd_vk_cache_finish(struct kd_vk_cache *cache, const struct kd_vk_core *core);
-/* Path of the file in the cache's folder that has the cache's name with this suffix; see kd_vk_cache_file. */
+/* Path of a file beside the cache's file, with the same name and this suffix; see kd_vk_cache_file. */
 char *kd_vk_cache_beside(const struct kd_vk_cache *cache, const char *suffix);
 
 #endif

@@ -23,8 +23,8 @@ static bool better(const struct kd_vk_info *a, const struct kd_vk_info *b)
     return a->subgroup_size > b->subgroup_size;
 }
 
-/* Finds the best usable device whose name contains `part`; "" matches any name. Among equals it is the first. Returns
- * count if there is none. */
+/* Finds the best usable device whose name contains `part`; "" matches any name. Among equal devices, the first one is
+ * taken. Returns count if there is none. */
 static size_t best(const struct kd_vk_info *infos, size_t count, const char *part, size_t *matches)
 {
     size_t found = count;

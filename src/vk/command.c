@@ -10,7 +10,7 @@
 
 enum { COUNTS_BYTES = 12 }; /* size of the counts of an indirect dispatch */
 
-/* Bytes of a binding. For texels only complete ones count. */
+/* Bytes of a binding. A binding of texels has only complete texels. */
 static uint64_t size_of(const struct kd_vk_binding *binding, enum kd_vk_kind kind)
 {
     uint64_t size = binding->size ? binding->size : binding->buffer->size - binding->offset;

@@ -1,4 +1,5 @@
-/* The data that all objects of an open device share: its functions, its handles and properties, and its loss. */
+/* The data that all objects of an open device share: the device's functions, handles and properties, and whether the
+ * device is lost. */
 #ifndef KD_VK_CORE_H
 #define KD_VK_CORE_H
 

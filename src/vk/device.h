@@ -52,7 +52,8 @@ struct kd_vk {
     struct kd_vk *next_lost;
 };
 
-/* Frees the object now if it is idle, else later; on a lost device, when the device is closed. */
+/* Frees the object now if it is idle, otherwise when it becomes idle. On a lost device it is freed when the device is
+ * closed. */
 void kd_vk_retire(struct kd_vk *vk, struct kd_vk_retired *object);
 
 /* Timeline value of the commands being recorded. */

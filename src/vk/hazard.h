@@ -1,6 +1,6 @@
 /* Hazard table: decides which commands need a barrier between them. Pure, without Vulkan calls.
  *
- * The table lists the accesses since the last barrier, in the order of recording. They may belong to several
+ * The table lists the accesses since the last barrier, in the order of recording. The accesses may belong to several
  * submissions, because a pipeline barrier also orders earlier submissions of its queue. A command conflicts if one of
  * its ranges overlaps a listed range of the same buffer and at least one of the two accesses writes. A barrier orders
  * all commands before it against all commands after it, in all stages that we use and for each kind of binding. So the

@@ -41,7 +41,7 @@ static bool has_layer(const struct kd_vk_functions *fn, const char *name)
     return found;
 }
 
-/* True if a layer has an extension; layer NULL: whether the loader or a driver has it. */
+/* True if a layer has an extension. If layer is NULL: true if the loader or a driver has it. */
 static bool has_extension(const struct kd_vk_functions *fn, const char *layer, const char *name)
 {
     uint32_t n = 0;
@@ -199,8 +199,9 @@ enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validat
     enum kd_status status = check_address_space(error);
     if (status)
         return status;
-    const bool own = !validate && kd_vk_own_driver(path); /* layers need a loader */
-    if (own && kd_vk_own_entered())                       /* where the system's drivers have been tried already */
+    const bool own = !validate && kd_vk_own_driver(path); /* the validation layer needs a loader */
+    /* the system's drivers were tried before the program entered its driver's C library */
+    if (own && kd_vk_own_entered())
         return make_own(instance, path, error);
     status = make_system(instance, validate, error);
     if (!own || (status && status != KD_EDEVICE) || (!status && kd_vk_instance_has_device(instance)))

@@ -12,12 +12,12 @@ struct kd_vk_instance {
     bool own_driver; /* the system has no device of Vulkan 1.2; this driver is installed with the program */
 };
 
-/* If validate is true and no layer is installed it returns KD_EDEVICE, because otherwise the absence of messages
- * would be taken for success. After the call the struct must not move, because the messenger refers to it. */
+/* Returns KD_EDEVICE if validate is true and no layer is installed. Otherwise the absence of messages would be taken
+ * for success. After the call the struct must not move, because the messenger refers to it. */
 enum kd_status kd_vk_instance_init(struct kd_vk_instance *instance, bool validate, struct kd_error *error);
-/* Likewise, without validation and only with drivers of the system. */
+/* Like kd_vk_instance_init, but without validation and with the system's drivers only. */
 enum kd_status kd_vk_instance_init_system(struct kd_vk_instance *instance, struct kd_error *error);
-/* Whether it has a device of Vulkan 1.2. */
+/* True if the instance has a device of Vulkan 1.2. */
 bool kd_vk_instance_has_device(const struct kd_vk_instance *instance);
 void kd_vk_instance_finish(struct kd_vk_instance *instance);
 

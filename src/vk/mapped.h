@@ -20,7 +20,8 @@ struct kd_vk_mapped {
  * buffer is destroyed. */
 void kd_vk_mapped_enter(struct kd_vk_mapped **list, struct kd_vk_mapped *mapped);
 void kd_vk_mapped_forget(struct kd_vk_mapped **list, const struct kd_vk_mapped *mapped);
-/* Notes that the submission with this number reads the buffer. write: it writes the buffer, and may read it. */
+/* Notes that the submission with this number reads the buffer. write: the submission writes the buffer, and may read
+ * it. */
 void kd_vk_mapped_use(struct kd_vk_mapped *mapped, uint64_t value, bool write);
 /* kd_vk_mapped_flush is called before the submission with this number. kd_vk_mapped_invalidate is called when the
  * submissions up to `done` have finished. kd_vk_mapped_discard is called when the recording of the submission after

@@ -40,7 +40,7 @@ struct kd_vk_slice {
 
 enum kd_status kd_vk_heap_init(struct kd_vk_heap *heap, const struct kd_vk_core *core, struct kd_error *error);
 void kd_vk_heap_finish(struct kd_vk_heap *heap, const struct kd_vk_core *core);
-/* KD_ENOMEM: the heap is full, for now. */
+/* Returns KD_ENOMEM if the heap is full at present. */
 enum kd_status kd_vk_heap_take(struct kd_vk_heap *heap, const struct kd_vk_core *core, enum kd_vk_memory memory,
                                uint64_t size, uint64_t alignment, struct kd_vk_slice *out, struct kd_error *error);
 void kd_vk_heap_give(struct kd_vk_heap *heap, const struct kd_vk_core *core, const struct kd_vk_slice *slice);

@@ -131,7 +131,7 @@ done:
 #define IDLE_TRIES 3
 
 /* True if the objects may be destroyed. By the specification, objects of a lost device may be destroyed once
- * vkDeviceWaitIdle has returned. Those of a hanging device may never be destroyed. */
+ * vkDeviceWaitIdle has returned. Objects of a hanging device may never be destroyed. */
 static bool is_idle(struct kd_vk *vk)
 {
     if (vk->core.pipelines_only)

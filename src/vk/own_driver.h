@@ -1,8 +1,8 @@
 /* The software driver that may be installed with the program (scripts/driver): ../lib/kerrd-driver or kerrd-driver, as
  * seen from the program's folder. It is for systems without a device of Vulkan 1.2.
  *
- * The driver's libraries need glibc 2.36. For older systems the folder has that C library, too, with its dynamic
- * linker: the program can be started by them, and then runs within that C library. */
+ * The driver's libraries need glibc 2.36. For older systems the folder also has that C library with its dynamic
+ * linker. The linker can start the program, which then runs within that C library. */
 #ifndef KD_VK_OWN_DRIVER_H
 #define KD_VK_OWN_DRIVER_H
 
@@ -10,17 +10,17 @@
 
 #define KD_VK_PATH 4096
 
-/* False if there is none, or if the environment names the drivers to use. */
+/* Finds the folder of the driver. Returns false if there is none, or if the environment names the drivers to use. */
 bool kd_vk_own_driver(char path[KD_VK_PATH]);
 /* Whether the program runs within the driver's C library. */
 bool kd_vk_own_entered(void);
-/* The driver's folder, and in it the dynamic linker of its C library, glibc 2.36. */
+/* Names in the driver's folder: of the dynamic linker of its C library, glibc 2.36, and of the driver. */
 #define KD_VK_OWN_GLIBC "2.36" /* as in scripts/driver */
 #define KD_VK_OWN_LINKER "/glibc-" KD_VK_OWN_GLIBC "/ld.so"
 #define KD_VK_OWN_FILE "/libvulkan_lvp.so"
-/* The absolute path of the running program: of the dynamic linker, if that was started by name. */
+/* The absolute path of the running program: of the dynamic linker, if the linker was started by name. */
 bool kd_vk_running(char path[KD_VK_PATH]);
-/* Removes this end of the path. Returns false if the path has another end. */
+/* Removes `end` from the end of the path. Returns false if the path has another end. */
 bool kd_vk_cut(char *path, const char *end);
 
 #endif

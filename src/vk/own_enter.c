@@ -40,7 +40,7 @@ void kd_vk_own_enter(int argc, char **argv)
         return;
     char *const first[] = { linker, "--library-path", libraries, "--argv0", argv[0], program };
     memcpy(words, first, sizeof first);
-    memcpy(words + 6, argv + 1, (size_t)argc * sizeof *argv); /* with the NULL that ends them */
+    memcpy(words + 6, argv + 1, (size_t)argc * sizeof *argv); /* copies the arguments and the NULL that ends them */
     execv(linker, words);
     free(words); /* the driver will not be opened, and the message says why */
 }

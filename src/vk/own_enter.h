@@ -3,7 +3,7 @@
 #define KD_VK_OWN_ENTER_H
 
 /* If the driver is needed here and this system's C library is too old for it, starts the program anew within the
- * driver's C library, and does not return. To be called before anything else has begun. */
+ * driver's C library, and does not return. Call this before anything else has begun. */
 void kd_vk_own_enter(int argc, char **argv);
 
 #endif

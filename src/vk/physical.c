@@ -37,9 +37,9 @@ static void lacks(struct kd_vk_info *info, const char *what)
     snprintf(info->missing + used, sizeof info->missing - used, "%s%s", used ? ", " : "", what);
 }
 
-/* Score of a queue family. It must compute. A family with timestamps is better, and among equals one without graphics,
- * because there our work and the desktop's frames do not wait for each other. Among equal families the first is
- * used. */
+/* Score of a queue family. The family must support compute. A family with timestamps is better. Among equals a family
+ * without graphics is better, because there our work and the desktop's frames do not wait for each other. Among equal
+ * families the first is used. */
 static int family_points(const VkQueueFamilyProperties *family)
 {
     if (!(family->queueFlags & VK_QUEUE_COMPUTE_BIT) || !family->queueCount)
@@ -134,8 +134,8 @@ static void read_1_2(const struct kd_vk_functions *fn, struct kd_vk_physical *de
         lacks(info, "uniform buffers of standard layout");
 }
 
-/* Mesa's llvmpipe keeps all memory of a device in one anonymous file, and does not check whether the file can grow:
- * beyond `ulimit -f` the first access is a SIGBUS. Mesa 25.0 does this and 22.3 does not; the versions between are
+/* Mesa's llvmpipe keeps all memory of a device in one anonymous file. It does not check whether the file can grow, so
+ * beyond `ulimit -f` the first access is a SIGBUS. Mesa 25.0 does this and 22.3 does not. The versions between are
  * treated like 25.0. Only driver_info has Mesa's version, as in "Mesa 25.0.7-2 (LLVM 19.1.7)". */
 static void read_file_limit(struct kd_vk_physical *device)
 {

@@ -7,7 +7,7 @@
 #include "vk/vk.h"
 
 struct kd_vk_pipeline {
-    struct kd_vk_retired retired; /* must be the first member, because retire.c knows only this part */
+    struct kd_vk_retired retired; /* must be the first member, because retire.c accesses only this part */
     VkDescriptorSetLayout set_layout;
     VkPipelineLayout layout;
     VkPipeline handle;

@@ -18,7 +18,7 @@ struct kd_vk_retired {
 void kd_vk_retired_add(struct kd_vk_retired **list, struct kd_vk_retired *object);
 /* Frees the objects that only submissions up to `done` use. */
 void kd_vk_retired_free(struct kd_vk_retired **list, struct kd_vk *vk, uint64_t done);
-/* Called when the submission after the one with this number was discarded: it uses no object any more. */
+/* Called when the submission after number `submitted` was discarded. That submission then uses no objects any more. */
 void kd_vk_retired_discard(struct kd_vk_retired *list, uint64_t submitted);
 
 #endif

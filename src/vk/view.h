@@ -1,5 +1,5 @@
-/* Texel views of a buffer. A buffer caches the views with which it was bound, because most of them are used again. It
- * frees them when it is destroyed. */
+/* Texel views of a buffer. A buffer caches the views with which it was bound, because most of them are used again. The
+ * views are freed when the buffer is destroyed. */
 #ifndef KD_VK_VIEW_H
 #define KD_VK_VIEW_H
 
@@ -24,7 +24,7 @@ struct kd_vk_views {
 /* If a buffer has this many views, a new one replaces one that is idle. */
 #define KD_VK_VIEWS_KEPT 8
 
-/* Returns a view of these bytes for the submission with this number. Those up to `done` have finished. */
+/* Returns a view of these bytes for the submission with this number. Submissions up to `done` have finished. */
 enum kd_status kd_vk_view_get(struct kd_vk_views *views, const struct kd_vk_core *core, VkFormat format,
                               uint64_t offset, uint64_t range, uint64_t value, uint64_t done, VkBufferView *out,
                               struct kd_error *error);

@@ -23,7 +23,7 @@ enum kd_vk_type { KD_VK_OTHER, KD_VK_CPU, KD_VK_VIRTUAL, KD_VK_INTEGRATED, KD_VK
 const char *kd_vk_type_name(enum kd_vk_type type); /* such as "discrete GPU"; never NULL */
 
 struct kd_vk_info {
-    uint32_t index; /* N in --device N */
+    uint32_t index; /* the N of the option --device N */
     char name[256], driver[256], driver_info[256];
     enum kd_vk_type type;
     uint32_t api_version; /* packed as by VK_MAKE_API_VERSION */
@@ -73,21 +73,21 @@ const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device was chosen */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* number of warnings and errors so far */
 /* When the driver compiles a kernel. EARLY: when its pipeline is created. LATE: at its first dispatch, on the device's
- * queue; the driver then stores it in files for other devices of the process, as lavapipe does. LATE_KEEPS_NOTHING: the
- * same, but it stores nothing. dir: the folder of these files, "" if it is unknown. Any thread. */
+ * queue; the driver then stores it in files for other devices of the process, as lavapipe does. LATE_KEEPS_NOTHING: as
+ * LATE, but the driver stores nothing. dir: the folder of these files, "" if it is unknown. Any thread. */
 enum kd_vk_compiling { KD_VK_COMPILES_EARLY, KD_VK_COMPILES_LATE, KD_VK_COMPILES_LATE_KEEPS_NOTHING };
 enum kd_vk_compiling kd_vk_compiling(const struct kd_vk *vk, char dir[4096]);
-/* Identifies the folders of these files. The result changes if they are removed and made again. 0: there are none. Any
- * thread. */
+/* Identifies the folders in which the driver stores compiled kernels. The result changes if the folders are removed and
+ * made again. 0: there are none. Any thread. */
 uint64_t kd_vk_compiled_id(const struct kd_vk *vk);
-/* Path of a file in the cache directory that belongs to this device and driver version, as the pipeline cache does;
- * malloc'd. NULL if there is no such directory. Any thread. */
+/* Path of a file in the cache directory; malloc'd. Like the pipeline cache, the file belongs to this device and driver
+ * version. NULL if there is no such directory. Any thread. */
 char *kd_vk_cache_file(const struct kd_vk *vk, const char *suffix);
 
-/* Buffers are suballocated from a few large allocations. Each can be bound as any kind, and copied from and to.
- * UPLOAD and READBACK are host-visible and persistently mapped. A submission sees what the host has written to an
- * UPLOAD buffer before kd_vk_submit. After kd_vk_wait the host sees what the device has written to an UPLOAD or
- * READBACK buffer. Both hold even if the memory is not coherent. Only the device may write a READBACK buffer. */
+/* Buffers are suballocated from a few large allocations. Each can be bound as any kind, and copied from and to. UPLOAD
+ * and READBACK are host-visible and persistently mapped. A submission sees what the host has written to an UPLOAD
+ * buffer before kd_vk_submit. After kd_vk_wait the host sees what the device has written to an UPLOAD or READBACK
+ * buffer. Both statements hold even if the memory is not coherent. Only the device may write a READBACK buffer. */
 enum kd_vk_memory { KD_VK_DEVICE, KD_VK_UPLOAD, KD_VK_READBACK };
 enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_memory memory, const char *name,
                                    struct kd_vk_buffer **out, struct kd_error *error);
@@ -98,7 +98,7 @@ uint64_t kd_vk_buffer_size(const struct kd_vk_buffer *buffer);
 uint64_t kd_vk_allocated(const struct kd_vk *vk); /* bytes allocated from the device, for all buffers */
 
 /* The way in which a kernel accesses a binding. A software device reads a storage buffer separately for each lane, with
- * a check for each word; it reads uniform buffers and texels by vector gathers. On other devices the kinds differ
+ * a check for each word. It reads uniform buffers and texels by vector gathers. On other devices the kinds differ
  * little. Only storage can be written or be as large as max_binding_bytes. So a kernel that reads bands of pixels as
  * texels needs a variant that reads them as storage. */
 enum kd_vk_kind {
@@ -132,10 +132,10 @@ enum kd_status kd_vk_pipeline_create(struct kd_vk *vk, const struct kd_vk_pipeli
                                      struct kd_vk_pipeline **out, struct kd_error *error);
 void kd_vk_pipeline_destroy(struct kd_vk *vk, struct kd_vk_pipeline *pipeline);
 
-/* To run work, record it with the functions below, then call kd_vk_submit. Commands run in the order of recording. The
- * layer inserts barriers that follow from the declared accesses: between commands that touch the same buffer if one of
- * them writes, before reads by the host, and after earlier submissions. Passes are timed: the times of passes with the
- * same name add up over dispatches and submissions. */
+/* To run work, record it with the functions below, then call kd_vk_submit. Commands run in the order of recording. From
+ * the declared accesses, the layer derives barriers and inserts them. They stand between commands that touch the same
+ * buffer if one of them writes, before reads by the host, and after earlier submissions. Passes are timed. The times of
+ * passes with the same name add up over dispatches and submissions. */
 struct kd_vk_binding {
     struct kd_vk_buffer *buffer;
     /* size 0: to the end of the buffer, for texels only complete ones; offset: a multiple of 256 */
@@ -164,15 +164,14 @@ enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
  * KD_VK_IN_FLIGHT submissions are under way it waits for the oldest. */
 #define KD_VK_IN_FLIGHT 4
 enum kd_status kd_vk_submit(struct kd_vk *vk, uint64_t *ticket, struct kd_error *error);
-/* Waits for a ticket (0: everything submitted). If the deadline passes, it returns KD_EDEVICE and the device is
- * lost. */
+/* Waits for a ticket (0: everything submitted). Returns KD_EDEVICE if the deadline passes; the device is then lost. */
 enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *error);
 /* Drops what was recorded but not submitted. */
 void kd_vk_discard(struct kd_vk *vk);
 
-/* Device time by the name of the pass, since the last reset, of those submissions that kd_vk_submit or kd_vk_wait
- * has found finished. pass: a copy of the caller's name, valid while the device lives. Beyond KD_VK_MAX_PASSES
- * names, the others are added up as "other". There are none if the device has no timestamps. */
+/* Device time by the name of the pass, since the last reset. Only submissions count that kd_vk_submit or kd_vk_wait has
+ * found finished. pass: a copy of the caller's name, valid while the device lives. Beyond KD_VK_MAX_PASSES names, the
+ * others are added up as "other". There are no times if the device has no timestamps. */
 struct kd_vk_time {
     const char *pass;
     double ms;

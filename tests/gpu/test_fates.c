@@ -78,7 +78,7 @@ static void truth_of(const struct kd_scene *scene, struct truth *out)
         .precision = KD_PRECISION_F64,
     };
     const struct kd_ray_labels rays = { out->alpha_beta, out->outward, RAYS };
-    OK(kd_rays_closed(&params, &rays, true, crossings, ends, NULL, NULL, &error));
+    OK(kd_rays_closed(&params, &rays, KD_CLOSED_ERRORS, crossings, ends, NULL, NULL, &error));
     for (uint32_t i = 0; i < RAYS; i++) {
         const bool told = ends[i].fate != KD_RAY_UNDECIDED && !(ends[i].error >= 1);
         out->fate[i] = told ? (int)ends[i].fate : -1;

@@ -127,7 +127,7 @@ static void follow(const struct kd_scene *scene)
         .precision = KD_PRECISION_F64,
     };
     const struct kd_ray_labels rays = { alpha_beta, outward, JUDGED };
-    OK(kd_rays_closed(&params, &rays, true, truth, ends, NULL, NULL, &error));
+    OK(kd_rays_closed(&params, &rays, KD_CLOSED_RADII, truth, ends, NULL, NULL, &error));
 }
 
 /* Compares the radii of both maps with the closed form. */

@@ -91,11 +91,16 @@ static void fast_is_the_same(void **state)
     (void)state;
     for (size_t i = 0; i < COUNT(null_reference); i++) {
         struct kd_null_ray ray = ray_of(&null_reference[i]);
-        struct kd_null_path p = kd_null_trace(&ray), q = kd_null_trace_fast(&ray);
+        struct kd_null_path p = kd_null_trace(&ray), q = kd_null_trace_fast(&ray), s = kd_null_trace_radii(&ray);
         assert_int_equal(p.crossings, q.crossings);
-        for (int n = 0; n < p.crossings; n++)
-            assert_true(p.crossing[n].r == q.crossing[n].r && p.crossing[n].phi == q.crossing[n].phi &&
-                        q.crossing[n].error_r == 0);
+        assert_true(s.crossings == q.crossings && s.status == q.status && s.fate == q.fate && s.turned == q.turned &&
+                    isnan(s.sky_u) && isnan(s.sky_phi));
+        for (int n = 0; n < p.crossings; n++) {
+            const struct kd_null_crossing *whole = &p.crossing[n], *fast = &q.crossing[n], *radius = &s.crossing[n];
+            assert_true(whole->r == fast->r && whole->phi == fast->phi && fast->error_r == 0);
+            assert_true(radius->r == fast->r && radius->sense == fast->sense && isnan(radius->phi) &&
+                        isnan(radius->delay) && radius->error_r == 0);
+        }
     }
 }
 

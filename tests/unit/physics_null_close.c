@@ -41,9 +41,10 @@ static struct kd_null_radial_sum from(const struct kd_null_motion *m, const stru
 {
     if (roots->kind == KD_NULL_NO_REAL)
         return kd_null_radial_complex(m, roots, r);
-    const struct kd_null_radial q = kd_null_radial_of(m, roots, kd_null_region_of(roots, r) == KD_NULL_INNER);
+    const struct kd_null_radial q =
+        kd_null_radial_of(m, roots, kd_null_region_of(roots, r) == KD_NULL_INNER, KD_NULL_TAU_PHI_T);
     const struct kd_null_radius at = kd_null_radius_of(&q, r);
-    return kd_null_radial_integrals(&q, &at, true);
+    return kd_null_radial_integrals(&q, &at);
 }
 
 /* The allowed errors are relative to the larger of the two integrals whose difference is tested. */

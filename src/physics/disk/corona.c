@@ -61,15 +61,22 @@ static struct kd_corona_photon send(const struct kd_corona_source *source, const
                                        .solid = 1 / (energy * energy) };
 }
 
-struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, double x, double chi)
+/* trace: kd_null_trace_fast, or kd_null_trace_radii, which leaves p.delay NaN. */
+static struct kd_corona_photon emit(const struct kd_corona_source *source, double x, double chi,
+                                    struct kd_null_path (*trace)(const struct kd_null_ray *))
 {
     const double sine = 1 / cosh(x), m[3] = { tanh(x), -sine * sin(chi), sine * cos(chi) };
     struct kd_null_ray ray;
     struct kd_corona_photon p = send(source, m, &ray);
-    const struct kd_null_path path = kd_null_trace_fast(&ray);
+    const struct kd_null_path path = trace(&ray);
     p.r = path.crossings ? path.crossing[0].r : path.fate == KD_NULL_ESCAPED ? INFINITY : 0;
     p.delay = path.crossings ? path.crossing[0].delay : NAN;
     return p;
+}
+
+struct kd_corona_photon kd_corona_emit(const struct kd_corona_source *source, double x, double chi)
+{
+    return emit(source, x, chi, kd_null_trace_fast);
 }
 
 static double mismatch(const struct kd_corona_photon *p, double r) { return p->r > 0 ? log(p->r / r) : -INFINITY; }
@@ -82,10 +89,11 @@ static bool find(const struct kd_corona_source *source, double chi, double r, do
     double low = -60, high = 40, x = *found, before = NAN, f_before = NAN, step = 0.25;
     bool below = false, above = false;
     for (int i = 0; i < 200; i++) {
-        *photon = kd_corona_emit(source, x, chi);
+        *photon = emit(source, x, chi, kd_null_trace_radii);
         const double f = mismatch(photon, r);
         if (fabs(f) < EXACT || high - low < 1e-15 * (1 + fabs(x))) {
             *found = x;
+            *photon = kd_corona_emit(source, x, chi);
             return fabs(f) < 1e-6;
         }
         if (f < 0)

@@ -265,7 +265,7 @@ static void add_place(void *user, const struct kd_disk_place *place)
                                      .alpha = place->alpha,
                                      .beta = place->beta,
                                      .orders = 1 };
-    const struct kd_null_path path = kd_null_trace_fast(&ray);
+    const struct kd_null_path path = kd_null_trace_radii(&ray);
     const struct meeting m =
         meeting_of(hole, place->r, 1, lambda, -sqrt(fmax(eta, 0)), path.crossings ? path.crossing[0].sense : 1);
     const double g = 1 / m.energy, flux = flux_of(w, place->r);

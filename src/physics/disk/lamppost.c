@@ -13,17 +13,18 @@ static double source_redshift2(const struct kd_hole *hole, double h)
     return kd_hole_delta(hole, h) / (h * h + hole->a * hole->a);
 }
 
-static struct kd_null_path path_of(const struct kd_hole *hole, double h, double delta)
+static struct kd_null_ray ray_of(const struct kd_hole *hole, double h, double delta)
 {
     const double a = hole->a;
     struct kd_null_ray ray = { .hole = *hole, .radius = h, .cos_theta = 1, .orders = 1, .outward = delta > M_PI / 2 };
     ray.alpha = sin(delta) * sqrt((h * h + a * a) / source_redshift2(hole, h));
-    return kd_null_trace_fast(&ray);
+    return ray;
 }
 
 double kd_lamppost_reach(const struct kd_hole *hole, double h, double delta)
 {
-    const struct kd_null_path path = path_of(hole, h, delta);
+    const struct kd_null_ray ray = ray_of(hole, h, delta);
+    const struct kd_null_path path = kd_null_trace_radii(&ray);
     return path.crossings ? path.crossing[0].r : path.fate == KD_NULL_ESCAPED ? INFINITY : 0;
 }
 
@@ -70,7 +71,8 @@ bool kd_lamppost_init(struct kd_lamppost *lamp, const struct kd_hole *hole, doub
         slope = (mismatch(hole, h, delta + near, r) - mismatch(hole, h, delta - near, r)) / (2 * near);
         if (!(slope > 0) || !isfinite(slope))
             return false;
-        lamp->late[k] = path_of(hole, h, delta).crossing[0].delay - r;
+        const struct kd_null_ray ray = ray_of(hole, h, delta);
+        lamp->late[k] = kd_null_trace_fast(&ray).crossing[0].delay - r;
         lamp->log_epsilon[k] = log(sin(delta) / (slope * r) / (4 * M_PI * r * ut)) + photon_index * log(ut * source);
     }
     return true;

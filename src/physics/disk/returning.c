@@ -60,7 +60,7 @@ static struct light light_of(const struct ring *o, double sin_rho, double cos_ch
  * hole is a small part of the sky at large r, and nearly all of it close to the hole. */
 static double sine(double x) { return 1 / cosh(x); }
 
-/* The closed form of a ray of E > 0. */
+/* The radii of a ray of E > 0, in closed form. */
 static struct kd_null_path path_of(const struct kd_hole *hole, const struct ring *o, const struct light *p, double x,
                                    int n)
 {
@@ -71,7 +71,7 @@ static struct kd_null_path path_of(const struct kd_hole *hole, const struct ring
                                      .beta = p->polar / p->energy,
                                      .outward = x > 0,
                                      .orders = n + 1 };
-    return kd_null_trace_fast(&ray);
+    return kd_null_trace_radii(&ray);
 }
 
 /* 1/r of crossing n. INFINITY if the ray is captured before, -INFINITY if it escapes before. */

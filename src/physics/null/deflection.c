@@ -69,7 +69,7 @@ static struct kd_null_radial radial_of(const struct kd_hole *hole, double b)
 {
     struct kd_null_motion motion = kd_null_motion_of(hole, 0, 1, -b, 0);
     struct kd_null_roots roots = kd_null_roots_of(&motion);
-    return kd_null_radial_of(&motion, &roots, false);
+    return kd_null_radial_of(&motion, &roots, false, KD_NULL_TAU_PHI);
 }
 
 double kd_deflection(const struct kd_hole *hole, double b)

@@ -41,11 +41,11 @@ static struct ray ray_at(const struct kd_critical *c, const struct kd_critical_p
         roots = kd_null_roots_of(&m);
     }
     struct ray ray = { .crossing = NAN };
-    struct kd_null_polar polar = kd_null_polar_of(&m);
+    struct kd_null_polar polar = kd_null_polar_of(&m, KD_NULL_TAU);
     if (!polar.crosses || roots.kind == KD_NULL_NO_REAL || roots.mean == 0)
         return ray;
     ray.crossing = kd_null_polar_crossing(&polar, n).tau;
-    ray.radial = kd_null_radial_of(&m, &roots, false);
+    ray.radial = kd_null_radial_of(&m, &roots, false, KD_NULL_TAU);
     return ray;
 }
 
@@ -54,7 +54,7 @@ static double time_to(const struct ray *ray, double source)
     if (source == ray->radial.r_plus && !ray->radial.turns)
         return ray->radial.tau_horizon;
     struct kd_null_radius at = kd_null_radius_of(&ray->radial, source);
-    return kd_null_radial_integrals(&ray->radial, &at, false).tau;
+    return kd_null_radial_integrals(&ray->radial, &at).tau;
 }
 
 /* The function whose root is sought, in s = ln|d|. */

@@ -105,13 +105,13 @@ bool kd_null_bend_of(const struct kd_null_ray *ray, struct kd_null_bend *out)
     const struct kd_null_roots roots_ = kd_null_roots_of(&m);
     if (roots_.kind == KD_NULL_NO_REAL || kd_null_region_of(&roots_, ray->radius) != KD_NULL_OUTER)
         return false;
-    const struct kd_null_radial q = kd_null_radial_of(&m, &roots_, false);
+    const struct kd_null_radial q = kd_null_radial_of(&m, &roots_, false, KD_NULL_TAU_PHI);
     if (!q.turns && !ray->outward)
         return false;
     struct kd_null_radial_sum start = { 0 };
     if (isfinite(ray->radius)) {
         const struct kd_null_radius at = kd_null_radius_of(&q, ray->radius);
-        start = kd_null_radial_integrals(&q, &at, false);
+        start = kd_null_radial_integrals(&q, &at);
     }
     const double tau = ray->outward ? start.tau : 2 * q.turn.tau - start.tau,
                  phi = ray->outward ? start.phi : 2 * q.turn.phi - start.phi;

@@ -57,7 +57,7 @@ static void set_out(struct motion *m, const struct kd_null_ray *ray)
     const struct kd_null_radial *q = &m->radial;
     if (isfinite(ray->radius)) {
         struct kd_null_radius at = kd_null_radius_of(q, ray->radius);
-        m->start = kd_null_radial_integrals(q, &at, true);
+        m->start = kd_null_radial_integrals(q, &at);
     }
     m->begin = m->start.tau, m->forward = 1;
     if (q->inner) {
@@ -93,14 +93,17 @@ static bool reach(const struct motion *m, double tau, struct kd_null_crossing *x
     struct kd_null_radius r = kd_null_radius_at(q, at);
     if (!(r.r > q->r_plus) || !isfinite(r.r))
         return false;
-    bool returned = !q->inner && q->turns && at > q->turn.tau;
-    struct kd_null_radial_sum from = kd_null_radial_integrals(q, &r, true);
+    bool returned = !q->inner && q->turns && at > q->turn.tau,
+         inwards = q->inner ? at > 0 : m->forward > 0 && !returned;
+    *x = (struct kd_null_crossing) { .r = r.r, .phi = NAN, .delay = NAN, .sense = inwards ? 1 : -1 };
+    if (q->parts == KD_NULL_TAU)
+        return true;
+    struct kd_null_radial_sum from = kd_null_radial_integrals(q, &r);
     double counted = returned ? 2 * q->turn.tau - at : fabs(at), late = counted - from.tau;
     struct kd_null_radial_sum rate = kd_null_radial_rates(&q->motion, r.r);
     from.phi += rate.phi * late, from.t += rate.t * late;
     struct kd_null_radial_sum sum = travelled(m, from, tau);
-    bool inwards = q->inner ? at > 0 : m->forward > 0 && !returned;
-    *x = (struct kd_null_crossing) { .r = r.r, .phi = sum.phi, .delay = sum.t, .sense = inwards ? 1 : -1 };
+    x->phi = sum.phi, x->delay = sum.t;
     disturb(m, tau, x);
     return true;
 }
@@ -134,7 +137,7 @@ static void without_roots(const struct kd_null_ray *ray, const struct kd_null_mo
 {
     if (!ray->outward)
         return;
-    struct kd_null_polar polar = kd_null_polar_of(k);
+    struct kd_null_polar polar = kd_null_polar_of(k, KD_NULL_TAU_PHI_T);
     struct kd_null_radial_sum sum = kd_null_radial_complex(k, roots, ray->radius);
     struct kd_null_polar_place sky = kd_null_polar_at(&polar, k, sum.tau);
     path->fate = KD_NULL_ESCAPED;
@@ -154,7 +157,7 @@ static void principal(const struct kd_null_ray *ray, const struct kd_null_motion
     path->sky_phi = -k->hole.a / gap * log1p(gap / (ray->radius - plus));
 }
 
-static struct kd_null_path follow(const struct kd_null_ray *ray)
+static struct kd_null_path follow(const struct kd_null_ray *ray, enum kd_null_parts parts)
 {
     struct kd_null_path path = { .status = KD_NULL_BAD_INPUT, .fate = KD_NULL_CAPTURED, .sky_u = NAN, .sky_phi = NAN };
     if (!valid(ray))
@@ -178,21 +181,28 @@ static struct kd_null_path follow(const struct kd_null_ray *ray)
         principal(ray, &k, &path);
         return path;
     }
-    struct motion m = { .polar = kd_null_polar_of(&k),
-                        .radial = kd_null_radial_of(&k, &roots, region == KD_NULL_INNER) };
+    struct motion m = { .polar = kd_null_polar_of(&k, parts),
+                        .radial = kd_null_radial_of(&k, &roots, region == KD_NULL_INNER, parts) };
     set_out(&m, ray);
     bool escapes = m.forward < 0 || (m.radial.turns && !m.radial.inner);
     path.fate = escapes ? KD_NULL_ESCAPED : KD_NULL_CAPTURED;
     path.turned = m.radial.inner ? ray->outward : m.radial.turns && m.forward > 0;
     cross(&m, ray, &path);
-    if (escapes)
+    if (escapes && parts == KD_NULL_TAU_PHI_T)
         escape(&m, &k, &path);
+    return path;
+}
+
+struct kd_null_path kd_null_trace_radii(const struct kd_null_ray *ray)
+{
+    struct kd_null_path path = follow(ray, KD_NULL_TAU);
+    path.sky_u = path.sky_phi = NAN;
     return path;
 }
 
 struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray)
 {
-    struct kd_null_path path = follow(ray);
+    struct kd_null_path path = follow(ray, KD_NULL_TAU_PHI_T);
     path.sky_error = 0;
     for (int n = 0; n < path.crossings; n++)
         path.crossing[n].error_r = path.crossing[n].error_phi = path.crossing[n].error_delay = 0;
@@ -208,7 +218,7 @@ static void add_slopes(const struct kd_null_ray *ray, struct kd_null_path *path,
 {
     struct kd_null_ray near = *ray;
     near.alpha *= 1 + step, near.beta *= 1 + other;
-    struct kd_null_path there = follow(&near);
+    struct kd_null_path there = follow(&near, KD_NULL_TAU_PHI_T);
     step = fabs(step);
     path->doubtful |= there.crossings != path->crossings;
     for (int n = 0; n < path->crossings; n++) {
@@ -245,7 +255,7 @@ static void estimate(const struct kd_null_ray *ray, struct kd_null_crossing *x, 
 
 struct kd_null_path kd_null_trace(const struct kd_null_ray *ray)
 {
-    struct kd_null_path path = follow(ray);
+    struct kd_null_path path = follow(ray, KD_NULL_TAU_PHI_T);
     if (path.status == KD_NULL_NO_RAY || path.status == KD_NULL_BAD_INPUT)
         return path;
     struct kd_null_motion k = kd_null_motion_of(&ray->hole, ray->cos_theta, ray->sin_theta, ray->alpha, ray->beta);

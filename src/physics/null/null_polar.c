@@ -17,6 +17,8 @@ static struct kd_null_polar_sum from_turn(const struct kd_null_polar *p, struct 
         return sum;
     double f = kd_carlson_rf(at.c2, at.d2, 1);
     sum.tau = sine * f / root;
+    if (p->parts == KD_NULL_TAU)
+        return sum;
     sum.u2 = p->z * sine * (f - at.s2 * kd_carlson_rd(at.c2, at.d2, 1) / 3) / root;
     if (p->nu > 0) { /* Int sin^2 x / (1 - nu cos^2 x) */
         double rest = 1 - p->nu;
@@ -64,11 +66,11 @@ static void set_start(struct kd_null_polar *p, const struct kd_null_motion *m, d
     p->first_phi = p->quarter.phi - p->start.phi;
 }
 
-struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m)
+struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m, enum kd_null_parts parts)
 {
-    struct kd_null_polar p = { .a = m->hole.a,
-                               .u = fabs(m->c),
-                               .side = m->c < 0 || (m->c == 0 && m->beta < 0) ? -1 : 1 };
+    struct kd_null_polar p = {
+        .a = m->hole.a, .u = fabs(m->c), .side = m->c < 0 || (m->c == 0 && m->beta < 0) ? -1 : 1, .parts = parts
+    };
     double disc, gap, weight, a2 = m->hole.a * m->hole.a;
     kd_null_polar_gap(m, &disc, &gap, &weight);
     p.sense = m->alpha <= 0 ? 1 : -1;

@@ -35,6 +35,7 @@ struct kd_null_polar {
     bool fixed;    /* theta does not change: principal null rays, rays in the equatorial plane */
     bool vortical; /* eta < 0 */
     bool crosses;  /* the equatorial plane: eta > 0 and not `fixed` */
+    enum kd_null_parts parts;
     /* sums from a turning point to the plane, or, if vortical, to the other turning point */
     struct kd_null_polar_sum quarter;
     /* sums from a turning point at z to the observer: the previous one, or the next one, for which they are negative */
@@ -42,7 +43,9 @@ struct kd_null_polar {
     double first, first_phi; /* Mino time and azimuth from the observer to the first crossing             */
 };
 
-struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m);
+/* `parts`: with KD_NULL_TAU the integrals of azimuth and of u^2 are 0, and kd_null_polar_at must not be called. Others
+ * compute everything. */
+struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m, enum kd_null_parts parts);
 
 /* z - u^2 and N + a^2 u^2 at the observer, and s = N + a^2 z; each is computed without cancellation. */
 void kd_null_polar_gap(const struct kd_null_motion *m, double *s, double *gap, double *weight);

@@ -68,14 +68,18 @@ static double slope_u2(const struct kd_null_radial *q)
     return -o->p1 * o->r21 / ((q->r_plus - o->r1) * (q->r_minus - o->r1));
 }
 
+static struct kd_carlson_arg arg_outer(const struct kd_null_radius *at)
+{
+    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;
+    return (struct kd_carlson_arg) { y1 * y2 + p, (y1 + y2) * at->both,
+                                     p * (at->d1 + at->d2) + y1 * y2 * (at->both * at->both - 2 * p) };
+}
+
 static struct span span_outer(const struct kd_null_radial *q, const struct kd_null_radius *at)
 {
     const struct kd_null_roots *o = &q->roots;
     double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;
-    struct span s;
-    s.arg.first = y1 * y2 + p;
-    s.arg.sum = (y1 + y2) * at->both;
-    s.arg.root = p * (at->d1 + at->d2) + y1 * y2 * (at->both * at->both - 2 * p);
+    struct span s = { .arg = arg_outer(at) };
     s.plus = pole_outer(q, at, q->r_plus);
     s.minus = pole_outer(q, at, q->r_minus);
     if (kd_hole_is_close(&q->motion.hole)) {
@@ -102,15 +106,19 @@ static struct pole pole_inner(const struct kd_null_radial *q, const struct kd_nu
     return p;
 }
 
+static struct kd_carlson_arg arg_inner(const struct kd_null_roots *o, const struct kd_null_radius *at)
+{
+    double x1 = o->r3 - o->r1, x2 = o->r3 - o->r2, r43 = 2 * sqrt(o->pair);
+    return (struct kd_carlson_arg) { sqrt(x1 * x2 * (at->d4 / at->d3)),
+                                     (sqrt(x1 * at->d2) + sqrt(x2 * at->d1)) * sqrt(r43 / at->d3),
+                                     sqrt(x1 * x2 * at->d1 * at->d2) * r43 / at->d3 };
+}
+
 static struct span span_inner(const struct kd_null_radial *q, const struct kd_null_radius *at)
 {
     const struct kd_null_roots *o = &q->roots;
-    double x1 = o->r3 - o->r1, x2 = o->r3 - o->r2, r42 = o->r4 - o->r2, r43 = 2 * sqrt(o->pair);
-    double steep = at->d4 / at->d3;
-    struct span s;
-    s.arg.first = sqrt(x1 * x2 * steep);
-    s.arg.sum = (sqrt(x1 * at->d2) + sqrt(x2 * at->d1)) * sqrt(r43 / at->d3);
-    s.arg.root = sqrt(x1 * x2 * at->d1 * at->d2) * r43 / at->d3;
+    double x1 = o->r3 - o->r1, x2 = o->r3 - o->r2, r42 = o->r4 - o->r2, steep = at->d4 / at->d3;
+    struct span s = { .arg = arg_inner(o, at) };
     s.plus = pole_inner(q, at, q->r_plus);
     s.minus = pole_inner(q, at, q->r_minus);
     if (kd_hole_is_close(&q->motion.hole)) {
@@ -175,15 +183,22 @@ struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, d
                                          r * r + 2 * r + n.four + (n.slope * r + n.rest) / delta };
 }
 
-struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at,
-                                                   bool time)
+static double tau_from(const struct kd_null_radial *q, const struct kd_null_radius *at)
+{
+    return 2 * kd_carlson_rf_arg(q->inner ? arg_inner(&q->roots, at) : arg_outer(at));
+}
+
+struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at)
 {
     const struct kd_null_roots *o = &q->roots;
     struct kd_null_radial_sum sum = { 0 };
+    bool time = q->parts == KD_NULL_TAU_PHI_T;
     if (isinf(at->r) || (q->inner && at->d3 == 0))
         return sum;
+    sum.tau = tau_from(q, at);
+    if (q->parts == KD_NULL_TAU)
+        return sum;
     struct span s = q->inner ? span_inner(q, at) : span_outer(q, at);
-    sum.tau = 2 * kd_carlson_rf_arg(s.arg);
     const struct numerators n = numerators_of(&q->motion);
     double a = q->motion.hole.a, gap = q->r_plus - q->r_minus;
     double plus = at_pole(o, &s, &s.plus, q->r_plus, sum.tau), minus = at_pole(o, &s, &s.minus, q->r_minus, sum.tau);
@@ -236,9 +251,9 @@ static void jacobi_two(struct kd_null_radial *q)
 
 /* Computes Jacobi's functions, and finds whether the ray turns. */
 static struct kd_null_radial without_times(const struct kd_null_motion *m, const struct kd_null_roots *roots,
-                                           bool inner)
+                                           bool inner, enum kd_null_parts parts)
 {
-    struct kd_null_radial q = { .motion = *m, .roots = *roots, .inner = inner };
+    struct kd_null_radial q = { .motion = *m, .roots = *roots, .inner = inner, .parts = parts };
     q.r_plus = m->hole.outer;
     q.r_minus = m->hole.inner;
     if (roots->kind == KD_NULL_FOUR_REAL)
@@ -255,28 +270,27 @@ static struct kd_null_radius at_turn(const struct kd_null_roots *roots)
     return (struct kd_null_radius) { roots->r4, r41, r42, 0, sqrt(r43), -r43, 0 };
 }
 
-struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner)
+struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner,
+                                        enum kd_null_parts parts)
 {
-    struct kd_null_radial q = without_times(m, roots, inner);
+    struct kd_null_radial q = without_times(m, roots, inner, parts);
     if (q.turns && !inner) {
         struct kd_null_radius at = at_turn(roots);
-        q.turn = kd_null_radial_integrals(&q, &at, true);
+        q.turn = kd_null_radial_integrals(&q, &at);
         return q;
     }
     struct kd_null_radius at = kd_null_radius_of(&q, q.r_plus);
-    q.tau_horizon = 2 * kd_carlson_rf_arg(inner ? span_inner(&q, &at).arg : span_outer(&q, &at).arg);
+    q.tau_horizon = tau_from(&q, &at);
     return q;
 }
 
-/* Compares the time from infinity with `tau`, by U12, U13 + U14 and U13 U14 of span_outer alone. If a bound shows that
- * the time exceeds `tau`, it returns a value between the two. Most often the bound is sufficient, and no integral is
+/* Compares the time from infinity with `tau`, by the arguments of R_F alone. If a bound shows that the
+ * time exceeds `tau`, it returns a value between the two. Most often the bound is sufficient, and no integral is
  * needed. The bound is R_F with three equal arguments of the same mean. R_F is never smaller than this, because it is
  * convex, and symmetric in its arguments (DLMF 19.16.1). */
 static double time_from_infinity(const struct kd_null_radius *at, double tau)
 {
-    double y1 = sqrt(at->d1), y2 = sqrt(at->d2), p = at->pair;
-    struct kd_carlson_arg arg = { y1 * y2 + p, (y1 + y2) * at->both,
-                                  p * (at->d1 + at->d2) + y1 * y2 * (at->both * at->both - 2 * p) };
+    struct kd_carlson_arg arg = arg_outer(at);
     double least = 2 / sqrt((arg.first * arg.first + arg.sum * arg.sum - 2 * arg.root) / 3);
     return tau < least ? least : 2 * kd_carlson_rf_arg(arg);
 }
@@ -347,7 +361,7 @@ struct kd_null_radius kd_null_radius_at(const struct kd_null_radial *q, double t
 
 double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null_roots *roots, double tau)
 {
-    struct kd_null_radial q = without_times(m, roots, false);
+    struct kd_null_radial q = without_times(m, roots, false, KD_NULL_TAU);
     if (q.turns) {
         struct kd_null_radius at = at_turn(roots);
         q.turn.tau = time_from_infinity(&at, tau);

@@ -37,6 +37,7 @@ struct kd_null_radial {
     struct kd_null_radial_sum turn; /* for OUTER with `turns`: from r4 to infinity */
     double tau_horizon;             /* Mino time from the horizon to the reference */
     double rate, k, k1, s0, c0, d0; /* Jacobi's functions: scale, parameter, values at the reference */
+    enum kd_null_parts parts;
 };
 
 enum kd_null_region { KD_NULL_OUTER, KD_NULL_INNER, KD_NULL_FORBIDDEN };
@@ -44,8 +45,10 @@ enum kd_null_region { KD_NULL_OUTER, KD_NULL_INNER, KD_NULL_FORBIDDEN };
 /* The region of a radius > r+, which may be INFINITY. */
 enum kd_null_region kd_null_region_of(const struct kd_null_roots *roots, double radius);
 
-/* The roots must not be of the kind KD_NULL_NO_REAL. */
-struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner);
+/* The roots must not be of the kind KD_NULL_NO_REAL. `parts`: the parts that all integrals of this motion
+ * contain. */
+struct kd_null_radial kd_null_radial_of(const struct kd_null_motion *m, const struct kd_null_roots *roots, bool inner,
+                                        enum kd_null_parts parts);
 
 struct kd_null_radius kd_null_radius_of(const struct kd_null_radial *q, double r);
 
@@ -61,9 +64,8 @@ double kd_null_radius_after(const struct kd_null_motion *m, const struct kd_null
 /* Rates of the integrals in Mino time at r: tau has the rate 1; phi' and t' are given above. */
 struct kd_null_radial_sum kd_null_radial_rates(const struct kd_null_motion *m, double r);
 
-/* Integrals from `at` to the reference. t is computed only if `time` is true, and is 0 otherwise. */
-struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at,
-                                                   bool time);
+/* Integrals from `at` to the reference. Those that q->parts leaves out are 0. */
+struct kd_null_radial_sum kd_null_radial_integrals(const struct kd_null_radial *q, const struct kd_null_radius *at);
 
 /* Mino time and azimuth from r to infinity for four complex roots (vortical rays). */
 struct kd_null_radial_sum kd_null_radial_complex(const struct kd_null_motion *m, const struct kd_null_roots *roots,

@@ -1,4 +1,4 @@
-"""A text file as C bytes: embed.py OUTPUT FILE NAME gives `const unsigned char NAME[]` and `const size_t NAME_size`."""
+"""Write a file as C bytes: embed.py OUTPUT FILE NAME gives `const unsigned char NAME[]`, `const size_t NAME_size`."""
 
 import pathlib
 import sys

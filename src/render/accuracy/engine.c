@@ -31,10 +31,10 @@ uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision)
     return engines[engine].steps[precision];
 }
 
-/* The largest number of steps that can be requested, so that every ray is completed: llvmpipe silently ends a kernel's
- * loops after 65535 rounds, counted over all loops together. In Mino time a ray takes at most 12 + KD_RAYS_MAX_ORDERS
- * half periods, each of this many steps. For the Kerr-Schild engines, rays_kerr_schild.comp counts the rounds; Tao's
- * engine has a lower limit, because each of its steps has an inner loop. */
+/* The largest number of steps that can be requested, so that every ray is completed. The limit exists because llvmpipe
+ * silently ends a kernel's loops after 65535 rounds, counted over all loops together. In Mino time a ray takes at most
+ * 12 + KD_RAYS_MAX_ORDERS half periods, each of this many steps. For the Kerr-Schild engines, rays_kerr_schild.comp
+ * counts the rounds. Tao's engine has a lower limit, because each of its steps has an inner loop. */
 uint32_t kd_engine_most_steps(enum kd_engine engine)
 {
     return engine == KD_ENGINE_KS_TAO6 ? 512 : engine >= KD_ENGINE_KS_EULER ? 1024 : KD_STEPS_MAX;

@@ -11,8 +11,8 @@
 #include <stdint.h>
 
 enum kd_engine {
-    /* elliptic functions: on the CPU in double precision (the reference), or, for rays outside the photon orbits, on
-     * the device in single precision */
+    /* elliptic functions. On the CPU in double precision (the reference), or on the device in single precision for rays
+     * outside the photon orbits */
     KD_ENGINE_CLOSED,
     KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4 */
     KD_ENGINE_MINO_RKN6, /* Mino time on the device: Albrecht's Nystroem method of order 6 */
@@ -68,10 +68,10 @@ struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene);
 /* True if the request needs a device. If not, the closed form on the CPU serves the request. */
 bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy);
 
-/* Resolves a request. Without a tolerance, an engine, precision or number of steps that the request does not name
- * comes from the profile; without a profile the setting is the closed form in double precision. With a tolerance,
- * the function picks the fastest row of the table that meets it, among the permitted engines and precisions; the
- * request must then not name steps. The closed form is used if no row meets the tolerance, and if a profile needs
+/* Resolves a request. Without a tolerance, the profile supplies the engine, the precision and the number of steps that
+ * the request does not name. Without a profile, the setting is the closed form in double precision. With a tolerance,
+ * the function picks the fastest row of the table that meets the tolerance, among the permitted engines and precisions.
+ * The request must then not name steps. The closed form is used if no row meets the tolerance, and if a profile needs
  * double precision that the device lacks. float64: whether the device has double precision. Returns KD_EINVAL at
  * /accuracy/... for a contradiction, a tolerance that cannot be met, or a setting that this device does not support.
  * table may be NULL if no tolerance is requested. */

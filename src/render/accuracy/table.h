@@ -4,8 +4,8 @@
  *
  * An engine's errors are the differences of its results (render/rays/rays.h) from those of KD_ENGINE_CLOSED, on named
  * sets of rays (render/accuracy/sets.h). An error covers all orders together, over the crossings that both methods have
- * from the ISCO to KD_ACCURACY_FAR. Errors of r and g are relative, those of phi (radians) and delay (M) absolute. A
- * ray whose fate or number of crossings differs from the closed form's is counted in `differ`. */
+ * from the ISCO to KD_ACCURACY_FAR. Errors of r and g are relative. Errors of phi (radians) and delay (M) are absolute.
+ * A ray whose fate or number of crossings differs from the closed form's is counted in `differ`. */
 #ifndef KD_RENDER_ACCURACY_TABLE_H
 #define KD_RENDER_ACCURACY_TABLE_H
 
@@ -17,11 +17,11 @@
 /* M; crossings further out do not count: w = 1/r has an absolute error, so the relative error of r grows with r */
 #define KD_ACCURACY_FAR 1e3
 #define KD_ACCURACY_ROWS 64
-/* The tolerance that a row meets is the larger of two errors: the 99th percentile over the crossings of the bulk set,
- * and the largest median of the other sets. The other sets count, because an engine with few steps loses more accuracy
- * edge-on. The near-critical set does not count, because more steps do not help near the critical curve. The table
- * gives only the first choice: in a list of rays, each ray whose own error exceeds the tolerance is traced again
- * (rays/hold.h). */
+/* The tolerance that a row meets is the larger of two errors. One is the 99th percentile over the crossings of the bulk
+ * set, the other is the largest median of the other sets. The other sets count, because an engine with few steps loses
+ * more accuracy edge-on. The near-critical set does not count, because more steps do not help near the critical curve.
+ * The table gives only the first choice. In a list of rays, each ray whose own error exceeds the tolerance is traced
+ * again (rays/hold.h). */
 /* a row meets no tolerance if more than this fraction of rays differ in one of these sets */
 #define KD_ACCURACY_STRAY 0.01
 

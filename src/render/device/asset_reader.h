@@ -1,5 +1,5 @@
-/* A queue of requests for objects that are made from assets and take too long for the thread that owns the device:
- * panoramas and grids of matter. A thread makes them one after the other, and ends when there is no request. The
+/* A queue of requests for panoramas and grids of matter. These objects are made from assets, which takes too long for
+ * the thread that owns the device. A thread makes them one after the other, and ends when there is no request. The
  * owner caches the results. Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_ASSET_READER_H
 #define KD_RENDER_DEVICE_ASSET_READER_H
@@ -22,7 +22,7 @@ struct kd_asset_maker {
     bool (*is_cached)(void *owner, const struct kd_asset_request *request); /* called with the lock */
     /* evicts objects before `make`; called with the lock */
     void (*make_room)(void *owner);
-    /* Makes the object; called without the lock. *invalid is false before. The function sets it if the asset can
+    /* Makes the object; called without the lock. *invalid is false at the call. The function sets it if the asset can
      * never be valid, so that the asset is not read again. */
     enum kd_status (*make)(void *owner, const struct kd_asset_request *request, bool *invalid, struct kd_error *error);
     /* caches what `make` made; called with the lock */
@@ -39,7 +39,7 @@ struct kd_asset_reader {
     unsigned n_asked;
     bool runs;                  /* the thread is running */
     char broken[KD_ASSET_NAME]; /* the last request that failed; "": none failed */
-    bool invalid;               /* the asset of that request is invalid */
+    bool invalid;               /* `broken` failed because the asset is invalid */
     struct kd_error why;
     const struct kd_asset_maker *maker;
     void *owner;
@@ -52,12 +52,12 @@ void kd_asset_reader_init(struct kd_asset_reader *reader, const struct kd_asset_
 /* Stops first. */
 void kd_asset_reader_finish(struct kd_asset_reader *reader);
 
-/* Adds a request unless the object is cached. A waiting client calls this again from time to time, so that an object
- * that was evicted meanwhile is made once more. Does nothing if no thread can be created. Returns whether the
- * request is in progress. Called with the lock. */
+/* Adds a request unless the object is cached. A waiting client calls this again from time to time; an object that was
+ * evicted meanwhile is then made once more. Does nothing if no thread can be created. Returns whether the request is in
+ * progress. Called with the lock. */
 bool kd_asset_reader_begin(struct kd_asset_reader *reader, const struct kd_asset_request *request);
-/* Waits until the object is cached, and makes it on the calling thread if there is no other. On failure returns the
- * error of `make`. Called with the lock. */
+/* Waits until the object is cached, and makes it on the calling thread if the reader's thread does not run. On failure
+ * returns the error of `make`. Called with the lock. */
 enum kd_status kd_asset_reader_wait(struct kd_asset_reader *reader, const struct kd_asset_request *request,
                                     struct kd_error *error);
 /* True if there is no request, waiting or in progress. Called with the lock. */

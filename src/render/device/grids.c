@@ -14,7 +14,7 @@ struct own {
     struct kd_vk_buffer *nodes;
     char of[KD_ASSET_NAME]; /* hash of the asset whose grid is uploaded */
     bool there;             /* true if a grid is uploaded */
-    bool texels;            /* true if kernels read it as texels */
+    bool texels;            /* true if kernels read the grid as texels */
 };
 
 static bool is_grid(const struct kd_scene *scene) { return scene->volume.model == KD_VOLUME_GRID; }

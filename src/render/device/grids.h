@@ -1,4 +1,4 @@
-/* Matter on a grid, on the host and on the device: reads volume.grid and uploads it when the asset has changed
+/* Matter on a grid, on the host and on the device. Reads volume.grid, and uploads it when the asset has changed
  * (kd_emitter_buffers_plasma of render/emit/own.h). A thread reads the grids (asset_reader.h). The descriptions of
  * recent grids stay cached, without their nodes. Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_GRIDS_H
@@ -14,7 +14,7 @@ struct kd_cached_grid {
     struct kd_matter_grid grid; /* nodes and places: up to 80 MiB, present until they are uploaded; otherwise NULL */
     uint64_t used;              /* value of a counter at the last use, to find the least recently used grid */
 };
-/* KD_GRIDS_READ: most grids whose nodes wait to be uploaded */
+/* KD_GRIDS_READ: maximum number of grids whose nodes wait to be uploaded */
 enum { KD_GRIDS = 8, KD_GRIDS_READ = 2 };
 
 struct kd_grids {
@@ -23,14 +23,14 @@ struct kd_grids {
     struct kd_matter_grid made; /* grid made by the reader's thread, which then caches it */
     uint64_t used;
     char uploaded[KD_ASSET_NAME];   /* the grid that was last found on the device; "": no grid */
-    const struct kd_assets *assets; /* NULL: there are none */
+    const struct kd_assets *assets; /* NULL: there are no assets */
     bool blank; /* true on a device that only compiles: no file is read, and every grid has a few empty nodes */
 };
 void kd_grids_init(struct kd_grids *grids, const struct kd_assets *assets, void (*made)(void *user), void *user);
 
-/* Starts reading the grid of a scene, if the scene has a grid that is neither cached nor on the device. Returns
- * whether the reading is in progress. A waiting client calls this again from time to time, so that a grid that was
- * evicted meanwhile is read once more. */
+/* Starts reading the grid of a scene, if the scene has a grid that is neither cached nor on the device. Returns whether
+ * the reading is in progress. A waiting client calls this again from time to time; a grid that was evicted meanwhile is
+ * then read once more. */
 bool kd_grid_begin(struct kd_grids *grids, const struct kd_scene *scene);
 /* Waits for the grid in progress and drops all other requests. `made` is not called again before a new request. */
 void kd_grids_stop(struct kd_grids *grids);

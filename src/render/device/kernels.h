@@ -57,7 +57,7 @@ enum kd_kernel {
     KD_KERNEL_BEAM_SPREAD,
     KD_KERNEL_BEAM_SPREAD_TEXELS,
     KD_KERNEL_POST,
-    KD_KERNEL_POST_TEXELS, /* the variant of the kernel above for texels; kd_kernel_post chooses */
+    KD_KERNEL_POST_TEXELS, /* the variant of the kernel above for texels; kd_kernel_post chooses between the two */
     KD_KERNEL_POST_BLOOM,
     KD_KERNEL_POST_BLOOM_TEXELS,
     KD_KERNEL_POST_HEAT,
@@ -106,23 +106,23 @@ enum kd_status kd_kernels_get(struct kd_kernels *kernels, struct kd_vk *vk, enum
 enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
                                  const struct kd_vk_pipeline_params *source, const uint32_t *constants, size_t n,
                                  const struct kd_vk_pipeline **out, struct kd_error *error);
-/* kd_kernels_note starts recording: from then on kd_kernels_get only notes missing kernels, up to KD_KERNEL_WISHES,
- * and sets *out to NULL. kd_kernels_make ends recording and makes the noted kernels on one thread for each
- * processor, at most four. If a kernel fails, the next kd_kernels_get reports its error. */
+/* kd_kernels_note starts recording. From then on kd_kernels_get only notes missing kernels, up to KD_KERNEL_WISHES, and
+ * sets *out to NULL. kd_kernels_make ends recording and makes the noted kernels, on one thread for each processor, at
+ * most four. If a kernel fails, the next kd_kernels_get reports its error. */
 void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
-/* kd_kernels_make in three steps. The first ends recording and returns the noted kernels; the second makes them; the
- * third adds them to the cache. The second may run on any thread while another thread uses the device, as long as
- * the device stays open. */
+/* kd_kernels_make in three steps. The first function ends recording and returns the noted kernels. The second makes
+ * them. The third adds them to the cache. The second may run on any thread while another thread uses the device, as
+ * long as the device stays open. */
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
 void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);
-/* True if a device reads the radiance of this many pixels as texels of four floats. Software devices read texels in a
- * third of the time that a storage buffer takes, but they differ in how many texels they can bind. */
+/* True if the device should read the radiance of this many pixels as texels of four floats. A software device reads
+ * texels in a third of the time that a storage buffer takes. Devices differ in how many texels they can bind. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
 /* like kd_kernels_texels, for this number of bytes of any data */
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes);
-/* like kd_kernels_texels, for any lens map, with one number in each texel: software devices read such texels in less
+/* like kd_kernels_texels, for any lens map, with one number in each texel. Software devices read such texels in less
  * than half the time */
 bool kd_kernels_map_as_texels(const struct kd_vk *vk);
 bool kd_kernels_cells_as_texels(const struct kd_vk *vk, const struct kd_bloom *bloom);

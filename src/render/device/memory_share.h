@@ -1,4 +1,4 @@
-/* Memory limit for pictures: the minimum of the device's memory, the --memory option and, if the device uses host
+/* Memory limit for pictures. It is the least of the device's memory, the --memory option and, if the device uses host
  * memory, the memory that the host has left. */
 #ifndef KD_RENDER_DEVICE_MEMORY_SHARE_H
 #define KD_RENDER_DEVICE_MEMORY_SHARE_H
@@ -11,9 +11,9 @@
 static inline uint64_t kd_memory_main(uint64_t all) { return all / 3 * 2; }
 
 /* Reduces a capacity to what the host has left. If device memory is host memory, pictures get three quarters of what is
- * left, less the frames that are on their way to a file or client. The last quarter is for finished frames, bodies and
- * responses. If the device has its own memory, only the frames are in host memory. held: bytes of the process's device
- * buffers, which the next picture reuses. Pure. */
+ * left. The frames that are on their way to a file or client are subtracted. The last quarter is for finished frames,
+ * bodies and responses. If the device has its own memory, only the frames are in host memory. held: bytes of the
+ * process's device buffers, which the next picture reuses. Pure. */
 void kd_memory_narrow(struct kd_capacity *capacity, const struct kd_memory_limit *host, uint64_t held);
 
 /* Gets the host's limit, at most KD_MEMORY_FRESH_MS old. If it cannot be read for lack of descriptors, the last

@@ -26,7 +26,7 @@ struct kd_panoramas {
     bool recalled;                               /* `made` was read from the file */
     const struct kd_panorama *fresh;             /* a new Milky Way that must be written to the file, or NULL */
     uint64_t used;
-    const struct kd_assets *assets; /* NULL: there are none */
+    const struct kd_assets *assets; /* NULL: there are no assets */
     char *file; /* file in which the first Milky Way is stored for later processes; NULL: none, or already written */
     /* true on a device that only compiles: panoramas are black, which takes no time to make, and have a Milky Way's
      * size */
@@ -34,21 +34,21 @@ struct kd_panoramas {
 };
 void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *assets, void (*made)(void *user),
                        void *user);
-/* Sets the path of the file in which a Milky Way is cached; it is freed with the panoramas; NULL: no file. Call
+/* Sets the path of the file in which a Milky Way is cached. NULL: no file. The path is freed with the panoramas. Call
  * before the first request. */
 void kd_panoramas_keep_at(struct kd_panoramas *panoramas, char *path);
 
-/* Starts making the panorama of a scene, if the scene has one and it is not cached. Returns whether the panorama is
- * in progress. A waiting client calls this again from time to time, so that a panorama that was evicted meanwhile is
- * made once more. Panoramas that were not delivered yet are evicted last. */
+/* Starts making the panorama of a scene, if the scene has one and it is not cached. Returns whether the panorama is in
+ * progress. A waiting client calls this again from time to time; a panorama that was evicted meanwhile is then made
+ * once more. Panoramas that were not delivered yet are evicted last. */
 bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
-/* Starts reading an asset that may become a sky, if a slot is free and nothing else is in progress, so that later
- * requests wait less. Such a panorama is evicted first. An error is not reported here, but to the caller that
+/* Starts reading an asset that may become a sky, so that later requests wait less. Does so only if a slot is free and
+ * nothing else is in progress. Such a panorama is evicted first. An error is not reported here, but to the caller that
  * requests the panorama. */
 void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
-/* Gets the panorama of a scene that has one, and waits for it if necessary: some tenths of a second for a Milky Way,
- * a second for a large picture. It is valid until the next call. Render thread only. Returns KD_EINVAL at /sky/image
- * if the asset is gone or is not a valid picture, or KD_ENOMEM. */
+/* Gets the panorama of a scene that has one, and waits for it if necessary. A Milky Way takes some tenths of a second,
+ * a large picture a second. The panorama is valid until the next call. Render thread only. Returns KD_EINVAL at
+ * /sky/image if the asset is gone or is not a valid picture, or KD_ENOMEM. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene,
                               const struct kd_panorama **out, struct kd_error *error);
 /* Waits for the panorama in progress and drops all other requests. `made` is not called again before a new request. */

@@ -1,5 +1,5 @@
-/* Lets emitters fill their device buffers, which the transfer pass reads (render/emit/own.h). It iterates over the
- * table of emitters and knows no names. Render thread only. */
+/* Lets emitters fill their device buffers, which the transfer pass reads (render/emit/own.h). The code iterates over
+ * the table of emitters and contains no emitter's name. Render thread only. */
 #ifndef KD_RENDER_DEVICE_PREPARE_H
 #define KD_RENDER_DEVICE_PREPARE_H
 

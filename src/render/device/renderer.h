@@ -26,9 +26,9 @@ struct kd_renderer_params {
     /* called on another thread when kd_renderer_assets_begin may have a new result; may be NULL */
     void (*asset_read)(void *user);
     void *asset_read_user;
-    /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. background:
-     * the picture is rendered by kd_render_in_background, so others may use the renderer before this returns. If the
-     * function returns false, the picture is abandoned with KD_ECANCELLED. If it is NULL, the thread that owns the
+    /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. background: the
+     * picture is rendered by kd_render_in_background, so others may use the renderer before this returns. If the
+     * function returns false, the picture is abandoned with KD_ECANCELLED. If `lacks` is NULL, the thread that owns the
      * device makes the kernels. */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
@@ -44,19 +44,19 @@ void kd_renderer_destroy(struct kd_renderer *renderer);
 
 /* Closes a device that has failed and reopens it. Measurements and data cached on the host are kept, so that later
  * pictures are the same as before. Buffers and kernels are made again when needed. Returns KD_EDEVICE in three cases:
- * the device hangs and cannot be closed (kd_renderer_hangs); it is unavailable now; or another device has taken its
- * place. The call may be repeated. */
+ * the device hangs and cannot be closed (kd_renderer_hangs), the device is unavailable now, or another device has taken
+ * its place. The call may be repeated. */
 enum kd_status kd_renderer_reopen(struct kd_renderer *renderer, struct kd_error *error);
-/* True if the device has missed a deadline. It can then be neither closed nor reopened, and the process should soon
- * end by _exit. */
+/* True if the device has missed a deadline. The device can then be neither closed nor reopened, and the process should
+ * soon end by _exit. */
 bool kd_renderer_hangs(const struct kd_renderer *renderer);
 
-/* A copy of the present capacity, for kd_plan_make. Its accuracy table stays the renderer's. Any thread. */
+/* A copy of the present capacity, for kd_plan_make. The accuracy table in the copy still belongs to the renderer. Any
+ * thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
-/* Starts reading a scene's sky.image and volume.grid unless they are cached; reading takes up to some seconds.
- * Returns whether the reading is in progress. A render would hold the device while it waits for the reading. So a
- * client should poll this function until the reading is done, and render then; others can use the device meanwhile.
- * Any thread. */
+/* Starts reading a scene's sky.image and volume.grid unless they are cached. Reading takes up to some seconds. Returns
+ * whether the reading is in progress. A render would hold the device while it waits for the reading. So a client should
+ * poll this function until the reading is done, and render then. Others can use the device meanwhile. Any thread. */
 bool kd_renderer_assets_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky (panoramas.h). Any thread. */
 void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash);
@@ -66,14 +66,14 @@ void kd_renderer_assets_stop(struct kd_renderer *renderer);
 enum kd_status kd_renderer_device_json(struct kd_renderer *renderer, struct kd_buffer *out);
 /* One line such as "llvmpipe (LLVM 15.0.6, 256 bits), llvmpipe Mesa 22.3.6". Any thread. */
 const char *kd_renderer_device_name(const struct kd_renderer *renderer);
-/* Two parts of that line: device and driver. Any thread. */
+/* The device part and the driver part of kd_renderer_device_name. Any thread. */
 const char *kd_renderer_type_name(size_t i); /* name of the i-th type of devices; NULL after the last */
 const char *kd_renderer_device(const struct kd_renderer *renderer);
 const char *kd_renderer_driver(const struct kd_renderer *renderer);
 /* Bytes of device memory in the renderer's buffers after the last frame. Any thread. */
 uint64_t kd_renderer_held(const struct kd_renderer *renderer);
-/* Path of a file that belongs to this version of device and driver (vk/vk.h). It is malloc'd, or NULL if there is no
- * folder. Any thread. */
+/* Path of a file that belongs to this version of device and driver (vk/vk.h). The path is malloc'd, or NULL if there is
+ * no folder. Any thread. */
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
 
@@ -103,8 +103,8 @@ struct kd_accuracy_report {
     /* relative change of the light of these rays; the divisor is at least KD_MARCH_DARK times the brightest light.
      * volume_error: 90th percentile; volume_error_worst: largest. 1 if light is not finite or a ray has no end */
     double volume_error, volume_error_worst;
-    /* for the displayed picture: number of rays given up in volumes, which are magenta, plus number of pixels whose
-     * light is not finite */
+    /* number of rays that were given up in volumes and are magenta in the displayed picture, plus number of its pixels
+     * whose light is not finite */
     uint64_t lost;
 };
 

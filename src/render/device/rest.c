@@ -42,8 +42,8 @@ uint64_t kd_renderer_kept_sum(const struct kd_renderer *r)
 }
 
 /* Resident memory that belongs to no other category is divided between heap and `other`. Heap memory counts as heap
- * only up to the size of this remainder: device memory counts in full although some of its pages may never have been
- * touched, so the remainder may be smaller than the heap. */
+ * only up to the size of this remainder. Device memory counts in full although some of its pages may never have been
+ * touched. So the remainder may be smaller than the heap. */
 void kd_renderer_cached(const struct kd_renderer *r, uint64_t out[KD_N_CACHE_KINDS])
 {
     const uint64_t left = more_than(resident_bytes(), r->started_bytes + named_bytes(r, out)),
@@ -100,7 +100,7 @@ static enum kd_status open_again(struct kd_renderer *r, struct kd_error *error)
     struct kd_kernel_requests latest;
     kd_kernels_list(&r->kernels, &latest);
     enum kd_status status = kd_renderer_reopen(r, error);
-    if (status && !r->vk) /* reopening failed for whatever reason, so there is no device */
+    if (status && !r->vk) /* there is no device, because reopening failed */
         status = error->status = KD_EDEVICE;
     if (status)
         return status;

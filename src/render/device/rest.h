@@ -25,8 +25,8 @@ enum kd_cache_kind {
 #define KD_IDLE_ASIDES_BYTES (128ull << 20)
 /* Limit for lens maps that are kept besides the one in use. */
 #define KD_KEPT_MAPS_BYTES (512ull << 20)
-/* Limit for all kinds together at rest. If it is exceeded, the device is closed and reopened, because lavapipe
- * otherwise keeps some memory of each kernel that it has ever compiled (an LLVM context is never emptied). */
+/* Limit for all kinds together at rest. If it is exceeded, the device is closed and reopened. Otherwise lavapipe would
+ * keep some memory of each kernel that it has ever compiled, because an LLVM context is never emptied. */
 #define KD_REST_BYTES (256ull << 20)
 /* above this, any moment without work counts as rest (server/render/rest.c); KD_REST_BYTES is the limit after a rest */
 #define KD_REST_SOON_BYTES (768ull << 20)
@@ -39,12 +39,12 @@ static inline const char *kd_cached_documents_word(size_t kind)
 #undef KD_CACHE_WORD
     return kind < KD_N_CACHE_KINDS ? words[kind] : NULL;
 }
-/* Counts the bytes of each kind. The device's kinds are those after the latest frame or rest; kernels are counted by
- * their SPIR-V. The last two kinds, `heap` and `other`, divide the rest of the resident memory: what is left after
- * subtraction of the other kinds, and of the size that the process had when it first opened the device. heap: memory in
- * use on the heap, mostly what lavapipe has compiled. other: code, stacks, freed memory that was not yet returned, and
- * blocks of a MiB and more that are in use for rendering, encoding or sending. Reads a file in /proc and inspects the
- * heap, in about a millisecond. Any thread. */
+/* Counts the bytes of each kind. The kinds on the device are counted after the latest frame or rest. Kernels are
+ * counted by the size of their SPIR-V. The last two kinds, `heap` and `other`, divide the rest of the resident memory.
+ * This rest is what is left after subtraction of the other kinds, and of the size that the process had when it first
+ * opened the device. heap: memory in use on the heap, mostly what lavapipe has compiled. other: code, stacks, freed
+ * memory that was not yet returned, and blocks of a MiB and more that are in use for rendering, encoding or sending.
+ * Reads a file in /proc and inspects the heap, in about a millisecond. Any thread. */
 void kd_renderer_cached(const struct kd_renderer *renderer, uint64_t out[KD_N_CACHE_KINDS]);
 /* The sum of all kinds without inspecting the heap. Memory that remained after the device was reopened is not
  * included. Any thread. */

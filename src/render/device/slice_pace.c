@@ -3,8 +3,8 @@
 #include <math.h>
 
 /* Weights of a new measurement in the smoothed slowness. When the device becomes slower, submissions become shorter
- * within one or two submissions. When it becomes faster, they become longer only over some ten of them, because a
- * submission that is too long does more harm than one that is too short. */
+ * within one or two submissions. When it becomes faster, submissions become longer over some ten of them. This
+ * change is slow because a submission that is too long does more harm than one that is too short. */
 #define FALLS 0.5
 #define RISES 0.1
 

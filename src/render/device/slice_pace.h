@@ -1,6 +1,6 @@
 /* Limits the duration of submissions when this device is slow. The costs of passes are measured on an idle device. When
- * other programs use the same cores, or when the measured costs are too low, a submission takes longer than planned,
- * and everybody who waits for the device must wait for its end. Pure. */
+ * other programs use the same cores, or when the measured costs are too low, a submission takes longer than planned.
+ * Everybody who waits for the device must then wait for the end of that submission. Pure. */
 #ifndef KD_RENDER_DEVICE_SLICE_PACE_H
 #define KD_RENDER_DEVICE_SLICE_PACE_H
 

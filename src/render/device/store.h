@@ -36,11 +36,11 @@ struct kd_lens_map {
     struct kd_bands
         critical; /* the lens maps of the pixels at the critical curve, part by part, each followed by its list */
     struct kd_critical_pixels pixels;
-    /* the light of stars seen through this map, in KD_STAR_LIGHT words for each pixel of a band; none: no frame had
+    /* the light of stars seen through this map: KD_STAR_LIGHT words for each pixel of a band; no buffers: no frame had
      * stars */
     struct kd_bands star_light;
-    struct kd_rim rim; /* the rim of the map's camera, for images of stars of high orders, if there is a rim and it was
-                          requested */
+    /* the rim of the map's camera, for images of stars of high orders; set if there is a rim and it was requested */
+    struct kd_rim rim;
     struct kd_rim_grids rim_grids;
     bool rim_known; /* true if rim and rim_grids are set */
     bool rim_traced;
@@ -57,7 +57,8 @@ struct kd_store {
     struct kd_lens_map maps[KD_LENS_MAPS_KEPT];
     uint64_t clock;
     struct kd_bands radiance;
-    struct kd_bands layers; /* the layers of numbers in sequence, kd_plan_layer_bytes each; none: no frame had layers */
+    /* the layers of numbers in sequence, kd_plan_layer_bytes each; no buffers: no frame had layers */
+    struct kd_bands layers;
     struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
     /* parameters and tables that are read at each crossing: in device memory, uploaded through `staging` */
     struct kd_vk_buffer *transfer, *staging;
@@ -70,7 +71,7 @@ struct kd_store {
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* sums of photometry; NULL: not measured yet */
     struct kd_vk_buffer *bloom;              /* grids of bloom; NULL: not made yet */
-    struct kd_bands beamed;                  /* radiance after the telescope's beam; none: the plan has no beam */
+    struct kd_bands beamed;                  /* radiance after the telescope's beam; no buffers: the plan has no beam */
     /* intermediate rows of cells, and grids of cells; NULL: not made yet */
     struct kd_vk_buffer *beam_lines, *beam_grids;
     struct kd_vk_buffer *palette;    /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: not made yet */
@@ -84,7 +85,7 @@ struct kd_store {
     struct kd_vk_buffer *sample_head;    /* head of the lists, on the host */
     struct kd_vk_buffer *undecided;      /* rays that the kernels leave undecided (frame/settle.c): a counter, then the
                                             places of at most kd_plan_open_most rays */
-    struct kd_vk_buffer *undecided_host; /* the same on the host */
+    struct kd_vk_buffer *undecided_host; /* copy of `undecided` on the host */
 };
 
 /* Finds the lens map of the plan; *reused is then true if the map is complete. Otherwise the map's buffers are ready

@@ -13,7 +13,7 @@
 
 #define KD_SEEN_BODIES (KD_CROWD_BODIES + KD_SCENE_BODIES) /* largest number of bodies in a picture */
 
-/* The appearance of bodies depends on these: the hole, the observer's azimuth, and the temperature that corresponds to
+/* What the appearance of bodies depends on: the hole, the observer's azimuth, and the temperature that corresponds to
  * the disk's brightness 1. */
 struct kd_illumination;
 struct kd_bodies_view {
@@ -36,9 +36,9 @@ void kd_illumination_body(const struct kd_illumination *lit, const struct kd_see
 
 /* Number of floats of n bodies and their tree. */
 size_t kd_bodies_words(size_t n);
-/* Writes bodies and tree, in 10 us for 16 bodies and 2 ms for 4096. n is at most KD_SEEN_BODIES. Three kinds of
- * bodies are left out: those without a size, those at impossible places, and those whose distance from the horizon is
- * less than KD_BODIES_CLEAR times the horizon's radius. */
+/* Writes bodies and tree, in 10 us for 16 bodies and 2 ms for 4096. n is at most KD_SEEN_BODIES. A body is left out if
+ * it has no size, if its place is impossible, or if its distance from the horizon is less than KD_BODIES_CLEAR times
+ * the horizon's radius. */
 enum kd_status kd_bodies_pack(const struct kd_seen_body *bodies, size_t n, const struct kd_bodies_view *view,
                               float *words, struct kd_error *error);
 /* True if a body is packed. A body of temperature 0 is packed, because it is dark but hides what is behind it. */

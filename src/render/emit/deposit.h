@@ -1,5 +1,5 @@
-/* Counts the particles (render/emit/particles.h) in each cell of their grids on the device, and reads back the
- * positions of listed ones. Render thread only. */
+/* Counts the particles (render/emit/particles.h) in each cell of their grids on the device. Also reads back the
+ * positions of listed particles. Render thread only. */
 #ifndef KD_RENDER_EMIT_DEPOSIT_H
 #define KD_RENDER_EMIT_DEPOSIT_H
 
@@ -10,8 +10,8 @@
 /* Fills the density at the time scene->top.time minus kd_particle_delay, for the transfer pass. */
 extern const struct kd_emitter_buffers kd_emitter_buffers_particles;
 
-/* Positions of n particles (first, first + stride, ...) at scene->top.time, as the device computes them:
- * Boyer-Lindquist r in M, phi in turns of 2^32, latitude in radians. */
+/* Positions of n particles (first, first + stride, ...) at scene->top.time, as the device computes them. They are
+ * Boyer-Lindquist: r in M, phi in units of 2^-32 turn, latitude in radians. */
 enum kd_status kd_particles_places(const struct kd_emitter_buffers_work *work, const struct kd_scene *scene,
                                    uint32_t first, uint32_t stride, size_t n, struct kd_particle_place *out,
                                    struct kd_error *error);

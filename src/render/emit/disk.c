@@ -155,8 +155,8 @@ static void reflected_table(struct kd_emit_tables *out, const struct profile *p,
     out->disk[i][3] = (float)(light->flux * pow(r, 3) / pow(light->warm, 4));
 }
 
-/* Tables over y = sqrt(1 - r_isco/r). In y, T r^(3/4) is smooth and bounded: it is linear at the ISCO, where the
- * flux has a double zero, and finite at infinity, where T falls as r^(-3/4). */
+/* Tables over y = sqrt(1 - r_isco/r). As a function of y, T r^(3/4) is smooth and bounded. It is linear at the ISCO,
+ * where the flux has a double zero, and finite at infinity, where T falls as r^(-3/4). */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     const struct profile p = profile_of(scene);

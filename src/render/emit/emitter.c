@@ -275,7 +275,7 @@ void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, u
         .delay = (float)kd_scene_lead(scene),
         /* The range is widened by more than a float's rounding, because the emitter itself cuts off at the exact
          * edge. */
-        .w_least = (float)fmax((1 - 1e-6) / reach[1], 1e-30), /* 0 means no crossing */
+        .w_least = (float)fmax((1 - 1e-6) / reach[1], 1e-30), /* not 0, because 0 means no crossing */
         .w_most = (float)fmin((1 + 1e-6) / reach[0], 1e30),
         .along_least = (float)(1 / along[1]),
         .along_most = (float)fmin(1 / along[0], 1e30),

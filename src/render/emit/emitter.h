@@ -1,9 +1,9 @@
 /* Emitters: everything that adds light to a ray, absorbs it or changes it. This is the C side of the table in
  * shaders/shared/emitters.h, with one file for each. Plan, needs of the lens map, motion, device data and
- * approximations iterate over the table and know no emitter by name.
+ * approximations iterate over the table. Their code names no emitter.
  *
- * To add an emitter, write its line in that list, shaders/emit/NAME.glsl, src/render/emit/NAME.c with `const struct
- * kd_emitter kd_emit_NAME`, and its section in the field table. Constant data and pure functions of valid scenes;
+ * To add an emitter, write its line in that list, and its section in the field table. Write shaders/emit/NAME.glsl, and
+ * src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`. Constant data and pure functions of valid scenes;
  * any thread. */
 #ifndef KD_RENDER_EMIT_EMITTER_H
 #define KD_RENDER_EMIT_EMITTER_H
@@ -20,8 +20,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* An approximation (approximation.h). in_force: whether it applies to a scene that has the emitter, with these rays;
- * NULL: always. */
+/* An approximation (approximation.h). in_force: true if the approximation applies to a scene that has the emitter, with
+ * these rays. NULL: it always applies. */
 struct kd_sentence {
     const char *name, *text;
     bool (*in_force)(const struct kd_scene *scene, const struct kd_setting *rays);
@@ -43,11 +43,11 @@ struct kd_emitter {
     uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
     uint32_t (*needs)(
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
-    /* enum kd_varies: the causes for which its light changes; NULL: its light never changes */
+    /* enum kd_varies: the causes that change the emitter's light; NULL: its light never changes */
     unsigned (*varies)(const struct kd_scene *scene);
-    /* The emitter's own device buffers, their bytes, and the invocations of the pass that fills them before light is
-     * computed (KD_PASS_name of its GLSL file). NULL: the emitter has none. If only `invocations` is NULL, the host
-     * fills the buffers. */
+    /* The emitter's own device buffers, and their bytes. Also the number of invocations of the pass that fills them
+     * before light is computed (KD_PASS_name of its GLSL file). NULL: the emitter has none. If only `invocations` is
+     * NULL, the host fills the buffers. */
     const struct kd_emitter_buffers *own;
     uint32_t quads; /* the emitter reads a buffer of quads if it has any of these traits; 0: it never does */
     uint64_t (*device_bytes)(const struct kd_scene *scene);
@@ -57,9 +57,9 @@ struct kd_emitter {
     /* Least and largest r at which the emitter emits or absorbs, M; NULL: anywhere. Crossings outside the range of all
      * emitters are skipped. */
     void (*reach)(const struct kd_scene *scene, double radii[2]);
-    /* For ALONG emitters: the least and the largest |cos(theta)| at which they emit or absorb; NULL: 0 and 1.
-     * The march takes the outermost bounds that `reach`, `hollow` and `height` give for the scene's volumes, and
-     * resolves these bounds to a float's accuracy. It resolves an edge inside them only as finely as the emitter's
+    /* For ALONG emitters: the least and the largest |cos(theta)| at which they emit or absorb; NULL: 0 and 1. The march
+     * takes the outermost bounds that `reach`, `hollow` and `height` give for the scene's volumes, and resolves these
+     * bounds to a float's accuracy. The march resolves an edge inside these bounds only as finely as the emitter's
      * grain requires. */
     double (*hollow)(const struct kd_scene *scene), (*height)(const struct kd_scene *scene);
     /* Radius in M of a sphere within `reach` at which light or optical depth has an edge. The march finds this edge
@@ -69,7 +69,8 @@ struct kd_emitter {
      * has changed. */
     void (*fill)(struct kd_emission *out, const struct kd_scene *scene);
     void (*tables)(struct kd_emit_tables *out, const struct kd_scene *scene);
-    struct kd_scene_part depends[KD_EMITTER_PARTS]; /* ends at the first part of size 0 */
+    /* parts of the scene on which the numbers and tables depend; the list ends at the first part of size 0 */
+    struct kd_scene_part depends[KD_EMITTER_PARTS];
     const struct kd_sentence *sentences;
     size_t n_sentences;
     const struct kd_emitter *kind; /* an emitter whose approximations also apply to this one; NULL: none */
@@ -122,7 +123,7 @@ struct kd_work {
     float log2_of[KD_EMITTER_COUNT][2];
 };
 struct kd_work kd_emit_work(const struct kd_scene *scene);
-/* True if the emitters take about the same time in a picture of the same size. They do if the kinds are equal and no
+/* True if the emitters take about the same time in a picture of the same size. This holds if the kinds are equal and no
  * number differs by more than a factor of two. */
 bool kd_work_alike(const struct kd_work *a, const struct kd_work *b);
 /* Calls take(user, approximation) for each approximation that is in force. */
@@ -153,16 +154,16 @@ uint32_t kd_disk_needs(const struct kd_scene *scene);
  * to 22 M." for the noun "thin disk". */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
 void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EMIT_TOLD]);
-/* Functions that all emitters on orbits share: KD_TRAIT_... for Doppler shift and redshift, quantities of the lens
- * map that they need, and what changes their light. */
+/* Functions that all emitters on orbits share: the KD_TRAIT_... for Doppler shift and redshift; the quantities of the
+ * lens map that they need; what changes their light. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);
 /* The largest effective temperature of the disk, in K, in the frame of the gas. Returning light is included. */
 double kd_disk_peak_temperature(const struct kd_scene *scene);
-/* Computes temperatures of black bodies that are as bright as the smooth disk at n radii r, including fade and
- * opacity, relative to kd_disk_peak_temperature. If light returns, this makes a table in 0.1 to 0.3 s, so it must
- * not be called with a lock. */
+/* Computes, for n radii r, the temperature of a black body that is as bright as the smooth disk there, including fade
+ * and opacity. The temperatures are relative to kd_disk_peak_temperature. If light returns, this makes a table in 0.1
+ * to 0.3 s, so it must not be called with a lock. */
 void kd_disk_heats(const struct kd_scene *scene, size_t n, const double r[], double out[]);
 static inline double kd_disk_heat(const struct kd_scene *scene, double r)
 {
@@ -172,7 +173,8 @@ static inline double kd_disk_heat(const struct kd_scene *scene, double r)
 }
 /* The inner edge of the disk, M. */
 double kd_disk_inner(const struct kd_scene *scene);
-/* Fill in the colours and the luminous efficiency of black bodies. They do not depend on the scene; 15 ms each. */
+/* Fill in the tables of the colours and of the luminous efficiency of black bodies. The tables do not depend on the
+ * scene. Each takes 15 ms. */
 void kd_colour_tables(struct kd_emit_tables *out);
 void kd_luminous_table(struct kd_emit_tables *out);
 

@@ -7,8 +7,8 @@
 
 #include <math.h>
 
-/* How far an octave is displaced by the octave before, in widths of the octave's own cells, where the octave before is
- * one standard deviation from its mean. With this value streaks bend but do not tear. */
+/* Displacement of an octave by the octave before, where the octave before is one standard deviation from its mean. The
+ * unit is the width of the octave's own cells. With this value streaks bend but do not tear. */
 #define WARP 0.2
 /* Mean square slope, along an axis and per cell, of each of the two noises. The amount by which a displacement steepens
  * an octave is proportional to this number. */
@@ -47,7 +47,7 @@ static double inner_radius(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Amplitude of the first octave. With it the logarithm, which is the sum of all octaves, has the standard deviation
+/* Amplitude of the first octave. It gives the logarithm, which is the sum of all octaves, the standard deviation
  * `amplitude`. */
 static double loudness(const struct kd_scene *scene)
 {
@@ -93,8 +93,8 @@ static void place(double at, float *part, float *whole)
     *part = (float)(at - floor(at));
 }
 
-/* Computes, for each ring, the complex factor by which a place in its plane is multiplied to give the same place in
- * the next ring's plane: a rotation and a shrinking. */
+/* Computes, for each ring, the complex factor that converts a place in its plane to the same place in the next ring's
+ * plane. The factor is a rotation and a shrinking. */
 static void next_rings(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     for (int j = 0; j + 1 < KD_GAS_RINGS; j++) {

@@ -18,10 +18,10 @@
 /* an empty node lies this many octaves below the densest one, so that the light falls to nothing within a cell */
 #define EMPTY 40.0
 #define EVEN 1e-3 /* tolerance for the even spacing of rows, as a fraction of a step */
-/* tolerance for the even spacing of times, as a fraction of a step: codes write a dump at the first of their steps
+/* tolerance for the even spacing of times, as a fraction of a step. Codes write a dump at the first of their steps
  * after the intended time */
 #define STEADY 1e-2
-#define LATEST 1e12 /* largest time, M, as that of the scene */
+#define LATEST 1e12 /* largest time, M; the same limit as that of the scene's time */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
 /* largest number of rows per factor of e in r, because a stretch of the march is two cells long */

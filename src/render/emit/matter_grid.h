@@ -46,7 +46,7 @@ struct kd_matter_grid {
     KD_HOLE_MEMBERS
     double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns
                               are evenly spaced */
-    /* phi: azimuth of the first layer; turn: angle covered by all layers, in radians, which is a turn or 1/k of it
+    /* phi: azimuth of the first layer. turn: angle covered by all layers, in radians; it is a turn, or 1/k of a turn
      * with a whole k */
     double phi, turn;
     bool ingoing; /* phi is the ingoing Kerr-Schild azimuth; false: the Boyer-Lindquist azimuth */
@@ -60,10 +60,10 @@ struct kd_matter_grid {
      * range of log2 of density and of Theta. */
     bool packed, whole; /* whole: the file asks for nodes that are not packed */
     double least[2], range[2], speed;
-    /* For columns that are not evenly spaced: a table that gives the column at theta, as a number with a fraction,
-     * by bilinear interpolation. It has `steps` cells in theta from 0 to pi for each pair of adjacent rows, or one
-     * such set of cells for all rows. A cell has four floats: the column at its beginning and at its end, each in
-     * one row and in the next. NULL: the columns are evenly spaced. */
+    /* For columns that are not evenly spaced: a table that gives the column at theta, as a number with a fraction, by
+     * bilinear interpolation. The table has `steps` cells in theta from 0 to pi for each pair of adjacent rows, or one
+     * such set of cells for all rows. A cell has four floats: the column at the cell's beginning and at its end, each
+     * in one row and in the next row. NULL: the columns are evenly spaced. */
     float *places;
     uint32_t steps, place_rows;
 };

@@ -1,7 +1,7 @@
 /* Device buffers of an emitter, which the kernels of light read (KD_BUFFERS_name of shaders/shared/emitters.h). The
- * emitter fills them before the transfer pass, from the host or by its own pass (KD_PASS_name there) with the kernel
- * shaders/comp/NAME.comp. Frames iterate over the table of emitters (device/prepare.h) and know no names. Render
- * thread only. */
+ * emitter fills the buffers before the transfer pass: from the host, or by its own pass (KD_PASS_name there) with the
+ * kernel shaders/comp/NAME.comp. A frame iterates over the table of emitters (device/prepare.h) and contains no
+ * emitter's name. Render thread only. */
 #ifndef KD_RENDER_EMIT_OWN_H
 #define KD_RENDER_EMIT_OWN_H
 

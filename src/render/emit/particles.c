@@ -51,8 +51,8 @@ static double density(const struct kd_scene *scene, double r)
 
 /* Each cell of the plunge's grid is a parcel of falling gas that holds one particle on average. The grid has three
  * times as many columns (parcels round the ISCO) as rows (parcels from start to end), so that half-way down a parcel is
- * about as wide as it is long. Slow light needs further rows: light with a longer delay shows parcels that have already
- * fallen in, and light from the near side of the disk shows parcels that have not started yet. The constants are the
+ * about as wide as it is long. Slow light needs further rows. Light with a longer delay shows parcels that fell in
+ * earlier, and light from the near side of the disk shows parcels that have not started yet. The constants are the
  * longest such times in M. LATE grows with the order, because light takes half a turn longer for each order. */
 #define EARLY 20.0
 #define LATE 50.0
@@ -78,8 +78,8 @@ static void plunge_grid(struct kd_particle_grid *g, const struct kd_scene *scene
 }
 
 /* Number of guiding radii. Each row of the grid has at least five radii, and each radius at least one particle. The
- * radii are spread so evenly that a node gets its expected number of particles within 1 %, which is the Poisson error
- * of a row of 10 000 particles, the most that a row has. The row with the fewest radii is at one of the edges. */
+ * radii are spread evenly: a node gets its expected number of particles within 1 %. That is the Poisson error of a row
+ * of 10 000 particles, the most that a row has. The row with the fewest radii is at one of the edges. */
 static uint32_t radii_of(const struct kd_particle_grid *g, const struct kd_scene *scene)
 {
     double all = log(scene->disk.outer / inner(scene));

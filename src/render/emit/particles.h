@@ -2,12 +2,12 @@
  * orbits are `radii` circular ones with equal numbers of particles. All of this follows from a hash of the particle's
  * number and the seed; nothing is stored. The particles with the lowest numbers fall from the ISCO instead
  * (render/emit/plunging.h). Each then starts again at another azimuth, a hash of its number and the count of its falls.
- * The position at any time t is a closed form. Angular frequencies are in double. Their phases at t reach the device as
- * 32-bit fractions of a turn. Their sums wrap exactly, so t may be arbitrarily large.
+ * The position at any time t is a closed form. Angular frequencies are in double. The phases at t reach the device as
+ * 32-bit fractions of a turn. Sums of such phases wrap exactly, so t may be arbitrarily large.
  *
- * The rows of the grid are steps of log r from edge to edge, its columns steps of azimuth. The light of the smooth disk
- * is multiplied by the ratio of the number counted at a node to the number expected there. Falling particles have a
- * grid of their own, over phase and azimuth at the ISCO.
+ * The rows of the grid are steps of log r from edge to edge. The columns are steps of azimuth. At a node, the light of
+ * the smooth disk is multiplied by the ratio of the counted number of particles to the expected number. Falling
+ * particles have a grid of their own, over phase and azimuth at the ISCO.
  *
  * To first order in the amplitude (J. Binney & S. Tremaine, Galactic Dynamics, section 3.2.3, with the frequencies of
  * Kerr),
@@ -37,9 +37,9 @@ struct kd_particles_push; /* push constants of particles.comp: render/view/layou
 struct kd_particle_grid {
     uint32_t count; /* number of particles; 0: the disk is smooth */
     uint32_t radii;
-    uint32_t rows, columns;               /* number of intervals; columns is a power of 2 */
+    uint32_t rows, columns;               /* number of intervals along each axis; columns is a power of 2 */
     uint32_t plunging;                    /* number of falling particles; 0: they have no grid */
-    uint32_t plunge_rows, plunge_columns; /* size of their grid */
+    uint32_t plunge_rows, plunge_columns; /* size of the falling particles' grid */
     /* rows from the start of the plunge to its end; rows before the start, for slow light */
     uint32_t lap_rows, lead_rows;
     uint32_t unit;  /* weight of one particle, chosen so that a node fits in 16 bits */
@@ -55,24 +55,25 @@ uint32_t kd_particle_guide(const struct kd_particle_grid *grid, uint32_t particl
 /* The guiding radius inside which a fraction q of the particles lies. */
 double kd_particle_radius(const struct kd_scene *scene, double q);
 
-/* Guiding orbit k: its radius, angular frequencies in rad/M, and the largest swings of ln r and of phi in radians. */
+/* Guiding orbit k: its radius, angular frequencies in rad/M, and the largest amplitudes of its epicycles in ln r and in
+ * phi, radians. */
 struct kd_particle_orbit { double r, omega, kappa, vertical, swing_r, swing_phi; };
 struct kd_particle_orbit kd_particle_orbit(const struct kd_scene *scene, uint32_t radii, uint32_t k);
 
-/* A particle's epicycles: fractions of the largest swings, and phases at time 0 in radians. */
+/* A particle's epicycles: fractions of the largest amplitudes, and phases at time 0 in radians. */
 struct kd_particle_swing { double radial, radial_phase, vertical, vertical_phase; };
 struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_t particle);
 
-/* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has such gas. The optical depth follows
- * from the surface density of the gas in its own frame, divided by that of the disk just outside the ISCO: a particle
- * has the same opacity inside and outside the ISCO. */
+/* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has such gas. A particle has the same
+ * opacity inside and outside the ISCO. So the optical depth is proportional to the surface density of the gas in its
+ * own frame, relative to that of the disk just outside the ISCO. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
 /* The time before scene->top.time for which the grid is computed: about the light delay of a near camera, so that the
  * remaining delay is short. */
 double kd_particle_delay(const struct kd_scene *scene);
 
-/* A particle's position: Boyer-Lindquist r in M, phi in turns of 2^32, latitude in radians. */
+/* A particle's position: Boyer-Lindquist r in M, phi in units of 2^-32 turn, latitude in radians. */
 struct kd_particle_place {
     float r;
     uint32_t phi;
@@ -91,7 +92,8 @@ uint64_t kd_particle_plunge_words(const struct kd_particle_grid *grid);
 struct kd_particles_push kd_particle_push(const struct kd_scene *scene, const struct kd_particle_grid *grid,
                                           double time);
 
-/* The device's result for a listed particle: a row, or the phase of a plunge in turns of 2^32; azimuth; latitude. */
+/* The device's result for a listed particle: a row of the grid, or the phase of a plunge in units of 2^-32; azimuth;
+ * latitude. */
 struct kd_particle_listed {
     union {
         float row;

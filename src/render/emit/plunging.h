@@ -6,11 +6,11 @@
  * 2021, arXiv:2104.09951, finds 4 to 17 times for turbulent gas. Light that escapes from the end has g < 0.02 and less
  * than 1e-6 of its brightness.
  *
- * A steady stream is uniform in time, so a particle's first coordinate is its phase, the fraction of the curve's
- * time that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel
- * of gas is at rest in both coordinates. On such a grid each cell is a parcel that is stretched as it falls. Its
- * surface density is 1/(r |u^r|) times a conserved quantity (mass: I. D. Novikov & K. S. Thorne 1973). Double
- * precision, pure, any thread. */
+ * A steady stream is uniform in time. So a particle's first coordinate is its phase: the fraction of the curve's time
+ * that has passed. The second is its azimuth at the ISCO, in the frame that rotates with that orbit. A parcel of gas is
+ * at rest in both coordinates. On such a grid each cell is a parcel that is stretched as it falls. The surface density
+ * of the parcel is 1/(r |u^r|) times a conserved quantity (mass: I. D. Novikov & K. S. Thorne 1973). Double precision,
+ * pure, any thread. */
 #ifndef KD_RENDER_EMIT_PLUNGING_H
 #define KD_RENDER_EMIT_PLUNGING_H
 
@@ -19,8 +19,8 @@
 
 #include <stdbool.h>
 
-/* True if some particles fall: the disk is made of particles and reaches the ISCO, and a fraction of its particles
- * fall. */
+/* True if some particles fall. The disk must be made of particles and reach the ISCO, and the fraction of falling
+ * particles must be above 0. */
 bool kd_plunging_is_on(const struct kd_scene *scene);
 
 struct kd_plunging {
@@ -31,13 +31,13 @@ struct kd_plunging {
 };
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 
-/* Place at a radius r, start >= r >= end. phase: from 0 to 1; turns: azimuth in turns, minus the turns that the
- * orbit at the ISCO has made since the start. */
+/* Place at a radius r, start >= r >= end. phase: from 0 to 1. turns: azimuth in turns, minus the turns that the orbit
+ * at the ISCO has made since the start. */
 struct kd_plunging_place { double phase, turns; };
 struct kd_plunging_place kd_plunging_at(const struct kd_plunging *plunging, double r);
 
-/* Converts many phases to places, the inverse of the function above, by a table of points with known slopes and
- * cubics between them. r is accurate to 1e-9. */
+/* Converts many phases to places. This is the inverse of the function above, by a table of points with known slopes and
+ * cubics between the points. r is accurate to 1e-9. */
 #define KD_PLUNGING_POINTS 1025
 struct kd_plunging_path {
     struct { double r, turns, r_slope, turns_slope; } at[KD_PLUNGING_POINTS];

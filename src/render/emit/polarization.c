@@ -1,4 +1,4 @@
-/* Polarisation of light from the plane: shaders/emit/polarization.glsl. It emits nothing itself. */
+/* Polarisation of light from the plane: shaders/emit/polarization.glsl. This emitter adds no light of its own. */
 #include "render/emit/emitter.h"
 
 #include "physics/disk/scattering.h"

@@ -13,8 +13,9 @@ double kd_radio_unit(double ghz, double kelvin)
     return 2 * KD_K_J_K * kelvin * per_c * per_c;
 }
 
-/* For a disk: (h nu/k)/(exp(x) - 1)/f^4, where x has the colour temperature and f is the hardening factor. The light
- * of a black body of f T is diluted by f^-4, so that it carries sigma T^4 (Shimura & Takahara 1995, ApJ 445, 780). */
+/* For a disk: (h nu/k)/(exp(x) - 1)/f^4, where x = h nu/(k T) for the colour temperature T, and f is the hardening
+ * factor. The light of a black body of f T is diluted by f^-4, so that it carries sigma T^4 (Shimura & Takahara 1995,
+ * ApJ 445, 780). */
 double kd_radio_kelvin(const struct kd_scene *scene)
 {
     if (kd_scene_is_radio(scene) || !kd_scene_has_disk_frequency(scene))

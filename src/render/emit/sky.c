@@ -60,8 +60,8 @@ static uint64_t device_bytes(const struct kd_scene *scene)
            (has_stars(scene) ? 4 * (5 * places + cells) : 0);
 }
 
-/* Host memory for the panorama's light before it is packed. For a picture, also memory for all its pixels; the scene
- * does not contain their number, so the largest permitted number is used. */
+/* Host memory for the panorama's light before it is packed. For sky.image, also memory for all pixels of the picture.
+ * The scene does not contain their number, so the largest permitted number is used. */
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     const uint64_t rows = is_picture(scene) ? KD_SKY_IMAGE_ROWS : KD_MILKY_WAY_HEIGHT, most = KD_PANORAMA_MOST;

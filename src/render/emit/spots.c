@@ -10,7 +10,7 @@
 
 _Static_assert(KD_SPOT_MAX == KD_SPOTS, "those of a scene");
 
-/* largest distance at which a spot is seen, in sizes of the spot: beyond it, less than 1e-9 of the peak is left */
+/* largest distance at which a spot is seen, in sizes of the spot. Beyond it, less than 1e-9 of the peak is left */
 #define REACH 6.44
 
 static bool present(const struct kd_scene *scene)

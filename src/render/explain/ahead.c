@@ -4,7 +4,7 @@
 #include "render/explain/explain.h"
 #include "render/view/critical_cache.h"
 
-/* The scene with which the page asks for a pixel (clients/web/over/pixel.js). Such a pixel is rendered by itself. */
+/* The scene that the web page requests for a pixel (clients/web/over/pixel.js). Such a pixel is rendered by itself. */
 static struct kd_scene alone(const struct kd_scene *scene)
 {
     struct kd_scene s = *scene;
@@ -16,8 +16,8 @@ static struct kd_scene alone(const struct kd_scene *scene)
     return s;
 }
 
-/* Finds a pixel at the critical curve, because such a pixel needs the kernels of any other pixel and those of its
- * denser rays. If the picture has no pixel at the curve, takes the first pixel. The only error is KD_ENOMEM. */
+/* Finds a pixel at the critical curve. Such a pixel needs the kernels of any other pixel, and those of its denser rays.
+ * If the picture has no pixel at the curve, takes the first pixel. The only error is KD_ENOMEM. */
 static enum kd_status pixel_at_curve(const struct kd_scene *scene, struct kd_pixel *out, struct kd_error *error)
 {
     struct kd_critical_pixels list = { 0 };

@@ -44,9 +44,9 @@ static enum kd_status find_crossings(struct kd_explained *x, struct kd_error *er
     };
     const double alpha_beta[] = { x->label.alpha, x->label.beta };
     const struct kd_ray_labels ray = { alpha_beta, &x->label.outward, 1 };
-    enum kd_status status = x->motion.within
-                                ? kd_ray_within(&x->motion, x->frame.reversed, x->crossings, &x->end, error)
-                                : kd_rays_closed(&params, &ray, true, x->crossings, &x->end, NULL, NULL, error);
+    enum kd_status status =
+        x->motion.within ? kd_ray_within(&x->motion, x->frame.reversed, x->crossings, &x->end, error)
+                         : kd_rays_closed(&params, &ray, KD_CLOSED_ERRORS, x->crossings, &x->end, NULL, NULL, error);
     for (uint32_t n = 0; n < x->end.n_crossings && !status; n++) {
         struct kd_ray_crossing *c = &x->crossings[n];
         c->phi = kd_ray_path_phi(&x->frame, c->phi);
@@ -246,9 +246,9 @@ bool kd_explained_has_gas(const struct kd_probed_place *p)
     return false;
 }
 
-/* A is the lapse and W the frame dragging. The local observer measures the energy (E - W L)/A of the gas per unit
- * mass, which is its Lorentz factor, and the energy (1 - W lambda)/A of light with E = 1. The gas measures the energy
- * 1/g of this light. It is the product of the Lorentz factor, of the light's local energy, and of 1 - approach. */
+/* A is the lapse and W the frame dragging. The local observer measures the energy (E - W L)/A of the gas per unit mass,
+ * which is its Lorentz factor, and the energy (1 - W lambda)/A of light with E = 1. The gas measures the energy 1/g of
+ * this light. This 1/g is the product of the Lorentz factor, of the light's local energy, and of 1 - approach. */
 struct kd_gas_velocity kd_explained_velocity(const struct kd_explained *x, const struct kd_ray_crossing *at)
 {
     const struct kd_hole *hole = kd_scene_hole(&x->scene);

@@ -33,8 +33,8 @@ struct kd_explained {
     char why[240];   /* one sentence: where the ray ends, and why */
 };
 
-/* kd_explain explains the middle ray. kd_explain_each explains one of the rays whose mean is the pixel's light,
- * without its path. Both return KD_EINVAL for a ray that has no closed form. Call kd_explained_finish in any case. */
+/* kd_explain explains the middle ray. kd_explain_each explains one of the rays whose mean is the pixel's light, without
+ * its path. Both functions return KD_EINVAL for a ray that has no closed form. Call kd_explained_finish in any case. */
 enum kd_status kd_explain(const struct kd_picture *picture, struct kd_explained *out, struct kd_error *error);
 enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number, struct kd_explained *out,
                                struct kd_error *error);
@@ -42,8 +42,9 @@ enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
 /* Relative difference between the mean of the rays' light and the pixel's light. */
 double kd_explained_sum_error(const struct kd_probed_pixel *pixel);
-/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many of them
- * are known: 4, or 3 (without V) if only light of the plane is polarised, or 0 if the scene is not polarised. */
+/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many of them are
+ * known: 4 for polarised volumes, 3 (without V) if only light of the plane is polarised, 0 if the scene is not
+ * polarised. */
 enum { KD_EXPLAINED_STOKES = 4 };
 int kd_explained_stokes(const struct kd_probed_ray *ray, double out[KD_EXPLAINED_STOKES]);
 /* kd_explained_evpa: angle of the electric field. kd_explained_polarized: degree of polarisation. NAN if undefined. */
@@ -74,9 +75,9 @@ extern const struct kd_format kd_format_pixel;
 /* Sets the pixel of a plan from "X,Y", in pixels from the picture's upper left corner. Returns KD_EINVAL if it is not a
  * place in the picture. */
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error);
-/* Reduces the scene and its plan to the plan's pixel with a margin, if nothing of the pixel depends on the rest of the
- * picture (render/plan/tile.h), that is, if the exposure is a number and there is no bloom and no beam. Otherwise
- * leaves scene and plan unchanged. */
+/* Reduces the scene and its plan to the plan's pixel with a margin (render/plan/tile.h). Does so only if the pixel does
+ * not depend on the rest of the picture: the exposure must be a number, and there must be no bloom and no beam.
+ * Otherwise leaves scene and plan unchanged. */
 enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
                                  struct kd_error *error);
 /* Requests additional output by a word. The only word is "steps", for the engine's steps along the middle ray. Returns

@@ -42,7 +42,7 @@ static void name_roots(struct kd_ray_motion *m)
 /* Roots of (z - v)(N + a^2 v) in v = cos^2(theta), section III of the same paper. */
 static void name_polar(struct kd_ray_motion *m, const struct kd_null_motion *constants)
 {
-    const struct kd_null_polar p = kd_null_polar_of(constants);
+    const struct kd_null_polar p = kd_null_polar_of(constants, KD_NULL_TAU_PHI_T);
     const double a2 = p.a * p.a, low = a2 > 0 ? -p.n / a2 : NAN;
     m->polar_root[0] = p.z;
     m->polar_root[1] = low;

@@ -1,5 +1,5 @@
-/* Describes the motion of one ray: the case of its roots in r and in theta, its turning points, why it ends, and
- * points of its path. It uses the closed form of physics/null/null_geodesic.h and the steps of
+/* Describes the motion of one ray: the case of its roots in r and in theta, its turning points, why it ends, and points
+ * of its path. The description uses the closed form of physics/null/null_geodesic.h and the steps of
  * physics/null/null_course.h, for `kerrd pixel` and `kerrd rays --trace`. Pure, any thread. */
 #ifndef KD_RENDER_EXPLAIN_MOTION_H
 #define KD_RENDER_EXPLAIN_MOTION_H
@@ -34,14 +34,14 @@ struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray);
 /* Writes one sentence on why a ray of that fate ends as it does. Returns its length. */
 int kd_ray_motion_why(const struct kd_ray_motion *motion, enum kd_ray_fate fate, char *out, size_t size);
 
-/* Computes the requested crossings, and the end, of a ray that starts inside the horizon; kd_rays_closed does this
- * for rays that start outside. phi is Boyer-Lindquist for places outside the horizon, minus the observer's ingoing
- * azimuth. delay is in ingoing time. There is no error estimate. Returns KD_OK or KD_ENOMEM. */
+/* Computes the requested crossings and the end of a ray that starts inside the horizon. kd_rays_closed does this for
+ * rays that start outside. phi counts from the observer's ingoing azimuth; for places outside the horizon it is
+ * Boyer-Lindquist. delay is in ingoing time. There is no error estimate. Returns KD_OK or KD_ENOMEM. */
 enum kd_status kd_ray_within(const struct kd_ray_motion *motion, bool reversed, struct kd_ray_crossing *crossings,
                              struct kd_ray_end *end, struct kd_error *error);
 
 /* The frame in which a ray's azimuths and times are given: the observer's azimuth and time. If the ray's energy at
- * infinity is negative, it rotates the other way (view/camera.h). */
+ * infinity is negative, the frame rotates the other way (view/camera.h). */
 struct kd_ray_path_frame {
     double azimuth, twist;
     bool reversed;

@@ -1,4 +1,4 @@
-/* Follows a ray of an observer inside the horizon, where closed forms do not apply, by the steps of
+/* Follows a ray of an observer inside the horizon, where closed forms do not apply. Uses the steps of
  * physics/null/null_course.h in ingoing coordinates. */
 #include "render/explain/motion.h"
 
@@ -8,8 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* fraction of the horizon's radius: a crossing that a ray from outside makes nearer than this to the horizon counts
- * as on it */
+/* fraction of the horizon's radius. If a ray from outside crosses the plane nearer to the horizon than this, the
+ * crossing counts as on the horizon */
 #define NEAR 1e-4
 
 /* Redshift factor at a crossing. outwards: the photon leaves the gas with p^r > 0; the ray traced back moves inwards

@@ -64,8 +64,8 @@ done:
     return status;
 }
 
-/* Maximum number of blocks along an axis that two adjacent cells read together. They read blocks in four cells. A
- * narrow last block moves the centres of blocks closer together, which adds up to two blocks. */
+/* Maximum number of blocks along an axis that two adjacent cells read together. The two cells read blocks in four
+ * cells. A narrow last block moves the centres of blocks closer together, which adds up to two blocks. */
 static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool around)
 {
     return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1) + (around ? 1 : 0);
@@ -139,8 +139,8 @@ static enum kd_status down(struct kd_frame_job *j, uint32_t level)
     return make(j, KD_KERNEL_BLOOM_DOWN, level, 0, 0, bindings);
 }
 
-/* Adds each grid to all coarser ones. For the coarsest grid there is no sum of coarser ones, so its own light is
- * bound in that place, with weight 0. */
+/* Adds the light of one grid to the sum of all coarser grids. For the coarsest grid there is no such sum, so its own
+ * light is bound in that place, with weight 0. */
 static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 {
     const struct kd_bloom *b = &j->plan->picture.bloom;

@@ -1,9 +1,10 @@
 /* Compiles kernels while other work uses the device.
  *
- * A driver compiles a kernel when its pipeline is created, or at its first dispatch on the device's queue (lavapipe:
- * half a second to some seconds). So pipelines are created while the device works. For a driver of the second kind,
- * the work that needs the kernels is also run on a second device that computes nothing (kd_vk_params.compiles_only).
- * This run fills the driver's cache on disk, from which the first device then reads. */
+ * Some drivers compile a kernel when its pipeline is created. Others, such as lavapipe, compile it at its first
+ * dispatch on the device's queue, which takes half a second to some seconds. So pipelines are created while the device
+ * works. For a driver of the second kind, the work that needs the kernels is also run on a second device that computes
+ * nothing (kd_vk_params.compiles_only). This run fills the driver's cache on disk, from which the first device then
+ * reads. */
 #ifndef KD_RENDER_FRAME_COMPILATION_H
 #define KD_RENDER_FRAME_COMPILATION_H
 

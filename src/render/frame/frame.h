@@ -27,8 +27,8 @@ struct kd_frame {
     struct kd_light_report light;
     double density_scale;         /* factor that was applied to the density (volume.normalise_to_jy); 1: none */
     struct kd_probed_pixel *told; /* light of the pixel that the plan names (frame/probe.h); NULL: none */
-    /* times of the passes that ran, by the names of plan/pass.h, and of "upload", "fill" and "total"; also of
-     * "kernels" if some had to be made */
+    /* times of the passes that ran, by the names of plan/pass.h. Also the times "upload", "fill" and "total", and
+     * "kernels" if some kernels had to be made */
     struct kd_timing timings[KD_FRAME_MAX_TIMINGS];
     size_t n_timings;
 };
@@ -45,17 +45,17 @@ static inline int kd_frame_bit_depth(const struct kd_frame *frame)
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error);
 
-/* Preview of a long picture, which is drawn from the top some rows at a time. Its functions are called between these
- * steps. */
+/* Preview of a long picture, which is drawn from the top some rows at a time. The hook's functions are called between
+ * these steps. */
 struct kd_preview_hook {
     bool (*wanted)(void *user);
     /* Called with a frame of full size that is black from row `rows` on. The frame has its own exposure if that is
-     * "auto", and has neither timings nor accuracy. Its layers are valid only during the call. */
+     * "auto", and has neither timings nor accuracy. The frame's layers are valid only during the call. */
     void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
 };
 
-/* Renders like kd_render, with separate buffers. progress is called about every 100 ms. Before it returns, other
- * threads may use the renderer for anything in this header; the picture's bytes do not depend on that. At most
+/* Renders like kd_render, with separate buffers. progress is called about every 100 ms. During this call, other threads
+ * may use the renderer for anything in this header. The picture's bytes do not depend on that. At most
  * KD_BACKGROUND_RENDERS may run concurrently, and the callers must limit their total memory, the sum of the plans'
  * device_bytes. Cached lens maps of finished background renders are evicted to make room. Timings exclude the time
  * spent in progress. preview: NULL, or both functions, called with `user`. */

@@ -33,8 +33,8 @@ struct kd_frame_job {
     const struct kd_preview_hook *preview;
     void *user;
     double done, weight; /* done: number of rows done so far, summed over all passes; weight: number of all rows */
-    /* refine_rows: rows that stand for refinement in the progress and are not reported yet; refine_rays: number of
-     * rays that refinement is expected to trace */
+    /* refine_rows: rows by which refinement counts in the progress, and which are not reported yet. refine_rays: number
+     * of rays that refinement is expected to trace */
     double refine_rows, refine_rays;
     uint32_t lit;   /* number of rows of pixels, from the top, whose light is complete */
     bool looking;   /* a preview is being made */
@@ -130,8 +130,8 @@ enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct
  * footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
-/* Spreads the light of stars over the pixels of a band. The stars are those that the band's rays see; if the whole
- * map is cached, also those that rays of adjacent rows see. Does nothing if that light is cached. The band's map
+/* Spreads the light of stars over the pixels of a band. The stars are those that the band's rays see. If the whole map
+ * is cached, stars that rays of adjacent rows see are included. Does nothing if that light is cached. The band's map
  * must be complete. Call this for the bands of a frame from first to last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
 /* Gets all kernels of kd_frame_stars. */
@@ -170,9 +170,9 @@ enum kd_status kd_frame_mean(struct kd_frame_job *job);
 enum kd_status kd_frame_beam(struct kd_frame_job *job);
 /* Sets the exposure from the completed light. Waits for the device if the exposure is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
-/* kd_frame_refine traces more rays for the pixels that need them, at the frame's exposure; j->kinds records which.
- * kd_frame_residual measures the remaining error of the picture into the frame's accuracy; it overwrites the light of
- * the sampled pixels. */
+/* kd_frame_refine traces more rays for the pixels that need them, at the frame's exposure. j->kinds records which
+ * pixels these are. kd_frame_residual measures the remaining error of the picture, and writes it to the frame's
+ * accuracy. It overwrites the light of the sampled pixels. */
 enum {
     KD_REFINED_NOT,
     KD_REFINED_NOT_AT_CURVE,
@@ -194,7 +194,7 @@ enum kd_status kd_frame_post(struct kd_frame_job *job);
 enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out); /* the kernel */
 /* Runs the passes from light to pixels, in order. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
-/* kd_frame_add_layers allocates the layers of a plan other than the picture. The second function copies them to the
+/* kd_frame_add_layers allocates the layers of a plan other than the picture. kd_frame_layers copies these layers to the
  * host, as far as light is complete. A single requested layer replaces the picture, in false colour. */
 enum kd_status kd_frame_add_layers(struct kd_frame *frame, const struct kd_plan_picture *picture,
                                    struct kd_error *error);

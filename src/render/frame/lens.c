@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
+static const struct kd_critical_lattice on_grid; /* all members 0 means rays of the grid */
 
 /* Number of rows of pixels of a band, from `row` on, that one submission processes. A slice of a sampled map ends at
  * the end of a block, so that no block is traced twice. */
@@ -385,7 +385,7 @@ static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
 }
 
 /* Lights rows whose map is recorded or made, and reports their progress. A slice of a sampled map has at least the rows
- * of a block, so its light may take several submissions. map_ns and light_ns: times of a row of pixels. */
+ * of a block. So its light may take several submissions. map_ns and light_ns: times of a row of pixels. */
 static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *whole, double map_ns, double light_ns)
 {
     struct slice part = *whole;
@@ -463,8 +463,8 @@ done:
     return status;
 }
 
-/* Lights all bands. Points of light need the complete map of a band before the light of that band is made; if all
- * maps are cached, they also need those of the adjacent bands. */
+/* Lights all bands. Points of light need the complete map of a band before the light of that band is made. If all maps
+ * are cached, points of light also need the maps of the adjacent bands. */
 static enum kd_status light_bands(struct kd_frame_job *j, bool needed, double transfer_ns)
 {
     const struct kd_plan *p = j->plan;

@@ -15,8 +15,8 @@ static inline uint32_t kd_frame_slice(const struct kd_frame_job *j, double ns, u
 {
     return kd_slice_items(&j->r->slice_pace, ns, left);
 }
-/* Like the function above, for items of which only an upper bound of the time is known. Their time is not used to
- * measure the device. */
+/* Like the function above, for items of which only an upper bound of the time is known. The time of these items is not
+ * used to measure the device. */
 static inline uint32_t kd_frame_slice_at_most(const struct kd_frame_job *j, double ns, uint32_t left)
 {
     const uint32_t items = kd_frame_slice(j, ns, left);
@@ -24,8 +24,8 @@ static inline uint32_t kd_frame_slice_at_most(const struct kd_frame_job *j, doub
     return items;
 }
 
-/* The kernels that trace rays and that compute their light: on listed pixels by their lattice, on the grid if all
- * members of the lattice are 0. *out is NULL if no kernel traces. */
+/* Get the kernels that trace rays and that compute their light. The kernels process listed pixels with the given
+ * lattice, or the picture's grid if all members of the lattice are 0. *out is NULL if no kernel traces. */
 enum kd_status kd_frame_trace_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                      const struct kd_vk_pipeline **out);
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, int makes,
@@ -39,11 +39,10 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *job, const struc
                                      struct kd_vk_buffer *lens, int camera);
 struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *job, const struct kd_vk_pipeline *pipeline,
                                         struct kd_vk_buffer *lens, uint32_t band, int camera, int makes);
-/* Rays through volumes that a driver stopped early are listed. kd_frame_forget_lost empties the list, which is
- * stored behind the light of a band or of a sample; call it before any of that light is computed.
- * kd_frame_follow_lost continues the rays listed since then. `base` is the dispatch that lit their pixels, and
- * `march` has its push constants. Each group of listed rays takes `turns` dispatches. The function submits what is
- * recorded, and waits. */
+/* Rays through volumes that a driver stopped early are listed. The list is stored behind the light of a band or of a
+ * sample. kd_frame_forget_lost empties the list; call it before any of that light is computed. kd_frame_follow_lost
+ * continues the rays listed since then. `base` is the dispatch that lit their pixels, and `march` has its push
+ * constants. Each group of listed rays takes `turns` dispatches. The function submits what is recorded, and waits. */
 enum kd_status kd_frame_forget_lost(struct kd_frame_job *job, struct kd_vk_buffer *light, const char *pass);
 enum kd_status kd_frame_follow_lost(struct kd_frame_job *job, const struct kd_vk_dispatch *base,
                                     const struct kd_slice *march, const struct kd_critical_lattice *lattice,
@@ -55,7 +54,7 @@ enum kd_status kd_frame_list_rays(struct kd_frame_job *job, const struct kd_lens
 /* Pixels of a list whose lens map fits in one buffer. */
 struct kd_frame_part {
     const struct kd_frame_list *list;
-    uint64_t first, n; /* range among those pixels */
+    uint64_t first, n; /* range of the part among the pixels of the list */
     struct kd_vk_buffer *lens;
     struct kd_slice push;
 };
@@ -64,7 +63,7 @@ struct kd_frame_part kd_frame_part_of(const struct kd_frame_job *job, const stru
 /* Finds which of the part's pixels lie in a band: those from *from to *to - 1, counted from the part's first pixel. */
 void kd_frame_part_in_band(const struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band,
                            uint64_t *from, uint64_t *to);
-/* Uploads the places of the part's pixels. They are stored behind the planes. */
+/* Uploads the places of the part's pixels. The places are stored behind the planes. */
 enum kd_status kd_frame_upload_pixels(struct kd_frame_job *job, const struct kd_frame_part *part);
 
 /* Describes the light of the plan's pixel again, if that pixel is in the part that has just been lit. */
@@ -79,8 +78,8 @@ enum kd_status kd_frame_forget_open(struct kd_frame_job *job, const struct kd_fr
 enum kd_status kd_frame_settle(struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band);
 
 /* Rays of pixels on a square grid, interpolated in the lens map of the picture's grid (comp/between.comp).
- * kd_frame_has_between: whether that map has one ray a pixel and is complete. kd_frame_mark_between: writes a byte
- * for each pixel, 1 if interpolation is accurate and 0 if it is not; waits for the device. */
+ * kd_frame_has_between: true if that map has one ray a pixel and is complete. kd_frame_mark_between: writes a byte for
+ * each pixel, 1 if interpolation is accurate and 0 if it is not; waits for the device. */
 bool kd_frame_has_between(const struct kd_frame_job *job);
 enum kd_status kd_frame_mark_between(struct kd_frame_job *job, const struct kd_critical_pixels *pixels, uint8_t *marks);
 enum kd_status kd_frame_between(struct kd_frame_job *job, const struct kd_frame_part *part);

@@ -1,5 +1,5 @@
-/* Measures the error of light from volumes. The first ray of each pixel of a lattice is traced again by the same
- * kernel into a separate buffer, once as in the picture and once KD_MARCH_FINER times as finely. */
+/* Measures the error of light from volumes. On a lattice of pixels, the first ray of each pixel is traced twice more by
+ * the same kernel into a separate buffer: once as in the picture, and once KD_MARCH_FINER times as finely. */
 #include "render/frame/lens.h"
 
 #include <math.h>
@@ -17,7 +17,7 @@ static uint32_t above(const struct kd_march_sample *s, uint32_t row)
 /* Lights the sample's pixels of a band, writes to the buffer from index `to` on, and submits. */
 static enum kd_status sample(struct kd_frame_job *j, uint32_t band, const struct kd_march *march, uint32_t to)
 {
-    static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
+    static const struct kd_critical_lattice on_grid; /* all members 0 means rays of the grid */
     const struct kd_plan *p = j->plan;
     const struct kd_march_sample *s = &p->light.march.sample;
     const uint32_t first = kd_frame_band_first(j, band), from = above(s, first),

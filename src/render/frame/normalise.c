@@ -13,8 +13,8 @@ enum { FIRST = 48, CLOSE = 128, MOST = 60 };
 #define NEAR 1e-3
 /* relative error of the flux at which the search ends; a sum of floats is accurate to 1e-6 */
 #define HELD 5e-5
-/* First estimate of d ln(flux)/d ln(scale). Light is proportional to density times field, and the field grows at
- * least as the square root of the density, so the slope is at least 1.5. */
+/* First estimate of d ln(flux)/d ln(scale). Light is proportional to density times field. The field grows at least as
+ * the square root of the density, so the slope is at least 1.5. */
 #define THIN 2.0
 #define LONGEST 6.9 /* largest step of ln scale: a factor of a thousand */
 /* margin at both ends of a bracket, as a fraction of the bracket; an estimate within it is replaced */
@@ -87,8 +87,8 @@ static double guess(const struct search *s, double x, double y, const double at[
     return at[0] + (part > MARGIN && part < 1 - MARGIN ? part : 0.5) * (at[1] - at[0]);
 }
 
-/* Finds *x, ln of the scale, starting from its value, by regula falsi in ln flux over ln scale; the value at a retained
- * end is halved each time (Dowell & Jarratt 1971, BIT 11, 168). */
+/* Finds *x, the ln of the scale, by regula falsi in ln flux over ln scale, starting from the given *x. If an end of the
+ * bracket is retained, the value there is halved each time (Dowell & Jarratt 1971, BIT 11, 168). */
 static enum kd_status find(struct search *s, int side, double within, double *x)
 {
     double at[2] = { -INFINITY, INFINITY }, off[2] = { 0 }, last = NAN, before = NAN, jy = 0;
@@ -167,7 +167,7 @@ static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_l
     return bare;
 }
 
-/* Computes both keys. Each is a hash of the reduced scene and the flux; the first includes the camera and the
+/* Computes both keys. Each is a hash of the reduced scene and the flux. The first key includes the camera and the
  * picture's shape, the second does not. */
 static enum kd_status keys_of(const struct search *s, struct kd_normal *out)
 {

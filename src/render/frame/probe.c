@@ -149,7 +149,7 @@ static void take(struct kd_probed_ray *told, const struct record *r)
 
 /* The rays to be described, and the kernel that describes them. */
 struct source {
-    const struct kd_critical_lattice *lattice; /* all members 0: the grid */
+    const struct kd_critical_lattice *lattice; /* all members 0 means rays of the grid */
     struct kd_vk_buffer *lens, *records;
     uint32_t band;
     int camera;
@@ -215,7 +215,7 @@ static enum kd_status follow_grid(struct kd_frame_job *j, struct source *s)
 
 enum kd_status kd_frame_probe(struct kd_frame_job *j, uint32_t band)
 {
-    static const struct kd_critical_lattice on_grid; /* all members 0: the grid */
+    static const struct kd_critical_lattice on_grid; /* all members 0 means rays of the grid */
     const struct kd_plan *p = j->plan;
     const uint32_t first = kd_frame_band_first(j, band);
     if (!p->report.probe.on || p->report.probe.y < first || p->report.probe.y >= first + kd_frame_band_rows(j, band))

@@ -26,8 +26,8 @@ struct kd_probed_glow {
 struct kd_probed_place {
     uint32_t order;                 /* image order of the crossing */
     float w, phi, slope, footprint; /* values of the lens map; 0 if the map does not hold the quantity */
-    /* Properties that gas at the place has or would have. g: redshift factor; temperature: in K; angle: between light
-     * and normal in the frame of the gas, in radians */
+    /* Properties that gas at the place has or would have. g: redshift factor. temperature: in K. angle: angle between
+     * light and normal in the frame of the gas, in radians */
     float g, temperature, angle;
     float through;  /* transmission of all matter in front of the place */
     bool polarized; /* the light is polarised, and the next members are Q/I and U/I */
@@ -36,8 +36,8 @@ struct kd_probed_place {
     size_t n_glows;
 };
 
-/* A stretch of the ray through volumes, for all volumes together: a part of a step of the march, or several adjacent
- * parts if there are many. */
+/* A stretch of the ray through volumes, for all volumes together. It is a part of a step of the march, or several
+ * adjacent parts if there are many. */
 struct kd_probed_stretch {
     uint32_t order;   /* order of the next crossing, if there is one */
     float w[2], u[2]; /* 1/r and cos(theta) at both ends of the stretch */
@@ -60,9 +60,10 @@ struct kd_probed_met {
     bool met;
     uint32_t emitter, which; /* emitter: index in kd_emitters; which: index in the emitter's list */
     uint32_t order;          /* number of crossings of the plane before the surface */
-    /* w: 1/r; u: cos(theta); phi: azimuth (source minus observer); g: redshift factor; cosine: of the emission angle */
+    /* w: 1/r; u: cos(theta); phi: azimuth (source minus observer); g: redshift factor; cosine: cosine of the emission
+     * angle */
     float w, u, phi, g, cosine;
-    /* light: before absorption in front of the surface; through: transmission of all matter in front */
+    /* light: light before absorption in front of the surface; through: transmission of all matter in front */
     float light[3], through;
 };
 
@@ -90,7 +91,7 @@ struct kd_probed_ray {
 struct kd_probed_pixel {
     uint32_t x, y;
     /* the middle ray of the square grid of image.samples, or the one before the middle. Layers are computed for this
-     * ray as well. It is not among `each` if the pixel has other rays */
+     * ray as well. This ray is not among `each` if the pixel has other rays */
     struct kd_probed_ray middle;
     struct kd_probed_ray *each; /* malloc'd: the rays whose mean is the pixel's light */
     uint32_t rays;

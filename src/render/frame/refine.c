@@ -40,8 +40,8 @@ static void take(struct kd_frame_job *j, const struct kd_critical_pixels *list, 
         j->kinds[list->pixels[i].y * (size_t)j->plan->picture.width + list->pixels[i].x] = kind;
 }
 
-/* The pixels of a round, row by row, by the source of their rays. AT_CURVE: at the critical curve, where pixels
- * already have more rays; FOLLOWED: traced rays; BETWEEN: interpolated rays. */
+/* The pixels of a round, row by row, by the source of their rays. AT_CURVE: at the critical curve, where pixels already
+ * have more rays. FOLLOWED: traced rays. BETWEEN: interpolated rays. */
 enum { AT_CURVE, FOLLOWED, BETWEEN, WAYS };
 static const uint8_t kind_of[WAYS] = { KD_REFINED_AT_CURVE, KD_REFINED_FOLLOWED, KD_REFINED_BETWEEN };
 struct ways { struct kd_choice of[WAYS]; };
@@ -144,8 +144,8 @@ done:
     return status;
 }
 
-/* For a device that only compiles and so would choose no pixel: refines one pixel with each source of rays, to compile
- * the kernels. */
+/* For a device that only compiles. Such a device would choose no pixel, so this refines one pixel with each source of
+ * rays, to compile the kernels. */
 static enum kd_status rehearse(struct kd_frame_job *j)
 {
     struct kd_pixel pixel = { 0, 0 };

@@ -1,7 +1,8 @@
-/* A sampled lens map: rays are traced at nodes, dense where the map bends strongly and sparse elsewhere, and the map
- * is interpolated between them. About one pixel in ten has a traced ray. Rays are traced singly in two kinds of places:
- * where polynomials through the nodes do not predict two further rays within the plan's tolerance, and where orders or
- * fates change (comp/lens_cells.comp, comp/lens_fill.comp; measured in docs/accuracy.md). Render thread only. */
+/* A sampled lens map. Rays are traced at nodes, and the map is interpolated between the nodes. Nodes are dense where
+ * the map bends strongly, and sparse elsewhere. About one pixel in ten has a traced ray. In two kinds of places each
+ * ray is traced: where polynomials through the nodes do not predict two further rays within the plan's tolerance, and
+ * where orders or fates change (comp/lens_cells.comp, comp/lens_fill.comp). docs/accuracy.md has measurements. Render
+ * thread only. */
 #ifndef KD_RENDER_FRAME_SAMPLE_H
 #define KD_RENDER_FRAME_SAMPLE_H
 

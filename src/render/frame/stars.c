@@ -9,7 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-#define LIST_GROUPS 128 /* workgroups of kernels whose invocations share a list; with 8192 an H200 is no faster */
+/* number of workgroups for kernels whose invocations share a list; with 8192 groups an H200 is no faster */
+#define LIST_GROUPS 128
 /* The number of such workgroups for each core, if the device is a CPU. There a group costs 15 us even if its list is
  * already done, and a rim has several grids. */
 #define LIST_GROUPS_CORE 4
@@ -108,8 +109,8 @@ static struct kd_vk_binding lens_of(const struct part *part)
                                     part->rim ? 12ull * kd_rim_grid_rays(part->rim) : 0, false };
 }
 
-/* Makes pairs of rays and stars. A picture is searched by large tiles, then by small tiles and listed rays; the rim
- * is searched by small tiles and rays. */
+/* Makes pairs of rays and stars. A picture is searched by large tiles, then by small tiles and listed rays. The rim is
+ * searched by small tiles and rays. */
 static enum kd_status search(struct kd_frame_job *j, const struct part *part)
 {
     struct kd_store *s = j->store;

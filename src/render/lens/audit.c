@@ -91,7 +91,6 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
                           const struct kd_lens_map *map, struct sample *s, struct kd_accuracy_report *out,
                           struct kd_error *error)
 {
-    const struct kd_setting closed = { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
     uint32_t place[ROWS * COLUMNS], n = 0;
     for (uint32_t j = 0; j < s->rows; j++)
         for (uint32_t i = 0; i < s->columns; i++, n++) {
@@ -106,7 +105,7 @@ static enum kd_status run(struct kd_renderer *r, const struct kd_scene *scene, c
     const struct kd_ray_labels labels = { s->rays, s->outward, n };
     enum kd_status status;
     KD_TRY(read_rows(r, plan, map, s, error));
-    KD_TRY(kd_lens_trace(r, scene, plan, &closed, &labels, s->crossings, s->ends, error));
+    KD_TRY(kd_lens_radii(scene, plan, &labels, s->crossings, s->ends, error));
     compare(&plan->lens, s, place, n, kd_kerr_isco(kd_scene_hole(scene)), out);
 done:
     return status;

@@ -1,6 +1,6 @@
-/* Audit of a lens map: traces a sample of its rays again in closed form, in double on the CPU, and compares crossing
- * radii and fates. It takes about 3 ms for each new map; the result is kept with the map. If the map was made by the
- * closed form in double, only the rounding to 32 bits is measured. Render thread. */
+/* Audit of a lens map. It traces a sample of the map's rays again in closed form, in double on the CPU, and compares
+ * crossing radii and fates. The audit takes about 3 ms for each new map, and its result is kept with the map. If the
+ * map was made by the closed form in double, only the rounding to 32 bits is measured. Render thread. */
 #ifndef KD_RENDER_LENS_AUDIT_H
 #define KD_RENDER_LENS_AUDIT_H
 

@@ -38,7 +38,7 @@ static void finish(struct work *w)
 static enum kd_status init(struct work *w, const struct kd_scene *scene, const struct kd_plan *plan, size_t n,
                            struct kd_error *error)
 {
-    uint32_t orders = plan->lens.orders ? plan->lens.orders : 1; /* at least one, because engines need one */
+    uint32_t orders = plan->lens.orders ? plan->lens.orders : 1; /* at least one order, because engines need one */
     *w = (struct work) { .plan = plan, .n = n, .twist = kd_camera_twist(scene) };
     w->alpha_beta = malloc(2 * n * sizeof *w->alpha_beta);
     w->energy = malloc(n * sizeof *w->energy);
@@ -65,14 +65,24 @@ static struct kd_rays_params params_of(const struct kd_scene *scene, const struc
     };
 }
 
-enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                             const struct kd_setting *by, const struct kd_ray_labels *rays,
-                             struct kd_ray_crossing *crossings, struct kd_ray_end *ends, struct kd_error *error)
+static const struct kd_setting exact = { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
+
+/* Traces the rays of a plan by any engine, without g and errors. */
+static enum kd_status trace(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
+                            const struct kd_setting *by, const struct kd_ray_labels *rays,
+                            struct kd_ray_crossing *crossings, struct kd_ray_end *ends, struct kd_error *error)
 {
     const struct kd_rays_params params = params_of(scene, &plan->lens, by);
     if (by->engine == KD_ENGINE_CLOSED)
-        return kd_rays_closed(&params, rays, false, crossings, ends, NULL, NULL, error);
+        return kd_rays_closed(&params, rays, KD_CLOSED_PLACES, crossings, ends, NULL, NULL, error);
     return kd_rays_device(renderer, &params, rays, crossings, ends, NULL, NULL, error);
+}
+
+enum kd_status kd_lens_radii(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_ray_labels *rays,
+                             struct kd_ray_crossing *crossings, struct kd_ray_end *ends, struct kd_error *error)
+{
+    const struct kd_rays_params params = params_of(scene, &plan->lens, &exact);
+    return kd_rays_closed(&params, rays, KD_CLOSED_RADII, crossings, ends, NULL, NULL, error);
 }
 
 /* Fills one plane with the radii of one order. */
@@ -234,7 +244,7 @@ enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scen
     else
         make_rays(scene, rows, width, &w);
     const struct kd_ray_labels labels = { w.alpha_beta, w.outward, w.n };
-    KD_TRY(kd_lens_trace(renderer, scene, plan, &plan->lens.setting, &labels, w.crossings, w.ends, error));
+    KD_TRY(trace(renderer, scene, plan, &plan->lens.setting, &labels, w.crossings, w.ends, error));
     KD_TRY(upload(renderer, scene, &w, rows, error));
     for (size_t i = 0; i < w.n; i++)
         *undecided += w.ends[i].fate == KD_RAY_UNDECIDED;
@@ -243,7 +253,7 @@ done:
     return status;
 }
 
-/* fraction of the horizon's radius: crossings from outside that are nearer to the horizon count as on it */
+/* fraction of the horizon's radius. Crossings from outside that are nearer to the horizon count as crossings on it */
 #define NEAR 1e-4
 enum { PLACES = 2048 };
 
@@ -286,8 +296,8 @@ static void follow_within(struct work *w, const struct kd_scene *scene, size_t i
     }
 }
 
-/* Traces rays by the steps of physics/null/null_course.h in ingoing coordinates, for an observer inside the horizon,
- * where closed forms do not apply. */
+/* Traces rays for an observer inside the horizon, where closed forms do not apply. Uses the steps of
+ * physics/null/null_course.h in ingoing coordinates. */
 static enum kd_status trace_within(struct work *w, const struct kd_scene *scene, struct kd_error *error)
 {
     const size_t orders = w->plan->lens.orders ? w->plan->lens.orders : 1;
@@ -303,7 +313,6 @@ enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan 
                              const struct kd_camera_label *labels, size_t n, float *planes, uint64_t *undecided,
                              struct kd_error *error)
 {
-    const struct kd_setting closed = { .engine = KD_ENGINE_CLOSED, .precision = KD_PRECISION_F64 };
     struct work w;
     enum kd_status status = init(&w, scene, plan, n, error);
     if (status)
@@ -312,7 +321,7 @@ enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan 
         keep(&w, i, &labels[i]);
     const struct kd_ray_labels rays = { w.alpha_beta, w.outward, n };
     if (scene->camera.r > kd_scene_hole(scene)->outer)
-        KD_TRY(kd_lens_trace(NULL, scene, plan, &closed, &rays, w.crossings, w.ends, error));
+        KD_TRY(trace(NULL, scene, plan, &exact, &rays, w.crossings, w.ends, error));
     else
         KD_TRY(trace_within(&w, scene, error));
     fill(&w, scene, planes);

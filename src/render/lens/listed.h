@@ -1,6 +1,6 @@
-/* Makes the lens map of a picture from listed rays, for pictures that request it: by any engine, in double
- * precision, with the camera in double. It is slower than the kernels that derive each ray from its pixel, because
- * rays pass through the host. Render thread. */
+/* Makes the lens map of a picture from listed rays, for pictures that request it. Any engine may trace them, in double
+ * precision, and the camera is computed in double. This is slower than the kernels that derive each ray from its pixel,
+ * because rays pass through the host. Render thread. */
 #ifndef KD_RENDER_LENS_LISTED_H
 #define KD_RENDER_LENS_LISTED_H
 
@@ -15,10 +15,10 @@ struct kd_lens_rows {
     uint64_t offset, stride;                   /* index of the first ray in a plane; rays in a plane */
 };
 
-/* Writes plan->lens.planes planes as lens_map.comp does, with three differences: -1 stands for a crossing that the
- * engine did not complete; the planes of delays precede those of slopes; and for the ring projection a plane of
- * alpha precedes those of the sky. *undecided grows by the number of rays given up. Submits the upload and waits
- * for it. */
+/* Writes plan->lens.planes planes as lens_map.comp does, with three differences. -1 stands for a crossing that the
+ * engine did not complete. The planes of delays precede the planes of slopes. For the ring projection a plane of alpha
+ * precedes the planes of the sky. *undecided grows by the number of rays given up. Submits the upload and waits for
+ * it. */
 enum kd_status kd_lens_listed(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_lens_rows *rows, uint64_t *undecided, struct kd_error *error);
 
@@ -30,9 +30,8 @@ enum kd_status kd_lens_again(const struct kd_scene *scene, const struct kd_plan 
                              const struct kd_camera_label *labels, size_t n, float *planes, uint64_t *undecided,
                              struct kd_error *error);
 
-/* Traces the rays of a plan by any engine, as kd_rays_device and kd_rays_closed do, but without g and errors. */
-enum kd_status kd_lens_trace(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
-                             const struct kd_setting *by, const struct kd_ray_labels *rays,
+/* Computes the radii of the crossings, and the fates, of rays of a plan in closed form (KD_CLOSED_RADII). */
+enum kd_status kd_lens_radii(const struct kd_scene *scene, const struct kd_plan *plan, const struct kd_ray_labels *rays,
                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, struct kd_error *error);
 
 #endif

@@ -32,8 +32,9 @@ enum {
     MOVING_AUDIT = 4, /* frames that will be refined audit one in this many rays */
     /* image.critical_factor for a picture that is replaced before the eye can examine it: 4 rays instead of 16 */
     DRAGGED_CRITICAL = 2,
-    FEW = 4,    /* this many slow frames in a row are a sign of load instead of a spike */
-    ENOUGH = 8, /* number of frames of which the middle half contains neither of two spikes */
+    FEW = 4, /* this many slow frames in a row are a sign of load instead of a spike */
+    /* least number of frames for a mean: the middle half of so many frames contains neither of two spikes */
+    ENOUGH = 8,
     MISSES = 3, /* number of lens maps that may be missing when the rung changes */
 };
 
@@ -434,13 +435,13 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
     const struct kd_scene *const asked = &still;
     /* bodies of a playground are counted only in the scene's work, and their memory may be freed after this call */
     kd_scene_show(&still, NULL);
-    /* If the scene does not move and only its motion was changed, the picture shown is already right; the scene is
+    /* If the scene does not move and only its motion was changed, the picture shown is already right. The scene is
      * rendered once more all the same. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) &&
                       !kd_emit_moves(asked);
     const bool same_work = kd_work_alike(&work, &g->work);
     if (g->gave_way && !(same_ladder(&g->asked, asked) && same_work))
-        give_way(g, &g->paces[1], false); /* another kind of scene gets a new try */
+        give_way(g, &g->paces[1], false); /* for another kind of scene the requested width is tried again */
     if (!g->ladders || !same_ladder(&g->asked, asked))
         change_ladder(g, asked);
     for (int i = 0; i < 2 && !same_work; i++)

@@ -1,6 +1,6 @@
-/* The governor of a live session: decides what to render next, and at what quality, so that frames come in time while
- * the scene changes and reach the requested quality when it rests. Pure: no clock, no device, no allocation. Times are
- * milliseconds of any steady clock. One owner at a time.
+/* The governor of a live session decides what to render next, and at what quality. While the scene changes, frames come
+ * in time. When the scene rests, frames reach the requested quality. Pure: no clock, no device, no allocation. Times
+ * are milliseconds of any steady clock. One owner at a time.
  *
  *     struct kd_governor governor;
  *     kd_governor_init(&governor, kd_governor_params(.target_ms = 33));
@@ -14,14 +14,15 @@
  *
  * One frame is in flight at a time: ask for the next decision after the last frame was reported by kd_governor_frame,
  * or was given up. A frame that was cancelled or failed is not reported, and is offered again. Cancel a frame with
- * decision.refining as soon as the scene changes: it may take long, and nobody waits for it any more.
+ * decision.refining as soon as the scene changes. It may take long, and nobody waits for it any more.
  *
  * decision.quality is the quality to report to viewers. While nothing is rendered, it is that of the newest frame
  * shown.
  *
  * The cost of a frame has a fixed part, a part for each ray, and a part for each pixel. Only the parts that depend on
- * size can be reduced. Their time budget is the target minus the fixed part, but at least half the target, and at least
- * a quarter of the fixed part: ten million particles then slow the frames down, but do not shrink the picture as well.
+ * size can be reduced. Their time budget is the target minus the fixed part. It is at least half the target, and at
+ * least a quarter of the fixed part. Ten million particles thus slow the frames down, but do not shrink the picture as
+ * well.
  *
  * While the scene changes, a rung of quality.h's ladder is in force:
  * - Frames that trace their rays cost orders of magnitude more than frames that find their lens map cached. So each
@@ -49,7 +50,7 @@
  * While the lens changes, frames on any rung but the first have an image.critical_factor of at most 2. There are then
  * fewer rays next to the critical curve. The number of these rays is proportional to the picture's width, so with few
  * of them the cost of a frame is nearly proportional to the picture's size. Frames in which only time advances keep all
- * of these rays, even if no lens map is cached and each frame traces: the ring stands still, and four rays a pixel
+ * of these rays, even if no lens map is cached and each frame traces. The ring then stands still, and four rays a pixel
  * would show as dots.
  *
  * If other sessions move too, kd_governor_share sets the fraction of the device's time for this one. Its target is then
@@ -59,14 +60,14 @@
  * compared with the target do not include waiting for other sessions. A ceiling set with a smaller fraction is ignored,
  * and a rung that was left because other sessions began is taken again as soon as they stop.
  *
- * If only the ringdown of a hole changes the picture, nothing moves: frames keep the requested size however long they
- * take, and only reduce the rays a pixel. A change of the scene's motion alone does not change the picture: it is
- * rendered once more, as at rest.
+ * If only the ringdown of a hole changes the picture, nothing moves. Frames then keep the requested size however long
+ * they take; only their rays a pixel are reduced. A change of the scene's motion alone does not change the picture. The
+ * picture is then rendered once more, as at rest.
  *
  * After rest_ms without a change, one frame is rendered for each step of the ladder upwards, except steps below the
  * quality that is shown. Then nothing is rendered until the next change. On a shared device a frame itself may wait for
- * rest_ms. So rest_ms is counted from the time when the frame was shown; a client that waited longer for a frame has 50
- * ms for its next change. A scene whose time advances with each frame does not rest. */
+ * rest_ms. So rest_ms counts from the time when the frame was shown. If a client waited longer than that for a frame,
+ * it still has 50 ms for its next change. A scene whose time advances with each frame does not rest. */
 #ifndef KD_RENDER_LIVE_GOVERNOR_H
 #define KD_RENDER_LIVE_GOVERNOR_H
 
@@ -88,7 +89,7 @@ struct kd_governor_params {
     .target_ms = 33, .rest_ms = 150, .stall_ms = 500, .sparse_ms = 60, .bounds = KD_LADDER_BOUNDS_DEFAULT,
 #define kd_governor_params(...) (&(struct kd_governor_params) { KD_GOVERNOR_DEFAULTS __VA_ARGS__ })
 
-/* The parts of a frame's time. total_ms is compared with the target: it is the longest stage if stages overlap,
+/* The parts of a frame's time. total_ms is compared with the target. It is the longest stage if stages overlap,
  * otherwise the sum of all stages. Time that is in none of the parts (waiting and submitting) may or may not shrink
  * with the picture. If all parts are 0, this is the whole time. */
 struct kd_frame_cost {
@@ -104,7 +105,7 @@ struct kd_frame_decision {
     struct kd_quality quality;
     /* 0: render now. Otherwise the time for which there is nothing to render; INFINITY: the session rests */
     double wait_ms;
-    bool refining; /* the scene rests, and this frame is a step upwards */
+    bool refining; /* the scene rests, and this frame is a step up the ladder */
     /* 1 or 4: one in this many of the sampled rays is audited. The audit runs on one core and takes a third of a
      * small frame */
     uint32_t audit;
@@ -140,11 +141,12 @@ struct kd_governor {
     struct kd_governor_params params;
     double share;
     struct kd_scene asked;
-    struct kd_work work; /* cost of frames, apart from their size, when measurements began */
+    /* properties of the scene that determine the cost of frames, besides their size, when measurements began */
+    struct kd_work work;
     struct kd_ladder ladder;
     uint32_t ladders, revision;
     struct kd_pace paces[2]; /* [0]: for frames that reuse their lens map; [1]: for frames that trace it */
-    /* changed_at: time of the last change; lens_at: time of the last change of the lens; hold_ms: time after which a
+    /* changed_at: time of the last change. lens_at: time of the last change of the lens. hold_ms: time after which a
      * change of the lens is no longer recent */
     double changed_at, lens_at, hold_ms;
     struct kd_frame_cost traced; /* latest average of frames that trace */
@@ -158,7 +160,7 @@ struct kd_governor {
     bool gave_way, slow;
     double wide_ms;      /* total minus fixed time of a frame on the rung `wide`; 0: unknown */
     struct kd_rung wide; /* rung of the slow pace before frames became narrower */
-    /* stays: fraction of the time of narrow frames that does not depend on their size; stays_of: number of rays of the
+    /* stays: fraction of the time of narrow frames that does not depend on their size. stays_of: number of rays of the
      * rung on which this fraction was measured; 0: unknown */
     double stays, stays_of;
     struct kd_quality shown;
@@ -173,26 +175,26 @@ void kd_governor_init(struct kd_governor *governor, const struct kd_governor_par
  * changes as other sessions stop or begin; set it before kd_governor_expect and before each kd_governor_frame. */
 void kd_governor_share(struct kd_governor *governor, double share);
 
-/* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place
- * of bounds.scale. If the target is smaller, all other qualities are reduced first, and then the frame rate, down to
- * one frame every patience_ms (INFINITY: no limit). If the narrowest frames were measured to take longer than
- * patience_ms, frames become narrower after all, down to a quarter. They stay so until the scene changes its kind,
- * or until wide frames are estimated to be well within patience_ms. Part of a frame's time does not depend on its
- * size, so the estimate is the line through two measurements: the last wide frames, and the first narrow ones right
- * after them. */
+/* Sets the least width of frames while the scene changes, as a fraction of the requested width, 1/4 to 1, in place of
+ * bounds.scale. If frames of this width take longer than the target, all other qualities are reduced first. Then the
+ * frame rate is reduced, down to one frame every patience_ms (INFINITY: no limit). If the narrowest frames were
+ * measured to take longer than patience_ms, frames become narrower after all, down to a quarter. Frames stay narrower
+ * until the scene changes its kind, or until wide frames are estimated to be well within patience_ms. Part of a frame's
+ * time does not depend on its size. So the estimate is the line through two measurements: the last wide frames, and the
+ * first narrow frames right after them. */
 void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
-/* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: the lens
- * map has changed, which means that lens_key differs between the plans of the two requested scenes; true for a
- * session's first scene. A change of image.* or accuracy.* makes a new ladder, and starts on the rung that old
- * averages suggest. Averages and waits start again if the scene changes its kind, or if the cost of its emitters has
- * changed by more than a factor of two since the averages started. */
+/* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: the lens map
+ * has changed, that is, lens_key differs between the plans of the two requested scenes. It is true for a session's
+ * first scene. A change of image.* or accuracy.* makes a new ladder, and starts on the rung that old averages suggest.
+ * Averages and waits start again if the scene changes its kind, or if the cost of its emitters has changed by more than
+ * a factor of two since the averages started. */
 void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *shown, bool lens);
 
 /* Sets the expected cost of a frame at the requested quality, for example from its plan. The cost chooses the first
- * rung; without it frames start on the top rung or stay on the one in force. It is ignored once frames of this kind
- * were measured, so it may be called after each change. A frame that traced while few of its kind were measured,
- * such as a step of refinement, has the same effect with better data. */
+ * rung. Without it, frames start on the top rung or stay on the present one. The cost is ignored once frames of this
+ * kind were measured, so this function may be called after each change. A traced frame, such as a step of refinement,
+ * has the same effect with better data while few frames of its kind were measured. */
 void kd_governor_expect(struct kd_governor *governor, const struct kd_frame_cost *cost);
 
 /* Decides what to do now. Call after kd_governor_changed. */

@@ -9,7 +9,7 @@ void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *a
     *out = *asked;
     out->image.width = (int32_t)quality->width;
     out->image.height = (int32_t)quality->height;
-    out->image.samples = quality->samples; /* 0: as many as each pixel needs */
+    out->image.samples = quality->samples; /* 0 means as many rays as each pixel needs */
     if (quality->critical && out->image.critical_factor > quality->critical)
         out->image.critical_factor = quality->critical;
     out->accuracy.orders = quality->orders;

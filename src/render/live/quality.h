@@ -22,13 +22,13 @@ struct kd_quality {
     bool final;  /* everything is as requested */
 };
 
-/* Makes the scene to render: *asked at this quality. It is valid if *asked is; with quality.final it equals *asked,
- * byte for byte. */
+/* Makes the scene to render: *asked at this quality. The result is valid if *asked is valid. With quality.final it
+ * equals *asked, byte for byte. */
 void kd_quality_apply(const struct kd_quality *quality, const struct kd_scene *asked, struct kd_scene *out);
 
 struct kd_rung {
     struct kd_quality quality;
-    /* the work of a rung. rays: their number, weighted by the cost of one ray; pixels: their number */
+    /* the work of a rung. rays: number of rays, weighted by the cost of one ray. pixels: number of pixels */
     double rays, pixels;
 };
 
@@ -44,12 +44,14 @@ enum { KD_LADDER_RUNGS = 20, KD_LADDER_STEPS = 8 };
 
 struct kd_ladder {
     /* The ladder downwards from the requested quality. It reduces samples first, because a moving picture needs its
-     * pixels more than smooth edges; then resolution; then orders (not for the projection "ring"); then the steps
-     * along a ray; and last, for volumes, the steps through them. Each rung takes less work than the one before. */
+     * pixels more than smooth edges. Next it reduces resolution, then orders (not for the projection "ring"), then the
+     * steps along a ray. Last, for volumes, it reduces the steps through them. Each rung takes less work than the one
+     * before. */
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
-    /* The ladder upwards for a scene at rest: full resolution with one ray a pixel, then more rays, all with at
-     * most the profile "balanced"; last, the requested quality. Each step takes more work than the one before. */
+    /* The ladder upwards for a scene at rest. It begins with full resolution and one ray a pixel. The next steps have
+     * more rays; all of these have at most the profile "balanced". The last step is the requested quality. Each step
+     * takes more work than the one before. */
     struct kd_rung steps[KD_LADDER_STEPS];
     size_t n_steps;
 };

@@ -2,9 +2,9 @@
  * and cube_npz.c. All files are scanned before anything is written, because checksums and sentences come before the
  * numbers in a cube.
  *
- * In FITS a layer is an image whose axes are those of the picture, for "rgb" the three colours, then the axes of the
- * sweep from the last to the first. In NumPy the array's shape is (axes of the sweep, height, width[, 3]). Internal to
- * render/output. */
+ * In FITS a layer is an image. Its first axes are those of the picture, followed for "rgb" by the three colours. Then
+ * come the axes of the sweep, from the last to the first. In NumPy the array's shape is (axes of the sweep, height,
+ * width[, 3]). Internal to render/output. */
 #ifndef KD_RENDER_OUTPUT_CUBE_H
 #define KD_RENDER_OUTPUT_CUBE_H
 
@@ -14,8 +14,8 @@
 #include "scene/sweep.h"
 
 #define KD_CUBE_TEXTS 128
-/* Bytes stored for each scene: hash and accuracy, padded with NULs, and the flux, a big-endian double; NAN if the
- * picture has none. */
+/* Bytes stored for each scene: hash and accuracy, padded with NULs, then the flux as a big-endian double. The flux is
+ * NAN if the picture has none. */
 enum {
     KD_CUBE_HASH = 64,
     KD_CUBE_ACCURACY = 384,

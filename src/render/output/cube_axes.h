@@ -4,8 +4,8 @@
  * An axis of evenly spaced numbers is a linear world coordinate with its field's name; any other axis is numbered from
  * 1. A frequency has its standard name (Greisen et al. 2006, A&A 446, 747, table 1): FREQ, in Hz. Frequencies that are
  * not evenly spaced are numbered from 1 as well. An alternate description F of the same axes then gives the frequencies
- * by a table (FREQ-TAB, section 6 there). The table is only an alternate description, because readers such as astropy
- * refuse a header with such a table unless they are given the whole file. */
+ * by a table (FREQ-TAB, section 6 there). The table is only an alternate description: unless readers such as astropy
+ * are given the whole file, they refuse a header with such a table. */
 #ifndef KD_RENDER_OUTPUT_CUBE_AXES_H
 #define KD_RENDER_OUTPUT_CUBE_AXES_H
 

@@ -4,15 +4,15 @@
 
 #include "render/output/series.h"
 
-/* COLUMN(name); the centroids are NAN if there are none. A row is plain data, so rows can be stored in files. */
+/* The columns, as COLUMN(name). Undefined centroids are NAN. A row is plain data, so rows can be stored in files. */
 /* clang-format off */
 #define KD_CURVE_COLUMNS_(COLUMN) \
     COLUMN(frame) COLUMN(t) COLUMN(flux) COLUMN(centroid_x) COLUMN(centroid_y) COLUMN(spots_flux) \
     COLUMN(spots_centroid_x) \
     COLUMN(spots_centroid_y) COLUMN(width) COLUMN(height)
 /* clang-format on */
-/* Columns of polarised light, in three groups: for all light; for all light, if it has circular polarisation as well;
- * for the spots' light. NAN if undefined. */
+/* Columns of polarised light, in three groups: for all light; for all light with circular polarisation; for the spots'
+ * light. NAN if undefined. */
 #define KD_CURVE_STOKES_(COLUMN) COLUMN(stokes_q) COLUMN(stokes_u) COLUMN(polarization_fraction) COLUMN(evpa)
 #define KD_CURVE_CIRCULAR_(COLUMN) COLUMN(stokes_v)
 /* clang-format off */

@@ -124,10 +124,10 @@ static uint64_t bytes_of(const struct kd_gather_source *source)
     return all;
 }
 
-/* Starts ffmpeg. The scene of frame 0, as stored in its picture, goes into the film. Colours: the pictures are sRGB,
- * which players display alike if BT.709 is named; the conversion to Y'CbCr is BT.709's, in video range. Since ffmpeg 7
- * an encoder uses the colour tags of its frames, which for a PNG are those of sRGB, and ignores its own options. So the
- * filter setparams sets the tags as well. Two pixels share a chroma sample, so odd sides are padded. */
+/* Starts ffmpeg. The scene of frame 0, as stored in its picture, goes into the film. Colours: the pictures are sRGB;
+ * players display them alike if BT.709 is named. The conversion to Y'CbCr is that of BT.709, in video range. Since
+ * ffmpeg 7 an encoder uses the colour tags of its frames, which for a PNG are those of sRGB, and ignores its own
+ * options. So the filter setparams sets the tags as well. Two pixels share a chroma sample, so odd sides are padded. */
 static enum kd_status begin(struct film *f, struct kd_error *error)
 {
     static const char filter[] = "pad=ceil(iw/2)*2:ceil(ih/"

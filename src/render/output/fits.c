@@ -1,6 +1,6 @@
-/* Writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array, each
- * further one an IMAGE extension of that name; "rgb" has a third axis. The primary header has the scene, the hole,
- * the observer, the accuracy, and each approximation in force; all headers have world coordinates. */
+/* Writes a frame's layers as a FITS file: kd_format_fits. The first word of image.layers is the primary array. Each
+ * further word is an IMAGE extension of that name. "rgb" has a third axis. The primary header has the scene, the hole,
+ * the observer, the accuracy, and each approximation in force. All headers have world coordinates. */
 #include "render/output/format.h"
 
 #include "image/fits.h"
@@ -56,8 +56,8 @@ static bool has(const struct kd_scene *scene, int kind)
 }
 
 /* If only the picture of a radio source is requested, the file holds the flux of each pixel instead, and Stokes Q, U
- * and V if the light is polarised. Radio astronomy programs (ehtim, CASA, DS9) expect the flux as the primary array,
- * and ehtim 1.3.2 reads no file in which any array is a picture of three colours. */
+ * and V if the light is polarised. Radio astronomy programs (ehtim, CASA, DS9) expect the flux as the primary array.
+ * ehtim 1.3.2 reads no file in which any array is a picture of three colours. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     struct kd_words *layers = &scene->image.layers;
@@ -74,9 +74,9 @@ static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* If the file also has the layer jy_per_pixel, Stokes Q, U and V are converted to that layer's unit, because programs
- * that read these layers together expect the same unit. Sets *out to numbers that the caller frees, or to NULL if
- * nothing is converted. */
+/* If the file also has the layer jy_per_pixel, Stokes Q, U and V are converted to that layer's unit. Programs that read
+ * these layers together expect the same unit. Sets *out to numbers that the caller frees, or to NULL if nothing is
+ * converted. */
 static enum kd_status in_jansky(const struct kd_picture *picture, size_t word, const struct kd_layer *layer,
                                 float **out)
 {

@@ -10,7 +10,7 @@
 #include "render/frame/frame.h"
 
 #define KD_QUALITY 90      /* quality of lossy formats if no other is requested */
-#define KD_QUALITY_MAX 100 /* the smallest is 1 */
+#define KD_QUALITY_MAX 100 /* largest quality; the smallest is 1 */
 
 /* A frame and how it was made. */
 struct kd_picture {
@@ -66,8 +66,8 @@ struct kd_format {
 KD_FORMATS(KD_FORMAT_DECLARE)
 #undef KD_FORMAT_DECLARE
 
-/* Format of the scenes' files that are joined to a cube: FITS with exactly the layers that image.layers names, so
- * that all scenes have the same layers. It is not in the table. Defined in fits.c. */
+/* Format of the scenes' files that are joined to a cube. It is FITS with exactly the layers that image.layers names, so
+ * that all scenes have the same layers. This format is not in the table. Defined in fits.c. */
 extern const struct kd_format kd_format_cubed;
 
 /* The first format is the default. Defined in formats.c. */

@@ -51,7 +51,7 @@ extern const struct kd_gather_format kd_gather_fits, kd_gather_npz;
 /* Films of PNG frames, all of one size, encoded by the program ffmpeg, with the scene of frame 0 as `comment`. Returns
  * KD_EABSENT if there is no ffmpeg. */
 extern const struct kd_gather_format kd_gather_mp4, kd_gather_webm;
-#define KD_FILM_RATE 24u /* default, frames a second */
+#define KD_FILM_RATE 24u /* default of `rate`, frames a second */
 #define KD_FILM_RATE_MAX 120u
 
 /* Checks whether the scenes of a sweep can form a cube: all have the same size and layers. If not, returns KD_EINVAL at

@@ -1,6 +1,6 @@
 /* Writes a frame's layers as numbers: kd_format_npy. The file is one NumPy array of the shape (height, width). Each
  * element is a record with a float32 field for each word of image.layers, in the order of these words. A field is one
- * number, NaN if undefined; the field "rgb" is three numbers, linear sRGB in units of the disk's largest surface
+ * number, NaN if undefined. The field "rgb" is three numbers, linear sRGB in units of the disk's largest surface
  * brightness at g = 1. */
 #include "render/output/format.h"
 

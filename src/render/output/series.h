@@ -1,5 +1,5 @@
-/* The result that a job makes of its frames: a file for each frame (pictures, or arrays of their layers), one file of
- * all frames, or one table with a row for each frame. Any thread.
+/* The result that a job makes of its frames. It is a file for each frame (pictures, or arrays of their layers), one
+ * file of all frames, or one table with a row for each frame. Any thread.
  *
  * A series is one C file that defines it, and its line in the table of series.c. */
 #ifndef KD_RENDER_OUTPUT_SERIES_H

@@ -1,7 +1,7 @@
-/* Lists the stars in a picture and their places: kd_format_stars. This is a JSON document of the images of stars with
- * names, sorted by the light that they give to a pixel (docs/physics/sky.md). Images are searched between the rays of
- * the lens map, one a pixel, and in the rim of the shadow. The place of an image is that of the ray that ends at the
- * star. Each image has its own brightness; the images of a star are not added up. */
+/* Lists the stars in a picture and their places: kd_format_stars. The list is a JSON document of the images of stars
+ * that have names. Images are sorted by the light that they give to a pixel (docs/physics/sky.md). Images are searched
+ * between the rays of the lens map, one a pixel, and in the rim of the shadow. The place of an image is that of the ray
+ * that ends at the star. Each image has its own brightness; the images of a star are not added up. */
 #include "render/output/format.h"
 
 #include "base/json.h"
@@ -15,8 +15,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* limit in rad of the angle between the ends of neighbouring rays; near the critical curve, rays whose ends are further
- * apart are not used */
+/* limit in rad of the angle between the ends of neighbouring rays. Rays whose ends are further apart, as near the
+ * critical curve, are not used */
 #define COARSE 0.15
 /* fraction of the rim's width: nearer to the curve than this, only the images from the rim count */
 #define INNER 0.9
@@ -143,7 +143,7 @@ static bool is_there(const struct list *list, const struct kd_star_image *image)
 }
 
 /* Converts a place of the map to a place of the picture; false if it is outside. The map of a picture of all directions
- * has one column and two rows more (find()): an image beyond a pole is in the picture at its equivalent place. */
+ * has one column and two rows more (find()). An image beyond a pole is in the picture at the equivalent place. */
 static bool place_of(const struct list *list, struct kd_star_image *image)
 {
     const double width = list->picture->frame->width, height = list->picture->frame->height, edge = 0.5;

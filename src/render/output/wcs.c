@@ -9,9 +9,9 @@
 #define DEGREE (M_PI / 180)
 #define MICROARCSECOND (1 / 3.6e9) /* degrees */
 
-/* A place x pixels right of the middle and y above it has alpha - centre_alpha = step (cos x + sin y) and beta -
- * centre_beta = step (cos y - sin x), with cosine and sine of the camera's clockwise roll. The reference pixel is
- * where alpha and beta are 0. */
+/* A place x pixels right of the middle and y above it has alpha - centre_alpha = step (c x + s y) and beta -
+ * centre_beta = step (c y - s x), where c and s are cosine and sine of the camera's clockwise roll. The reference pixel
+ * is where alpha and beta are 0. */
 static struct kd_wcs plane(const struct kd_scene *scene)
 {
     const struct kd_camera *c = &scene->camera;

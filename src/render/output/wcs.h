@@ -9,15 +9,15 @@
 
 struct kd_wcs_axis {
     const char *type, *unit; /* "RA---SIN", "deg" */
-    /* pixel: the reference pixel, counted from 1, from the left or from the lowest row; value: the coordinate
-     * there; step: its increment from pixel to pixel */
+    /* pixel: the reference pixel, counted from 1, from the left or from the lowest row. value: the coordinate there.
+     * step: increment of the coordinate from pixel to pixel */
     double pixel, value, step;
 };
 
 struct kd_wcs {
     bool known; /* false: the projection has no linear axes, or the picture is a pair for two eyes */
-    /* observer far away: angles on the sky, east to the left, from the hole's mass and distance; otherwise: angles to
-     * the right of the camera's axis and above it */
+    /* for a distant observer: angles on the sky, east to the left, from the hole's mass and distance. For a near one:
+     * angles to the right of the camera's axis and above it */
     struct kd_wcs_axis at[2];
     bool far;                     /* the observer is distant, and `impact` is valid as well */
     struct kd_wcs_axis impact[2]; /* the same places as impact parameters alpha and beta, M */

@@ -2,7 +2,7 @@
 
 #include <math.h>
 
-/* width in pixels: a narrower beam changes nothing, because a neighbouring pixel gets less than exp(-50) of the weight
+/* width in pixels. A narrower beam changes nothing, because a neighbouring pixel gets less than exp(-50) of the weight
  * of the pixel itself */
 #define FWHM 2.3548200450309493
 /* width in pixels: a narrower beam gives a neighbouring pixel less than exp(-50) of the weight of the pixel itself */

@@ -4,7 +4,7 @@
  * The work depends on the beam's resolution, not on the picture's. If the beam's standard deviation sigma is at least
  * KD_BEAM_CELLS cells of two pixels or more, light is gathered on a grid of square cells, blurred there, and
  * interpolated back. Gathering and interpolation use quadratic B-splines, which shift nothing and have a variance of
- * 1/4 each, in cells; the blur supplies the rest of sigma^2. The error is 3e-4 of the brightest value if all light is
+ * 1/4 each, in cells. The blur supplies the rest of sigma^2. The error is 3e-4 of the brightest value if all light is
  * in one cell, and less otherwise. Each axis is blurred by a pass of its own. For a narrower beam the cells are pixels,
  * weighted by the Gaussian at their centres. The weights add up to 1, and there is no light outside the picture. */
 #ifndef KD_RENDER_PLAN_BEAM_H
@@ -17,11 +17,11 @@
 #define KD_BEAM_CELLS 4 /* cells per standard deviation, at least */
 
 struct kd_beam_grid {
-    uint32_t cell;          /* pixels along the side of a cell; 0: no beam, or one too narrow to show */
-    uint32_t columns, rows; /* size of the grid; if cells are larger than pixels, there is one more cell on each side of
-                             * the picture */
-    /* number of rows of the picture: each row of pixels has a row of cells, before the rows of cells are summed to the
-     * grid */
+    uint32_t cell; /* pixels along the side of a cell; 0: no beam, or one too narrow to show */
+    /* size of the grid. If cells are larger than pixels, the grid has one more cell on each side of the picture */
+    uint32_t columns, rows;
+    /* number of rows of the picture. Each row of pixels first has a row of cells of its own; these are then summed to
+     * the rows of the grid */
     uint32_t height;
     double sigma;   /* standard deviation of the blur, in cells */
     uint32_t reach; /* radius of the blur, in cells: 5 sigma, beyond which lies 6e-7 of its weight */

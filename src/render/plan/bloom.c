@@ -13,8 +13,8 @@ static uint64_t reserve(struct kd_bloom *bloom, uint64_t n)
     return at;
 }
 
-/* Blocks of pixels are at most seven tenths as wide as cells: uniform light then stays uniform, to 1e-3, and a point
- * of light is displaced by at most a third of a cell. Kernels handle 1, 2 or a multiple of 4 pixels. */
+/* Blocks of pixels are at most seven tenths as wide as cells. Uniform light then stays uniform, to 1e-3, and a point of
+ * light is displaced by at most a third of a cell. Kernels handle 1, 2 or a multiple of 4 pixels. */
 static uint32_t block_of(double pixels_a_cell)
 {
     const double most = 0.715 * pixels_a_cell;

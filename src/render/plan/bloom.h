@@ -1,12 +1,12 @@
 /* Glare of a lens (style.bloom): how much light is spread and how far. Any thread.
  *
  * A grid of KD_BLOOM_ROWS rows of square cells covers the picture; further grids each have half as many cells along a
- * side. Each grid holds the light as a quadratic B-spline, is smoothed once, and is interpolated by such a spline.
- * The light of a point thus falls off as a sum of functions that are nearly Gaussian. The n-th of these has the
- * standard deviation d 2^n, where d is the side of the finest grid's cells. All of them have the same amount of light,
- * so that brightness falls off as the square of the angle, about as the glare of eyes and lenses does (G. Spencer et
- * al. 1995). The glare covers the same fraction of a picture of any size; grids with cells smaller than pixels are left
- * out. If a picture is wider than four times its height, d is relative to a quarter of its width. */
+ * side. Each grid holds the light as a quadratic B-spline, is smoothed once, and is interpolated by such a spline. The
+ * light of a point thus falls off as a sum of functions that are nearly Gaussian. The n-th of these has the standard
+ * deviation d 2^n, where d is the side of the finest grid's cells. All of these functions have the same amount of
+ * light. Brightness thus falls off as the square of the angle, about as the glare of eyes and lenses does (G. Spencer
+ * et al. 1995). The glare covers the same fraction of a picture of any size; grids with cells smaller than pixels are
+ * left out. If a picture is wider than four times its height, d is relative to a quarter of its width. */
 #ifndef KD_RENDER_PLAN_BLOOM_H
 #define KD_RENDER_PLAN_BLOOM_H
 
@@ -23,8 +23,8 @@ struct kd_bloom {
     double share;                /* fraction of the spread light on each grid: equal for each octave of the angle */
     uint32_t block_x, block_y;   /* sides in pixels of the blocks whose light is summed first */
     uint32_t blocks_x, blocks_y; /* number of blocks */
-    /* Offsets in one buffer, multiples of 256: of each grid; of the sum of each grid with the coarser ones; of the
-     * blocks. bytes: the buffer's size. */
+    /* Offsets in one buffer, each a multiple of 256. light: of each grid. sums: of the sum of each grid with the
+     * coarser grids. blocks: of the blocks. bytes: the buffer's size. */
     uint64_t light[KD_BLOOM_LEVELS], sums[KD_BLOOM_LEVELS], blocks, bytes;
 };
 

@@ -6,8 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Names of fields, for two lists: fields that the class ignores, and fields that enter the class only rounded to a
- * power of two. name NULL: all fields of the section. section "": the document itself. */
+/* Names of fields, for two lists. One has the fields that the class ignores; the other has the fields that enter the
+ * class only rounded to a power of two. name NULL: all fields of the section. section "": the document itself. */
 struct named { const char *section, *name; };
 static const struct named left_out[] = {
     { "image", NULL },           { "image.tile", NULL },

@@ -1,7 +1,8 @@
 /* Cost classes. Pictures of one class may differ in size, time, azimuth, view direction and exposure. They may also
- * differ by less than a factor of two in distance and field of view. All else is equal. Their passes therefore take
- * about the same time per item, and the measured cost of a class is a better estimate than a figure of pass.h. A figure
- * is a mean over all scenes, and scenes with volumes and gas differ from it by factors of up to six. Any thread. */
+ * differ by less than a factor of two in distance and field of view. All else is equal. The passes of such pictures
+ * therefore take about the same time per item. The measured cost of a class is a better estimate than a figure of
+ * pass.h: a figure is a mean over all scenes, and scenes with volumes and gas differ from the mean by factors of up to
+ * six. Any thread. */
 #ifndef KD_RENDER_PLAN_COST_CLASS_H
 #define KD_RENDER_PLAN_COST_CLASS_H
 

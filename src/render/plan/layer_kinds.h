@@ -1,6 +1,7 @@
 /* Table of the layers that a frame may have besides the picture: the C side of shaders/shared/layers.h, with units,
- * colours and names. To add one: its line there, its row in layer_kinds.c, its word in the row image.layers of the
- * field table, its section in docs/layers.md. Constant data and pure functions of valid scenes, any thread. */
+ * colours and names. To add a layer, write its line there, its row in layer_kinds.c, its word in the row image.layers
+ * of the field table, and its section in docs/layers.md. Constant data and pure functions of valid scenes, any
+ * thread. */
 #ifndef KD_RENDER_PLAN_LAYER_KINDS_H
 #define KD_RENDER_PLAN_LAYER_KINDS_H
 
@@ -28,7 +29,7 @@ struct kd_layer_kind {
     /* the scale of its colours; an end that is NAN is replaced by the picture's least or largest value */
     struct kd_map_scale scale;
     const char *const *classes; /* for CATEGORICAL: names of the values 0, 1, ...; NULL: their numbers */
-    uint32_t n_classes;         /* 0: given by the largest value */
+    uint32_t n_classes;         /* number of classes; 0: the largest value gives it */
 };
 extern const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT];
 /* True if the layer is a quantity of polarised light. */

@@ -7,8 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Writes the parts of a camera that the lens map depends on: the tile, and all fields except the azimuth, which is
- * added to all azimuths when light is computed. */
+/* Writes the parts of a camera that the lens map depends on: the tile, and all fields except the azimuth. The azimuth
+ * is added to all azimuths when light is computed. */
 static enum kd_status write_view(const struct kd_scene *scene, struct kd_buffer *text)
 {
     const struct kd_section *camera = kd_section_find("camera");

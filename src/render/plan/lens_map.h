@@ -92,9 +92,9 @@ static inline uint64_t kd_plan_rays(const struct kd_plan_lens *lens)
 }
 
 /* If the map is interpolated, the number of traced rays is KD_PLAN_FOLLOWED times the square root of the number of the
- * grid's rays. The traced rays lie along edges of orders and fates. Between these edges they lie at nodes; the denser
- * the rays of the picture, the smaller the fraction of them that are nodes. Measurements on four presets, one of them
- * from 320 x 180 to 4K, gave factors of 117 to 154 (docs/accuracy.md). */
+ * grid's rays. The traced rays lie along edges of orders and fates. Between these edges the traced rays lie at nodes.
+ * The denser the rays of the picture, the smaller is the fraction of rays that are nodes. Measurements on four presets,
+ * one of them from 320 x 180 to 4K, gave factors of 117 to 154 (docs/accuracy.md). */
 #define KD_PLAN_FOLLOWED 130
 static inline uint64_t kd_plan_followed(const struct kd_plan_lens *lens)
 {

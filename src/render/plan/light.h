@@ -18,8 +18,8 @@ struct kd_plan_light {
     bool points;                       /* some emitter consists of points of light */
     bool bright;                       /* only bright images of points are made, and none next to the critical curve */
     bool apart;                        /* the luminance of some emitter is kept beside the radiance */
-    /* numbers stored for a pixel after its radiance: Stokes Q, U and V, if polarised light is measured or marched
-     * layers need them; and Q and U of the separate luminance. 0: none */
+    /* numbers stored for a pixel after its radiance. Stokes Q, U and V are stored if polarised light is measured or
+     * marched layers need them; Q and U of the separate luminance may follow. 0: none */
     uint32_t stokes_words;
     struct kd_march march; /* the march for volumes and bodies; all 0: the scene has none, and light follows from the
                             * lens map alone */
@@ -34,8 +34,8 @@ struct kd_plan_light {
                 whose aspect ratio is rounded to whole pixels */
 };
 
-/* True if the sky has light in every direction, such as that of a grid or of the Milky Way (KD_TRAIT_SPREAD), and not
- * only points of light such as stars. */
+/* True if the sky has light in every direction, such as that of a grid or of the Milky Way (KD_TRAIT_SPREAD). False if
+ * it has only points of light, such as stars. */
 bool kd_plan_is_spread(const struct kd_plan_light *light);
 
 /* The pass that computes the light of rays, and its time for one ray, ns. */

@@ -38,11 +38,11 @@ static double closeness(const struct kd_scene *scene)
     return fmin(fmax(log2(PIXEL * scene->gas.scale * side / (kd_camera_pixel(scene) * distance)), 0), CLOSEST);
 }
 
-/* Errors measured in the preset thick-disk at 320 x 180, against 16 times as many stretches: in nine of ten rays, the
- * relative error of light is at most 8e-3 for fine = 4, 1.6e-3 for fine = 8 and 5e-4 for fine = 12. It falls no faster,
- * because noise is smooth to the second derivative only. Closer rays resolve noise that is much finer than stretches,
- * and then the error falls more slowly. For fine = 9 it is 8e-4 at 320 x 180, 1.4e-3 at 640 x 360 and 2e-3 at 1280 x
- * 720; for fine = 3 it is 1.3e-2, 1.5e-2 and 1.8e-2 at these sizes. */
+/* Errors measured in the preset thick-disk at 320 x 180, against 16 times as many stretches. In nine of ten rays, the
+ * relative error of light is at most 8e-3 for fine = 4, 1.6e-3 for fine = 8 and 5e-4 for fine = 12. The error falls no
+ * faster than this, because noise is smooth to the second derivative only. Closer rays resolve noise that is much finer
+ * than stretches, and then the error falls more slowly. For fine = 9 it is 8e-4 at 320 x 180, 1.4e-3 at 640 x 360 and
+ * 2e-3 at 1280 x 720; for fine = 3 it is 1.3e-2, 1.5e-2 and 1.8e-2 at these sizes. */
 static uint32_t fine_of(double error, const struct kd_scene *scene)
 {
     double fine = BALANCED * sqrt(sqrt(1e-4 / error));
@@ -80,8 +80,8 @@ static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t f
                         (is_stirred(scene) ? 1 + 0.25 * scene->gas.octaves : 1);
 }
 
-/* Samples one pixel in 144, so that measuring the error takes a thirtieth of the picture's time; more pixels in small
- * pictures, fewer in large ones. */
+/* Samples one pixel in 144, so that measuring the error takes a thirtieth of the picture's time. Small pictures have
+ * more samples, large pictures fewer. */
 static void lattice(uint32_t size, uint32_t most, uint32_t *n, uint32_t *every, uint32_t *first)
 {
     *n = (uint32_t)fmin(fmin(fmax(size / 12, 4), most), size);

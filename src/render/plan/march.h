@@ -4,14 +4,15 @@
 
 #include "render/accuracy/engine.h"
 
-/* The target of each profile for the relative error of light, met by nine of ten rays: draft, interactive,
- * balanced, high, reference. accuracy.tolerance is such a target. Light has 32 bits, whose rounding leaves an error
- * of 5e-6 where light is smooth. Turbulence has targets of its own, because its error falls as the third power of
- * the cost instead of the sixth; rounding leaves an error of 5e-5 of its noise. */
+/* The target of each profile for the relative error of light, met by nine of ten rays: draft, interactive, balanced,
+ * high, reference. accuracy.tolerance is such a target. Light has 32 bits, whose rounding leaves an error of 5e-6 where
+ * light is smooth. Turbulence has targets of its own, because its error falls as the third power of the cost instead of
+ * the sixth. Rounding leaves an error of 5e-5 of the turbulent noise. */
 #define KD_MARCH_ERRORS { 2e-3, 1e-3, 1e-4, 1e-5, 5e-6 }
 #define KD_MARCH_STIRRED_ERRORS { 2e-2, 1e-2, 1e-3, 1e-4, 5e-5 }
 
-/* Pixels of a picture on a lattice: every[0] columns apart from column first[0] on, and rows likewise. */
+/* Pixels of a picture on a lattice. Columns are every[0] apart, from column first[0] on. Rows are every[1] apart, from
+ * row first[1] on. */
 struct kd_march_sample { uint32_t columns, rows, every[2], first[2]; };
 
 struct kd_march {
@@ -23,7 +24,7 @@ struct kd_march {
     /* a ray ends where less than this fraction of the light from behind is transmitted. The fraction is a tenth of the
      * target for the error */
     double opaque;
-    /* octaves of noise are left out whose amplitude, reduced by the local gas and the ray's footprint, is less than
+    /* octaves of noise are left out if their amplitude, reduced by the local gas and the ray's footprint, is less than
      * this fraction of the first octave's */
     double unseen;
     bool sketched; /* the march is a sketch, coarser than with any profile (kd_march_sketch) */
@@ -40,8 +41,8 @@ struct kd_march {
 /* The march for a scene with volumes or bodies, whose rays are traced with this setting. */
 struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_setting *rays);
 
-/* The march of a live view while it changes on a slow machine: the fewest stretches, no finer octaves of noise, and
- * an error measured on a quarter of the rays. */
+/* The march of a live view while it changes on a slow machine. It has the fewest stretches and no finer octaves of
+ * noise, and its error is measured on a quarter of the rays. */
 struct kd_march kd_march_sketch(struct kd_march march, const struct kd_scene *scene);
 
 /* The given march with the numbers of steps and stretches multiplied by KD_MARCH_FINER. */

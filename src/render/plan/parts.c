@@ -129,7 +129,7 @@ static enum kd_status refuse_strips(struct kd_error *error, const struct kd_erro
     return kd_error_set(error, KD_ETOOBIG, "%.250s; strips might fit, but %.200s", whole.message, why->message);
 }
 
-/* Uses as few strips as fit. If the scene needs something that no tile can have, strips are not possible; `error`
+/* Uses as few strips as fit. Strips are not possible if the scene needs something that no tile can have. `error`
  * already says that the picture is too large. */
 static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                   const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error)

@@ -1,9 +1,9 @@
 /* The passes of a frame and their costs, as two lists. Plan, capacity, cost measurement, the device's JSON, its cached
  * costs and sessions iterate over them. Constant data and pure functions, any thread.
  *
- * To add a pass: its line here, its number of invocations in pass.c, its file in src/render/frame/, and its call in
- * frame.c, where it is named by kd_passes[KD_PASS_...].name. A pass that belongs to an emitter is defined in the
- * emitter's files only (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h); it appears below as
+ * To add a pass, write its line here, its number of invocations in pass.c, its file in src/render/frame/, and its call
+ * in frame.c, which names it by kd_passes[KD_PASS_...].name. A pass that belongs to an emitter is defined in the
+ * emitter's files only (KD_PASS_name of shaders/shared/emitters.h, render/emit/own.h). Below, all such passes appear as
  * KD_EMIT_PASSES. */
 #ifndef KD_RENDER_PLAN_PASS_H
 #define KD_RENDER_PLAN_PASS_H
@@ -18,8 +18,8 @@ struct kd_capacity;
 struct kd_plan;
 struct kd_scene;
 
-/* Performance figures: nanoseconds per item, measured on frames. F(id, word, guess): the word is used by GET /v1/device
- * and in the cache; the guess is lavapipe's value, used until the figure has been measured. */
+/* Performance figures: nanoseconds per item, measured on frames. F(id, word, guess): GET /v1/device and the cache use
+ * the word. The guess is lavapipe's value; it is used until the figure has been measured. */
 #define KD_FIGURES(F) \
     F(RAY_RADIUS, "ray_radius", 30)           /* a ray of a lens map of radii only, in closed form */ \
     F(RAY_FULL, "ray_full", 150)              /* any other ray that a kernel traces */ \
@@ -27,7 +27,7 @@ struct kd_scene;
     F(PIXEL_POST, "pixel_post", 30) \
     F(RAY_MARCH, "ray_march", 4000)     /* light of a ray through volumes */ \
     F(RAY_REFINED, "ray_refined", 400)  /* a ray planned for refinement, including its selection */ \
-    F(RAY_STARS, "ray_stars", 220)      /* a search for stars by a ray, and their images */ \
+    F(RAY_STARS, "ray_stars", 220)      /* a ray's search for stars, and the images of these stars */ \
     F(SAMPLE_STARS, "sample_stars", 90) /* light of a ray under a sky of stars */
 
 #define KD_FIGURE_ID_(id, word, guess) KD_NS_##id,

@@ -1,14 +1,14 @@
 /* Photometry: flux and centroid of a picture, from linear radiance. Flux and centroid are independent of the exposure.
- * They depend on the resolution only because rays miss the light between them.
+ * Their only dependence on the resolution is that rays miss the light between them.
  *
- * The flux is the sum over the pixels of luminance times solid angle. At infinity solid angle is the area in the
- * image plane, so the unit of the flux is M^2 times the unit of brightness (the disk's maximum); divided by D^2 it
- * is the flux at the distance D. At a finite radius the unit is sr times that of brightness. The centroid, weighted
- * likewise, is (alpha, beta) in M; at a finite radius it is the mean direction, in degrees to the right of the hole
- * and above it. Neither depends on the camera's aim and roll.
+ * The flux is the sum over the pixels of luminance times solid angle. At infinity solid angle is the area in the image
+ * plane. The unit of the flux is then M^2 times the unit of brightness (the disk's maximum), and the flux at the
+ * distance D is this number divided by D^2. At a finite radius the unit is sr times that of brightness. The centroid
+ * has the same weights. It is (alpha, beta) in M; at a finite radius it is the mean direction, in degrees to the right
+ * of the hole and above it. Neither depends on the camera's aim and roll.
  *
- * For polarised light Stokes Q, U and V are the same sums of the layers of these names, in the unit of the flux.
- * They are relative to the top of the picture, which rotates with the camera's roll.
+ * For polarised light, the same sums of the layers Q, U and V give Stokes Q, U and V, in the unit of the flux. Stokes Q
+ * and U are relative to the top of the picture, which rotates with the camera's roll.
  *
  * shaders/comp/photometry.comp sums 64 pixels at a time in 32 bits, to 3e-7; these sums are added in double. */
 #ifndef KD_RENDER_PLAN_PHOTOMETRY_H
@@ -32,7 +32,7 @@ struct kd_light {
 struct kd_light_report {
     bool measured;              /* true if the plan requested it (kd_plan_light.photometry) */
     bool polarized, circular;   /* polarized: whether there are Q and U; circular: whether there is V */
-    struct kd_light all, spots; /* all: for the whole picture; spots: for the contribution of its hot spots */
+    struct kd_light all, spots; /* all: light of the whole picture; spots: light of its hot spots */
 };
 
 /* kd_light_fraction: degree of linear polarisation. kd_light_evpa: angle of the electric field from the top of the

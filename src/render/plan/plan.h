@@ -78,7 +78,7 @@ static inline uint32_t kd_plan_star_slice(const struct kd_plan *plan)
     const uint32_t row = plan->picture.width * plan->lens.side;
     return row > KD_PLAN_STAR_RAYS ? row : KD_PLAN_STAR_RAYS;
 }
-/* Tiles of 3 x 3 rays; the last ones of a row or column may be smaller. */
+/* Number of tiles of 3 x 3 rays; the last tiles of a row or column may be smaller. */
 static inline uint32_t kd_plan_star_tiles(const struct kd_plan *plan)
 {
     const uint32_t row = plan->picture.width * plan->lens.side, rows = kd_plan_star_slice(plan) / row;

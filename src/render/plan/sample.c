@@ -11,7 +11,7 @@
 enum { EVEN = KD_CELL_BLOCK / 2, LAST = KD_CELL_BLOCK / 8 };
 #define MOST_COLUMNS (1u << KD_PLACE_BITS)
 #define MOST_ROWS (1u << (32 - KD_PLACE_BITS))
-/* rays sampled at once: all of them may be undecided, and one dispatch then has 16384 workgroups, a quarter of what any
+/* rays sampled at once. All of them may be undecided, and one dispatch then has 16384 workgroups, a quarter of what any
  * device allows */
 #define RAYS_AT_ONCE KD_GIVEN_MOST
 

@@ -18,9 +18,9 @@ struct kd_sample_grid {
 struct kd_sample_grid kd_sample_grid(const struct kd_plan *plan, uint32_t left, uint32_t top, uint32_t row0,
                                      uint32_t rows);
 
-/* Sets plan->lens.sample_rows such that no buffer exceeds `bytes`, the limit of a binding. If a picture is so wide that
- * some device could not bind one row of pixels, every ray is traced on all devices. The bytes of the picture are thus
- * the same on every device. plan->picture.band_rows must be set. */
+/* Sets plan->lens.sample_rows such that no buffer exceeds `bytes`, the limit of a binding. A picture may be so wide
+ * that some device could not bind one row of its pixels. Then every ray is traced, on all devices, so that the
+ * picture's bytes are the same on every device. plan->picture.band_rows must be set. */
 void kd_sample_fit(struct kd_plan *plan, uint64_t bytes);
 /* Bytes of all three buffers for sample_rows; 0 if every ray is traced. */
 uint64_t kd_sample_bytes(const struct kd_plan *plan);

@@ -21,8 +21,8 @@ struct kd_sweep_order {
 enum kd_status kd_sweep_order_add(struct kd_sweep_order *order, uint64_t group, double trace_ms);
 /* Completes the order. *shared_ms: time saved by sharing lens maps. The only error is KD_ENOMEM. */
 enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_ms);
-/* Adds and orders the frames of a sweep incrementally, until until_ms (kd_clock_ms), but at least a few scenes; the
- * order is complete once order->frames is set. The only error is KD_ENOMEM. */
+/* Adds and orders the frames of a sweep incrementally. Stops at until_ms (kd_clock_ms), but adds at least a few scenes.
+ * The order is complete once order->frames is set. The only error is KD_ENOMEM. */
 enum kd_status kd_sweep_order_go_on(struct kd_sweep_order *order, const struct kd_sweep *sweep, double until_ms);
 void kd_sweep_order_finish(struct kd_sweep_order *order);
 

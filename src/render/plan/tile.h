@@ -1,7 +1,8 @@
-/* A tile (image.tile) is a part of a picture. It is identical, byte by byte, to the same part of the whole picture. It
- * is rendered with a margin of surrounding pixels, as far as the picture has them, because light at the tile's edges
- * depends on rays beyond the edges. Then the margin is cut off. A tile cannot use anything that depends on all pixels
- * at once: exposure "auto", bloom, a beam, and rays chosen by the displayed picture. Pure; any thread. */
+/* A tile (image.tile) is a part of a picture. It is identical, byte by byte, to the same part of the whole picture.
+ * Light at the tile's edges depends on rays beyond the edges. So a tile is rendered with a margin of surrounding
+ * pixels, as far as the picture has them. Then the margin is cut off. A tile cannot use anything that depends on all
+ * pixels at once. This excludes exposure "auto", bloom, a beam, and rays chosen by the displayed picture. Pure; any
+ * thread. */
 #ifndef KD_RENDER_PLAN_TILE_H
 #define KD_RENDER_PLAN_TILE_H
 

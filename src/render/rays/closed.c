@@ -17,16 +17,22 @@
 
 _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");
 
-static struct kd_null_ray ray_of(const struct kd_rays_params *p, const double *alpha_beta, bool outward)
+/* What all rays of a list have in common. */
+static struct kd_null_ray common_of(const struct kd_rays_params *p)
 {
     return (struct kd_null_ray) { .hole = kd_rays_hole(p),
                                   .radius = p->r,
                                   .cos_theta = kd_cos_deg(p->inclination_deg),
                                   .sin_theta = kd_sin_deg(p->inclination_deg),
-                                  .alpha = alpha_beta[0],
-                                  .beta = alpha_beta[1],
-                                  .outward = outward && isfinite(p->r),
                                   .orders = (int)p->orders };
+}
+
+static struct kd_null_ray ray_of(const struct kd_null_ray *common, const double *alpha_beta, bool outward)
+{
+    struct kd_null_ray ray = *common;
+    ray.alpha = alpha_beta[0], ray.beta = alpha_beta[1];
+    ray.outward = outward && isfinite(ray.radius);
+    return ray;
 }
 
 /* The redshift factor at a crossing. outwards: whether the real photon moves outwards when it leaves the gas. */
@@ -40,11 +46,23 @@ static double redshift(const struct kd_rays_params *p, const double *alpha_beta,
     return kd_disk_redshift_plunging(&hole, r, lambda, (alpha - a) * (alpha + a) * c * c + beta * beta, outwards);
 }
 
-static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, bool outward, bool errors,
-                      struct kd_ray_crossing *crossings, struct kd_ray_end *end)
+static struct kd_null_path path_of(const struct kd_null_ray *ray, enum kd_closed_results results)
 {
-    const struct kd_null_ray ray = ray_of(p, alpha_beta, outward);
-    const struct kd_null_path path = errors ? kd_null_trace(&ray) : kd_null_trace_fast(&ray);
+    switch (results) {
+    case KD_CLOSED_RADII: return kd_null_trace_radii(ray);
+    case KD_CLOSED_PLACES: return kd_null_trace_fast(ray);
+    case KD_CLOSED_ERRORS: return kd_null_trace(ray);
+    }
+    __builtin_unreachable();
+}
+
+static void trace_one(const struct kd_rays_params *p, const struct kd_null_ray *common, const double *alpha_beta,
+                      bool outward, enum kd_closed_results results, struct kd_ray_crossing *crossings,
+                      struct kd_ray_end *end)
+{
+    const struct kd_null_ray ray = ray_of(common, alpha_beta, outward);
+    const struct kd_null_path path = path_of(&ray, results);
+    bool errors = results == KD_CLOSED_ERRORS;
     bool sound = path.status == KD_NULL_OK || path.status == KD_NULL_IN_PLANE;
     *end = (struct kd_ray_end) {
         .fate = !sound                         ? KD_RAY_UNDECIDED
@@ -55,7 +73,7 @@ static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, 
         .phi = NAN,
         .error = NAN,
     };
-    if (end->fate == KD_RAY_ESCAPED) {
+    if (end->fate == KD_RAY_ESCAPED && results != KD_CLOSED_RADII) {
         end->theta = acos(fmax(-1, fmin(1, path.sky_u)));
         end->phi = remainder(path.sky_phi, 2 * M_PI); /* whole turns are dropped, because this is a direction */
         end->error = path.crossings || !errors ? NAN : path.sky_error;
@@ -78,8 +96,9 @@ static void trace_one(const struct kd_rays_params *p, const double *alpha_beta, 
 
 struct share {
     const struct kd_rays_params *params;
+    struct kd_null_ray common;
     const struct kd_ray_labels *rays;
-    bool errors;
+    enum kd_closed_results results;
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
     _Atomic size_t next;
@@ -93,8 +112,8 @@ static bool trace_slice(struct share *share)
     size_t first = atomic_load(&share->stop) ? rays->n : atomic_fetch_add(&share->next, SLICE);
     for (size_t i = first; i < rays->n && i < first + SLICE; i++) {
         kd_pause_every(i, 64);
-        trace_one(share->params, rays->alpha_beta + 2 * i, rays->outward && rays->outward[i], share->errors,
-                  share->crossings + i * share->params->orders, &share->ends[i]);
+        trace_one(share->params, &share->common, rays->alpha_beta + 2 * i, rays->outward && rays->outward[i],
+                  share->results, share->crossings + i * share->params->orders, &share->ends[i]);
     }
     return first < rays->n;
 }
@@ -114,11 +133,16 @@ static size_t helpers(size_t n)
     return (cores < most ? cores : most) - 1;
 }
 
-enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays, bool errors,
-                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
-                              void *user, struct kd_error *error)
+enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
+                              enum kd_closed_results results, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
 {
-    struct share share = { .params = params, .rays = rays, .errors = errors, .crossings = crossings, .ends = ends };
+    struct share share = { .params = params,
+                           .common = common_of(params),
+                           .rays = rays,
+                           .results = results,
+                           .crossings = crossings,
+                           .ends = ends };
     size_t n = rays->n;
     pthread_t threads[THREADS_MAX];
     size_t begun = 0, wanted = helpers(n);
@@ -135,15 +159,15 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
     return atomic_load(&share.stop) ? kd_error_set(error, KD_ECANCELLED, "the rays were cancelled") : KD_OK;
 }
 
-/* True if the photon leaves the gas outwards. Inside the ISCO the closed form gives its radial direction, because a
- * ray that starts inwards and is captured never turns. */
+/* True if the photon leaves the gas outwards. Inside the ISCO the closed form gives the photon's radial direction,
+ * because a ray that starts inwards and is captured never turns. */
 static bool leaves_outwards(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                             const struct kd_ray_end *end, uint32_t crossing)
 {
     if (end->fate == KD_RAY_CAPTURED && !outward)
         return true;
-    const struct kd_null_ray ray = ray_of(p, alpha_beta, outward);
-    const struct kd_null_path path = kd_null_trace_fast(&ray);
+    const struct kd_null_ray common = common_of(p), ray = ray_of(&common, alpha_beta, outward);
+    const struct kd_null_path path = kd_null_trace_radii(&ray);
     return (int)crossing >= path.crossings || path.crossing[crossing].sense > 0;
 }
 

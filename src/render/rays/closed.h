@@ -5,19 +5,22 @@
 
 #include "render/rays/rays.h"
 
+/* KD_CLOSED_RADII: r of each crossing, and fates; phi, delay, theta, g and errors are NaN. KD_CLOSED_PLACES: everything
+ * except g and errors. KD_CLOSED_ERRORS: everything. Each takes some three times as long as the one before it. */
+enum kd_closed_results { KD_CLOSED_RADII, KD_CLOSED_PLACES, KD_CLOSED_ERRORS };
+
 /* kd_rays_trace for KD_ENGINE_CLOSED, with checked params. Long lists are divided among the cores; progress is
- * called on the calling thread. With errors = false, errors are NaN and no g is computed; this takes a third of the
- * time. */
-enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays, bool errors,
-                              struct kd_ray_crossing *crossings, struct kd_ray_end *ends, kd_progress_fn progress,
-                              void *user, struct kd_error *error);
+ * called on the calling thread. */
+enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
+                              enum kd_closed_results results, struct kd_ray_crossing *crossings,
+                              struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
 /* Fills in g for an engine that returned positions only. */
 void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                       struct kd_ray_crossing *crossings, const struct kd_ray_end *ends);
 
-/* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane, where r is the crossing's radius as
- * some engine has found it. outward: as in kd_ray_labels. */
+/* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane. r: the crossing's radius, as some
+ * engine has found it. outward: as in kd_ray_labels. */
 double kd_rays_slope(const struct kd_rays_params *params, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r);
 

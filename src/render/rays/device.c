@@ -13,10 +13,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few
- * rays, and later ones as many as take TARGET_MS. A ray's cost varies by a factor of a million between the fastest
- * engine on a GPU and Tao's with the most steps on one core. A slice is submitted in parts of at most CHUNK rays;
- * the device traces one part while the host unpacks the part before. */
+/* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few rays,
+ * and later ones as many as take TARGET_MS. A ray's cost varies by a factor of a million between the fastest engine on
+ * a GPU and Tao's with the most steps on one core. A slice is submitted in parts of at most CHUNK rays. The device
+ * traces one part while the host unpacks the part before. */
 #define LEAST 32u
 #define MOST (1u << 20)
 #define CHUNK 65536u
@@ -257,7 +257,7 @@ enum kd_status kd_rays_device_ask(struct kd_renderer *r, const struct kd_rays_pa
     return none ? KD_OK : kernel_of(r, params, told, &later, NULL);
 }
 
-/* Prepares the renderer for a slice. It may have been used for other rays since the last slice. */
+/* Prepares the renderer for a slice, because it may have been used for other rays since the last slice. */
 static enum kd_status prepare(struct work *w, size_t n)
 {
     enum kd_status status = kernel_of(w->r, w->params, w->told != NULL, &w->pipeline, w->error);
@@ -286,9 +286,9 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
     return status;
 }
 
-/* Number of rays of the next slice, after one of m rays that took `ms`. least_ms: time of the smallest slices so far.
- * On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a slice is
- * doubled while its time is within 1.25 times least_ms, and may otherwise take 1.5 times least_ms if that exceeds
+/* Number of rays of the next slice. The last slice had m rays and took `ms`. least_ms: time of the smallest slices so
+ * far. On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a slice
+ * is doubled while its time is within 1.25 times least_ms, and may otherwise take 1.5 times least_ms if that exceeds
  * TARGET_MS. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {

@@ -4,8 +4,8 @@
 
 #include "render/rays/rays.h"
 
-/* kd_rays_trace for any engine except KD_ENGINE_CLOSED, with checked params. g stays NaN; with the Kerr-Schild
- * engines the errors do as well. */
+/* kd_rays_trace for any engine except KD_ENGINE_CLOSED, with checked params. g stays NaN. With the Kerr-Schild engines
+ * the errors also stay NaN. */
 enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays_params *params,
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);

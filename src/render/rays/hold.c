@@ -7,8 +7,8 @@
 #include <string.h>
 
 #define SLICE ((size_t)16384) /* number of rays that are traced again together, which takes a tenth of a second */
-/* The least number of rays for which the device is used again: the closed form traces fewer rays in less time than it
- * takes to compile a kernel. */
+/* The least number of rays for which the device is used again. For fewer rays the closed form takes less time than
+ * compiling a kernel. */
 #define WORTH_A_KERNEL 8192
 /* factor by which the number of steps grows: at order 6 the error then falls by a factor of 4096 */
 #define MORE_STEPS 4

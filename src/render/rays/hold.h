@@ -1,5 +1,5 @@
-/* Enforces a tolerance for each ray: rays whose own error estimate exceeds it are traced again by finer settings,
- * finally in closed form. Private to src/render; render thread only. */
+/* Enforces a tolerance for each ray. Rays whose own error estimate exceeds the tolerance are traced again by finer
+ * settings, finally in closed form. Private to src/render; render thread only. */
 #ifndef KD_RENDER_RAYS_HOLD_H
 #define KD_RENDER_RAYS_HOLD_H
 

@@ -68,7 +68,7 @@ static enum kd_status compare(const struct kd_rays_params *params, const struct 
         m = n - first < SLICE ? n - first : SLICE;
         const struct kd_ray_labels labels = { rays->alpha_beta + 2 * first,
                                               rays->outward ? rays->outward + first : NULL, m };
-        KD_TRY(kd_rays_closed(&closed, &labels, true, truth, true_ends, NULL, NULL, error));
+        KD_TRY(kd_rays_closed(&closed, &labels, KD_CLOSED_ERRORS, truth, true_ends, NULL, NULL, error));
         for (size_t i = 0; i < m; i++)
             ends[first + i].error = error_of(crossings + (first + i) * params->orders, &ends[first + i],
                                              truth + i * params->orders, &true_ends[i]);
@@ -100,7 +100,7 @@ done:
     return status;
 }
 
-/* Drops the errors of rays without numbers, for all engines: a ray without a crossing that does not escape has no
+/* Drops the errors of rays without numbers, for all engines. A ray without a crossing that does not escape has no
  * number that could be wrong, unless a crossing may be missing. */
 static void drop_idle_errors(struct kd_ray_end *ends, size_t n)
 {
@@ -114,7 +114,7 @@ enum kd_status kd_rays_follow(struct kd_renderer *renderer, const struct kd_rays
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error)
 {
     enum kd_status status = params->engine == KD_ENGINE_CLOSED
-                                ? kd_rays_closed(params, rays, true, crossings, ends, progress, user, error)
+                                ? kd_rays_closed(params, rays, KD_CLOSED_ERRORS, crossings, ends, progress, user, error)
                                 : trace_on_device(renderer, params, rays, crossings, ends, progress, user, error);
     if (!status)
         drop_idle_errors(ends, rays->n);

@@ -62,11 +62,11 @@ struct kd_ray_end {
     enum kd_ray_fate fate;
     uint32_t n_crossings; /* number of the requested orders that exist outside the horizon */
     double theta, phi;    /* direction of an escaping ray: polar angle and azimuth, source minus observer */
-    /* Estimated relative error of the worst crossing radius; for a ray without a crossing, the error of its
-     * direction in radians. It is an upper bound for at least 999 of 1000 rays. With every engine it is NaN for a
-     * ray that has neither a crossing nor a direction. The meaning of a value of 1 or more depends on the engine.
-     * Mino engines and closed form: the number of crossings may be wrong by one, next to the horizon or very far
-     * out. Kerr-Schild engines: the number or the fate differs from the closed form's. */
+    /* Estimated relative error of the worst crossing radius; for a ray without a crossing, the error of its direction
+     * in radians. It is an upper bound for at least 999 of 1000 rays. With every engine it is NaN for a ray that has
+     * neither a crossing nor a direction. The meaning of a value of 1 or more depends on the engine. Mino engines and
+     * closed form: next to the horizon or very far out, the number of crossings may be wrong by one. Kerr-Schild
+     * engines: the number or the fate differs from the closed form's. */
     double error;
     /* energy at infinity, in units of the energy that the observer measures; only if the observer's motion is
      * given */
@@ -77,13 +77,13 @@ struct kd_ray_end {
 /* True if two ends are equal bit for bit, ignoring padding. */
 bool kd_ray_ends_equal(const struct kd_ray_end *a, const struct kd_ray_end *b);
 
-/* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set.
- * With a tolerance, each ray that is undecided or exceeds it by its own error estimate is traced again with more steps
- * in double precision, then in closed form. If a ray still exceeds the tolerance then, double precision cannot meet it.
- * rays: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN. ends: n. renderer
- * may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render thread. Returns
- * KD_EINVAL with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this device lacks the
- * precision. */
+/* Traces n rays: labels [alpha, beta], or directions [yaw, pitch] in degrees if params->observer is set. With a
+ * tolerance, a ray is traced again if it is undecided or if its own error estimate exceeds the tolerance: first with
+ * more steps in double precision, then in closed form. If a ray still exceeds the tolerance then, double precision
+ * cannot meet it. rays: 2 n numbers. crossings: n * orders records, those of one ray together; unused ones are NaN.
+ * ends: n. renderer may be NULL for KD_ENGINE_CLOSED, which any thread may call; other engines belong to the render
+ * thread. Returns KD_EINVAL with a pointer such as "/observer/r" or "/rays/17/0" for bad input; KD_EDEVICE if this
+ * device lacks the precision. */
 enum kd_status kd_rays_trace(struct kd_renderer *renderer, const struct kd_rays_params *params, const double *rays,
                              size_t n, struct kd_ray_crossing *crossings, struct kd_ray_end *ends,
                              kd_progress_fn progress, void *user, struct kd_error *error);

@@ -4,8 +4,8 @@
 
 #include <math.h>
 
-/* The ray in Mino time. y: n = (sin theta cos psi, sin theta sin psi, cos theta) and w = 1/r; v: their derivatives;
- * chi: Boyer-Lindquist azimuth minus psi. The equations are those of shaders/ray/escape.glsl. */
+/* The ray in Mino time. y: n = (sin theta cos psi, sin theta sin psi, cos theta) and w = 1/r. v: derivatives of n and
+ * w. chi: Boyer-Lindquist azimuth minus psi. The equations are those of shaders/ray/escape.glsl. */
 struct motion {
     const struct kd_hole *hole;
     double a, l, q, k, d; /* d: the sum a^2 Q + q^2 K */

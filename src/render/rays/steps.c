@@ -92,7 +92,9 @@ static void tell(struct kd_rays_steps *out, const struct constants *c, const str
                    : r->stage == KD_TRACE_END      ? KD_STAGE_END
                                                    : KD_STAGE_STEP;
         if (s->stage == KD_STAGE_END && out->steps[i - 1].stage == KD_STAGE_STEP)
-            time = crossed; /* goes back, because steps towards a crossing that does not exist are discarded */
+            /* the time goes back to the last crossing, because steps towards a crossing that does not exist are
+             * discarded */
+            time = crossed;
         s->time = time += r->h;
         if (s->stage == KD_STAGE_CROSSING)
             crossed = time;

@@ -1,5 +1,5 @@
-/* Records each step of one ray as the device takes it: the kernels of device.c are compiled with KD_TRACE and write
- * their state after each step. For `kerrd rays --trace` and for explaining a pixel. Render thread. */
+/* Records each step of one ray as the device takes it. For this, the kernels of device.c are compiled with KD_TRACE and
+ * write their state after each step. For `kerrd rays --trace` and for explaining a pixel. Render thread. */
 #ifndef KD_RENDER_RAYS_STEPS_H
 #define KD_RENDER_RAYS_STEPS_H
 
@@ -28,9 +28,9 @@ struct kd_rays_step {
     double res_w;                  /* w'^2 - R(w) */
     double res_u;                  /* u'^2 - U(u) */
     double res_n;                  /* n.n - 1 */
-    double res_dn;                 /* n'.n' - (Q + L^2 + a^2 u^2) */
-    double res_l;                  /* (n x n')_z - L; x p_y - y p_x - L */
-    double res_null;               /* p.p - 1 - f (1 + l.p)^2 */
+    double res_dn;                 /* residual of n'.n' - (Q + L^2 + a^2 u^2) */
+    double res_l;                  /* residuals of (n x n')_z - L (Mino) and of x p_y - y p_x - L (Kerr-Schild) */
+    double res_null;               /* residual of p.p - 1 - f (1 + l.p)^2 */
 };
 
 struct kd_rays_steps {

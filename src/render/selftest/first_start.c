@@ -27,8 +27,8 @@ static void restore(struct kd_renderer *r, const struct kd_capacity *capacity)
 }
 
 /* Measures the cost of a ray and a pixel, which replaces the guess for this type of device. The cost is the least of
- * several small pictures: a driver may compile a kernel when it first runs, and a busy machine may slow any of the
- * pictures. */
+ * several small pictures, for two reasons: a driver may compile a kernel when it first runs, and a busy machine may
+ * slow any of the pictures. */
 static enum kd_status measure(struct kd_renderer *r, struct kd_error *error)
 {
     enum kd_status status = KD_OK;

@@ -34,7 +34,7 @@ static double unit_of(const struct engine *e)
     return KD_SELFTEST_OPERATIONS * roundoff + (e->steps ? 1e-3 * pow(M_PI / e->steps, 6) : 0);
 }
 
-/* The unit of error at the ray's end: after the last crossing frame dragging is integrated by Simpson's rule, of order
+/* The unit of error at the ray's end. After the last crossing, frame dragging is integrated by Simpson's rule, of order
  * 4. */
 static double end_unit_of(const struct engine *e)
 {

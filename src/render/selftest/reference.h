@@ -1,8 +1,8 @@
 /* Reference numbers of the self-test. They are in reference.c. tests/oracle/selftest_reference.py makes that file from
  * the metric, by quadrature and by Taylor series in 38 digits, without any formula of src/ or shaders/.
  *
- * A gain is the change of an answer for a relative change of the input: the sum of |x df/dx| over the spin, the
- * inclination, the radius and the two coordinates of a ray, with logarithms in place of r and g. */
+ * A gain is the change of an answer f for a relative change of the input. It is the sum of |x df/dx| over the spin, the
+ * inclination, the radius and the two coordinates of a ray. For r and g, f is the logarithm. */
 #ifndef KD_RENDER_SELFTEST_REFERENCE_H
 #define KD_RENDER_SELFTEST_REFERENCE_H
 

@@ -2,8 +2,8 @@
  * calls as pictures and answers, compares them with independently known values, and reports each error with its bound.
  * A few seconds on two CPU cores.
  *
- * Each bound is explained where it is set. It is the error of some number of operations of unit roundoff each, times
- * the amplification of the answer (reference.h), plus the error of a method's steps. */
+ * Each bound is explained where it is set. A bound is the error of some operations of unit roundoff each, times the
+ * amplification of the answer (reference.h), plus the error of a method's steps. */
 #ifndef KD_RENDER_SELFTEST_SELFTEST_H
 #define KD_RENDER_SELFTEST_SELFTEST_H
 

@@ -1,5 +1,5 @@
-/* Orientation of the sky: rotations between three frames. The hole's frame has z along its spin and x towards
- * azimuth 0; the equatorial one (J2000) has x towards the equinox; the galactic one has x towards l = 0. All are
+/* Orientation of the sky: rotations between three frames. The hole's frame has z along its spin and x towards azimuth
+ * 0. The equatorial frame (J2000) has x towards the equinox. The galactic frame has x towards l = 0. All are
  * right-handed. Double precision; pure, any thread. */
 #ifndef KD_RENDER_SKY_FRAME_H
 #define KD_RENDER_SKY_FRAME_H

@@ -2,9 +2,9 @@
  *
  * The profiles are fits by eye to photographs. The optical depth of the dust for blue light is 1.35 times that for
  * green light, and for red light 0.72 times (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as
- * bright as the real one: some 21 magnitudes per square arcsecond at its brightest place, and a tenth as bright 30
- * degrees from there (C. Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture correspond to
- * nothing in the real sky. */
+ * bright as the real one. At its brightest place it has some 21 magnitudes per square arcsecond, and 30 degrees from
+ * there it is a tenth as bright (C. Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture
+ * correspond to nothing in the real sky. */
 #include "render/sky/panorama.h"
 
 #include "base/random.h"
@@ -89,9 +89,9 @@ static struct across across_of(float b)
                              0.018f * expf(-above / 26) };
 }
 
-/* Smooth components. Noise with few cells changes little from texel to texel. So it is computed at every STEP-th
- * column and row, which gives at least five nodes in each cell, and interpolated between them. FIRST, SECOND:
- * octaves of the filaments, before `ridge`. */
+/* Smooth components. Noise with few cells changes little from texel to texel. So it is computed at every STEP-th column
+ * and row, and interpolated between these nodes. Each cell has at least five nodes. FIRST, SECOND: octaves of the
+ * filaments, before `ridge`. */
 enum { STEP = 4, FEW = 2, NODES = KD_MILKY_WAY_WIDTH / STEP };
 enum smooth { CLOUDS, BENT, WARP_X, WARP_Y, PATCHES, FIRST, SECOND, SMOOTH };
 #define DUSTY 32.0f /* degrees from the plane: there is no dust beyond */

@@ -5,8 +5,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Reads the Milky Way of a seed into words (kd_panorama_words of its size). False if the file is missing, damaged or
- * of another seed, or if this program would make another picture: some rows are computed again and compared. */
+/* Reads the Milky Way of a seed into words (kd_panorama_words of its size). Returns false if the file is missing,
+ * damaged or of another seed. Also returns false if this program would make another picture; to check this, some rows
+ * are computed again and compared. */
 bool kd_milky_way_recall(const char *path, int32_t seed, uint32_t *words);
 /* Writes the file, replacing any older one. A failure is only logged, as one debug line. */
 void kd_milky_way_keep(const char *path, int32_t seed, const uint32_t *words);

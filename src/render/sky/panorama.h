@@ -2,8 +2,8 @@
  * middle, l growing to the left, and the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG magnitudes a
  * square arcsecond. Pure; any thread.
  *
- * It is stored as mips: level k has 1/4^k of the texels of level 0, and each texel is the mean of four texels of the
- * level before. The last level has two rows. Texels are words with a shared exponent (Khronos,
+ * A panorama is stored as mips. Level k has 1/4^k of the texels of level 0, and each texel is the mean of four texels
+ * of the level before. The last level has two rows. Texels are words with a shared exponent (Khronos,
  * EXT_texture_shared_exponent): nine bits a channel. Sides are powers of two, so that level k begins at (4 - 4^(1 -
  * k))/3 of level 0. */
 #ifndef KD_RENDER_SKY_PANORAMA_H
@@ -19,9 +19,9 @@
 struct kd_sky_picture {
     uint32_t width, height;
     float *texels;
-    /* Texels of a row are narrower towards the poles. If set, each level is averaged along rows over 1/cos(latitude)
-     * texels, so that a row is as coarse there as at the equator; otherwise the poles would look like stars with many
-     * rays. */
+    /* Texels of a row are narrower towards the poles. If `even` is set, each level is averaged along rows over
+     * 1/cos(latitude) texels, so that a row is as coarse there as at the equator. Otherwise the poles would look like
+     * stars with many rays. */
     bool even;
 };
 void kd_sky_picture_finish(struct kd_sky_picture *picture);

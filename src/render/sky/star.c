@@ -33,8 +33,8 @@ static void catalogue(const struct kd_scene *scene, struct kd_stars *out)
  * it becomes incomplete; there are 4 995 stars to V = 6. */
 static double magnitude_of_rank(double rank) { return 6 + log10(rank / 4995) / 0.49; }
 
-/* A random direction. Half of the bright stars and a third of the faint ones are isotropic; the others are in a
- * layer about the plane, denser towards the middle. */
+/* A random direction. Half of the bright stars and a third of the faint ones are isotropic. The others are in a layer
+ * about the plane, denser towards the middle. */
 static struct kd_vec made_up_place(struct kd_random *random, double magnitude)
 {
     double spread = fmin(fmax(0.6 - 0.035 * magnitude, 0.3), 0.7), l = 2 * M_PI * kd_random(random),

@@ -38,7 +38,8 @@ double kd_star_flux(double magnitude);
 double kd_star_kelvin(double colour);
 
 /* Star k of the packed catalogue (scripts/pack-stars), the brightest first. */
-struct kd_catalogue_star { double ra, dec, magnitude, colour; }; /* radians, J2000; V; B-V */
+/* ra, dec: radians, J2000; magnitude: V; colour: B-V */
+struct kd_catalogue_star { double ra, dec, magnitude, colour; };
 struct kd_catalogue_star kd_catalogue_star(size_t k);
 
 #endif

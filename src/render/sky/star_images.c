@@ -5,11 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* roots of a star that are nearer to each other than this, in ray spacings, are one image, unless only one of them is
- * mirrored */
+/* distance in ray spacings. Roots of a star that are nearer to each other than this are one image, unless only one of
+ * them is mirrored */
 #define SAME 1e-3
 #define FOLDED 0.2 /* size in rad of the largest cells in which folds are searched for */
-/* fraction of a cell's size: where the map folds, stars this near to a corner or the middle of the cell are searched
+/* fraction of a cell's size. Where the map folds, stars this near to a corner or the middle of the cell are searched
  * for */
 #define REACH 0.5
 #define BESIDE 0.35 /* distance from the fold, in rays, at which the search starts on both sides */
@@ -86,10 +86,10 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
     return s->found(s->user, &image);
 }
 
-/* Corners of a triangle, clockwise as the picture is seen. The right angle is at the first corner; the second lies from
- * it along `across`, the third along `down`, each +1 or -1. A star s = w0 a + w1 b + w2 c is inside if all w are
- * positive (Cramer's rule). The volume of a, b, c is twice the solid angle of the triangle, which is the solid angle of
- * a pixel, since a pixel has two triangles. */
+/* Corners of a triangle, clockwise as the picture is seen. The right angle is at the first corner. The second corner
+ * lies from it along `across`, the third along `down`; both are +1 or -1. A star s = w0 a + w1 b + w2 c is inside if
+ * all w are positive (Cramer's rule). The volume of a, b, c is twice the solid angle of the triangle. That is the solid
+ * angle of a pixel, because a pixel has two triangles. */
 struct corner {
     double x, y;
     struct kd_vec n;

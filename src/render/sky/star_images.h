@@ -1,5 +1,5 @@
-/* Finds the images of stars under a map of rays to the sky: for each star the places of rays that end at it. Pure; any
- * thread.
+/* Finds the images of stars under a map of rays to the sky. For each star these are the places of the rays that end at
+ * it. Pure; any thread.
  *
  * Neighbouring rays form triangles, which the map takes to triangles of the sky. A star within a triangle of the sky
  * has an image in the corresponding triangle of rays, at the same barycentric coordinates. From there Newton's method
@@ -16,7 +16,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The linearised map about a place: n + dx * across + dy * down. area: the volume spanned by the three. */
+/* The linearised map about a place: n + dx * across + dy * down. area: the volume that n, across and down span. */
 struct kd_sky_tangent {
     struct kd_vec n, across, down;
     double area;

@@ -8,7 +8,7 @@
 /* The derivative is kept only if the step is also shorter by this factor than the step before. The next step then
  * shrinks by the same factor. */
 #define SHRINKS 0.1
-/* angle in rad: next to a fold, a star may have an image if the interpolated map comes this near to the star; such an
+/* angle in rad. Next to a fold, a star may have an image if the interpolated map comes this near to the star. Such an
  * image is searched for */
 #define DOUBTFUL 1e-3
 #define STEPS 30
@@ -44,8 +44,8 @@ static double step(const struct kd_sky_tangent *at, struct kd_vec star, double *
     return far;
 }
 
-/* Newton's method on the interpolated map. NONE: no image is near. Next to a fold this map and the true one may
- * disagree about a pair of images that is about to merge; such a place is reported as worth searching. */
+/* Newton's method on the interpolated map. NONE: no image is near. Next to a fold, this map and the true one may
+ * disagree about a pair of images that is about to merge. Such a place is reported as worth searching. */
 static enum kd_star_root root_between(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y)
 {
     const double x0 = *x, y0 = *y;

@@ -11,7 +11,7 @@
 /* UNKNOWN: the map cannot follow the first ray. UNWANTED: there may be an image, but it need not be reported. */
 enum kd_star_root { KD_STAR_ROOT_NONE, KD_STAR_ROOT_FOUND, KD_STAR_ROOT_UNKNOWN, KD_STAR_ROOT_UNWANTED };
 
-/* Moves a place to that of the ray that ends at a star; *at becomes the linearised map there. */
+/* Moves a place to the place of the ray that ends at a star; *at becomes the linearised map there. */
 enum kd_star_root kd_star_root(const struct kd_sky_map *map, struct kd_vec star, double *x, double *y,
                                struct kd_sky_tangent *at);
 

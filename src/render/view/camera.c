@@ -74,7 +74,7 @@ uint32_t kd_camera_sight(const struct kd_scene *scene)
                                                                      : KD_SIGHT_PINHOLE;
 }
 
-/* A sphere fills the picture whatever its sides; a dome's circle touches the nearer sides. */
+/* A sphere fills the picture, whatever the picture's sides. A dome's circle touches the nearer sides. */
 static void turns(struct kd_camera_exact *o, double width, double height)
 {
     o->turn_x = o->sight == KD_SIGHT_SPHERE ? 4 / width : o->sight == KD_SIGHT_DOME ? 2 / fmin(width, height) : 0;
@@ -104,15 +104,15 @@ double kd_camera_pixel(const struct kd_scene *scene)
     return (isinf(c->r) ? c->field_m : 2 * tan(0.5 * c->fov_deg * (M_PI / 180))) / scene->image.width;
 }
 
-/* Upper bound on the sum of the terms' sizes minus the size of their sum: twice the constant, plus twice the smaller
- * of the other two terms, which may cancel. */
+/* Upper bound on the sum of the terms' sizes minus the size of their sum. It is twice the constant, plus twice the
+ * smaller of the other two terms, which may cancel. */
 static double more_than_sum(double constant, double across, double up)
 {
     return 2 * (fabs(constant) + fmin(fabs(across), fabs(up)));
 }
 
-/* Sets the bounds on rounding errors of rays (kd_rounding of shaders/ray/kerr_ray.glsl). width, height: of the whole
- * picture, in steps. The components of a unit vector are sums of three orthogonal terms, whose sizes add up to at
+/* Sets the bounds on rounding errors of rays (kd_rounding of shaders/ray/kerr_ray.glsl). width, height: size of the
+ * whole picture, in steps. The components of a unit vector are sums of three orthogonal terms, whose sizes add up to at
  * most sqrt(3). */
 static void bound_rounding(struct kd_camera_exact *o, double width, double height)
 {

@@ -20,8 +20,8 @@ struct kd_camera_block kd_camera_block(const struct kd_scene *scene);
 /* The KD_SIGHT_ constant (shaders/shared/interface.h) of the camera's projection. */
 uint32_t kd_camera_sight(const struct kd_scene *scene);
 
-/* For a point (x, y), in steps from the middle of the picture: returns the component of its direction along c0, and
- * replaces x and y by the components along cx and cy. */
+/* Takes a point (x, y), in steps from the middle of the picture. Returns the component of the point's direction along
+ * c0, and replaces x and y by the components along cx and cy. */
 double kd_camera_ahead(uint32_t sight, double turn_x, double turn_y, double *x, double *y);
 
 /* Boyer-Lindquist azimuth of the observer minus camera.azimuth_deg. */
@@ -32,8 +32,8 @@ double kd_camera_twist(const struct kd_scene *scene);
 double kd_camera_pixel(const struct kd_scene *scene);
 
 /* The labels (render/rays/rays.h) of the ray at (x, y), computed in double as shaders/ray/camera.glsl does. In the
- * ergosphere E may be negative: r and theta along the ray still follow from the labels L/E and Q/E^2 as if E were
- * positive; azimuth and time run backwards. */
+ * ergosphere E may be negative. Then r and theta along the ray still follow from the labels L/E and Q/E^2 as if E were
+ * positive, but azimuth and time run backwards. */
 struct kd_camera_label {
     double alpha, beta;
     bool outward;  /* at a finite radius: whether the traced ray starts away from the hole */
@@ -46,8 +46,8 @@ void kd_camera_direction(const struct kd_camera_exact *camera, double x, double 
 /* As kd_camera_direction, but the vector is not normalised; for a camera at infinity it is (alpha, beta, 0). */
 void kd_camera_look(const struct kd_camera_exact *camera, double x, double y, double out[3]);
 
-/* The place in the picture, in rays as in kd_camera_direction, at which the camera sees a direction of any length; at
- * infinity the direction is alpha and beta. False if the direction is behind a pinhole. */
+/* The place in the picture at which the camera sees a direction. The place is in rays, as in kd_camera_direction. The
+ * direction may have any length; at infinity it is alpha and beta. False if the direction is behind a pinhole. */
 bool kd_camera_seen(const struct kd_camera_exact *camera, const double direction[3], double *x, double *y);
 
 /* Labels from E, L/sin(theta), and beta |E|. */

@@ -1,5 +1,5 @@
-/* Cache of the pixels at the critical curve, for the most recent cameras. A picture needs them for its plan and for
- * its lens map; a view in which time runs needs them for every frame. Any thread. */
+/* Cache of the pixels at the critical curve, for the most recent cameras. A picture needs these pixels for its plan and
+ * for its lens map. A view in which time runs needs them for every frame. Any thread. */
 #ifndef KD_RENDER_VIEW_CRITICAL_CACHE_H
 #define KD_RENDER_VIEW_CRITICAL_CACHE_H
 

@@ -13,8 +13,8 @@ static const double straight = 0.05; /* largest distance between the midpoint of
 
 struct tile { uint64_t rows[TILE]; }; /* one bit for each pixel; the lowest bit is the leftmost pixel */
 
-/* Tiles of pixels exist only where the curve passes, so that work and memory grow with the length of the curve and not
- * with the picture. */
+/* Tiles of pixels exist only where the curve passes. So work and memory grow with the length of the curve and not with
+ * the picture. */
 struct work {
     struct kd_critical curve;
     struct kd_camera_exact camera;

@@ -1,10 +1,10 @@
 /* Lists the pixels that the critical curve passes, which get more rays than others. Image orders from 2 on (for a
- * distant observer from 1 on) are rings thinner than a pixel: with one ray a pixel they would show as dots. Double
+ * distant observer from 1 on) are rings thinner than a pixel. With one ray a pixel they would show as dots. Double
  * precision; pure, any thread.
  *
- * In units of the shadow's radius the images of order n lie within about e^(-pi n) of the curve (lensing.h). Those
- * that are thinner than a pixel lie in the pixels listed here, whose centres are within KD_CRITICAL_NEAR of the
- * curve. */
+ * In units of the shadow's radius the images of order n lie within about e^(-pi n) of the curve (lensing.h). Images
+ * that are thinner than a pixel lie in the pixels listed here, whose centres are within KD_CRITICAL_NEAR of the curve.
+ * */
 #ifndef KD_RENDER_VIEW_CRITICAL_PIXELS_H
 #define KD_RENDER_VIEW_CRITICAL_PIXELS_H
 
@@ -62,7 +62,8 @@ static inline struct kd_pixel kd_critical_place(const struct kd_critical_lattice
 }
 
 /* Four vectors from a ray of a lattice (not a grid) to neighbours. For each vector (x, y) there is a neighbour at (x,
- * y) and one at (-x, -y). They are the two shortest vectors that are not parallel, their sum and their difference. */
+ * y) and one at (-x, -y). The four vectors are the two shortest that are not parallel, the sum of these two, and their
+ * difference. */
 struct kd_critical_neighbours {
     struct { int32_t x, y; } to[4];
 };

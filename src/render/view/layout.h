@@ -14,8 +14,8 @@
 
 /* The least size of a value that is not 0. Such a value must not become 0 as a float on the device, because it decides
  * whether a ray lies in the plane or on the axis. Where the device flushes denormals, products and quotients with other
- * values must not become denormal either. An observer may be 2.5e-16 from the plane: there a label of 1e-20 would move
- * the node by 1e-5, and 1e-22 moves it by 1e-7; a third of 1e-22, times 2.5e-16, would be denormal. */
+ * values must not become denormal either. An observer may be 2.5e-16 from the plane. There a label of 1e-20 would move
+ * the node by 1e-5, and 1e-22 moves it by 1e-7. A third of 1e-22, times 2.5e-16, would be denormal. */
 #define KD_LEAST_FLOAT 1e-22
 static inline double kd_lifted(double x)
 {
@@ -42,9 +42,9 @@ struct kd_beam_blur_push { KD_BEAM_BLUR_FIELDS_(F, U) };
 #undef F
 #undef U
 
-/* Sizes for post.comp: the number of workgroups for a number of pixels; the bytes of radiance that these workgroups
- * read, in blocks of four pixels; the bytes of packed pixels that they write, a multiple of what one workgroup
- * writes. */
+/* Sizes for post.comp. kd_post_groups: number of workgroups for a number of pixels. kd_post_radiance_bytes: bytes of
+ * radiance that these workgroups read, in blocks of four pixels. kd_post_bytes: bytes of packed pixels that they write,
+ * a multiple of what one workgroup writes. */
 static inline uint32_t kd_post_groups(uint64_t pixels)
 {
     const uint64_t each = KD_GROUP_SIZE * KD_POST_PIXELS;
@@ -58,8 +58,8 @@ static inline uint64_t kd_post_bytes(uint64_t pixels, int bit_depth)
 {
     return (uint64_t)kd_post_groups(pixels) * KD_GROUP_SIZE * KD_POST_PIXELS * (bit_depth == 16 ? 6 : 3);
 }
-/* Two counts of a band are read back after its pixels: rays on which the march gave up (last word of the band's
- * light), and pixels whose light is not finite (the word after the pixels). */
+/* Two counts of a band are read back after its pixels. The last word of the band's light counts rays on which the march
+ * gave up. The word after the pixels counts pixels whose light is not finite. */
 #define KD_POST_COUNTS 2
 
 _Static_assert(sizeof(struct kd_slice) <= 128 && sizeof(struct kd_footprint_push) <= 128 &&

@@ -15,8 +15,8 @@ static void scale(double a[3], double by)
         a[i] *= by;
 }
 
-/* fraction of half the curve: within this distance of the curve's ends, `up` loses digits, and the curve is replaced by
- * a parabola */
+/* fraction of half the curve. Within this distance of the curve's ends, `up` loses digits, and a parabola replaces the
+ * curve */
 #define ENDS 3e-4
 /* No point is nearer to an end of the curve than this fraction of ENDS. Light that arrives at an end stays in the
  * observer's plane, which null_bend.h does not cover. */

@@ -5,13 +5,13 @@
  * valid.
  *
  * The rim lies on a plane. For an observer at infinity this is the plane of (alpha, beta) about the curve's middle. For
- * other observers it is the tangent plane of the sphere of directions at the curve's middle, with tangents of angles as
- * coordinates. A place has a turn u round the curve, KD_RIM_ANGLES for a whole turn, and l = log(off): its distance
- * from the middle is 1 + off times that of the curve's point.
+ * other observers it is the tangent plane of the sphere of directions at the curve's middle. Its coordinates are
+ * tangents of angles. A place has two coordinates. u is the turn round the curve, KD_RIM_ANGLES for a whole turn. l is
+ * log(off), where the place's distance from the middle is 1 + off times that of the curve's point.
  *
- * The innermost rays are KD_RIM_LEAST from the curve. They are nearer if the brightest star could still be seen there,
- * down to KD_RIM_NEAREST. An image at the relative distance `off`, of a star of flux F, has at least the radiance F off
- * (radius/pixel)^2. It is not much brighter unless the star is next to a caustic. */
+ * The innermost rays are KD_RIM_LEAST from the curve. These rays are nearer, down to KD_RIM_NEAREST, if the brightest
+ * star could still be seen there. An image at the relative distance `off`, of a star of flux F, has at least the
+ * radiance F off (radius/pixel)^2. It is not much brighter unless the star is next to a caustic. */
 #ifndef KD_RENDER_VIEW_RIM_H
 #define KD_RENDER_VIEW_RIM_H
 
@@ -28,19 +28,19 @@
  * observer can make stars brighter. */
 #define KD_RIM_SEEN 0.1
 #define KD_RIM_PIXELS 14.0 /* width of the rim in pixels; within it neighbouring pixels end far apart on the sky */
-/* The width of the rim is at least this times its radius in pixels. Beyond that width the rounding of 32 bits, 7e-6
- * divided by the distance, is less than half a percent of the step from pixel to pixel. */
+/* The width of the rim is at least this times its radius in pixels. The rounding of 32 bits is 7e-6 divided by the
+ * distance. Beyond this width it is less than half a percent of the step from pixel to pixel. */
 #define KD_RIM_NOISE 1.3e-3
 #define KD_RIM_MOST 1.0 /* the width of the rim is at most this fraction of its radius */
 
 struct kd_rim {
     bool there;
-    /* relative distances from the curve: beyond `none`, all images come from the picture's grid; within `full`, all
-     * come from the rim; between the two, both share the light */
+    /* relative distances from the curve. Beyond `none`, all images come from the picture's grid. Within `full`, all
+     * come from the rim. Between the two, grid and rim share the light */
     double none, full;
     double last; /* the least relative distance from the curve of the rim's rays */
-    /* rough estimate in rad of how the shift of the sky between the outermost and the innermost ray varies along the
-     * curve: its largest change from one point to the next */
+    /* rough estimate in rad of the largest change, from one point of the curve to the next, of the shift of the sky
+     * between the outermost and the innermost ray */
     double winds;
     double pixel; /* size of a pixel on the plane */
     bool flat;

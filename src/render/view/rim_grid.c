@@ -20,7 +20,7 @@ enum { ROUND = 64, ACROSS = 20 };
 #define FEW 6.0    /* the grids of a rim whose `winds` is less than this, in rad, never exceed the limit of rays */
 #define SPREAD 4.0 /* an image up to this many pixels outside the picture may light some of it */
 
-/* by_u, by_l: shift of the sky per unit of u and of l. most_u, most_l: the largest of these shifts in this cell and
+/* by_u, by_l: shift of the sky per unit of u and of l. most_u, most_l: largest values of by_u and by_l in this cell and
  * half way to its neighbours. shown: solid angle of the sky that a pixel shows, sr. */
 struct cell {
     double by_u, by_l, most_u, most_l, shown;
@@ -444,7 +444,7 @@ static bool set_spans(const struct kd_rim *rim, const struct kd_camera_exact *ca
     return true;
 }
 
-/* True if light from beyond an edge of the picture may reach a tile: the map of an equirectangular picture continues
+/* True if light from beyond an edge of the picture may reach a tile. The map of an equirectangular picture continues
  * from the right edge to the left one, and over the poles (shaders/ray/around.glsl). */
 static bool comes_around(const struct kd_camera_exact *c, const struct rectangle *tile, const struct rectangle *picture,
                          double spread)

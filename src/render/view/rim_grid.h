@@ -1,7 +1,7 @@
-/* Chooses the rays of the rim (rim.h): several adjacent grids, each so fine that the sky shifts by at most KD_RIM_STEP
- * from ray to ray. Next to the equator of a fast hole the sky shifts hundreds of times as fast as elsewhere, both
- * towards the critical curve and along it. No rays are spent outside the picture, or where even the brightest star
- * would not be seen.
+/* Chooses the rays of the rim (rim.h). They are on several adjacent grids. Each grid is so fine that the sky shifts by
+ * at most KD_RIM_STEP from ray to ray. Next to the equator of a fast hole the sky shifts hundreds of times as fast as
+ * elsewhere, both towards the critical curve and along it. No rays are spent outside the picture, or where even the
+ * brightest star would not be seen.
  *
  * A grid owns the images in its part of the rim, a rectangle in the coordinates u and l. Grids share an image near
  * their border. A rectangle of 2 * KD_RIM_SHARED_U by 2 * KD_RIM_SHARED_L is centred on the image. A grid's share is
@@ -61,14 +61,14 @@ void kd_rim_grids_keep(const struct kd_scene *scene, const struct kd_rim *rim, s
  * that spins fast, and no time for any other. */
 bool kd_rim_is_thinned(const struct kd_scene *scene, const struct kd_rim *rim);
 
-/* Largest solid angle of the sky, sr, that a pixel may show with Sirius still visible; with some margin, since the
+/* Largest solid angle of the sky, sr, that a pixel may show with Sirius still visible. It has some margin, because the
  * brightness varies. */
 #define KD_RIM_FAINTEST (3.3 * KD_RIM_BRIGHTEST / KD_STAR_LEAST)
 
 /* Layout of the buffer: the rim's edges (KD_RIM_EDGES numbers), then for each grid the directions of its rays
- * (rim_sky.h), three planes of numbers, and its table. A table has KD_RIM_TABLE numbers for the borders of its part,
- * in its own columns and rows; then for each column the curve's point x, y and its derivative by column. A grid
- * begins at an offset where a buffer may be bound. */
+ * (rim_sky.h), three planes of numbers, and its table. A table has KD_RIM_TABLE numbers for the borders of the grid's
+ * part, in the grid's columns and rows. Then it has, for each column, the curve's point x, y and the derivative of that
+ * point by column. A grid begins at an offset where a buffer may be bound. */
 #define KD_RIM_TABLE 6
 #define KD_RIM_ALIGN 64u
 static inline uint32_t kd_rim_grid_rays(const struct kd_rim_grid *grid) { return grid->columns * grid->rows; }

@@ -12,7 +12,7 @@ enum {
     LEAST = 9, /* least number of intervals along a side of a grid */
     MOST = 96,
     ASIDE = 4, /* lines across the grid on which a number of intervals is tried */
-    /* if there are at most this many grids, all threads work on one grid at a time; if there are more, each thread
+    /* if there are at most this many grids, all threads work on one grid at a time. If there are more, each thread
      * takes whole grids */
     SHARED = 4
 };
@@ -123,8 +123,9 @@ static int serves(const struct follower *f, const struct side *s, int n, bool al
                 sum.of[q] += w[j] * at[j].of[q];
         if (!follow_on(f, along_u, place, line, &want))
             return -1;
-        if (apart(&sum, &want) > 0.1 * KD_RIM_EXACT) /* stricter, because the error is larger between the lines, and
-                                                      * next to a caustic for images */
+        /* the bound is stricter than KD_RIM_EXACT, because errors are larger between the lines, and larger for images
+         * next to a caustic */
+        if (apart(&sum, &want) > 0.1 * KD_RIM_EXACT)
             return 0;
     }
     return 1;
@@ -145,8 +146,8 @@ static void try_line(void *user, size_t k)
     t->serves[k] = serves(t->f, t->side, t->side->n, t->along_u, line);
 }
 
-/* Finds how many intervals are enough along one side, tested on lines at both ends of the other side and between
- * them; the result exceeds MOST if even MOST are too few. Returns false if a ray does not escape. */
+/* Finds how many intervals are enough along one side. Tests this on lines at both ends of the other side and between
+ * them. The result exceeds MOST if even MOST are too few. Returns false if a ray does not escape. */
 static bool enough(const struct follower *f, struct side *s, const struct side *other, bool along_u)
 {
     struct trial trial = { .f = f, .side = s, .other = other, .along_u = along_u };
