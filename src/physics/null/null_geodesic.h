@@ -82,8 +82,8 @@ struct kd_null_path kd_null_trace(const struct kd_null_ray *ray);
 /* Like kd_null_trace, but does not estimate errors and sets them to 0. It takes a quarter to a third of the time. */
 struct kd_null_path kd_null_trace_fast(const struct kd_null_ray *ray);
 
-/* Like kd_null_trace_fast, without phi, delay, sky_u and sky_phi, which are NaN: fate, turn, and r and sense of each
- * crossing are the same to the bit. Takes a third of the time of kd_null_trace_fast. */
+/* Like kd_null_trace_fast, but does not compute phi, delay, sky_u and sky_phi, which are NaN. Fate, turn, and r and
+ * sense of each crossing are the same to the bit. Takes a third of the time of kd_null_trace_fast. */
 struct kd_null_path kd_null_trace_radii(const struct kd_null_ray *ray);
 
 #endif

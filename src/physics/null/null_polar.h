@@ -43,8 +43,8 @@ struct kd_null_polar {
     double first, first_phi; /* Mino time and azimuth from the observer to the first crossing             */
 };
 
-/* `parts`: with KD_NULL_TAU the integrals of azimuth and of u^2 are 0, and kd_null_polar_at must not be called. Others
- * compute everything. */
+/* `parts`: with KD_NULL_TAU the integrals of azimuth and of u^2 are 0, and kd_null_polar_at must not be called. With
+ * other values everything is computed. */
 struct kd_null_polar kd_null_polar_of(const struct kd_null_motion *m, enum kd_null_parts parts);
 
 /* z - u^2 and N + a^2 u^2 at the observer, and s = N + a^2 z; each is computed without cancellation. */

@@ -48,7 +48,7 @@ struct kd_null_roots {
     double margin;      /* |pair| / mean^2: roughly the relative distance from the critical curve */
 };
 
-/* What the integrals along a ray contain: Mino time; and azimuth; and coordinate time. */
+/* The parts of the integrals along a ray. Each value includes those before it: Mino time, azimuth, coordinate time. */
 enum kd_null_parts { KD_NULL_TAU, KD_NULL_TAU_PHI, KD_NULL_TAU_PHI_T };
 
 /* The error is as if the coefficients had been changed by a few 1e-16. An exactly double root r3 = r4 is split by 1e-11
