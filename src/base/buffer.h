@@ -1,4 +1,4 @@
-/* A growing byte buffer. Its initialiser owns it; not thread-safe.
+/* A growing byte buffer. The code that initialises a buffer owns it. Not thread-safe.
  *
  *     struct kd_buffer b = { 0 };
  *     if (kd_buffer_append(&b, data, n)) ... KD_ENOMEM ...

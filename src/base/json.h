@@ -28,7 +28,7 @@ struct kd_json {
     size_t begun; /* size of *out before the document began */
     unsigned depth;
     bool lines; /* each member is on a line of its own, for human readers */
-    /* Writes a finite number in another form than kd_decimal_print; NULL: in that form. */
+    /* Writes a finite number in a format of its own; NULL: in the format of kd_decimal_print. */
     void (*print)(char out[KD_JSON_NUMBER], double value);
     struct { bool array, filled; } open[KD_JSON_DEPTH];
 };
@@ -51,7 +51,7 @@ void kd_json_null(struct kd_json *json, const char *name);
 /* Writes a value that is JSON text already. */
 void kd_json_raw(struct kd_json *json, const char *name, const char *text, size_t length);
 
-/* Writes members of the object that is open: JSON text without the braces. */
+/* Writes members into the object that is open. The text is JSON without the braces. */
 void kd_json_members(struct kd_json *json, const char *text);
 
 enum kd_status kd_json_finish(struct kd_json *json);

@@ -4,7 +4,7 @@
 
 #include "base/buffer.h"
 
-/* Characters to escape: in content only; in attributes as well as in content. */
+/* Sets of characters to escape: the first is for content only, the second for attributes and content. */
 #define KD_MARKUP_CONTENT "&<>"
 #define KD_MARKUP_ATTRIBUTE "&<>\"'"
 

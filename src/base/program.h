@@ -33,8 +33,8 @@ bool kd_program_known(const char *name);
  * descriptors, and its standard output goes to /dev/null. KD_EABSENT: there is no such program. KD_EIO. */
 enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program,
                                 struct kd_error *error);
-/* Returns how many bytes the pipe took. 0: the pipe is full at present, or the program has closed it;
- * kd_program_over tells which. */
+/* Returns how many bytes the pipe took. 0: the pipe is full at present, or the program has closed it.
+ * kd_program_over distinguishes the two cases. */
 size_t kd_program_write(struct kd_program *program, const void *data, size_t size);
 void kd_program_hang_up(struct kd_program *program);
 /* True if the program has ended. *code: its exit code, or -1 if a signal ended it. This call also reads the program's

@@ -51,8 +51,8 @@ static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_sch
     kd_json_end(json);
 }
 
-/* Writes the schema of one word, as a constant and as an enumeration with one entry. With "const" alone, generated
- * clients would take the word in one branch of a union for the only possible one. */
+/* Writes the schema of one word, as a constant and as an enumeration with one entry. With "const" alone, client
+ * generators treat the word of one branch of a union as the only possible word. */
 static inline void kd_schema_word(struct kd_json *json, const char *name, const char *word)
 {
     kd_json_object(json, name);

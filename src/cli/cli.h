@@ -14,8 +14,8 @@
 
 enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2, KD_EXIT_DEVICE = 3 };
 
-/* argp children for --log-level and --device. The first has no input. The input of the second is a `const char *`; the
- * parser sets it first to $KERRD_DEVICE or "auto". */
+/* argp children for --log-level and --device. The first has no input. The input of the second is a `const char *`,
+ * which the parser initialises to $KERRD_DEVICE or "auto". */
 extern const struct argp kd_cli_log_argp, kd_cli_device_argp;
 extern const struct argp_child kd_cli_device_children[]; /* both children, the device's first */
 #define KD_CLI_LOG_LEVELS "error|warn|info|debug"
@@ -45,7 +45,7 @@ void kd_cli_stdout_failed(int number);
 /* For atexit: flushes stdout, so that the exit code is 1 if help or a list could not be written. */
 void kd_cli_close_stdout(void);
 
-/* Both functions parse an option's text. If it is not valid they return false and leave *out unchanged.
+/* Both functions parse an option's text. If the text is not valid, they return false and leave *out unchanged.
  * KD_CLI_BYTES_ALLOWED describes the accepted sizes in messages. */
 bool kd_cli_read_number(const char *text, unsigned minimum, unsigned maximum, unsigned *out);
 bool kd_cli_read_bytes(const char *text, uint64_t *out);

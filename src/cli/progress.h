@@ -17,7 +17,7 @@ struct kd_progress {
 /* Begins n parts, such as pictures. From here on the first SIGINT or SIGTERM stops the work through
  * kd_progress_update. A second one kills the process. */
 void kd_progress_begin(struct kd_progress *progress, unsigned n);
-/* fraction: of the current part. A kd_progress_fn: returns false after a signal. */
+/* fraction: finished fraction of the current part. May be used as a kd_progress_fn: returns false after a signal. */
 bool kd_progress_update(void *progress, double fraction);
 void kd_progress_finish(struct kd_progress *progress); /* clears the bar */
 /* Clears the bar; exits if the device is lost. Returns the status. */

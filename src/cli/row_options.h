@@ -18,8 +18,8 @@ struct kd_row_options {
 /* Text of each of these options; NULL: the option was not given. */
 struct kd_row_texts { const char *of[KD_ROW_OPTIONS]; };
 
-/* Adds an option for each row of the document, unless an option already has the row's name. The table must have room;
- * its next place is *n. from: the values that the rows have before anything is given, for the help; NULL: unknown.
+/* Adds an option for each row of the document, unless an option already has the row's name. The table must have
+ * room; *n is the index of its next free place. from: the rows' default values, which the help shows; NULL: unknown.
  * about: begins the help; may be "". objects: an option begins with the name of the row's object. */
 void kd_row_options_add(struct kd_row_options *to, struct argp_option *table, size_t *n,
                         const struct kd_document *document, const void *from, const char *about, bool objects,

@@ -14,7 +14,7 @@
 struct kd_scene_options {
     const char *document; /* a path or "-"; NULL: none */
     const char *preset, *from;
-    /* True: the document is not a whole scene but is merged over one, so that it may be used together with --from. */
+    /* true: the document is a patch that is merged over a scene, so it may be combined with --from */
     bool document_is_over;
     const char **set; /* texts "path=value", from --set, --size and --tile */
     size_t n_set;

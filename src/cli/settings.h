@@ -49,7 +49,8 @@ struct kd_settings {
     char *file;                       /* configuration file that was read; NULL: none */
 };
 
-#define KD_SETTING_VARIABLE 48 /* size of the longest variable name, KERRD_ALLOW_CROSS_SITE, and some more */
+/* room for the longest variable name, KERRD_ALLOW_CROSS_SITE, and a few characters more */
+#define KD_SETTING_VARIABLE 48
 
 enum kd_status kd_settings_init(struct kd_settings *settings, const struct kd_cli_setting *table, size_t n,
                                 struct kd_error *error);
@@ -63,7 +64,7 @@ enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_
 
 /* The next three functions are in settings_read.c. Their errors are KD_EINVAL, and name the file or variable, the
  * option, the value and what is accepted. */
-/* Reads a JSON object; "-FILE" reads FILE if it exists. */
+/* Reads a configuration file, a JSON object. A path "-FILE" reads FILE if FILE exists. */
 enum kd_status kd_settings_read_file(struct kd_settings *settings, const char *path, struct kd_error *error);
 /* Reads the environment variables KERRD_...; empty ones are ignored. */
 enum kd_status kd_settings_read_environment(struct kd_settings *settings, char *const *environment,

@@ -15,7 +15,7 @@ struct kd_described_steps {
     char why[320];
 };
 
-/* Computes everything besides the steps. KD_ENOMEM. The caller must finish *out in any case. */
+/* Computes everything except the steps. KD_ENOMEM. The caller must finish *out in any case. */
 enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_described_steps *out,
                                 struct kd_error *error);
 void kd_trace_finish(struct kd_described_steps *trace);

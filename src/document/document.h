@@ -1,6 +1,6 @@
-/* Documents: requests and scenes as tables of fields. A table has one row for each field of a document. From the table
- * follow the defaults, the reader of JSON and of typed text, refusals, the writer and the JSON Schema. This module does
- * not know the meaning of a field. Constant data and pure functions, any thread.
+/* Documents: requests and scenes as tables of fields. A table has one row for each field of a document. The table
+ * determines the defaults, the readers of JSON and of typed text, the error messages, the writer and the JSON Schema.
+ * This module does not depend on the meaning of any field. Constant data and pure functions, any thread.
  *
  *     struct tea { double minutes; uint32_t cups; int leaf; bool milk; };
  *     #define AT(member) offsetof(struct tea, member)
@@ -21,8 +21,8 @@
  *     kd_document_set(&document, &tea, "milk", "true", NULL, error);   as on a command line
  *     kd_document_write(&json, &document, &tea);                       {"minutes":3,"cups":1,...}
  *
- * An error is KD_EINVAL with the field's pointer. Its message names the field as the request does, its value, and what
- * it must be. For an unknown name it offers the nearest one, or lists those that are known. */
+ * An error is KD_EINVAL with the field's pointer. Its message gives the field's name in the request, its value, and the
+ * allowed values. For an unknown name the message suggests the nearest known name, or lists all known names. */
 #ifndef KD_DOCUMENT_DOCUMENT_H
 #define KD_DOCUMENT_DOCUMENT_H
 
@@ -51,7 +51,7 @@ enum kd_kind {
     KD_KIND_SERIES, /* struct kd_words: some of `words` in any order, each once (document/words.h) */
     KD_KIND_JSON,   /* const cJSON *: any value, which the caller reads while the tree exists; NULL: not given */
 };
-enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW }; /* ends that the range excludes */
+enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW }; /* ends of the range that are not allowed */
 
 struct kd_number_list {
     double *at; /* malloc'd */
@@ -67,7 +67,7 @@ struct kd_row {
     size_t offset;               /* offset in the struct that is filled */
     double initial, least, most; /* for numbers; `initial` is also for a WORD and a BOOL */
     enum kd_open open;
-    double above_0;    /* the least value of numbers above 0 */
+    double above_0;    /* the smallest allowed value above 0, if 0 itself is allowed too */
     const char *words; /* "a|b|c" */
     double stands;     /* value for which the word of a REAL stands: INFINITY or NAN; the word of an INT is stored as
                         * 0 */
@@ -76,9 +76,8 @@ struct kd_row {
     size_t room, fewest;
     unsigned of;             /* bit mask of the kinds of documents that have the field; 0: all kinds */
     const char *unit, *help; /* unit NULL, "" or "1": none */
-    /* These replace what the engine writes by itself: the allowed values in words, and the members of the JSON Schema
-     * without the description, such as "\"type\":\"number\"". They are for limits that the reader cannot check by one
-     * field alone. */
+    /* Texts that replace the generated ones: the allowed values in words, and the members of the JSON Schema without
+     * the description, such as "\"type\":\"number\"". They are for limits that depend on more than one field. */
     const char *allowed, *schema;
 };
 
@@ -115,10 +114,12 @@ void kd_document_defaults(const struct kd_document *document, void *to);
 const struct kd_row *kd_document_find(const struct kd_document *document, const char *name);
 
 /* Reads the members that an object has; other fields keep their values. pointer: the object's own. given: receives the
- * bit of each row that was given, 64 a word; may be NULL. A member that is unknown or given twice is an error.
+ * bit of each row that was given, with 64 rows to a word; may be NULL. A member that is unknown or given twice is an
+ * error.
  *
- * An array replaces a whole list. An object {"0": {...}} changes elements by index; the next free index appends one. A
- * former name of an element creates the elements before it, and removes those that are left with all defaults. */
+ * An array replaces a whole list. An object {"0": {...}} changes elements by index; the next free index appends one. If
+ * the document uses a former name of an element, the elements before that element are created. Elements at the end of
+ * the list that then still have all defaults are removed. */
 enum kd_status kd_document_read(const struct kd_document *document, void *to, const cJSON *object, const char *pointer,
                                 uint64_t *given, struct kd_error *error);
 /* Like kd_document_read, as a merge patch (RFC 7396): null resets a field, or all fields of an object or element, and
@@ -148,18 +149,18 @@ enum kd_status kd_list_check(const struct kd_list *list, size_t size, struct kd_
 /* Sets one field that is no array from a value. called: its name in messages. */
 enum kd_status kd_row_put(const struct kd_row *row, void *to, const struct kd_value *value, const char *called,
                           const char *pointer, struct kd_error *error);
-/* The two halves of kd_row_put. kd_row_take stores the value and returns whether the row accepts it. The other returns
- * KD_EINVAL with "X is V; it must be ...". */
+/* The two halves of kd_row_put. kd_row_take stores the value and returns whether the row accepts it. kd_row_refuse
+ * returns KD_EINVAL with "X is V; it must be ...". */
 bool kd_row_take(const struct kd_row *row, void *to, const struct kd_value *value);
 enum kd_status kd_row_refuse(const struct kd_row *row, const struct kd_value *value, const char *called,
                              const char *pointer, struct kd_error *error);
-/* A value of any kind but TEXT, LIST, WORDS and VECTOR as a double: a BOOL as 0 or 1, a WORD as its index, the word
- * of an INT as INFINITY. An ASSET is 1 if it is set; putting 0 removes it. A SERIES that has just one word without a
- * number is the index of that word; otherwise it is NAN. */
+/* A row's value as a double, for every kind except TEXT, LIST, WORDS and VECTOR. A BOOL is 0 or 1, a WORD is its
+ * index, and the word of an INT is INFINITY. An ASSET is 1 if it is set; putting 0 removes it. A SERIES of exactly
+ * one word without a number is the index of that word. Any other SERIES is NAN. */
 double kd_row_get(const struct kd_row *row, const void *from);
 void kd_row_put_number(const struct kd_row *row, void *to, double value);
-/* True if the row allows this value. It does if the value is in the row's range (and whole if the kind requires
- * that), or stands for the row's word. */
+/* True if the row allows this value: the value is in the row's range (and whole if the kind requires that), or
+ * stands for the row's word. */
 bool kd_row_holds(const struct kd_row *row, double value);
 /* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow n numbers. */
 enum kd_status kd_row_make_room(const struct kd_row *row, void *to, size_t n, const char *pointer,

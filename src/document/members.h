@@ -8,7 +8,7 @@
 #include <cjson/cJSON.h>
 #include <stddef.h>
 
-/* Returns KD_EINVAL, because the item is not what `allowed` describes in words. */
+/* Returns KD_EINVAL with a message that says that the item must be what `allowed` describes. */
 enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const char *allowed, struct kd_error *error);
 
 /* Reads an integer from `least` to `most`. */

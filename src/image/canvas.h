@@ -15,9 +15,9 @@ struct kd_canvas {
 
 #define KD_CANVAS_INK ((struct kd_map_colour) { 0.92, 0.92, 0.92 })
 
-/* kd_canvas_put sets one pixel to encoded sRGB in [0, 1], rounded; kd_canvas_mix to a mean of that and its old value,
- * of which `share` is the new one's weight, 0 to 1. kd_canvas_darken reduces it to a fifth of its value. x and y must
- * be inside the canvas. */
+/* kd_canvas_put sets one pixel to encoded sRGB in [0, 1], rounded. kd_canvas_mix blends a colour into the pixel:
+ * `share` is the weight of the new colour, 0 to 1. kd_canvas_darken reduces the pixel to a fifth of its value. x and
+ * y must be inside the canvas. */
 void kd_canvas_mix(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour, double share);
 void kd_canvas_put(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour);
 void kd_canvas_darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y);

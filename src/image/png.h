@@ -41,7 +41,7 @@ enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, 
  * pixels are valid. */
 struct kd_png_about {
     uint32_t width, height;
-    int bit_depth, channels; /* as in the file: 1, 2, 4, 8 or 16; 1 to 4, and 1 for a palette */
+    int bit_depth, channels; /* bit_depth as in the file: 1, 2, 4, 8 or 16; channels: 1 to 4, and 1 for a palette */
 };
 enum kd_status kd_png_look(const void *data, size_t size, struct kd_png_about *out, struct kd_error *error);
 

@@ -10,8 +10,9 @@
 /* Filter 1: each byte minus that of the pixel to the left. */
 void kd_png_filter_sub(uint8_t *restrict to, const uint8_t *restrict row, size_t stride, size_t step);
 
-/* Uses the filter, of the five, for which the sum of the bytes as signed numbers is smallest (section 12.7); of equal
- * ones the first. above: the unfiltered row before, or zeros for the first row. room: scratch of 5 strides. */
+/* Uses the filter, of the five, for which the sum of the bytes as signed numbers is smallest (section 12.7). If
+ * several sums are equal, the first filter is used. above: the unfiltered row before, or zeros for the first row.
+ * room: scratch of 5 strides. */
 void kd_png_filter_least(uint8_t *restrict to, const uint8_t *row, const uint8_t *above, size_t stride, size_t step,
                          uint8_t *restrict room);
 

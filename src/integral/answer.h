@@ -9,7 +9,7 @@
 
 enum { KD_INTEGRAL_COLUMNS = 12, KD_INTEGRAL_VALUES = 12 };
 
-/* Contents of an integral's answer, besides its parameters. */
+/* Contents of an integral's answer, except its parameters. */
 struct kd_integral_column {
     const char *name, *unit, *help; /* unit NULL: the answer's unit of light */
     bool words;                     /* the column's numbers are codes of words: kd_integral_word */
@@ -33,7 +33,7 @@ struct kd_integral_answer {
     size_t rows;
     double *columns[KD_INTEGRAL_COLUMNS]; /* each of length `rows`; a single allocation, columns[0] */
     const char *light;                    /* unit of columns that are light */
-    /* Approximations beyond those of its kind: sentences from the plans of its pictures. */
+    /* Approximations besides those that every integral of this kind has: sentences from the plans of its pictures. */
     const char *told[KD_PLAN_MAX_APPROXIMATIONS];
     size_t n_told;
 };

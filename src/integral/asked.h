@@ -64,8 +64,8 @@ struct kd_integral_request {
     uint32_t pixels; /* pixels on the longer side of a picture; 0: the default */
     int unchecked;   /* 0: finer pictures estimate the error */
     struct kd_number_list u, v, lengths,
-        /* For a visibility, in Gl (10^9 wavelengths): a list of baselines, or lengths and angles, which are expanded
-         * into one. */
+        /* For a visibility, in Gl (10^9 wavelengths): a list of baselines, or lists of lengths and angles, which are
+         * expanded into baselines. */
         angles_deg;
     double length_max; /* NaN: half of what the pixels resolve */
     uint32_t baselines, orders;
@@ -97,7 +97,8 @@ struct kd_integral_request {
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
 
-/* True if fields of a checked request may be left open. An open field is NAN, and its word in the answer. */
+/* True if fields of a checked request may be left open. An open field is NAN in the request, and a word in the
+ * answer. */
 static inline bool kd_integral_leaves_open(enum kd_integral what)
 {
     return kd_integral_is_mapped(what) || what == KD_INTEGRAL_LAGS;

@@ -36,7 +36,7 @@ void kd_integral_request_finish(struct kd_integral_request *request);
 /* Merges a document into the request. Returns KD_EINVAL without a pointer if the text is not a JSON document. */
 enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length,
                                         struct kd_error *error);
-/* Like the function above, followed by kd_integral_request_check. */
+/* Like kd_integral_request_read, followed by kd_integral_request_check. */
 enum kd_status kd_integral_request_json(struct kd_integral_request *request, const char *text, size_t length,
                                         struct kd_error *error);
 

@@ -10,8 +10,8 @@
  * The last one is a film. Its frame k shows a playground, in the format of kerrd playground, at the time k times
  * `every`, or earlier if the playground's budget of sub-steps does not reach that time. "scene" is merged over the
  * default view of the playground, and keyframes move the camera. Keyframes are described in scene/timeline.h; without a
- * keyframe at frame 0, "scene" is the scene there. Axes are described in scene/sweep.h. With "output": "light-curve"
- * each frame is measured instead of drawn (render/output/series.h).
+ * keyframe at frame 0, "scene" is the scene at frame 0. Axes are described in scene/sweep.h. With "output":
+ * "light-curve" each frame is measured instead of drawn (render/output/series.h).
  *
  * "motion_blur": {"samples": N, "shutter": S}: the light of frame k is the mean of the light of N pictures, at k, k +
  * S/N, ..., k + S (N - 1)/N. The default of S is 0.5. Only for pictures between keyframes.

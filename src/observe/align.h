@@ -2,9 +2,9 @@
  *
  * chi^2 is summed over all data of the comparison. Size and orientation are searched on a grid first, because closure
  * phases give chi^2 several minima. The best places of the grid are then refined by the simplex method of J. A. Nelder
- * & R. Mead 1965, Comput. J. 7, 308. At each of them the flux follows in closed form (kd_comparison_scale). The shift
- * follows from a grid and Newton's method, because it affects only the sum of Re(d* m exp(2 pi i (u x + v
- * y)))/sigma^2. */
+ * & R. Mead 1965, Comput. J. 7, 308. At each place the flux follows in closed form (kd_comparison_scale). The shift is
+ * found by a grid and Newton's method. These are cheap, because the shift affects only the sum of Re(d* m exp(2 pi i (u
+ * x + v y)))/sigma^2. */
 #ifndef KD_OBSERVE_ALIGN_H
 #define KD_OBSERVE_ALIGN_H
 

@@ -66,15 +66,15 @@ enum kd_status kd_comparison_make(const struct kd_observation *observation, cons
                                   struct kd_comparison *out, struct kd_error *error);
 void kd_comparison_finish(struct kd_comparison *comparison);
 
-/* Factor by which the model must be multiplied to minimise the chi^2 of amplitudes and visibilities: the sum of d m /
- * sigma^2 divided by the sum of m^2 / sigma^2, where d is the data and m the model. NaN if there are no such data, if
- * the model has no light, or if no factor above 0 is best. */
+/* Factor by which the model must be multiplied to minimise the chi^2 of amplitudes and visibilities: the sum of d m
+ * / sigma^2 divided by the sum of m^2 / sigma^2, where d is the data and m the model. NaN if there are no such data,
+ * if the model has no light, or if the best factor is not above 0. */
 double kd_comparison_scale(const struct kd_comparison *comparison, const double (*model)[2]);
 /* Fills `model` of each row and computes chi^2 divided by the number of data; NaN for a product without data. */
 void kd_comparison_judge(struct kd_comparison *comparison, const double (*model)[2], double chi2[KD_PRODUCTS]);
 /* Sum of chi^2 over all data, for the model times `scale`. Leaves the rows as they are. */
 double kd_comparison_total(const struct kd_comparison *comparison, const double (*model)[2], double scale);
-/* (data - model) / error. The difference of two phases is reduced to within 180 degrees. */
+/* (data - model) / error. The difference of two phases is first reduced to the range -180 to 180 degrees. */
 double kd_comparison_residual(const struct kd_comparison_row *row);
 
 /* Fourier transform of a pixel's shape at a baseline. The baseline is given in turns for each pixel along each axis. */

@@ -1,7 +1,8 @@
 /* Visibilities of a model as an array would have measured them, with its noise. Any thread.
  *
  * The noise is Gaussian and independent between visibilities, with the error of the observation for each of the real
- * and the imaginary part. It depends on the seed and on a visibility's number in the file alone. */
+ * and the imaginary part. The noise of a visibility depends only on the seed and on the visibility's number in the
+ * file. */
 #ifndef KD_OBSERVE_SIMULATE_H
 #define KD_OBSERVE_SIMULATE_H
 

@@ -22,7 +22,7 @@ const char *kd_orbit_way_name(enum kd_orbit_way way); /* "yoshida6", "rkn6", "cl
 struct kd_orbit_spec {
     enum kd_orbit_form form;
     /* NAN: as in the request. If the request does not give the parameter either, the spin is that of the named case,
-     * and all others are 0 */
+     * and all other parameters are 0 */
     KD_HOLE_MEMBERS
     double p, e, inclination_deg;
     double energy, momentum, carter, r; /* r: NAN if not given */

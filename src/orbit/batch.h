@@ -7,7 +7,7 @@
 #include <stdatomic.h>
 
 struct kd_orbit_batch {
-    /* results, to be read once the batch is done */
+    /* results; read them only when the batch is done */
     const struct kd_orbit_request *request;
     struct kd_orbit_run *runs;
     struct kd_orbit_sample *samples; /* NULL without series */

@@ -25,8 +25,8 @@ enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_or
                                   enum kd_orbit_format format, struct kd_error *error);
 void kd_orbit_feed_finish(struct kd_orbit_feed *feed);
 
-/* Appends the next piece to `out`; for many orbits it appends nothing until all are done. Fails with KD_EINVAL like
- * kd_orbit_run_prepare, before anything is written. */
+/* Appends the next piece to `out`; for many orbits it appends nothing until all are done. Like kd_orbit_run_prepare,
+ * it may fail with KD_EINVAL before anything is written. */
 enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *out, struct kd_error *error);
 bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);

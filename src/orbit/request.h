@@ -55,8 +55,8 @@ enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error);
 
 /* Solves for the motion that a spec describes. KD_EINVAL has the pointer within the request, such as "/orbits/17/p".
- * The result does not include the initial azimuth. *rounding: for a whirl, which is close to an unstable circular
- * orbit, the error that rounding of the constants causes, relative to the whole path. If it exceeds
+ * The result does not include the initial azimuth. *rounding is for a whirl, which is close to an unstable circular
+ * orbit. It is the error caused by rounding of the constants of motion, relative to the whole path. If it exceeds
  * KD_ORBIT_ROUNDING_MAX, the orbit is refused. */
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
                                       struct kd_orbit_state *start, double *rounding, struct kd_error *error);

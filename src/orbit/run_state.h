@@ -28,9 +28,9 @@ struct kd_orbit_run {
     double aim; /* for an unbound path: 1/r or t of its last place; NAN if the path ends when its time is over */
     uint64_t steps, done;
     uint32_t samples, sampled;
-    /* Relative error of the place after a period (or at the end of the whole path). It is estimated from a run with
-     * half the number of steps, or is `rounding` if that is larger. NAN if neither is known: `steps` was given, or the
-     * closed form is used, and there is no whirl. */
+    /* Relative error of the place after a period (or at the end of the whole path). The estimate is from a run with
+     * half the number of steps. If `rounding` is larger, the estimate is `rounding`. NAN if neither is known:
+     * `steps` was given, or the closed form is used, and there is no whirl. */
     double error_estimate;
     /* updated by kd_orbit_run_advance */
     struct kd_orbit_path path;

@@ -4,9 +4,9 @@
  * c. Positions are x, y, z with the hole at the origin and its axis along z.
  *
  * Pictures use r, theta, phi of x, y, z as Boyer-Lindquist coordinates (kd_playground_spherical). That is exact with
- * gravity "kerr", which moves bodies in these coordinates. The potential of Paczynski and Wiita has no metric; its
- * horizon is at 2 and its last stable orbit at 6, as in Schwarzschild's, so its r is used as Schwarzschild's. The
- * approximations say so. */
+ * gravity "kerr", which moves bodies in these coordinates. The potential of Paczynski and Wiita has no metric. Its
+ * horizon is at 2 and its last stable orbit at 6, as in Schwarzschild's metric, so its r is used as the r of
+ * Schwarzschild's metric. The list of approximations mentions this. */
 #ifndef KD_PLAYGROUND_BODY_H
 #define KD_PLAYGROUND_BODY_H
 

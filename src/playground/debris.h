@@ -73,8 +73,8 @@ struct kd_debris_shed {
 void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source *source,
                     const struct kd_debris_shed *shed);
 
-/* Moves all pieces to time t. With `feeds`, a piece that comes back is counted and removed, because it joins the
- * disk. */
+/* Moves all pieces to time t. With `feeds`, a piece that comes back is counted and then removed, because it joins
+ * the disk. */
 void kd_debris_advance(struct kd_playground_debris *debris, double t, double safety, bool feeds);
 /* Longest stride for which the sub-steps of all pieces together take a fraction of a second. INFINITY if there are no
  * pieces. */

@@ -20,7 +20,7 @@ struct kd_playground_geodesic {
     double from_x[3], from_v[3], from_t; /* initial conditions, which give the constants of motion */
     double phi;                          /* initial azimuth */
     double h;                            /* step in Mino time */
-    struct kd_orbit_path path;           /* state, which is not beyond the time that was last approached */
+    struct kd_orbit_path path;           /* state before or at the time of the last kd_geodesic_approach */
     struct kd_orbit_path begun;          /* state at the last time reached; kd_geodesic_back returns to it */
 };
 

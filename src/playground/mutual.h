@@ -1,4 +1,5 @@
-/* Mutual gravity of bodies: all pairs, softened, in double precision. One thread a kd_playground_mutual.
+/* Mutual gravity of bodies: all pairs, softened, in double precision. One thread at a time uses a struct
+ * kd_playground_mutual.
  *
  * Plummer's softening: the pull of a mass m at distance d is m d/(d^2 + e^2)^(3/2), its potential -m/(d^2 +
  * e^2)^(1/2) (H. Plummer 1911, MNRAS 71, 460). */

@@ -17,12 +17,12 @@
  * allows at the positions x; then 1/h_n + 1/h_(n-1) = 2 R(x_n) (T. Holder, B. Leimkuhler & S. Reich 2001, Appl. Numer.
  * Math. 39, 367). The method is time-symmetric and so has no drift of energy. Steps are never stretched or cut to meet
  * a requested time: dividing the time into calls differently gives the same bits. Speeds are capped at 1, which only
- * removes energy; `spent` accounts for it.
+ * removes energy; `spent` counts the removed energy.
  *
  * Gravity "kerr": bodies follow geodesics (geodesic.h) without mutual gravity, tides or waves. The positions of all
  * bodies are updated together, once every h_max, or more often if the budget is short. If the budget of an advance is
- * spent in between, no body has moved, and the next advance continues the computation. Such unfinished work is not in a
- * snapshot.
+ * spent between two updates, no body has moved yet, and the next advance continues the computation. Such unfinished
+ * work is not in a snapshot.
  *
  * Results depend on the state alone, including the seed. They are the same on other machines with IEEE arithmetic,
  * provided that the C library's sqrt, cbrt and pow are. */
@@ -45,7 +45,7 @@
 struct kd_playground_spent {
     double captured_mass, captured_energy, captured_momentum[3]; /* angular momentum */
     double merged;                                               /* energy that became heat in mergers */
-    double capped;                                               /* energy removed by capping speeds at c */
+    double capped;                                               /* energy removed because speeds are capped at c */
     double capped_momentum[3];     /* momentum removed by capping, where the pull of other bodies dominated */
     double radiated;               /* energy of gravitational waves */
     double torn_mass, torn_energy; /* converted to debris */
@@ -69,7 +69,7 @@ struct kd_playground {
     struct kd_playground_debris debris;
     struct kd_playground_series series;
     struct kd_playground_geodesic *geodesics; /* gravity "kerr": one for each body */
-    /* Derived from the above: */
+    /* The members from here on are derived from those above. */
     struct kd_playground_mutual mutual;
     bool disturbed;
     double before; /* bodies were changed from outside since the last step: the energy before the change */

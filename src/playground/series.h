@@ -1,6 +1,6 @@
 /* Time series of a playground's numbers. Row k is at `begin` + k `interval`, interpolated linearly between
  * sub-steps. When the series is full, every second row is dropped and the interval doubled, so that the rows cover
- * all of the time. If the span is known beforehand, the last row falls on its end. One thread at a time. */
+ * all of the time. If the span is known beforehand, the last row is at the end of the span. One thread at a time. */
 #ifndef KD_PLAYGROUND_SERIES_H
 #define KD_PLAYGROUND_SERIES_H
 

@@ -45,15 +45,15 @@ struct kd_output {
 
 struct kd_quantity {
     const char *name, *summary;
-    /* The last `along` parameters vary along a curve: outputs that are `fixed` do not depend on them. */
+    /* The last `along` parameters vary along a curve: outputs that are `fixed` do not depend on these parameters. */
     const struct kd_row *parameters;
     size_t n_parameters, along;
     const struct kd_output *outputs;
     size_t n_outputs;
     const char *const *sources, *const *approximations; /* NULL-terminated lists of sentences */
     /* Evaluates one point. out[] and memory (memory_size bytes, initially zero) keep their contents from the last
-     * call. fresh: a parameter that is not `along` has changed since then. KD_EINVAL with the parameter's pointer if
-     * a value is outside the domain. */
+     * call. fresh: since then, a parameter other than the last `along` ones has changed. KD_EINVAL with the
+     * parameter's pointer if a value is outside the domain. */
     enum kd_status (*evaluate)(const double *in, double *out, void *memory, bool fresh, struct kd_error *error);
     size_t memory_size;
     /* Maximum time on a core of 2020, in microseconds, including the text of the answer: for each point, and
@@ -80,8 +80,8 @@ struct kd_quantity_request {
 };
 
 void kd_quantity_request_init(struct kd_quantity_request *request, const struct kd_quantity *quantity);
-/* Sets a parameter, or the digits if name is "digits". KD_EINVAL with "/name" for an unknown name or an invalid
- * value. */
+/* Sets the parameter with this name, or the digits if the name is "digits". KD_EINVAL with "/name" for an unknown
+ * name or an invalid value. */
 enum kd_status kd_quantity_request_set(struct kd_quantity_request *request, const char *name, const char *text,
                                        struct kd_error *error);
 size_t kd_quantity_points(const struct kd_quantity_request *request);  /* saturates at KD_QUANTITY_POINTS + 1 */

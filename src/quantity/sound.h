@@ -1,8 +1,8 @@
-/* Turns a quasi-normal mode into sound: e^(-t/tau) cos(2 pi f t), for the mass of the hole. The result is a WAV file of
- * 16 bits, 48 kHz, one channel. It begins at full scale, lasts until less than half a step is left, and is padded with
- * silence to at least a quarter of a second. shift_octaves s makes the whole sound 2^s times as fast; `stretch` then
- * makes the decay that many times slower, at the same pitch. A comment in the file gives both, with frequencies and
- * times before and after. Any thread. */
+/* Turns a quasi-normal mode into sound: e^(-t/tau) cos(2 pi f t), for the mass of the hole. The result is a WAV file
+ * of 16 bits, 48 kHz, one channel. It begins at full scale, lasts until less than half a step is left, and is padded
+ * with silence to at least a quarter of a second. shift_octaves = s makes the whole sound 2^s times as fast.
+ * `stretch` = k then makes the decay k times slower, at the same pitch. A comment in the file states both numbers,
+ * with frequencies and times before and after the changes. Any thread. */
 #ifndef KD_QUANTITY_SOUND_H
 #define KD_QUANTITY_SOUND_H
 

@@ -29,8 +29,8 @@ extern const struct kd_control kd_controls[];
 extern const size_t kd_control_count;
 
 /* kd_control_find returns a field's entry of this kind; NULL if there is none. A field has at most one entry of each
- * kind, but may have several of KD_CONTROL_WITH, all with the same `text`. kd_control_next returns the entry after
- * `found`. */
+ * kind, except that it may have several of KD_CONTROL_WITH, all with the same `text`. kd_control_next returns the
+ * entry after `found`. */
 const struct kd_control *kd_control_find(const struct kd_row *field, enum kd_control_kind kind);
 const struct kd_control *kd_control_next(const struct kd_row *field, const struct kd_control *found);
 

@@ -28,7 +28,7 @@ struct kd_seen_body {
     double velocity[3];
     double radius;  /* radius in the body's own frame; 0 or less: the body is not drawn */
     uint32_t which; /* index in the maker's list; it is reported for a pixel that shows the body */
-    /* same meaning as for the bodies of a scene; a body of temperature 0 is dark, and hides what is behind it */
+    /* same meaning as for the bodies of a scene; a body of temperature 0 is dark and hides everything behind it */
     double temperature_k, brightness, limb_darkening;
     double albedo; /* fraction of the disk's light that it reflects, isotropically; 0: reflection is not computed */
 };
@@ -41,8 +41,8 @@ struct kd_seen_body {
 struct kd_dynamic_bodies_debris {
     uint32_t turn, rows, columns, first_column; /* rows 0: there is no debris */
     int32_t first_row;
-    /* KD_CROWD_NODE numbers for each node: the amount of debris, in units of one body, and this amount times the
-     * velocity along e_r and along e_phi, in the frame of kd_seen_body. */
+    /* KD_CROWD_NODE numbers for each node. They are the amount of debris, in units of one body, and this amount
+     * times the velocity along e_r and along e_phi, in the frame of kd_seen_body. */
     float *nodes;
     uint32_t pieces; /* number of pieces of debris that are on the nodes */
     uint32_t hidden; /* number of pieces of debris left out because they have no valid position */

@@ -16,7 +16,7 @@
  *     WORDS(section, name, nature, place, help, words)
  *          a set of words of "a|b_N|c", in any order; b_N stands for b, b_0, b_1, ...; default: the first word
  *
- * The nature tells what a reader may conclude from a picture in which the field was changed. It is mandatory.
+ * The nature says what a change of the field in a picture means. Every row must have one.
  *     PHYSICS  an exact consequence of general relativity or radiative transfer, or its numerical accuracy
  *     MODEL    chooses a model of matter or of a source, or a parameter of the model
  *     LOOK     a choice of presentation, which changes the picture but not the physics
@@ -545,9 +545,10 @@
 /* Sections that are nested in another section of the document: PART(s, name, section). s is passed through. */
 #define KD_SCENE_PARTS(PART, s) PART(s, gas, disk) PART(s, tile, image)
 
-/* Styles. A document that names one in style.name sets these fields, except those that it sets itself (scene/style.h).
- * ROW(section, name, values) has one value for each word of style.name except "none". Values have the form that
- * kd_field_put accepts. The fields belong to sections that are not lists. NAN: the style leaves the field unchanged.
+/* Styles. A document that names a style in style.name gets the style's values for these fields, except for fields that
+ * the document sets itself (scene/style.h). ROW(section, name, values) has one value for each word of style.name except
+ * "none". Values have the form that kd_field_put accepts. The fields belong to sections that are not lists. NAN: the
+ * style leaves the field unchanged.
  *
  * film: a bright scene, seen by the eye through a lens. raw: light without post-processing. dngr: as in Interstellar,
  * without the frequency shifts of the disk's gas, with lens flare (O. James et al. 2015, section 4.3). eht: as the

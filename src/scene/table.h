@@ -37,8 +37,8 @@ enum {
     KD_FIELD_WORDS = (KD_FIELD_COUNT + 63) / 64, /* words of the bit mask of the fields that a document has */
 };
 
-/* The rows of a list exist once, so functions on fields also take the index of the element. For other sections it is
- * 0. */
+/* The rows of a list exist only once, for all of its elements. So functions on fields also take the index of the
+ * element. For sections that are not lists the index is 0. */
 extern const struct kd_nature kd_natures[KD_NATURE_COUNT];
 extern const char *const kd_groups[KD_GROUP_COUNT]; /* "look", "gas", ... */
 /* Rows of struct kd_scene; for a list, of its first element. `object` is the section's name. */
@@ -63,7 +63,8 @@ const struct kd_row *kd_field_find(const char *section, const char *name);
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
 
-/* The struct that has the field: the scene, moved to an element of a list. Functions of rows take this pointer. */
+/* The address at which a row's offset counts: the scene, moved to the given element of a list. Functions of rows
+ * take this pointer. */
 const void *kd_field_in(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 /* True if a document has the field (kd_document_read). */
 static inline bool kd_field_is_given(const uint64_t *given, const struct kd_row *field)

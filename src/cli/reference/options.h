@@ -40,12 +40,12 @@ struct kd_context {
     const char *help; /* one line */
     const struct argp *argp;
     struct kd_options options;
-    bool complete; /* `options` has all options; there were not too many */
+    bool complete; /* true: `options` has all options; false: there were more than KD_OPTIONS_MOST */
 };
 bool kd_context_at(size_t i, struct kd_context *out);
 
-/* Calls `one` for the texts of --help. In argp.doc these are the parts before and after \v; `after` selects the parts
- * that follow the options. It includes the texts of the argp's children. */
+/* Calls `one` for the texts of --help. In argp.doc these are the parts before and after \v; `after` selects the
+ * parts that follow the options. Texts of the argp's children are included. */
 void kd_options_texts(const struct argp *argp, bool after,
                       void (*one)(struct kd_writer *w, const char *text, size_t length), struct kd_writer *w);
 

@@ -13,7 +13,7 @@ struct kd_rays_job {
     struct kd_task task;            /* must be the first member */
     struct kd_rays_request request; /* initialised by the job; a JSON body is merged into it */
     bool npy;                       /* the body is an array in NPY */
-    /* results beside those of the task */
+    /* results in addition to those of the task */
     bool malformed; /* KD_EINVAL because the body is not JSON */
     struct kd_rays_answer answer;
     double read_ms, trace_ms;

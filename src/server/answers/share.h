@@ -8,14 +8,15 @@
 
 /* Texts in UTF-8, each followed by NUL. They contain nothing but kerrd's own strings and numbers. */
 struct kd_shared {
-    struct kd_buffer link, code; /* link: of the left picture (scene/link.h); code: of both (image/text_code.h) */
-    /* Set for two pictures side by side, otherwise "". pair: what differs on the right, such as
-     * "pair.spacetime.spin=0.998"; other: the code of the right picture alone; other_picture: its absolute address, or
-     * "" if it is not rendered */
+    /* link: link of the left picture (scene/link.h); code: code of both pictures (image/text_code.h) */
+    struct kd_buffer link, code;
+    /* Set for two pictures side by side, otherwise "". pair: the fields in which the right picture differs, such as
+     * "pair.spacetime.spin=0.998"; other: the code of the right picture alone; other_picture: its absolute address,
+     * or "" if it is not rendered */
     struct kd_buffer pair, other, other_picture;
     struct kd_buffer title, about; /* title: such as "Gargantua"; about: one or two sentences */
-    /* absolute addresses, signed if the request came by a signed link; home: of the page, without a slash at its end;
-     * address: of /s/CODE */
+    /* absolute addresses, signed if the request came by a signed link; home: address of the page, without a slash at
+     * its end; address: of /s/CODE */
     struct kd_buffer home, address;
     struct kd_buffer picture; /* absolute address of the picture, KD_SHARED_WIDTH pixels wide */
 };

@@ -30,7 +30,7 @@ struct kd_asset_store {
     pthread_mutex_t lock; /* protects all members below; never held while a file is written or removed */
     int folder;           /* descriptor; -1: no folder */
     struct kd_asset *first;
-    uint64_t checking;      /* memory in bytes that checks under way use */
+    uint64_t checking;      /* memory in bytes used by checks under way */
     _Atomic unsigned count; /* count and bytes are written with the lock and read without */
     _Atomic uint64_t bytes;
 };

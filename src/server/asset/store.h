@@ -1,6 +1,6 @@
-/* Asset store: files that clients upload, and that scenes name by their SHA-256. They are kept in memory. If the server
- * has a state folder they are also kept on disk, as DIRECTORY/assets/HASH.png, .npz, .uvfits or .csv, and HASH.json,
- * which is written last. Each file is written atomically. Any thread.
+/* Asset store: files that clients upload, and that scenes name by their SHA-256. Assets are kept in memory. If the
+ * server has a state folder, they are also kept on disk, as DIRECTORY/assets/HASH.png, .npz, .uvfits or .csv, and
+ * HASH.json. HASH.json is written last. Each file is written atomically. Any thread.
  *
  * Errors contain no path, because clients see them. */
 #ifndef KD_SERVER_ASSET_STORE_H

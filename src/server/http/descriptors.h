@@ -6,8 +6,8 @@
  * other descriptors. With so many, accept and open do not fail, and a connection over the limit gets an answer. */
 unsigned kd_descriptors_for(unsigned connections);
 
-/* Open descriptors of this process; NAN where /proc is not available. Once kd_descriptors_for has been called, this
- * function opens no descriptor itself, so it works when the limit is reached. Any thread. */
+/* Open descriptors of this process; NAN where /proc is not available. After kd_descriptors_for has been called, this
+ * function does not open a descriptor, so it works even when the limit is reached. Any thread. */
 double kd_descriptors_open(void);
 
 #endif

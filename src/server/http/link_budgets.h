@@ -1,5 +1,5 @@
 /* Stores how much device time each signed link with a budget has used, until the link expires. With a state folder,
- * a file there keeps the figures over a restart. Any thread. */
+ * the amounts are kept in a file there, and survive a restart. Any thread. */
 #ifndef KD_SERVER_HTTP_LINK_BUDGETS_H
 #define KD_SERVER_HTTP_LINK_BUDGETS_H
 

@@ -75,8 +75,9 @@ struct kd_problem {
 /* Makes the problem of a status. pointer and detail point into *error. */
 struct kd_problem kd_problem_from(const struct kd_error *error);
 
-/* Completes a result of kd_problem_from that may be due to a limit. quota: it is a limit of one client, so the status
- * is 429. Retry-After is the number of seconds in the error for KD_EBUSY, else otherwise_s. */
+/* Completes a result of kd_problem_from that may be due to a limit. quota: the limit is that of one client, so the
+ * status becomes 429. Retry-After is the number of seconds in the error if the error is KD_EBUSY, otherwise
+ * otherwise_s. */
 void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s);
 
 unsigned kd_problem_status(enum kd_problem_type type);

@@ -1,5 +1,5 @@
-/* Sends bytes of a known length that have an ETag. Depending on the request's preconditions and its Range, the answer
- * has all bytes, some of the bytes, or the status 304 or 416 (RFC 9110 13.2.2). No other part of the server handles
+/* Sends bytes of a known length that have an ETag. The answer depends on the request's preconditions and its Range:
+ * all bytes, some of the bytes, or the status 304 or 416 (RFC 9110 13.2.2). No other part of the server handles
  * ranges. HTTP thread only. */
 #ifndef KD_SERVER_HTTP_REPRESENTATION_H
 #define KD_SERVER_HTTP_REPRESENTATION_H

@@ -43,8 +43,9 @@ struct kd_request {
     size_t body_mark;                              /* size of body when its deadline was last extended */
     unsigned quality;                              /* quality of a lossy format; 0: the format's default */
     const struct kd_format *format;                /* requested format of the picture; NULL: any, or no picture */
-    const struct kd_format *accepts[16];           /* all formats that Accept takes, the preferred first; `format` is
-                                                    * the first that can hold the scene, or accepts[0] */
+    /* all formats that Accept allows, the preferred one first; `format` is the first of them that can hold the
+     * scene, or accepts[0] if none can */
+    const struct kd_format *accepts[16];
     struct kd_render_job *job;                     /* the render under way for this request; owned */
     struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */
     bool waited;                                   /* the request has waited for a thumbnail */

@@ -83,8 +83,8 @@ struct kd_route {
     enum kd_takes takes;
     enum kd_gives gives;
     const char *also; /* further media types of answers, "a/b c/d"; NULL: none */
-    bool question; /* the role view may send this POST, because it leaves nothing on the server except a pupil's answer
-                      (access.h) */
+    /* the role view may send this POST, because it changes nothing on the server except a pupil's answer (access.h) */
+    bool question;
     bool open;     /* needs no access token */
     bool signable; /* GET may come by a signed link instead of an access token (link.h) */
     /* a page for browsers: takes the access token in its address, and asks for the token if the address has none
@@ -93,10 +93,10 @@ struct kd_route {
     bool once;          /* POST takes Idempotency-Key (once.h) */
     bool parts;         /* GET may answer with a range, 206 (representation.h) */
     bool folders;       /* the parameter at the end of the path may contain slashes */
-    bool owner;         /* POST needs the token of the object, as PATCH and DELETE always do */
+    bool owner;         /* POST needs the token of the object; PATCH and DELETE always do */
     bool brief;         /* PATCH takes Prefer: return=minimal */
     bool changes;       /* some answers have no ETag, because unfinished objects change */
-    unsigned status[2]; /* success statuses; { 0 }: 200. DELETE answers 204 */
+    unsigned status[2]; /* statuses of success; { 0 }: 200. The status of DELETE is 204 */
     /* The handler. Called when the body is complete, and again when the work that it started is done. */
     enum MHD_Result (*handle)(struct kd_request *request);
     const struct kd_query *queries; /* ends with a NULL name; NULL: none */
@@ -135,8 +135,8 @@ bool kd_route_is_dated(const struct kd_request *request);
 
 /* Appends the path of the route with this rest, below the base path. */
 enum kd_status kd_route_path(const struct kd_route *route, const char *rest, struct kd_buffer *out);
-/* Returns the route that a decoded path leads to, or NULL. *rest is cut out of the path, which is modified. Ignores the
- * base path. */
+/* Returns the route that a decoded path leads to, or NULL. Modifies the path: *rest points into it and is terminated
+ * there. Ignores the base path. */
 const struct kd_route *kd_route_of(char *path, const char **rest);
 
 /* Finds the route of the request's path. Sets request->route, ->matched and ->rest. `rest` points into the target's
@@ -150,7 +150,8 @@ const char *kd_route_allow(const struct kd_route *route);
 const char *kd_route_methods(const struct kd_route *route);
 /* Bit of a method's name, such as KD_GET; 0: unknown. */
 unsigned kd_route_method(const char *method);
-/* True if a raw target is /healthz, /readyz or /metrics, with or without the base path. These are always answered. */
+/* True if a raw target is /healthz, /readyz or /metrics, with or without the base path. These routes are always
+ * answered. */
 bool kd_route_is_health(const struct kd_base_path *base, const char *raw);
 /* Like kd_route_is_health, decided by the first n bytes of a connection. KD_BEGINS_UNCLEAR: more bytes are needed.
  * KD_BEGINS_BYTES bytes always suffice. */

@@ -1,5 +1,5 @@
-/* The files of clients/web, which are compiled in (embed.py): index.html is the page, and the others are files that it
- * loads from below /web/. */
+/* The files of clients/web, which are compiled in (embed.py). index.html is the page; the other files are loaded by
+ * the page from below /web/. */
 #ifndef KD_SERVER_HTTP_SERVED_H
 #define KD_SERVER_HTTP_SERVED_H
 

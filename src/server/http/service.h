@@ -22,7 +22,7 @@
 
 #define KD_BODY_MAX KD_SCENE_JSON_MAX     /* bytes of one body, except KD_RAYS_BODY_MAX and KD_ORBIT_BODY_MAX */
 #define KD_BODIES_MAX ((size_t)192 << 20) /* limit of bytes of all bodies being received */
-/* one client's limit of these bytes; the rest suffices for the largest body of another client */
+/* one client's limit of these bytes; the rest is enough for the largest body of another client */
 #define KD_BODIES_SHARE ((size_t)96 << 20)
 #define KD_BODIES_SMALL ((size_t)16 << 20) /* reserve beyond KD_BODIES_MAX for bodies of at most KD_BODY_MAX bytes */
 /* limit of bytes of all answers not yet sent; a single answer may exceed it */
@@ -86,7 +86,7 @@ struct kd_server {
     struct kd_lessons *lessons;
     struct kd_playground_sessions *playgrounds;
     struct kd_jobs *jobs;
-    struct kd_job_whole *cubes; /* cubes being downloaded (job/archive.c); HTTP thread only */
+    struct kd_job_whole *cubes; /* cubes that are being downloaded (job/archive.c); HTTP thread only */
     struct kd_request *once;    /* requests under way that have an Idempotency-Key; HTTP thread only */
     struct kd_asset_store *assets;
     struct kd_asset *sky; /* the operator's photograph of the sky; NULL: none */
@@ -111,8 +111,8 @@ struct kd_server {
     int stop_fd; /* eventfd that wakes the reaper */
     pthread_t reaper;
     bool reaper_runs;
-    _Atomic bool abandon; /* the server is destroyed without having been stopped, so it must not wait */
-    /* set drain_s after a stop request: remaining work is cancelled, and its clients are answered */
+    _Atomic bool abandon; /* the server is destroyed although it was never stopped, so it must not wait */
+    /* set drain_s after a stop request; remaining work is then cancelled, and its clients get an answer */
     _Atomic bool ended;
     pthread_mutex_t lock;                      /* protects all members below */
     struct kd_sessions_counts sessions_counts; /* the counts that were last read */

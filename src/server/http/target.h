@@ -19,8 +19,8 @@ struct kd_target {
 };
 
 /* raw: the target as received, "/v1/render?preset=NAME&camera.r=30". In the query "+" is a space, as forms send it.
- * Returns KD_EINVAL for a bad escape, invalid UTF-8, control characters or more than KD_TARGET_PAIRS pairs. The caller
- * calls kd_target_finish whatever the result. */
+ * Returns KD_EINVAL for a bad escape, invalid UTF-8, control characters or more than KD_TARGET_PAIRS pairs. The
+ * caller must call kd_target_finish in every case. */
 enum kd_status kd_target_parse(struct kd_target *target, const char *raw, struct kd_error *error);
 void kd_target_finish(struct kd_target *target);
 

@@ -34,8 +34,8 @@ int kd_job_folder_open(int jobs, const char *name);
  * the folder, unless it holds other files. Returns true when no removable file is left. */
 bool kd_job_folder_remove(int jobs, const char *name, unsigned most);
 
-/* Removes a job's files that a killed server left half written. All other files stay, even if their names begin
- * alike. */
+/* Removes those of a job's files that a killed server left half written. All other files stay, even if their names
+ * begin in the same way. */
 void kd_job_folder_tidy(int folder);
 /* Removes all jobs in a folder, then its lock. */
 void kd_job_folder_empty(int jobs);

@@ -18,7 +18,7 @@
 struct kd_jobs;
 struct kd_job;
 
-/* Number of crashes without a new frame after which a job is delayed, because it may be their cause. */
+/* number of crashes without a new frame after which a job is delayed, because it may be the cause of the crashes */
 #define KD_JOB_ATTEMPTS 3
 #define KD_JOB_WAIT_MS 30e3 /* length of the first delay; it doubles with each further crash, up to the limit below */
 #define KD_JOB_WAIT_MAX_MS 3600e3
@@ -56,8 +56,8 @@ void kd_job_draft_finish(struct kd_job_draft *draft);
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms,
                              struct kd_error *error);
 /* Makes a job from a checked draft, and empties the draft. The caller gets a reference to the job. text: the
- * request; client: the client that sent it. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one
- * client. */
+ * request; client: the client that sent it. Returns KD_EBUSY at a limit. *quota: true if that limit is the client's
+ * own. */
 enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length,
                             const char *client, bool *quota, struct kd_job **out, struct kd_error *error);
 struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* returns a reference, or NULL */
@@ -94,8 +94,8 @@ bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 /* Opens a finished frame like kd_job_store_get. */
 bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out);
 /* Gets the preview of a job of pictures, and requests that further previews are made. `png` is the frame under way,
- * rendered down to some row. If there is no such preview, `out` names the last finished frame. Returns false if
- * there is neither. */
+ * rendered down to some row. If no frame is under way, `out` names the last finished frame. Returns false if there
+ * is no finished frame either. */
 struct kd_job_sight {
     unsigned frame;
     bool finished;         /* the frame is finished; kd_job_frame opens its file */
@@ -130,8 +130,8 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *watcher);
 
 /* Resumes watchers that have news, and deletes expired jobs. Called by one thread, ten times a second. */
 void kd_jobs_sweep(struct kd_jobs *all);
-/* Accepts no more jobs and begins no more frames. The frame under way is cancelled, and rendered again after a restart.
- * Watchers are notified. */
+/* Accepts no more jobs and begins no more frames. The frame under way is cancelled; it is rendered again after a
+ * restart. Watchers are notified. */
 void kd_jobs_close(struct kd_jobs *all);
 
 #endif

@@ -1,7 +1,7 @@
 /* Jobs on disk. DIRECTORY/ID/ holds request.json as it was received, job.json, and the frames: 000000.png and so on,
- * whatever their format. Each file is written atomically. A folder that has our job.json but no request.json belongs to
- * a deleted job. Other files and unreadable ones are left alone; links are never followed. Any thread, but only one at
- * a time for each job.
+ * whatever their format. Each file is written atomically. A folder with job.json but without request.json belongs to a
+ * deleted job. Files with other names and unreadable files are left alone. Links are never followed. Any thread, but
+ * only one at a time for each job.
  *
  * Errors contain no path, because clients see them. KD_EFULL and KD_ENOMEM (also if descriptors run out) may be
  * temporary. */
@@ -22,7 +22,7 @@ struct kd_job_record {
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     enum kd_job_state state;
     double created, ended; /* seconds since 1970; ended: 0 while active */
-    /* number of servers that had begun work on the job and crashed, since the job's latest frame; an ordinary
+    /* number of servers that have begun work on the job and crashed since the job's latest frame; an ordinary
      * shutdown does not count */
     unsigned attempts;
     double exposure;                /* measured exposure of all frames in stops; NAN: none, or not yet */
@@ -70,7 +70,7 @@ enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsi
 struct kd_job_file {
     int fd; /* the caller closes it */
     uint64_t size;
-    /* changes whenever the file's bytes change; the mark of a film is the SHA-256 of its bytes */
+    /* changes whenever the file's bytes change; for a film it is the SHA-256 of the bytes */
     char mark[KD_JOB_MARK];
 };
 /* Opens a finished frame. Returns false if it does not exist. */

@@ -1,7 +1,7 @@
 /* A lesson: pupils follow the session of a teacher and answer the teacher's questions; the server counts pupils and
- * answers. A lesson holds the id of the session, and not the session itself, so that it continues when the teacher
- * opens another session. It is kept in memory only, and ends with the teacher's request or after a while without one. A
- * caller holds the lock of the table as long as it uses a lesson; kd_lessons_sweep takes it by itself. */
+ * answers. A lesson stores only the id of the session, so it continues when the teacher opens another session. It is
+ * kept in memory only. It ends when the teacher ends it, or after a while without a request of the teacher. A caller
+ * holds the lock of the table as long as it uses a lesson. kd_lessons_sweep takes that lock itself. */
 #ifndef KD_SERVER_LESSON_LESSON_H
 #define KD_SERVER_LESSON_LESSON_H
 
@@ -59,7 +59,8 @@ struct kd_lessons *kd_lessons_create(unsigned client_limit);
 void kd_lessons_destroy(struct kd_lessons *all); /* accepts NULL */
 void kd_lessons_lock(struct kd_lessons *all);
 void kd_lessons_unlock(struct kd_lessons *all);
-/* Ends the lessons that are idle. Called by the reaper, so that names of pupils are erased when their time is over. */
+/* Ends the lessons that are idle. The reaper calls this, so that names of pupils are erased when the lesson's time
+ * is over. */
 void kd_lessons_sweep(struct kd_lessons *all);
 
 /* Opens a lesson. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one client. The lesson belongs to
@@ -71,8 +72,8 @@ struct kd_lesson *kd_lesson_find(struct kd_lessons *all, const char *id);
 void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one);
 
 /* Finds or adds the pupil of this key, and marks it as present. If all places are taken, a pupil that is away is
- * replaced: first one without an answer to the present question, and among these the one that has been away
- * longest. Returns NULL if all are present. */
+ * replaced. Pupils without an answer to the present question are replaced first, and among them the one that has
+ * been away longest. Returns NULL if all are present. */
 struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key);
 
 /* Writes the lesson as JSON. teacher: include each pupil's choice, and the tally even while the question is open.

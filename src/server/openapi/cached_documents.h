@@ -10,7 +10,7 @@
 
 struct kd_cached_documents;
 
-/* base_path, closed: as for kd_openapi_json. */
+/* base_path and closed have the same meaning as for kd_openapi_json. */
 enum kd_status kd_cached_documents_create(const char *base_path, bool closed, struct kd_cached_documents **out,
                                           struct kd_error *error);
 void kd_cached_documents_destroy(struct kd_cached_documents *cache); /* accepts NULL */

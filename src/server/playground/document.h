@@ -25,7 +25,7 @@ struct kd_playground_session_json_options {
     const struct kd_scene *scene; /* scene of the playground's picture */
     /* the token is included, because the client has just opened the session */
     bool token;
-    /* bodies with greater ids are listed as "added"; UINT32_MAX: no such list */
+    /* bodies with ids above this are listed as "added"; UINT32_MAX: no such list */
     uint32_t before;
     const struct kd_playground_progress *progress; /* progress of a step; NULL: this is not the answer to a step */
 };

@@ -39,7 +39,7 @@ struct kd_playground_session {
     struct kd_session *picture;
     bool unshown;                                 /* the picture has no bodies yet */
     double looked_at_ms;                          /* time at which a frame was last requested */
-    bool held;                                    /* a thread has taken the playground */
+    bool held;                                    /* a thread has taken ownership of the playground */
     struct kd_playground_session_waiter *waiters; /* list of jobs that wait to take the playground */
     /* only the job that has taken the playground (kd_playground_session_take) uses the members from here on */
     struct kd_playground_session_waiter waiter; /* entry of the session's own job in the list of waiters */

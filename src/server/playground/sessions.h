@@ -3,8 +3,8 @@
  *
  * It runs while a client watches or sends requests, and pauses KD_PLAY_REST_MS after the last request. After
  * params.idle_ms without any client it ends. Each session is one job of the scheduler (http/task_scheduler.h), with
- * slices of some 10 ms. A sub-step is never divided. It takes tens of milliseconds with 4096 bodies or a million pieces
- * of debris. If the processor cannot keep up, simulated time slows down, and the state reports it.
+ * slices of some 10 ms. A sub-step is never divided between slices. It takes tens of milliseconds with 4096 bodies or a
+ * million pieces of debris. If the processor cannot keep up, simulated time slows down, and the state reports it.
  *
  * A playground belongs to one thread at a time: the thread that has taken it, which is always a worker. The HTTP thread
  * reads the snapshot that the workers publish after each tick. Any thread; functions on watchers belong to the HTTP
@@ -74,10 +74,11 @@ bool kd_playground_session_owned(const struct kd_playground_session *play,
 /* Ends the session and notifies its watchers. why: the word that they get as the reason. */
 void kd_playground_session_end(struct kd_playground_session *play, const char *why);
 
-/* Takes the playground. The caller owns it until it calls kd_playground_session_give with it, or with another
- * playground in its place. Returns NULL if another job has taken it. The waiter's job must then end its slice with
- * KD_SLICE_AWAY; it is woken when the playground is given back. A slice that has taken the playground may be
- * suspended (base/pause.h), because no thread blocks to wait for it. Call it on workers only. */
+/* Takes the playground out of the session. The caller owns the playground until it calls kd_playground_session_give
+ * with that playground, or with another one in its place. Returns NULL if another job has taken it. The calling job
+ * must then end its slice with KD_SLICE_AWAY, and is woken when the playground is given back. A slice that owns the
+ * playground may be suspended (base/pause.h), because no thread blocks to wait for the playground. Call it on
+ * workers only. */
 struct kd_playground_session_waiter {
     struct kd_scheduler *scheduler;
     struct kd_scheduler_job *job;
@@ -158,7 +159,7 @@ void kd_playground_session_watch(struct kd_playground_session_watcher *watcher, 
 void kd_playground_session_unwatch(struct kd_playground_session_watcher *watcher);
 enum kd_playground_session_news {
     KD_PLAY_TICK, /* there is a tick; *tick is a counted reference to it */
-    /* there is an event in *event; if its number is not the next one, the events between have been discarded */
+    /* there is an event in *event; if its number is not the next one, the events in between have been discarded */
     KD_PLAY_EVENT,
     KD_PLAY_OVER,  /* the session has ended; *why is a word */
     KD_PLAY_GONE,  /* the client has disconnected */

@@ -4,24 +4,25 @@
  *     waiting (bounded) -> the device, by turns -> encoders (bounded by the bytes of their frames) -> done()
  *
  * http/shares.h chooses the next work, first by client, then by class. Short work owns the device until it is done. A
- * picture that is estimated to take longer than KD_MOMENT_MS, or that nobody waits for, runs in a lane: a thread with
- * its own buffers. It releases the device between slices of some 40 ms. The code that submits a list of rays divides it
- * into pieces (`more`). So a client waits for at most one slice, or one short work, of each client that has used the
- * device less.
+ * picture runs in a lane if its estimated time exceeds KD_MOMENT_MS, or if nobody waits for it. A lane is a thread with
+ * its own buffers, which releases the device between slices of some 40 ms. A list of rays is divided into pieces by the
+ * code that submits it (`more`). So a client waits for at most one slice, or one short work, of each client that has
+ * used the device less.
  *
  * Each client has one lane for each class, and two more for pictures that take a few seconds at most. So no client can
- * occupy all lanes. A long picture starts only when there is memory for its buffers beside those of the others.
+ * occupy all lanes. A long picture starts only when there is enough memory for its buffers in addition to those of the
+ * other lanes.
  *
  * A device that has failed is reopened (KD_EDEVICE; kd_renderer_reopen). All work that had begun starts again, except
  * work that owned the device in two failures: that work ends with the error. If reopening fails, or has happened too
  * often, the device is lost, and all waiting work ends with the error.
  *
  * Work that lacks kernels waits while a thread compiles them, for one job after another in fair order. Other work uses
- * the device meanwhile (compile.c). If a picture finds a kernel missing after it has begun, it waits in its lane or
- * starts again.
+ * the device meanwhile (compile.c). If a kernel turns out to be missing after a picture has begun, the picture waits in
+ * its lane or starts again.
  *
- * If the sky or the grid of a picture must be read first, the picture waits for that. Reading takes up to some seconds
- * and does not use the device.
+ * If the sky or the grid of a picture must be read first, the picture waits until it is read. Reading takes up to some
+ * seconds and does not use the device.
  *
  * One thread submits pictures, so that the answer of kd_render_queue_admit holds until kd_render_queue_push. Other
  * threads may submit other work; each may exceed the limit by one. */
@@ -43,7 +44,8 @@
 struct kd_render_queue;
 
 #define KD_ENCODERS 2      /* one of them takes only frames that encode quickly */
-#define KD_MOMENT_MS 100.0 /* work that takes the device no longer than this may make others wait, in milliseconds */
+/* work that uses the device for at most this time runs without interruption; in milliseconds */
+#define KD_MOMENT_MS 100.0
 
 /* Stage of a job. A job in one of the last two stages has begun. */
 enum kd_render_stage {
@@ -147,13 +149,13 @@ bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error)
  * requests. */
 bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client);
 /* Declares the device lost if its owner has not made progress for too long (pulse.h), for example in a driver call
- * that does not return. `another`: another device hangs, which has the same effect. Returns whether a device hangs;
- * if so, waiting jobs may never end. */
+ * that does not return. `another`: another device hangs, which has the same effect. Returns true if a device hangs;
+ * waiting jobs may then never end. */
 bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another);
 unsigned kd_render_queue_reopened(struct kd_render_queue *queue); /* number of reopenings since the start */
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
-/* Estimates how long the kernels that a picture lacks take to compile, from earlier compilations. Returns 0 if none
- * are missing, or if that is unknown because the device is in use. Any thread. */
+/* Estimates how long the kernels that a picture lacks take to compile, from earlier compilations. Returns 0 if no
+ * kernels are missing, or if it is unknown whether any are because the device is in use. Any thread. */
 double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd_scene *scene,
                                   const struct kd_plan *plan);
 /* Estimated time of all work that clients wait for, excluding frames of sessions and jobs. */

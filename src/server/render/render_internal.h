@@ -17,7 +17,7 @@ struct kd_render_list { struct kd_render_job *first, **end; };
 struct kd_lane {
     struct kd_render_queue *queue;
     struct kd_render_job *job; /* the job that it renders; NULL: the lane is free */
-    uint64_t bytes;            /* device memory that the job needs by its plan; 0: too little to count */
+    uint64_t bytes;            /* device memory that the job needs by its plan; 0: negligible */
     pthread_t thread;
 };
 
@@ -98,7 +98,7 @@ bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job
 /* Puts a job back in its initial waiting stage. */
 void kd_render_stand_in_line(struct kd_render_job *job);
 
-/* Like kd_render_queue_push, for a job that renders no scene. Called with the lock. */
+/* Like kd_render_queue_push, for a job that does not render a scene. Called with the lock. */
 void kd_render_queue_push_locked(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* rest.c: frees the renderer's unneeded memory when there is no work. Called with the lock. */
@@ -122,8 +122,8 @@ bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool backg
 bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
 /* called when the job leaves the queue */
 void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
-/* The kernels will be compiled as soon as no job waits for other kernels. They replace earlier ones. NULL changes
- * nothing. */
+/* The kernels will be compiled as soon as no job waits for other kernels. They replace earlier kernels of this kind.
+ * NULL changes nothing. */
 void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilation *compilation);
 /* Main function of the compiler thread; the argument is the queue. Returns when the queue is closing. */
 void *kd_render_compile_main(void *queue);
@@ -141,8 +141,8 @@ void kd_render_hung(struct kd_render_queue *queue, const struct kd_error *error)
 void kd_render_reopen(struct kd_render_queue *queue);
 /* Removes a job from the list of jobs that want the device. Called with the lock. */
 void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job);
-/* Calls done(), after which the job may be freed. The job's connection must stay open until `unfinished` has
- * decreased. */
+/* Calls done(), after which the job may be freed. The job's connection must stay open until `unfinished` has been
+ * decremented. */
 void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* device_scheduler.c: if nobody owns the device, chooses the next owner. Called with the lock. */

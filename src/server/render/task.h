@@ -54,8 +54,8 @@ bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const
 /* Starts an admitted task. HTTP thread. */
 enum MHD_Result kd_task_submit(struct kd_task *task);
 
-/* Returns the reason for which a task must end: the client is `gone`, the server is stopping, or the deadline has
- * passed. Returns KD_OK if there is none. Any thread. */
+/* Returns the reason why a task must end: the client is `gone`, the server is stopping, or the deadline has passed.
+ * Returns KD_OK if the task may continue. Any thread. */
 enum kd_status kd_task_over(struct kd_server *server, struct kd_scheduler *queue, bool gone, double deadline_ms,
                             struct kd_error *error);
 /* Reserves bytes of an answer in server->replies. The owner of *held releases them. Returns KD_EBUSY at a limit;
