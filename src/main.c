@@ -103,7 +103,8 @@ int main(int argc, char **argv)
     /* A client that disconnects must not end the server. Other commands notice a closed pipe by
      * kd_cli_stdout_failed. */
     signal(SIGPIPE, SIG_IGN);
-    /* If a file would exceed `ulimit -f`, this makes it a write error, after which the partial file is removed. */
+    /* With this signal ignored, exceeding `ulimit -f` becomes a write error, after which the partial file is
+     * removed. */
     signal(SIGXFSZ, SIG_IGN);
     atexit(kd_cli_close_stdout);
     if (argc < 1)

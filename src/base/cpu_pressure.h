@@ -10,8 +10,8 @@ struct kd_cpu_pressure {
 
 struct kd_cpu_pressure kd_cpu_pressure_now(void);
 
-/* Returns the fraction run / (run + waited) of the threads' time since `since`. It is 1 if they never waited for a
- * core, or if nothing is known. */
+/* Returns the fraction run / (run + waited) of the threads' time since `since`. The result is 1 if they never waited
+ * for a core, or if the kernel reports no times. */
 double kd_cpu_pressure_share(const struct kd_cpu_pressure *since);
 
 #endif

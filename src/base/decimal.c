@@ -64,7 +64,8 @@ static void make_powers(void)
         if (k < K_MAX)
             multiply_by_ten(&up);
     }
-    down.word[WORDS - 2] = 1; /* the floor of repeated divisions equals the floor of the quotient by their product */
+    /* floor division in several steps gives the same result as one floor division by the product of the divisors */
+    down.word[WORDS - 2] = 1;
     for (int k = -1; k >= K_MIN; k--) {
         divide_by_ten(&down);
         powers[k - K_MIN] = leading_bits(&down, 0);
@@ -195,8 +196,8 @@ size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value)
 
 double kd_decimal_round(double value, int digits)
 {
-    /* Powers of ten up to 10^22 and integers up to 10^15 are exact as doubles, so a single division or product of them
-     * rounds only once. */
+    /* Powers of ten up to 10^22 and integers up to 10^15 are exact as doubles. So a single product or quotient of
+     * two of them is rounded only once. */
     static const double exact[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     const int most = sizeof exact / sizeof *exact - 1;

@@ -24,7 +24,7 @@ enum kd_status {
 struct kd_error {
     enum kd_status status;
     char pointer[160]; /* RFC 6901 JSON pointer to the offending field; "" if there is none */
-    char message[480]; /* one sentence; it needs no full stop and no line feed */
+    char message[480]; /* one sentence, without a full stop or a line feed */
     unsigned retry_s;  /* with KD_EBUSY: seconds after which to retry; 0: unknown */
 }; /* Both texts are valid UTF-8, and the message has no control characters, even where it quotes text from outside. */
 

@@ -10,7 +10,7 @@
  *     return kd_json_finish(&json);
  *
  * After the first failure nothing more is written; kd_json_finish returns the status and removes the partial document.
- * `name` is the member's name within an object. Within an array, and for the outermost value, it is NULL. */
+ * `name` is the member's name within an object. Within an array, and for the outermost value, `name` is NULL. */
 #ifndef KD_BASE_JSON_H
 #define KD_BASE_JSON_H
 

@@ -25,7 +25,7 @@ struct kd_log_member {
     const char *name, *text;
     double number;
 };
-/* Logs an event with a name of its own. The JSON format writes the members, the text format the message. */
+/* Logs an event under its own name. The JSON format writes the members, the text format the message. */
 void kd_log_event(enum kd_log_level level, const char *event, const struct kd_log_member *members, size_t n,
                   const char *message);
 

@@ -1,8 +1,9 @@
 /* The memory that this process may use before the kernel kills it. Linux. Any thread.
  *
- * It is the smallest of several amounts: MemAvailable (proc_meminfo(5)), and for each control group above the process
- * the unused part of its memory.max, or of memory.limit_in_bytes in version 1 (Documentation/admin-guide/cgroup-v2.rst
- * and cgroup-v1/memory.rst of Linux). Inactive file pages do not count as used, because the kernel drops them first. */
+ * The limit is the smallest of several amounts. One is MemAvailable (proc_meminfo(5)). The others are the unused parts
+ * of memory.max of each control group that contains the process, or of memory.limit_in_bytes in version 1
+ * (Documentation/admin-guide/cgroup-v2.rst and cgroup-v1/memory.rst of Linux). Inactive file pages do not count as
+ * used, because the kernel drops them first. */
 #ifndef KD_BASE_MEMORY_LIMIT_H
 #define KD_BASE_MEMORY_LIMIT_H
 

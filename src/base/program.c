@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #define PIPE_BYTES (1 << 20) /* capacity of the pipe; the bytes written between two polls should fit into it */
-#define NICE 10              /* lower priority, because pictures that users wait for come first */
+#define NICE 10              /* lower priority, because pictures that users wait for are more urgent */
 
 extern char **environ;
 
@@ -39,7 +39,7 @@ static bool make_pipe(int *ours, int *its, bool we_write)
     return fcntl(*ours, F_SETFL, O_NONBLOCK) == 0;
 }
 
-/* Closes all descriptors from 4 on. Libraries may have left them open. */
+/* Closes all descriptors from 4 on, because libraries may have left some of them open. */
 /* tests define KD_PROGRAM_LISTS */
 #if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 34) && !defined(KD_PROGRAM_LISTS)
 static int close_others(posix_spawn_file_actions_t *files)

@@ -165,7 +165,7 @@ done:
     return status;
 }
 
-/* Returns the command line, without quoting. */
+/* Returns the command line, whose words are not quoted. */
 static char *command_of(int argc, char **argv)
 {
     struct kd_buffer text = { 0 };

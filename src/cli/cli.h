@@ -38,8 +38,8 @@ _Noreturn void kd_cli_device_lost(const struct kd_error *error);
 /* Writes to stdout and flushes it, including earlier output. Returns an exit code. */
 int kd_cli_print(const void *data, size_t size);
 
-/* Reports, once, why a write to stdout has failed; number: its errno. If the reader has closed the pipe, as in `kerrd
- * plan | head`, it ends the program by SIGPIPE without a message, like other tools. */
+/* Reports, once, why a write to stdout has failed; number: its errno. If the reader has closed the pipe, as in
+ * `kerrd plan | head`, the function ends kerrd by SIGPIPE without a message, as other tools end. */
 void kd_cli_stdout_failed(int number);
 
 /* For atexit: flushes stdout, so that the exit code is 1 if help or a list could not be written. */

@@ -4,8 +4,8 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* True if the module at this place is dark. The quiet zone around the code is light. It is two modules wide, which is
- * enough for readers; ISO/IEC 18004 requires four, for which small terminals have no room. */
+/* True if the module at this place is dark. The quiet zone around the code is light. The zone is two modules wide,
+ * which is enough for scanners. ISO/IEC 18004 requires four, for which small terminals have no room. */
 static bool dark(const QRcode *code, int x, int y)
 {
     return x >= 0 && y >= 0 && x < code->width && y < code->width && code->data[y * code->width + x] & 1;
@@ -22,7 +22,7 @@ enum kd_status kd_cli_code(FILE *to, const char *text)
     if (!code)
         return KD_ENOMEM;
     for (int y = -QUIET; y < code->width + QUIET; y += 2) {
-        fputs("\033[30;107m", to); /* black on white whatever the terminal's colours are, as readers require */
+        fputs("\033[30;107m", to); /* black on white regardless of the terminal's colours, as scanners require */
         for (int x = -QUIET; x < code->width + QUIET; x++)
             fputs(halves[dark(code, x, y)][dark(code, x, y + 1)], to);
         fputs("\033[0m\n", to);
@@ -31,8 +31,8 @@ enum kd_status kd_cli_code(FILE *to, const char *text)
     return KD_OK;
 }
 
-/* Rank of an address by its private network (RFC 1918). 172.16.0.0/12 is last, because the machine's own containers and
- * virtual machines usually have it. */
+/* Rank of an address by its private network (RFC 1918). 172.16.0.0/12 is last, because usually the machine's own
+ * containers and virtual machines use it. */
 static int likelihood(const char *name)
 {
     static const char *const networks[] = { "192.168.", "10.", "172." };

@@ -263,7 +263,7 @@ static void tell_short(const struct kd_playground *p, double t, bool bounded, st
 }
 
 /* Moves the playground to the time t. The budget of sub-steps is meant for servers, so it applies only if the option
- * was given. */
+ * --set budget was given. */
 static enum kd_status go_on(const struct arguments *a, struct kd_playground *p, double t, struct story *story,
                             struct kd_error *error)
 {

@@ -1,5 +1,5 @@
-/* Options of a command that stand for the rows of its request: --inclination-deg for inclination_deg. Name, argument
- * and help follow from the row, so that a new row is an option too. Main thread only. */
+/* Options of a command, one for each row of its request: --inclination-deg for inclination_deg. Name, argument and
+ * help of the option are made from the row, so that a new row becomes an option automatically. Main thread only. */
 #ifndef KD_CLI_ROW_OPTIONS_H
 #define KD_CLI_ROW_OPTIONS_H
 

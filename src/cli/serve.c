@@ -70,8 +70,8 @@ static void set_signals(void (*handler)(int))
     struct sigaction hangup;
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGINT, &action, NULL);
-    if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN) /* keeps the signal ignored if nohup has
-                                                                            * set it to be ignored */
+    /* if nohup has set the signal to be ignored, it stays ignored */
+    if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN)
         sigaction(SIGHUP, &action, NULL);
 }
 
@@ -128,7 +128,7 @@ static enum kd_status stop_at_eof(struct kd_error *error)
     if (code)
         return kd_error_set(error, KD_EIO, "cannot start the thread that waits for the end of standard input: %s",
                             strerror(code));
-    pthread_detach(thread); /* not joined, because it ends with the process */
+    pthread_detach(thread); /* the thread is not joined, because it ends with the process */
     return KD_OK;
 }
 
@@ -184,7 +184,8 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
     status = kd_server_wait(running, error);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);
-    set_signals(SIG_IGN); /* ignored, because the server has stopped and another Ctrl-C must not change the exit code */
+    /* signals are ignored, because the server has stopped and another Ctrl-C must not change the exit code */
+    set_signals(SIG_IGN);
     kd_server_destroy(running);
     return status;
 }
@@ -214,7 +215,8 @@ static enum kd_status configure(struct kd_settings *settings, struct kd_error *e
 {
     enum kd_status status;
     KD_TRY(kd_settings_read_environment(settings, environ, error));
-    set_log(settings); /* set first, so that errors in the file are logged as flags and environment require */
+    /* set before the file is read, so that errors in the file are logged as flags and environment require */
+    set_log(settings);
     if (kd_settings_text(settings, KD_SERVE_CONFIG))
         KD_TRY(kd_settings_read_file(settings, kd_settings_text(settings, KD_SERVE_CONFIG), error));
     set_log(settings);

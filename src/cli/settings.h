@@ -1,5 +1,5 @@
-/* Settings of a server program, from flags, the environment and a configuration file. One table checks all of them. A
- * flag overrides the environment, which overrides the file, which overrides the default. Main thread only.
+/* Settings of a server program, from flags, the environment and a configuration file. All three are checked by one
+ * table. A flag overrides the environment, which overrides the file, which overrides the default. Main thread only.
  *
  * The option `client-share` is the flag --client-share, the member "client-share" of the file's object, and the
  * environment variable KERRD_CLIENT_SHARE. */
@@ -74,7 +74,7 @@ void kd_settings_warn(const struct kd_settings *settings, char *const *environme
 /* Makes the name of a setting's environment variable, such as "KERRD_CLIENT_SHARE". */
 void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTING_VARIABLE]);
 
-/* Effective value of setting i. If it is not given and has no default, the result is NULL, 0 or false. */
+/* Effective value of setting i. If the setting is not given and has no default, the result is NULL, 0 or false. */
 const char *kd_settings_text(const struct kd_settings *settings, size_t i);
 unsigned kd_settings_number(const struct kd_settings *settings, size_t i);
 uint64_t kd_settings_bytes(const struct kd_settings *settings, size_t i);

@@ -21,7 +21,7 @@
 #define PREFIX "KERRD_"
 #define FILE_MOST ((size_t)64 << 10)
 
-/* Variables that are not settings. They are for developers of Vulkan code and of the scripts in the repository. */
+/* Variables that are not settings. They are for developers of Vulkan code, and for the scripts in the repository. */
 static const char *const others[] = { "KERRD_VALIDATE", "KERRD_WATCH", "KERRD_WERROR" };
 
 void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTING_VARIABLE])

@@ -121,7 +121,7 @@ struct part {
     char *path;
     int file;
     struct kd_buffer head;
-    size_t rows, resumed; /* number of complete rows; those of earlier runs */
+    size_t rows, resumed; /* number of complete rows; number of these rows that earlier runs have made */
     uint32_t sum;
 };
 
@@ -168,8 +168,8 @@ done:
     return status;
 }
 
-/* Sums the rows that the file has, and checks that the file begins with this table's head. The head is that of an
- * unfinished table, or that of all rows if only the renaming of the file was missing. */
+/* Adds up the rows that the file has, and checks that the file begins with this table's head. The head may be that
+ * of an unfinished table. It is the final head if only the renaming of the file was missing. */
 static enum kd_status resume(struct part *part, const struct kd_table *table, uint64_t size, struct kd_error *error)
 {
     const size_t row = kd_table_row_bytes(table), room = part->head.size > row ? part->head.size : row;
@@ -249,7 +249,7 @@ done:
 struct batch {
     const struct kd_table *table;
     uint8_t *rows;
-    size_t first, n; /* the batch's nodes; its pieces */
+    size_t first, n; /* first node and number of nodes of the batch */
     struct piece {
         size_t first, n; /* nodes */
         enum kd_status status;

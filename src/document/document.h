@@ -118,8 +118,8 @@ const struct kd_row *kd_document_find(const struct kd_document *document, const 
  * error.
  *
  * An array replaces a whole list. An object {"0": {...}} changes elements by index; the next free index appends one. If
- * the document uses a former name of an element, the elements before that element are created. Elements at the end of
- * the list that then still have all defaults are removed. */
+ * the document uses a former name of an element, the elements before that element are created. New elements at the end
+ * of the list that still have all defaults are removed again. */
 enum kd_status kd_document_read(const struct kd_document *document, void *to, const cJSON *object, const char *pointer,
                                 uint64_t *given, struct kd_error *error);
 /* Like kd_document_read, as a merge patch (RFC 7396): null resets a field, or all fields of an object or element, and
@@ -129,7 +129,7 @@ enum kd_status kd_document_patch(const struct kd_document *document, void *to, c
 /* Sets one field by "name" or "object.name" from typed text; lists and sets have commas between their items. */
 enum kd_status kd_document_set(const struct kd_document *document, void *to, const char *name, const char *text,
                                uint64_t *given, struct kd_error *error);
-/* The place to which a typed path leads. The element need not exist. */
+/* The place that a typed path names. The element need not exist. */
 struct kd_typed_place {
     const struct kd_row *row;
     const struct kd_list *list; /* NULL: none */
@@ -181,7 +181,7 @@ void kd_row_range_schema(struct kd_json *json, const char *name, const struct kd
 
 /* KD_EINVAL with "there is no parameter X; did you mean Y?", or with a list of the known ones. */
 enum kd_status kd_document_unknown(const struct kd_document *document, const char *name, struct kd_error *error);
-/* Describes what a row allows: "0 to 10 M, or \"isco\"". */
+/* Describes the values that a row allows: "0 to 10 M, or \"isco\"". */
 void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE]);
 
 /* Writes all fields but LISTs, as members of the object that is open. */
@@ -190,7 +190,7 @@ void kd_document_write(struct kd_json *json, const struct kd_document *document,
 void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from);
 /* Like kd_row_write, under another name; NULL within an array. */
 void kd_row_write_as(struct kd_json *json, const char *name, const struct kd_row *row, const void *from);
-/* Writes what kd_row_get gives, in the form that it has in a document. */
+/* Writes the value that kd_row_get returns, in the form that it has in a document. */
 void kd_row_write_value(struct kd_json *json, const char *name, const struct kd_row *row, double value);
 /* Writes the schema of each field, as members of the object "properties" that is open. */
 void kd_document_properties(struct kd_json *json, const struct kd_document *document);

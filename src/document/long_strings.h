@@ -1,6 +1,6 @@
 /* Handles long strings of a JSON document, such as a playground's debris. cJSON would read them for up to 200 ms
- * without a pause. They are cut out before cJSON reads the rest, and inserted into its tree afterwards. The document
- * must have been scanned (scan.h), so that all escapes are complete. Any thread. */
+ * without a pause. Therefore they are cut out of the text before cJSON parses it, and inserted into cJSON's tree
+ * afterwards. The document must have been scanned (scan.h), so that all escapes are complete. Any thread. */
 #ifndef KD_DOCUMENT_LONG_STRINGS_H
 #define KD_DOCUMENT_LONG_STRINGS_H
 

@@ -1,5 +1,5 @@
-/* Single values of a request that are in no table of rows. Errors name the member, its value and what it must be, and
- * have the pointer into the request. Any thread. */
+/* Single values of a request that are in no table of rows. Errors name the member, its value and the allowed values.
+ * Their pointer leads to the member within the request. Any thread. */
 #ifndef KD_DOCUMENT_MEMBERS_H
 #define KD_DOCUMENT_MEMBERS_H
 

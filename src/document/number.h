@@ -1,4 +1,4 @@
-/* Reads and writes numbers as in JSON and on command lines, whatever the locale of the process is. Any thread. */
+/* Reads and writes numbers as in JSON and on command lines, independent of the locale of the process. Any thread. */
 #ifndef KD_DOCUMENT_NUMBER_H
 #define KD_DOCUMENT_NUMBER_H
 

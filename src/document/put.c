@@ -195,7 +195,7 @@ bool kd_row_take(const struct kd_row *row, void *to, const struct kd_value *valu
     }
 }
 
-/* True if a number was meant: the row has no words, or the text is a number in quotes. */
+/* True if the text was meant as a number: the row has no words, or the text is a number in quotes. */
 static bool wants_number(const struct kd_row *row, const struct kd_value *value)
 {
     if (row->kind != KD_KIND_REAL && row->kind != KD_KIND_INT && row->kind != KD_KIND_LIST &&

@@ -29,7 +29,7 @@ cJSON *kd_tree_read(const char *text, size_t length, bool *starved)
     struct kd_number_locale locale = kd_number_locale_enter();
     errno = 0;
     cJSON *root = cJSON_ParseWithLength(text, length);
-    /* cJSON reports this like text that is not JSON, but malloc sets errno */
+    /* cJSON reports lack of memory in the same way as invalid JSON, but malloc then sets errno */
     *starved = !root && errno == ENOMEM;
     kd_number_locale_leave(locale);
     return root;

@@ -1,5 +1,5 @@
-/* Lists of words such as "a|b|c", and series of them: some words in any order, each at most once. A word that is listed
- * as "b_N" stands for b, b_0, b_1, ... in a series. Pure, any thread. */
+/* Lists of words such as "a|b|c", and series of them: some words in any order, each at most once. If a word is
+ * listed as "b_N", a series may contain b, b_0, b_1, ... Pure, any thread. */
 #ifndef KD_DOCUMENT_WORDS_H
 #define KD_DOCUMENT_WORDS_H
 

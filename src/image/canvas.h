@@ -33,8 +33,8 @@ void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uin
                      const char *text);
 uint32_t kd_canvas_text_width(uint32_t dot, const char *text);
 
-/* Returns the number of pixels for each dot: the largest with which `width` dots fit the picture's width and
- * `height` dots take at most a seventh of its height, but at least 1. */
+/* Returns the number of pixels for each dot. It is the largest number for which `width` dots fit the picture's width
+ * and `height` dots take at most a seventh of the picture's height; at least 1. */
 uint32_t kd_canvas_dot(const struct kd_canvas *canvas, uint32_t width, uint32_t height);
 
 #endif

@@ -109,7 +109,7 @@ static bool make(struct code *code, const uint8_t *lengths, unsigned n, bool dis
     return true;
 }
 
-/* Finds the symbol of the code in the next bits, and the code's length in *bits; BAD: there is none. */
+/* Finds the symbol whose code is in the next bits. *bits: length of the code. BAD: there is no such symbol. */
 static int find(const struct code *code, uint64_t held, unsigned *bits)
 {
     int value = 0, first = 0, place = 0;

@@ -26,8 +26,9 @@ enum kd_status kd_fits_logical(struct kd_buffer *cards, const char *key, bool va
 enum kd_status kd_fits_comment(struct kd_buffer *cards, const char *text);
 
 struct kd_fits_array {
-    uint32_t width, height, channels; /* one channel: two axes; more channels: a third axis */
-    const float *data;                /* rows from the top, channels of a pixel adjacent; NaN: no value */
+    /* one channel: the array has two axes; more channels: the channel is a third axis */
+    uint32_t width, height, channels;
+    const float *data; /* rows from the top, channels of a pixel adjacent; NaN: no value */
 };
 
 /* Appends an HDU: the primary one, or an IMAGE extension. The first row in the file is the picture's lowest one, as in
@@ -52,7 +53,7 @@ enum kd_status kd_fits_head(struct kd_buffer *out, const struct kd_fits_shape *s
  * kd_fits_add_sums: the sum of two sums. */
 uint32_t kd_fits_sum(uint32_t sum, const void *data, size_t size);
 uint32_t kd_fits_add_sums(uint32_t a, uint32_t b);
-/* Number of zeros that follow `size` bytes of data. */
+/* Number of zeros that must follow `size` bytes of data. */
 static inline size_t kd_fits_padding(uint64_t size)
 {
     return (size_t)((KD_FITS_BLOCK - size % KD_FITS_BLOCK) % KD_FITS_BLOCK);

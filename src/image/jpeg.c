@@ -55,7 +55,7 @@ static void append(struct work *work, size_t size)
         longjmp(work->back, 1);
 }
 
-/* libjpeg requires that the buffer be emptied completely, whatever it reports as free */
+/* libjpeg requires that the buffer be emptied completely, regardless of the free space that it reports */
 static boolean put_piece(j_compress_ptr info)
 {
     append((struct work *)info, PIECE);
@@ -149,9 +149,9 @@ static size_t scan_of(const struct kd_buffer *jpeg, uint32_t height)
     }
 }
 
-/* The first strip's file provides the header; of the other files only the scans follow, each after a restart marker.
- * All strips have the same tables, and a decoder resets its state at such a marker, as an encoder of the whole picture
- * does (T.81, F.1.1.5.1). */
+/* The file of the first strip is copied with its header. From the files of the other strips only the scans are
+ * copied, each after a restart marker. All strips have the same tables, and a decoder resets its state at such a
+ * marker, as an encoder of the whole picture does (T.81, F.1.1.5.1). */
 static enum kd_status join_strip(void *user, size_t strip, const struct kd_buffer *bytes)
 {
     const struct picture *p = user;

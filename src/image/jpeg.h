@@ -5,9 +5,9 @@
  * KD_JPEG_FULL_COLOUR colours have half the width and height (4:2:0); from there on they have full size (4:4:4).
  * Below KD_JPEG_THRIFTY Huffman tables are optimised for the picture, for 5 to 12 % fewer bytes in twice the time.
  *
- * Strips of at least 256 Ki pixels are encoded separately, on as many cores as are idle, as restart intervals of
- * one scan: the decoded pixels are those of a scan without intervals. Below KD_JPEG_THRIFTY, and for smaller
- * pictures, there is one strip and no interval. */
+ * Strips of at least 256 Ki pixels are encoded separately, on as many cores as are idle, as restart intervals of one
+ * scan. The intervals do not change the decoded pixels. Below KD_JPEG_THRIFTY, and for smaller pictures, there is one
+ * strip and no interval. */
 #ifndef KD_IMAGE_JPEG_H
 #define KD_IMAGE_JPEG_H
 

@@ -15,7 +15,7 @@ enum {
     GAP = 3,
     MARGIN = 4,
     PANEL_WIDTH = BAR_WIDTH + 2 * PADDING +
-        4 * KD_FONT_ADVANCE, /* numbers at the ends of the bar extend beyond the bar by half their length */
+        4 * KD_FONT_ADVANCE, /* numbers at the ends of the bar extend beyond it by half their length */
     PANEL_HEIGHT = 2 * PADDING + 2 * KD_FONT_HEIGHT + BAR_HEIGHT + TICK + 2 * GAP,
 };
 _Static_assert(PANEL_WIDTH + 2 * MARGIN <= KD_LEGEND_LEAST_WIDTH && PANEL_HEIGHT + 2 * MARGIN <= KD_LEGEND_LEAST_HEIGHT,
@@ -128,8 +128,8 @@ size_t kd_legend_ticks(const struct kd_map_scale *scale, double room, struct kd_
     size_t n = scale->logarithmic ? logarithmic_ticks(scale, room, out) : 0;
     if (n > 1 || (n && fmax(scale->low, scale->high) > 10 * fmin(scale->low, scale->high)))
         return n;
-    /* Steps of 1, 2, 5, 10, ... times a hundredth to a tenth of the length: the finest that fits. A logarithmic scale
-     * that stays within a decade has such numbers, too. */
+    /* The step is 1, 2, 5, 10, ... or 500 times a power of ten between a hundredth and a tenth of the bar's range.
+     * The finest step that fits is used. A logarithmic scale within one decade has such steps, too. */
     static const double factors[] = { 1, 2, 5 };
     for (int i = 0; i < 9; i++) {
         const struct row row = { .step = step * factors[i % 3] * pow(10, i / 3) };

@@ -1,7 +1,7 @@
 /* Writes and reads NumPy's .npy files, format versions 1.0 and 2.0: little-endian numbers in C order. Any thread.
  *
- * Supported are floats of 8 and 4 bytes, whole numbers of 4, and bytes. An element is one number or a record of
- * named ones, some of which may be short arrays. Anything else that NumPy can store is refused by name. */
+ * Supported are floats of 8 and 4 bytes, whole numbers of 4, and bytes. An element is one number or a record of named
+ * ones, some of which may be short arrays. Other types that NumPy can store are errors, which name the type. */
 #ifndef KD_IMAGE_NPY_H
 #define KD_IMAGE_NPY_H
 

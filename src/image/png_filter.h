@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Filter 1: each byte minus that of the pixel to the left. */
+/* Filter 1: each byte minus the corresponding byte of the pixel to the left. */
 void kd_png_filter_sub(uint8_t *restrict to, const uint8_t *restrict row, size_t stride, size_t step);
 
 /* Uses the filter, of the five, for which the sum of the bytes as signed numbers is smallest (section 12.7). If

@@ -20,7 +20,7 @@ enum kd_status kd_integral_make_room(struct kd_integral_request *request, const 
 bool kd_integral_given(const struct kd_integral_request *request, const char *name);
 /* Checks that a list is strictly increasing. */
 enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const char *name, struct kd_error *error);
-/* Refuses a list that is given together with fields that would generate it. */
+/* Refuses a list if fields that would generate the list are given as well. */
 enum kd_status kd_integral_check_beside(const struct kd_integral_request *request, const char *list,
                                         const char *const *others, size_t n, struct kd_error *error);
 /* Fills a list with n numbers in geometric progression, or, if `first` is 0, with the midpoints of n parts of 0 to

@@ -46,7 +46,8 @@ enum kd_status kd_integral_request_set(struct kd_integral_request *request, cons
 /* Sets the observation of a comparison from the bytes of its file. Returns KD_EINVAL at /observation. */
 enum kd_status kd_integral_set_observation(struct kd_integral_request *request, const void *data, size_t size,
                                            struct kd_error *error);
-/* Call after all fields are set: fills in fields that follow from others, and checks the rules between fields. */
+/* Call this after all fields are set. It fills in the fields that follow from other fields, and checks the rules
+ * between fields. */
 enum kd_status kd_integral_request_check(struct kd_integral_request *request, struct kd_error *error);
 
 /* kd_integral_name: the NAME of an integral in its path /v1/NAME. kd_integral_of_route: the integral of such a path. */

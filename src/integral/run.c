@@ -171,7 +171,8 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
     for (unsigned k = bands(run); k--;) {
         float *map = (float *)run->maps.data + k * n;
         if (k && kd_scene_is_radio_alone(
-                     scene)) /* the layer of one order is in the unit of light, that of the total light in Jy/sr */
+                     /* the layer of an image order is in the unit of light; the layer of the total light is in Jy/sr */
+                     scene))
             multiply(map, n, (float)kd_radio_jansky_steradian(scene));
         sum = total(map, n, &undefined); /* map 0, the total light, comes last, so that `sum` is its sum */
         run->map[k] = map;
@@ -247,9 +248,9 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
     c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
 }
 
-/* Visibility of the map, enlarged and rotated, at a baseline. Neither map is made: the visibility of an enlarged map
- * equals that of the map at a baseline that is longer by the same factor, and that of a rotated map equals that of the
- * map at a baseline that is rotated back. Observations use the conjugate of kd_fourier's sign
+/* Visibility of the map, enlarged and rotated, at a baseline. The enlarged and rotated map is not computed.
+ * Enlarging the map by a factor is equivalent to a baseline that is longer by this factor. Rotating the map is
+ * equivalent to a baseline that is rotated back. Observations use the conjugate of kd_fourier's sign
  * (observe/observation.h). */
 static void model_at(struct kd_integral_run *run, size_t i, double size, double angle_deg, double out[2])
 {

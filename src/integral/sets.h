@@ -1,5 +1,5 @@
-/* Parameter sets of a comparison: a scene for each set, ordered so that pictures and lens maps are shared. Private to
- * this module, and to the file that estimates their cost. */
+/* Parameter sets of a comparison: a scene for each set, ordered so that pictures and lens maps are shared. Private
+ * to this module, and to the file that estimates the cost of the sets. */
 #ifndef KD_INTEGRAL_SETS_H
 #define KD_INTEGRAL_SETS_H
 
@@ -17,7 +17,7 @@ struct kd_integral_set {
 };
 
 struct kd_integral_sets {
-    cJSON *tree;                /* the member "sets" as it was read */
+    cJSON *tree;                /* the member "sets", as it was in the document */
     struct kd_integral_set *at; /* ordered by group; equal scenes are adjacent */
     size_t n;
     uint32_t *first; /* first set of each picture, and n behind the last */

@@ -51,7 +51,7 @@ void kd_table_finish(struct kd_table *table);
 enum kd_status kd_table_head(const struct kd_table *table, uint32_t rows_sum, struct kd_buffer *out,
                              struct kd_error *error);
 
-/* Writes a member with the axes: their fields, interpolation and values. */
+/* Writes the axes as a member: for each axis the field, the interpolation and the values. */
 void kd_table_axes_json(const struct kd_table *table, struct kd_json *json, const char *name);
 
 /* Bytes of a row: a whole number of 32-bit words. */

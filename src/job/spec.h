@@ -40,13 +40,13 @@ struct kd_job_spec {
     struct kd_sweep *sweep;          /* NULL: the request has no axes */
     double every;                    /* time between two frames of a film, in M; 0: not a film */
     struct kd_dynamic_bodies *first; /* the bodies at the beginning of a film, for planning; NULL afterwards */
-    const struct kd_series *series;  /* the request's "output": what the job makes of its frames */
+    const struct kd_series *series;  /* the request's "output": the product that the job makes of its frames */
     bool one_exposure;               /* frames whose exposure is "auto" share one exposure */
     struct {
         unsigned samples;
         double shutter;
     } blur; /* samples 0: no blur */
-    /* The common exposure in stops. NAN: each frame has its own, or the common one is not measured yet
+    /* The common exposure in stops. NAN: each frame has its own exposure, or the common exposure is not measured yet
      * (job/exposure.h). */
     double exposure;
 };

@@ -46,8 +46,8 @@ struct kd_align_room {
 
 /* Number of evaluations of the model that a search needs at most. */
 unsigned kd_align_evaluations(unsigned solve);
-/* Searches. On entry *out has the scale to be used if the flux is not solved for; on return it has the result. model[i]
- * is then the model's visibility at *out with its shift, without the scale. */
+/* Runs the search. On entry *out has the scale that is used if the flux is not solved for. On return *out has the
+ * result, and model[i] is the model's visibility for this result, with its shift and without its scale. */
 void kd_align(const struct kd_comparison *comparison, const struct kd_align_params *params, struct kd_align_room *room,
               double (*model)[2], struct kd_alignment *out);
 /* Shifts a model to the east and to the north, by radians. */

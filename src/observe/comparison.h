@@ -72,12 +72,13 @@ void kd_comparison_finish(struct kd_comparison *comparison);
 double kd_comparison_scale(const struct kd_comparison *comparison, const double (*model)[2]);
 /* Fills `model` of each row and computes chi^2 divided by the number of data; NaN for a product without data. */
 void kd_comparison_judge(struct kd_comparison *comparison, const double (*model)[2], double chi2[KD_PRODUCTS]);
-/* Sum of chi^2 over all data, for the model times `scale`. Leaves the rows as they are. */
+/* Sum of chi^2 over all data, for the model times `scale`. Does not change the rows. */
 double kd_comparison_total(const struct kd_comparison *comparison, const double (*model)[2], double scale);
 /* (data - model) / error. The difference of two phases is first reduced to the range -180 to 180 degrees. */
 double kd_comparison_residual(const struct kd_comparison_row *row);
 
-/* Fourier transform of a pixel's shape at a baseline. The baseline is given in turns for each pixel along each axis. */
+/* Fourier transform of a pixel's shape at a baseline. For each axis, the baseline is given in turns of the phase
+ * across one pixel. */
 enum kd_pixel_shape { KD_PULSE_TRIANGLE, KD_PULSE_RECTANGLE, KD_PULSE_POINT };
 double kd_pulse_at(enum kd_pixel_shape pulse, double u_pixel, double v_pixel);
 

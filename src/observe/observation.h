@@ -40,7 +40,7 @@ struct kd_observation {
     struct kd_measured *at; /* malloc'd; sorted by time, then by stations; each time and baseline occurs once */
     size_t n;
     uint32_t flagged;   /* number of visibilities left out because their weight is not positive */
-    uint32_t duplicate; /* number of visibilities left out because their time and baseline had occurred before */
+    uint32_t duplicate; /* number of visibilities left out as repetitions of the same time and baseline */
 };
 
 enum kd_observation_kind { KD_OBSERVATION_NONE, KD_OBSERVATION_CSV, KD_OBSERVATION_UVFITS };

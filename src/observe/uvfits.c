@@ -358,8 +358,8 @@ static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, 
     return weight;
 }
 
-/* Error for a weight. It is computed in single precision, in which weights are stored, as in ehtim. Where an amplitude
- * is about as large as its error, sqrt(|V|^2 - sigma^2) depends on the precision of the error. */
+/* Error that belongs to a weight. As in ehtim, it is computed in single precision, in which weights are stored.
+ * Where an amplitude is about as large as its error, sqrt(|V|^2 - sigma^2) depends on the precision of the error. */
 static double error_of(double weight) { return (double)(1 / sqrtf((float)weight)); }
 
 /* Reads Stokes I and its error. Returns false if no weight is positive. */

@@ -34,12 +34,13 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    KD_HOLE_MEMBERS /* NAN: not given. The parameter is then 0, but the spin is that of the named case, if there is
-                      one */
-        double periods,
+    /* NAN: not given. The parameter is then 0; a spin that is not given is that of the named case, if there is one */
+    KD_HOLE_MEMBERS
+    double periods,
         /* Duration: radial periods (turns, if r is constant), or t in M. At most one is given, the other is NAN. */
         time;
-    bool or_end;  /* follow a plunging or escaping orbit, which has no periods, to its end instead of refusing it */
+    /* follow a plunging or escaping orbit to its end; otherwise such orbits, which have no periods, are errors */
+    bool or_end;
     double r_max; /* radius at which an escaping orbit ends; 100 by default */
     /* Relative error allowed in a radial period, 1e-12 by default. It determines the step if `steps` is 0. */
     double tolerance;

@@ -1,5 +1,5 @@
-/* A feed: produces the bytes of an answer from a request in pieces of some 30 ms. POST /v1/orbits and `kerrd orbit`
- * share it. */
+/* A feed: produces the bytes of an answer from a request in pieces of some 30 ms. Both POST /v1/orbits and `kerrd
+ * orbit` use a feed. */
 #ifndef KD_ORBIT_FEED_H
 #define KD_ORBIT_FEED_H
 

@@ -278,7 +278,7 @@ static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit
     return status ? status : check_whirl(s, orbit, start, rounding, error);
 }
 
-/* Sets the parameters of the hole that the orbit does not have. The spin stays open where a named case may have its
+/* Sets the parameters of the hole that the orbit does not give. The spin stays open where a named case may have its
  * own. */
 static void inherit(struct kd_orbit_spec *spec, const struct kd_orbit_params *params)
 {

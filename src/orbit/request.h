@@ -47,8 +47,8 @@ void kd_orbit_request_finish(struct kd_orbit_request *request);
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length,
                                      struct kd_error *error);
 
-/* Sets one parameter, or one field of the orbit (request->specs[0], which is created by its first field), by the
- * last part of its name. */
+/* Sets one parameter, or one field of the orbit, by the last part of its name. The orbit is request->specs[0], which
+ * the first of its fields creates. */
 enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text,
                                     struct kd_error *error);
 /* Call after the last kd_orbit_request_set: checks that there is a complete orbit. */

@@ -13,8 +13,8 @@
 /* after this many samples in a row without an image, only one sample in SEARCH_EVERY gets a full search */
 #define SEARCHES 3
 #define SEARCH_EVERY 64
-/* The search for an orbit's end halves the step this often. Each halving reduces the error by a factor of 64, from
- * about 1e-10 down to rounding. */
+/* The search for an orbit's end halves the step up to this many times. Each halving reduces the error by a factor of
+ * 64, from about 1e-10 down to rounding. */
 #define HALVINGS 6
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)
@@ -91,8 +91,8 @@ static double mino_at(const struct kd_orbit_run *run, double time)
     return high;
 }
 
-/* True if a step went where the constants of motion forbid: through a turning point, or back without one. Close to a
- * whirl a step that is too long does this. */
+/* True if a step went where the constants of motion forbid: past a turning point, or back without reaching one.
+ * Close to a whirl, a step that is too long does this. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
     bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* also true for NAN */
@@ -101,8 +101,8 @@ static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before,
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
-/* the search for the end is given up only after this many steps, which take about a second: far out, steps may be too
- * short for the path ever to arrive */
+/* the search for the end is given up only after this many steps, which take about a second. Far out, the steps may
+ * be so short that the path would never arrive */
 #define SEARCH_STEPS 5e6
 
 /* Finds the end of an unbound path by following it once in steps of h. The end is at the horizon, far away, or at the
@@ -181,7 +181,8 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     for (int i = 0; i < HALVINGS; i++, h *= 0.5) {
         if (!find_end(run, h))
             continue;
-        /* Close enough for a whirl: steps are tried up to this end, and infinity lies beyond it */
+        /* For a whirl, an end that changes by less than 1e-9 is accurate enough. Steps are then tried up to this
+         * end, and infinity lies beyond it */
         found = true;
         if (!(run->rounding > 1e-12) || fabs(run->mino_end - before) < 1e-9 * run->mino_end)
             return KD_OK;
@@ -253,7 +254,7 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
         run->first_phi = run->last_phi = 0;
     }
     double pace = sqrt(
-        fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: one step across w cannot resolve it */
+        fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2, which one step across w cannot resolve */
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
         return kd_error_field(
             error, "/r_max",

@@ -25,7 +25,7 @@ struct kd_orbit_run {
     /* set by kd_orbit_run_prepare */
     enum kd_orbit_end end;
     double mino_end, h;
-    double aim; /* for an unbound path: 1/r or t of its last place; NAN if the path ends when its time is over */
+    double aim; /* for an unbound path: 1/r or t at its end; NAN if the path ends because its duration is over */
     uint64_t steps, done;
     uint32_t samples, sampled;
     /* Relative error of the place after a period (or at the end of the whole path). The estimate is from a run with

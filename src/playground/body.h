@@ -23,12 +23,12 @@ struct kd_playground_body {
     char name[KD_PLAYGROUND_NAME];
     double mass, radius, temperature_k;
     double x[3], v[3];
-    /* Tidal pass: mass and radius before it, the largest r_t/r so far, the fraction of the mass that is lost, and the
-     * fraction already reported by events (tide.h). whole_mass is 0 outside a pass. */
+    /* State of a tidal pass (tide.h): mass and radius of the body before the pass, the largest r_t/r so far, the
+     * fraction of the mass that is lost, and the fraction that events have reported. whole_mass is 0 outside a pass. */
     double whole_mass, whole_radius, depth, shed, told;
-    uint32_t source;    /* number of the source of its debris, valid during a pass */
+    uint32_t source;    /* number of the source of this body's debris, valid during a pass */
     double radiated;    /* orbital energy lost to gravitational waves */
-    bool told_inspiral; /* an event has reported that it is inside 6 M */
+    bool told_inspiral; /* an event has reported that the body is inside 6 M */
 };
 
 /* Spherical coordinates of a position, phi from -pi to pi, and velocity components along these directions. On the

@@ -1,8 +1,9 @@
 /* Debris torn off bodies by tides: massless pieces that move in the hole's potential alone and do not interact.
  *
- * Pieces are kept in a ring buffer: a new one replaces the oldest. Between two common times each piece is moved with
- * sub-steps of its own length, C (r - 2). Coordinates are double, because far out the distance moved in a stride is
- * below the resolution of a float. A piece belongs to a source, which is the tidal pass in which it was torn off.
+ * Pieces are kept in a ring buffer: a new one replaces the oldest. Between two common times each piece is moved in
+ * sub-steps; their length is C (r - 2) for the piece's own r. Coordinates are double, because far out the distance
+ * moved in a stride is below the resolution of a float. A piece belongs to a source, which is the tidal pass in which
+ * it was torn off.
  *
  * A source counts the pieces that come back. A piece has come back when it is at the pericentre after its first
  * apocentre (or when the hole captures it after that). The counts are a histogram over the time since the source's
@@ -45,8 +46,9 @@ struct kd_playground_debris {
     uint32_t capacity, used, next; /* used: number of slots ever used; next: slot of the next piece */
     uint32_t last_source;          /* number of the newest source; its index is number % KD_DEBRIS_SOURCES */
     uint32_t alive;
-    double haste; /* sum of 1/(r - 2) over the pieces at t: C times the number of their sub-steps in 1 M */
-    double t;     /* common time of all pieces */
+    /* sum of 1/(r - 2) over the pieces at t; this is C times the number of sub-steps that all pieces need for 1 M */
+    double haste;
+    double t; /* common time of all pieces */
     struct kd_debris_source sources[KD_DEBRIS_SOURCES];
 };
 
@@ -80,8 +82,8 @@ void kd_debris_advance(struct kd_playground_debris *debris, double t, double saf
  * pieces. */
 double kd_debris_stride(const struct kd_playground_debris *debris, double safety);
 
-/* For a bin: its central time and width, and the rate at which mass came back. line: the rate of Rees for a flat
- * distribution of energies, (m/(2 spread)) (2 pi)^(2/3)/3 t^(-5/3), m being the mass of all pieces of the source. */
+/* For each bin: its central time and width, and the rate at which mass came back. line: the rate of Rees for a flat
+ * distribution of energies, (m/(2 spread)) (2 pi)^(2/3)/3 t^(-5/3), where m is the mass of all pieces of the source. */
 struct kd_debris_rate {
     double t, width, rate, line;
     uint32_t pieces;

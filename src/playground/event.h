@@ -34,7 +34,7 @@ struct kd_playground_event {
     /* Merger: the masses of the two bodies before it. Shedding and disruption: the mass lost, and the mass left. */
     double mass, other_mass;
     double r, energy;
-    /* Disruption: tidal radius r_t, and half width of the debris' energies. NAN for other events. */
+    /* Shedding and disruption: tidal radius r_t, and half width of the debris' energies. NAN for other events. */
     double tidal_radius, spread;
 };
 

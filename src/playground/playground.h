@@ -58,10 +58,10 @@ struct kd_playground {
     struct kd_playground_params params;
     double t;
     uint64_t steps;
-    struct kd_playground_body *bodies; /* n of them, in order of creation */
+    struct kd_playground_body *bodies; /* n bodies, in order of creation */
     size_t n, room;
     uint32_t last_id;
-    double rate;     /* 1/h of the previous step; 0: the next step does not depend on it */
+    double rate;     /* 1/h of the previous step; 0: the next step is chosen without regard to a previous one */
     uint64_t random; /* number of random numbers drawn */
     bool held;       /* the loss to waves was limited to a tenth of the attraction at least once */
     struct kd_playground_spent spent;
@@ -110,9 +110,9 @@ struct kd_playground_progress {
 /* Advances by `time` > 0, or less if the budget of sub-steps is spent before. */
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress);
 
-/* Advances in pieces, to interleave other work: call begin, then go_on until it returns false. The result is bit for
- * bit that of kd_playground_advance. A piece is a sub-step, or 256 steps of geodesics with gravity "kerr". A sub-step
- * with a million pieces of debris takes tens of milliseconds. */
+/* Advances in pieces, to interleave other work: call begin, then go_on until it returns false. The result is
+ * identical to that of kd_playground_advance. A piece is a sub-step, or 256 steps of geodesics with gravity "kerr".
+ * A sub-step with a million pieces of debris takes tens of milliseconds. */
 struct kd_playground_run {
     double begin, end;
     double stride; /* gravity "kerr": time between updates of the bodies */
@@ -128,8 +128,8 @@ bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run,
 struct kd_playground_progress kd_playground_progress(const struct kd_playground *p,
                                                      const struct kd_playground_run *run);
 
-/* True if mutual gravity has driven speeds above c: capping them removed momentum that no other body received.
- * Bodies that touch at a distance below 2 (m1 + m2) reach c when they fall from rest. */
+/* True if mutual gravity has driven speeds above c. Capping them removed momentum that no other body received. This
+ * happens if bodies fall from rest and touch at a distance below 2 (m1 + m2). */
 bool kd_playground_lost_momentum(const struct kd_playground *p);
 
 /* Sums over the bodies at present. */

@@ -52,8 +52,8 @@ void kd_series_add(struct kd_playground_series *series, const double before[KD_S
 bool kd_series_lacks(const struct kd_playground_series *series, const double now[KD_SERIES_N]);
 const char *kd_series_column(int i);
 
-/* All rows, and `now` if it is later: as text/csv with a line of names, or as an NPY array of records; at most
- * KD_SERIES_ROWS. KD_ENOMEM. */
+/* Appends all rows, and `now` if it is later than the last row. The form is text/csv with a line of names, or an NPY
+ * array of records. There are at most KD_SERIES_ROWS rows. KD_ENOMEM. */
 enum kd_status kd_series_csv(const struct kd_playground_series *series, const double now[KD_SERIES_N],
                              struct kd_buffer *out);
 enum kd_status kd_series_npy(const struct kd_playground_series *series, const double now[KD_SERIES_N],

@@ -26,8 +26,8 @@ enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynam
 enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
 
-/* KD_EINVAL if the scene cannot show this playground. With gravity "kerr" the holes must be the same; without it the
- * parameters besides the spin must be 0. */
+/* KD_EINVAL if the scene cannot show this playground. With gravity "kerr" the scene must have the same hole as the
+ * playground. Without it, the hole's parameters other than the spin must be 0. */
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene,
                                       struct kd_error *error);
 

@@ -24,7 +24,8 @@ static double demanded(const struct kd_playground *p)
 {
     const struct kd_playground_params *s = &p->params;
     double rate = 1 / s->h_max;
-    rate = fmax(rate, 1 / kd_debris_stride(&p->debris, s->safety)); /* debris must keep up */
+    /* the step must not exceed the longest stride of the debris */
+    rate = fmax(rate, 1 / kd_debris_stride(&p->debris, s->safety));
     for (size_t i = 0; i < p->n; i++) {
         const double r = kd_playground_radius(p->bodies[i].x);
         rate = fmax(rate, 1 / (s->safety * (r - KD_PLAYGROUND_HORIZON)));
@@ -33,8 +34,8 @@ static double demanded(const struct kd_playground *p)
     return rate;
 }
 
-/* Caps the speed at 1. others: the attraction of other bodies exceeds that of the hole. If the hole caused the speed,
- * capping it changes no balance of momentum, because the hole's momentum is not counted. */
+/* Caps the speed at 1. others: the attraction of other bodies exceeds that of the hole. If the hole has caused the
+ * speed, the cap does not affect the balance of momentum, because the hole's momentum is not counted. */
 static void hold(struct kd_playground *p, struct kd_playground_body *body, bool others)
 {
     const double v = kd_playground_radius(body->v);
@@ -266,8 +267,8 @@ void kd_playground_begin(struct kd_playground *p, double time, struct kd_playgro
         kd_playground_series_begin(p, 0);
     if (p->params.gravity != KD_GRAVITY_KERR || !(p->aim > run->end))
         return;
-    for (size_t i = 0; i < p->n; i++) /* the current stride leads beyond the end of this run, so the bodies return to
-                                       * its start */
+    /* the current stride leads beyond the end of this run, so the bodies return to the stride's start */
+    for (size_t i = 0; i < p->n; i++)
         kd_geodesic_back(&p->geodesics[i]);
     p->aim = p->t;
 }

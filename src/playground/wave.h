@@ -16,7 +16,7 @@
 
 struct kd_playground_body;
 
-/* *a: the acceleration times `amplification`, limited to a tenth of m/r^2; true if it was limited. */
+/* Sets *a to the acceleration times `amplification`, limited to a tenth of m/r^2. Returns true if the limit applied. */
 bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3], double amplification, double a[3]);
 
 /* The same for a body of mass m at x that orbits the fixed hole. In the hole's potential (hole.h) a circular orbit

@@ -3,9 +3,9 @@
  * options, OpenAPI and the reference page are generated from the table. To add a quantity, write a file like kerr.c,
  * and add a line to table.c.
  *
- * A parameter may be a range first:last:count of evenly spaced values including both ends. The answer then has a
- * point for each value. With several ranges it has a point for each combination; the last parameter of the table
- * varies fastest.
+ * A parameter may be a range first:last:count of evenly spaced values including both ends. The answer then has a point
+ * for each value. With several ranges the answer has a point for each combination of values; the last parameter of the
+ * table varies fastest.
  *
  *     struct kd_quantity_request request;
  *     struct kd_quantity_answer answer = { 0 };
@@ -37,7 +37,8 @@ enum {
  * for which the function gets INFINITY. For a parameter with words the function gets the index. The default is
  * `typed`. */
 
-/* An output is NaN where it is undefined (help says when): null in JSON, an empty field in CSV. */
+/* An output is NaN where the quantity is undefined (`help` says where). NaN is null in JSON, and an empty field in
+ * CSV. */
 struct kd_output {
     const char *name, *unit, *help;
     bool fixed; /* independent of the quantity's parameters `along` a curve */
@@ -115,14 +116,15 @@ enum kd_status kd_quantity_run_begin(struct kd_quantity_run *run, const struct k
 enum kd_status kd_quantity_run_next(struct kd_quantity_run *run, struct kd_error *error);
 void kd_quantity_run_finish(struct kd_quantity_run *run);
 
-/* Writes {"quantity", "parameters", "values", "units", "sources", "approximations"}. A parameter with a range is an
- * array of its values. Values are then arrays with one number a point, except outputs that no range changes. With
- * several ranges the arrays are flat, in row-major order, described by "ranges" and "shape". */
+/* Writes {"quantity", "parameters", "values", "units", "sources", "approximations"}. A parameter with a range is
+ * written as an array of its values. Each output is then an array with one number for each point, except outputs
+ * that no range changes. With several ranges the arrays are flat, in row-major order, described by "ranges" and
+ * "shape". */
 enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct kd_buffer *out);
 /* Writes a line of names, then one line a point: all parameters, all outputs. */
 enum kd_status kd_quantity_csv(const struct kd_quantity_answer *answer, struct kd_buffer *out);
 
-/* Both write all quantities with their parameters and outputs: the first as JSON, the second as the document
+/* Both write all quantities with their parameters and outputs. The first writes JSON, the second the document
  * docs/physics-quantities.md. */
 enum kd_status kd_quantity_list_json(struct kd_buffer *out);
 enum kd_status kd_quantity_reference(struct kd_buffer *out);

@@ -1,5 +1,5 @@
-/* The direction of a moving camera: to the hole, to a place, or a given one. The aberration by the observer's motion is
- * included, the bending of light is not. Double precision, pure, any thread. */
+/* The direction of a moving camera: to the hole, to a place, or given by yaw and pitch. The aberration by the
+ * observer's motion is included; the bending of light is ignored. Double precision, pure, any thread. */
 #ifndef KD_SCENE_AIM_H
 #define KD_SCENE_AIM_H
 

@@ -26,7 +26,7 @@ struct kd_asset_found {
     uint32_t width, height; /* size of a picture; 0: the asset is not a picture */
     struct kd_asset_grid grid;
 };
-/* Bytes of an asset. They stay unchanged until they are given back. */
+/* Bytes of an asset. They stay unchanged until they are released. */
 struct kd_asset_bytes {
     const uint8_t *data;
     size_t size;

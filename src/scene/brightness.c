@@ -3,7 +3,7 @@
 #include <math.h>
 
 #define ALONE 0.2 /* sky.brightness "auto" for a grid, or if nothing but the sky shines */
-/* sky.brightness "auto" otherwise, so that bright stars beside a disk do not make the whole sky white */
+/* sky.brightness "auto" in all other cases, so that bright stars beside a disk do not make the whole sky white */
 #define BEHIND 0.01
 
 static bool shines_before(const struct kd_scene *scene)

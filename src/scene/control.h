@@ -14,12 +14,13 @@ struct kd_control {
         /* While the field has its least value or its first word, the other fields of its section, or of its list
          * element, have no effect. */
         KD_CONTROL_SWITCH,
-        /* The field has an effect only while the field `text` of its section has the value a; with several such rows,
-         * one of their values. */
+        /* The field has an effect only while the field `text` of its section has the value a. If the field has
+         * several such rows, one of their values suffices. */
         KD_CONTROL_WITH,
         /* the field has an effect only if the picture varies in one of the ways "a|b" in `text` (docs/live.md) */
         KD_CONTROL_VARIES,
-        /* a button labelled `text` sets the field to a, or resets it; for a list it acts on the first element */
+        /* a button labelled `text` sets the field to a, or resets the field; for a list the button acts on the first
+         * element */
         KD_CONTROL_BUTTON,
     } kind;
     double a, b; /* values in the form that kd_field_put accepts */

@@ -39,7 +39,7 @@ static struct hole_shown show_hole(const struct kd_scene *scene)
     return s;
 }
 
-/* Rounds a computed bound up to a number that is short enough to type, and that is accepted when it is typed. */
+/* Rounds a computed bound up to a number with few digits that is itself accepted. */
 static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1e9); }
 
 #define WORD_OF_NEAR(projection) \
@@ -311,7 +311,7 @@ static enum kd_status disk_frequency(const struct kd_scene *scene, struct kd_err
                           show(floor(kd_scene_disk_most_ghz(scene) * 1e9) * 1e-9).text, KD_DISK_QUANTA);
 }
 
-/* The light of a thick disk is integrated along rays: it has no surface. */
+/* The light of a thick disk is integrated along rays, because such a disk has no surface. */
 static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *error)
 {
     if (!scene->disk.atmosphere || scene->disk.height == 0)
@@ -323,8 +323,8 @@ static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *
                           show(scene->disk.height).text);
 }
 
-/* Limits of the spin if light returns to the disk. Beyond FASTEST_RETURNS the energy balance of the flux is wrong by
- * more than 1e-3. Beyond FASTEST_REFLECTS light that is reflected again and again would gain energy without bound. */
+/* Limits of the spin if light returns to the disk. Beyond FASTEST_RETURNS the error of the energy balance exceeds
+ * 1e-3. Beyond FASTEST_REFLECTS, light that is reflected repeatedly would gain energy without bound. */
 #define FASTEST_RETURNS 0.999999
 #define FASTEST_REFLECTS 0.998
 
@@ -610,8 +610,8 @@ static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Polarised transfer needs a magnetic field. It permits no other source of light, because the others have no
- * polarisation. */
+/* Polarised transfer needs a magnetic field. No other source of light is permitted with it, because the polarisation
+ * of the other sources is not modelled. */
 static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->polarization.model != KD_POLARIZATION_TRANSFER)

@@ -32,18 +32,18 @@
         struct kd_##element { KD_M_ROWS(ROWS) } at[most]; \
     } name;
 
-/* One member for each section: struct kd_camera camera, and so on. Members of the document itself are in `top`. A list
- * is, for example, struct kd_spots { size_t count; struct kd_spot at[KD_SPOTS]; } spots. Its elements from count on
- * have their defaults, so that equal scenes have equal bytes. */
+/* One member for each section: struct kd_camera camera, and so on. Members of the document itself are in `top`. A
+ * list is, for example, struct kd_spots { size_t count; struct kd_spot at[KD_SPOTS]; } spots. The unused elements,
+ * from index count on, have their defaults, so that equal scenes have equal bytes. */
 struct kd_dynamic_bodies;
-/* A grid of matter. It has no padding, because scenes are compared by their bytes. */
+/* A grid of matter. The struct has no padding, because scenes are compared by their bytes. */
 struct kd_scene_matter {
     /* nodes: number of nodes of all frames together; frames: number of frames in time, 1 for a grid of one moment */
     uint64_t nodes, frames;
     /* 1: `first` and `last` are times of ingoing Kerr-Schild coordinates; 0: of Boyer-Lindquist coordinates */
     uint64_t late;
     double first, last; /* times of the first and the last frame, M */
-    double outer;       /* r of its last row, M */
+    double outer;       /* r of the grid's last row, M */
 };
 struct kd_scene {
     KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)
@@ -51,14 +51,13 @@ struct kd_scene {
         const struct kd_dynamic_bodies *at;
         uint64_t generation;
     } dynamic; /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
-    struct kd_scene_matter matter; /* what is known about volume.grid, set by kd_scene_resolve; 0: nothing */
+    struct kd_scene_matter matter; /* description of the grid volume.grid, set by kd_scene_resolve; 0: no description */
 };
 
 /* Sets every field to its default, which is the scene of an empty document. */
 void kd_scene_defaults(struct kd_scene *scene);
 
-/* Sets the scene to a preset, by name. If there is none of this name it returns KD_EINVAL with a list of all
- * presets. */
+/* Sets the scene to a preset, by name. If no preset has this name, returns KD_EINVAL with a list of all presets. */
 enum kd_status kd_scene_preset(struct kd_scene *scene, const char *name, struct kd_error *error);
 
 /* Returns the present name of a preset that had another name in older versions. Any other name is returned
@@ -87,11 +86,11 @@ enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size
  * element, to the default; for a list, null removes all elements. */
 enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error);
 
-/* Sets one scalar field from text, by its dotted path ("camera.inclination_deg", "spots.0.r"). The next free index of a
- * list appends an element. Setting a style sets all of its fields. */
+/* Sets one scalar field from text, by its dotted path ("camera.inclination_deg", "spots.0.r"). The next free index
+ * of a list appends an element. Setting style.name sets all fields of that style. */
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *value, struct kd_error *error);
 
-/* True if both paths name the same field. Either may use an old name. */
+/* True if both paths name the same field. A path may use a former name. */
 bool kd_scene_same_path(const char *a, const char *b);
 
 /* Checks all ranges, and the rules about several fields: a static observer is outside the ergosphere, a pinhole at a
@@ -102,16 +101,16 @@ enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *
  * further functions return whether time advances, whether azimuth advances, and whether the observer falls. Whether
  * such a movement changes the picture is decided by the emitters (render/emit/emitter.h). */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
-/* Adds `time`, in M, to the scene's time, which stops at the ends of its range. */
+/* Adds `time`, in M, to the scene's time. The result is limited to the range of the scene's time. */
 void kd_scene_pass(struct kd_scene *scene, double time);
 bool kd_scene_time_goes_on(const struct kd_scene *scene);
 bool kd_scene_azimuth_goes_on(const struct kd_scene *scene);
 bool kd_scene_falls(const struct kd_scene *scene);
 
 /* Moves the observer along its own path by a proper time of 0 or more. This changes camera.r, camera.azimuth_deg and
- * time. The scene must be valid, and its observer must have such a path (physics/spacetime/worldline.h). With slow
- * light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing Kerr-Schild
- * coordinates. */
+ * time. The scene must be valid, and its observer must follow a path of its own (physics/spacetime/worldline.h).
+ * With slow light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing
+ * Kerr-Schild coordinates. */
 void kd_scene_go_on(struct kd_scene *scene, double proper_time);
 
 /* kd_scene_is_slow_volume: whether matter on a grid is shown as it was when its light left. kd_scene_is_slow: the
@@ -141,7 +140,7 @@ struct kd_scene kd_scene_eye(const struct kd_scene *scene, int side);
 struct kd_window { uint32_t left, top, width, height; };
 bool kd_scene_has_tile(const struct kd_scene *scene);
 struct kd_window kd_scene_window(const struct kd_scene *scene);
-/* kd_scene_tile returns the scene with this window as its tile, kd_scene_whole the scene without a tile. */
+/* kd_scene_tile returns the scene with this window as its tile. kd_scene_whole returns the scene without a tile. */
 struct kd_scene kd_scene_tile(const struct kd_scene *scene, struct kd_window window);
 struct kd_scene kd_scene_whole(const struct kd_scene *scene);
 
@@ -177,19 +176,20 @@ bool kd_scene_is_magnetic(const struct kd_scene *scene);
 /* True if all light is of one frequency, so that the picture's flux is physical: only a volume at a radio frequency is
  * visible, or only a disk with disk.band "frequency". */
 bool kd_scene_is_radio_alone(const struct kd_scene *scene);
-/* The frequency of such light in GHz, and the path of the field that contains it. Undefined for all other scenes. */
+/* The frequency of the light of a scene for which the function above is true, in GHz, and the path of the field that
+ * contains it. Undefined for all other scenes. */
 double kd_scene_frequency_ghz(const struct kd_scene *scene);
 const char *kd_scene_frequency_path(const struct kd_scene *scene);
 void kd_scene_set_frequency(struct kd_scene *scene, double ghz);
-/* True if there is a disk, and it is seen at one frequency. */
+/* True if there is a disk that is seen at one frequency. */
 bool kd_scene_has_disk_frequency(const struct kd_scene *scene);
 /* The highest frequency that disk.frequency_ghz may be: KD_DISK_QUANTA k T/h with the disk's largest colour
  * temperature. Light that returns to the disk may raise that temperature; that increase is ignored here. */
 #define KD_DISK_QUANTA 64
 double kd_scene_disk_most_ghz(const struct kd_scene *scene);
 
-/* kd_scene_spots lists the spots whose brightness is not zero, kd_scene_bodies the bodies whose radius is not zero,
- * both in order. They return the number. */
+/* kd_scene_spots lists the spots whose brightness is not zero. kd_scene_bodies lists the bodies whose radius is not
+ * zero. Both keep the order of the scene, and return the number of entries. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 size_t kd_scene_bodies(const struct kd_scene *scene, const struct kd_body *on[KD_SCENE_BODIES]);
 

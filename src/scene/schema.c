@@ -183,7 +183,7 @@ static void add_natures_and_groups(struct kd_json *json)
     kd_json_end(json);
 }
 
-/* An old name excludes the list. */
+/* A document with the old name must not contain the list. */
 static void add_exclusions(struct kd_json *json)
 {
     kd_json_object(json, "dependentSchemas");

@@ -31,10 +31,11 @@ struct kd_sweep_axis {
     bool even;        /* the values are evenly spaced, to 1e-12 of the larger end */
     size_t n;
     struct kd_sweep_value {
-        /* text of the value in the form that kd_scene_set accepts; for an asset, its hash once the name is resolved */
+        /* text of the value in the form that kd_scene_set accepts; for an asset, its hash instead of its name once
+         * the name is resolved */
         char *text;
         double number; /* NAN if the value is not a number */
-        /* what is known about a volume.grid whose name is resolved; 0 for any other value */
+        /* description of the grid if the value is a volume.grid whose name is resolved; 0 for any other value */
         struct kd_scene_matter matter;
     } *values;
 };

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HITS 1e-9 /* a range has reached its end if it comes this close to it, as a fraction of a step */
+#define HITS 1e-9 /* a range is complete if its last value comes this close to the end, as a fraction of a step */
 #define EVEN 1e-12
 
 struct reader {

@@ -58,7 +58,7 @@ bool kd_section_is_part(const struct kd_section *section, const struct kd_sectio
 const char *kd_section_member(const struct kd_section *section);
 const struct kd_row *kd_field_find(const char *section, const char *name);
 
-/* kd_section_size: number of elements of a list; 1 for other sections. kd_section_resize resets the elements that it
+/* kd_section_size: number of elements of a list; 1 for other sections. kd_section_resize sets all elements that it
  * removes or adds to their defaults. */
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
@@ -79,7 +79,7 @@ void kd_field_put(struct kd_scene *scene, const struct kd_row *field, size_t ind
  * then unchanged. */
 enum kd_status kd_field_store(struct kd_scene *scene, const struct kd_row *field, size_t index,
                               const struct kd_value *value, struct kd_error *error);
-/* True if the row allows the scene's value, and an asset is named by its hash. */
+/* True if the row allows the scene's value. For an asset, the value must be a hash. */
 bool kd_field_is_sound(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 /* The text of an ASSET; "": none. */
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_row *field, size_t index);
@@ -88,8 +88,8 @@ struct kd_json kd_scene_json(struct kd_buffer *out);
 /* Checks the member "version", which must be 1. */
 enum kd_status kd_scene_version(const struct kd_value *value, struct kd_error *error);
 
-/* Finds a field by its dotted path, like kd_scene_set, and the index of its element, which need not exist yet. Returns
- * KD_EINVAL with a pointer. */
+/* Finds a field and the index of its list element, by a dotted path like that of kd_scene_set. The element need not
+ * exist yet. Returns KD_EINVAL with a pointer. */
 enum kd_status kd_field_at(const char *path, const struct kd_row **out, size_t *index, struct kd_error *error);
 
 /* Write a field's path and its JSON pointer: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and

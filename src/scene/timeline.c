@@ -128,8 +128,8 @@ static bool stays(const struct kd_timeline *timeline, size_t key, const struct k
            kd_field_get(from, field, index) == kd_field_get(to, field, index);
 }
 
-/* Interpolates a section. If only one of the two keyframes has an element of a list, the other is taken to have this
- * element with all defaults. */
+/* Interpolates a section. If only one of the two keyframes has an element of a list, the element of the other
+ * keyframe is taken to have all defaults. */
 static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section,
                             struct kd_scene *out)
 {
@@ -183,7 +183,7 @@ static bool same_aim(const struct kd_aim *a, const struct kd_aim *b)
            (a->kind != KD_AIM_PLACE || (a->r == b->r && a->theta_deg == b->theta_deg && a->phi_deg == b->phi_deg));
 }
 
-/* Turns the camera to where the keyframes aim it. to: the next keyframe, or NULL. */
+/* Turns the camera in the direction that the keyframes set. to: the next keyframe, or NULL. */
 static enum kd_status aim(struct kd_scene *scene, const struct kd_timeline_key *from, const struct kd_timeline_key *to,
                           double t, struct kd_error *error)
 {
@@ -232,7 +232,7 @@ enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, 
         t = eased(to->ease, (at - from->at) / (to->at - from->at));
         for (size_t i = 0; i < KD_SECTION_COUNT; i++)
             section_between(timeline, key, t, &kd_sections[i], out);
-        if (isinf(to->scene.camera.field_uas)) /* the two keys use different units, so the interpolation is in M */
+        if (isinf(to->scene.camera.field_uas)) /* the two keys use different units, so the interpolation is made in M */
             out->camera.field_uas = INFINITY;
         kd_scene_settle(out, NULL);
         proper_time = between(&clock, key, t);

@@ -43,8 +43,8 @@
 
 #define KD_TIMELINE_KEYS_MAX 1000
 
-/* Words of requests, in the order of the enumerators: W(word), with C between them. KD_WORD_OF and KD_COMMA make an
- * array of them. */
+/* Words of requests, in the order of the enumerators: each is W(word), with C between two words. With KD_WORD_OF as
+ * W and KD_COMMA as C the list becomes an array. */
 #define KD_INTERPOLATIONS(W, C) W("linear") C W("smooth") C W("catmull-rom")
 enum kd_interpolation { KD_LINEAR, KD_SMOOTH, KD_CATMULL_ROM };
 #define KD_EASES(W, C) W("none") C W("in") C W("out") C W("in-out")
@@ -85,7 +85,7 @@ struct kd_timeline_form {
 
 /* The members of a request that make up a timeline; NULL: the member is missing. */
 struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *angles, *ease, *look_at; };
-/* Rows of these members, in a struct of this type that has them as `items`. */
+/* Rows of these members, for a struct of this type whose member `items` holds them. */
 #define KD_TIMELINE_ROW_(type, items, member) \
     { .name = #member, \
       .kind = KD_KIND_JSON, \
@@ -99,9 +99,9 @@ struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *
  * contains none. */
 const char *kd_timeline_manner(const struct kd_timeline_items *items);
 
-/* Reads a timeline. The first key is *first. If *first is a valid scene, every key of *out is valid. assets: where
- * names are looked up; NULL: hashes are not looked up. Returns KD_EINVAL with the pointer into the request. Free
- * *out with kd_timeline_finish. */
+/* Reads a timeline. The first key is *first, which must be a valid scene. On success, every key of *out is valid.
+ * assets: where names are looked up; NULL: hashes are not looked up. Returns KD_EINVAL with the pointer into the
+ * request. Free *out with kd_timeline_finish. */
 enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const struct kd_timeline_form *form,
                                 const struct kd_assets *assets, const struct kd_scene *first, struct kd_timeline *out,
                                 struct kd_error *error);

@@ -84,7 +84,7 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->server = server;
     request->mhd = mhd;
     request->connection = connection_of(mhd);
-    /* A connection is used for one request to the health routes, because its next request may belong to the other
+    /* A connection to the health routes serves only one request, because the next request may belong to the other
      * daemon. */
     request->close = kd_connection_is_health(request->connection);
     kd_client_of(mhd, request->client);
@@ -382,7 +382,7 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
     }
     kd_once_take(request, data, *size);
     *size = 0;
-    if (all - request->body_mark >= PACE) { /* the body arrives fast enough, so its next part gets the same time */
+    if (all - request->body_mark >= PACE) { /* the body arrives fast enough, so its next part gets as much time again */
         request->body_mark = all;
         stage(request, KD_STAGE_BODY);
     }

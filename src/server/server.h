@@ -54,8 +54,8 @@ struct kd_server_params {
     struct kd_renderer_params renderer;
 };
 
-/* Opens the device, starts the render thread and listens. params and its strings may be freed after the call. Zero
- * selects the default; drain_ms UINT_MAX means no drain. */
+/* Opens the device, starts the render thread and listens. params and its strings may be freed after the call. A
+ * parameter of 0 means the default. drain_ms UINT_MAX means no drain. */
 enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out, struct kd_error *error);
 uint16_t kd_server_port(const struct kd_server *server);
 /* The machine's addresses and name if the server listens on a wildcard address, NULL-terminated; else NULL. */

@@ -29,12 +29,13 @@ struct kd_options {
     size_t n;
 };
 
-/* Reads all visible options in the order of --help: by group; within a group the parent's before the children's, each
- * in the order of its table; argp's own options last. Returns false if there are more than KD_OPTIONS_MOST. */
+/* Reads all visible options in the order of --help: by group; within a group the options of the parent before those
+ * of the children, in the order of their tables; argp's own options last. Returns false if there are more than
+ * KD_OPTIONS_MOST. */
 bool kd_options_read(const struct argp *argp, struct kd_options *out);
 
-/* Entry i of the list of what may follow "kerrd": each subcommand, then "physics NAME" for each quantity. Returns false
- * beyond the end. The result for a quantity is valid until the next call. */
+/* Entry i of the list of words that may follow "kerrd": each subcommand, then "physics NAME" for each quantity.
+ * Returns false beyond the end. The result for a quantity is valid until the next call. */
 struct kd_context {
     char name[64];
     const char *help; /* one line */

@@ -43,7 +43,8 @@ static bool is_placeholder(const char *text, size_t length)
     return capital;
 }
 
-/* True if the text is like FILE, FILE.csv or SCENE.json: capitals and an extension, which only FILE may lack. */
+/* True if the text is like FILE, FILE.csv or SCENE.json: capitals followed by an extension. Only FILE may have no
+ * extension. */
 static bool is_file(const char *text, size_t length)
 {
     const char *dot = memchr(text, '.', length);

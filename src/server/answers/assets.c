@@ -194,8 +194,8 @@ static enum MHD_Result put(struct kd_request *request)
     return p ? kd_task_submit(&p->task) : refused;
 }
 
-/* Writes the hash of the operator's photograph of the sky, or null if there is none. It is also gone if a client
- * uploaded the same file before the server started, and has deleted it since. */
+/* Writes the hash of the operator's photograph of the sky, or null if there is none. The photograph is also missing
+ * if a client had uploaded the same file before the server started, and has deleted it since. */
 static void write_sky(struct kd_json *json, const struct kd_server *server)
 {
     const char *hash = server->sky ? kd_asset_about(server->sky)->hash : NULL;

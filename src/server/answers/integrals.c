@@ -120,8 +120,8 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     struct kd_render_queue *renders = request->server->renders;
     const unsigned at = job->run.picture;
     struct kd_capacity capacity;
-    /* Only the first picture needs admission. The later ones take its place, so that a request is never refused
-     * halfway. */
+    /* Only the first picture needs admission. Later pictures take the place of the one before, so that a request is
+     * never refused halfway. */
     enum kd_status status = at ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
         return status;
@@ -141,7 +141,7 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     else
         KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
     job->planned_ms += job->picture.plan.cost.estimate_ms;
-    /* begin() estimated the pictures of all sets by the first one, but a set may change the cost of its pictures. */
+    /* begin() estimated the cost of all sets from the first picture, but a set may change the cost of its pictures. */
     if (job->request.what == KD_INTEGRAL_SETS && job->planned_ms > request->server->longest_s * 1e3)
         KD_TRY(
             kd_error_set(error, KD_ETOOBIG,

@@ -270,7 +270,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->error, job->malformed, job->quota);
     if (job->format == KD_ORBIT_NDJSON) {
         response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 32u << 10, produce, job, NULL);
-        /* sets the deadline of the answer to that of the integration */
+        /* the answer's deadline becomes that of the integration */
         request->reply_bytes = (unsigned long)job->server->longest_s << 24;
         if (response)
             MHD_add_response_header(response, "Content-Type", types[job->format]);

@@ -22,8 +22,8 @@ static bool document(const struct kd_served *file)
            strncmp(file->type, "text/css", strlen("text/css"));
 }
 
-/* Redirects from the base path without a slash at its end to the base path with one. Otherwise a browser would resolve
- * the addresses of the page's files one folder too high. */
+/* Redirects from the base path without a slash at its end to the base path with one. Otherwise a browser would look
+ * for the page's files one folder too high. */
 static enum MHD_Result moved(struct kd_request *request)
 {
     const char *token = kd_access_query(request);

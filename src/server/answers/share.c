@@ -69,7 +69,7 @@ done:
     return status;
 }
 
-/* Writes each field with the prefix of the right picture. fields: as of kd_scene_difference. */
+/* Writes each field with the prefix of the right picture. fields: a text that kd_scene_difference has written. */
 static enum kd_status add_prefix(const char *fields, struct kd_buffer *out)
 {
     enum kd_status status = kd_buffer_printf(out, "%s", "");

@@ -21,17 +21,17 @@ struct kd_shared {
     struct kd_buffer picture; /* absolute address of the picture, KD_SHARED_WIDTH pixels wide */
 };
 
-/* Makes the texts. Fails with KD_EINVAL and a pointer, KD_ETOOBIG or KD_ENOMEM. Call kd_shared_finish whatever the
- * result. */
+/* Makes the texts. Fails with KD_EINVAL and a pointer, KD_ETOOBIG or KD_ENOMEM. kd_shared_finish must be called in
+ * every case. */
 enum kd_status kd_shared_tell(const struct kd_request *request, const struct kd_shared_scenes *scenes,
                               struct kd_shared *out, struct kd_error *error);
 /* Appends the fragment of the page's address, the text behind #. The fragment names the preset, because otherwise the
  * page would start from its first view. */
 enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buffer *out);
 void kd_shared_finish(struct kd_shared *shared);
-/* Appends the query, from "?" on, that gives the user of an address the same access as the request had. For a request
- * by a signed link it consists of the parameters that sign the path; otherwise it is empty. path: below the base path;
- * decoded. */
+/* Appends the query, from "?" on, that gives the user of an address the same access as the request had. For a
+ * request by a signed link, the query consists of the parameters that sign the path. Otherwise the query is empty.
+ * path: below the base path; decoded. */
 enum kd_status kd_shared_sign(const struct kd_request *request, const char *path, struct kd_buffer *out);
 
 #endif

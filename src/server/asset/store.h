@@ -35,7 +35,7 @@ enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struc
 /* Loads the assets of the server's state folder. Assets that are added later are stored there. This process holds the
  * folder's lock (job/store.h). Unreadable assets are logged and left alone. Call it once, before any asset is added. */
 enum kd_status kd_asset_store_open(struct kd_asset_store *store, const char *state, struct kd_error *error);
-/* The store in the form in which scenes and renderers use it: assets by hash. */
+/* The store in the form that scenes and renderers use: assets by hash. */
 const struct kd_assets *kd_asset_store_assets(const struct kd_asset_store *store);
 /* Call it when no references are left. Accepts NULL. */
 void kd_asset_store_close(struct kd_asset_store *store);
@@ -53,7 +53,9 @@ const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store 
 struct kd_asset_put {
     struct kd_asset *asset;
     bool created, quota, full;
-    bool any_age; /* set by the caller after kd_asset_put_begin: an asset may be evicted even if it was used recently */
+    /* set by the caller after kd_asset_put_begin: to make room, another asset may be evicted even if it was used
+     * recently */
+    bool any_age;
     struct kd_asset_putting *own; /* internal state; freed by kd_asset_put_finish */
 };
 enum kd_asset_progress {

@@ -230,9 +230,9 @@ static struct brought brought_by(struct kd_request *request)
     return brought;
 }
 
-/* Returns the visitor of a request, or NULL. A token in the page's address or in our own header is the only one
- * checked. Authorization may instead hold the token of a session, so the cookies are checked if Authorization holds no
- * access token. */
+/* Returns the visitor of a request, or NULL. If there is a token in the page's address or in Kerrd-Access, only that
+ * token is checked. Authorization may hold the token of a session instead of an access token; in that case the
+ * cookies are checked too. */
 static const struct kd_visitor *visitor_of(struct kd_request *request, const struct brought *brought)
 {
     const struct kd_access *access = request->server->access;

@@ -10,8 +10,9 @@
 
 #define KD_ACCESS_HEADER "Kerrd-Access"
 #define KD_ACCESS_COOKIE "kerrd_access"
-#define KD_ACCESS_QUERY "access" /* query parameter of pages (route.h); the server answers it by setting the cookie */
-#define KD_ACCESS_TOKEN_MIN 16   /* characters */
+/* query parameter of pages (route.h); the server answers it by setting the cookie of the same token */
+#define KD_ACCESS_QUERY "access"
+#define KD_ACCESS_TOKEN_MIN 16 /* characters */
 #define KD_ACCESS_TOKEN_MAX 256
 #define KD_ACCESS_NAME_MAX 32
 /* minimum characters of a key. A key must be long, because anybody who has a link can test guesses of its key
@@ -41,9 +42,9 @@ struct kd_visitor {
     enum kd_role role;
 };
 
-/* Reads a token file: NAME ROLE TOKEN on each line; # begins a comment. Returns KD_EINVAL if the file cannot be read,
- * if its group may write it, if others may read or write it, or if a line is malformed. The message names the line and
- * never the token. */
+/* Reads a token file: NAME ROLE TOKEN on each line; # begins a comment. Returns KD_EINVAL if the file cannot be
+ * read, if its group may write to it, if others may read or write it, or if a line is malformed. The message names
+ * the line and never the token. */
 enum kd_status kd_access_read(const char *path, struct kd_access **out, struct kd_error *error);
 void kd_access_free(struct kd_access *access); /* accepts NULL */
 

@@ -55,8 +55,8 @@ int kd_connection_socket(const struct kd_connection *one);
 void kd_connections_stage(struct kd_connections *all, struct kd_connection *one, enum kd_stage stage,
                           unsigned long bytes);
 
-/* Sends a problem document to the connection of this socket and shuts down its sending side. Has no effect unless the
- * request is still arriving. Only the thread that works on the connection may call this. */
+/* Sends a problem document to the connection of this socket, and then shuts down the socket for writing. Has no
+ * effect unless the request is still arriving. Only the thread that works on the connection may call this. */
 void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_problem_type type, const char *detail);
 
 /* True if a new request of this connection must be refused because more connections are open than the limit. A
@@ -68,8 +68,8 @@ bool kd_connections_full(struct kd_connections *all);
  * with the reason. */
 unsigned kd_connections_most(unsigned limit);
 
-/* Shuts down connections past their deadline, with a 408 if a request had begun, and drains lingering sockets. Call it
- * often, from one thread. */
+/* Shuts down connections past their deadline, after an answer 408 if a request had begun. Also drains lingering
+ * sockets. Call it often, from one thread. */
 void kd_connections_sweep(struct kd_connections *all);
 
 /* For shutdown: closes connections whose client has not read a byte of its answer for STALL_MS. Call it often, from one

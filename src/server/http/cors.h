@@ -19,8 +19,8 @@ enum kd_status kd_cors_create(const char *const *texts, const char *const *embed
                               struct kd_error *error);
 void kd_cors_destroy(struct kd_cors *cors); /* accepts NULL */
 
-/* Returns the listed origin that sent the request, or NULL if it is not listed or the request has no Origin. This and
- * all functions below: HTTP threads. */
+/* Returns the listed origin that sent the request. NULL if the origin is not listed, or if the request has no
+ * Origin. This and all functions below: HTTP threads. */
 const char *kd_cors_origin(const struct kd_request *request);
 /* True if the request comes from a listed origin other than the server's own. Its cookies are then ignored. */
 bool kd_cors_foreign(const struct kd_request *request);

@@ -47,8 +47,8 @@ static void unlink_guest(struct kd_front *front, struct guest *guest)
 static void send_away(struct kd_front *front, struct guest *guest)
 {
     unlink_guest(front, guest);
-    /* The socket may linger, open by another descriptor. If it were still watched, epoll would report events for a
-     * guest that is freed. */
+    /* While a socket lingers it stays open through another descriptor. If it were still watched, epoll would report
+     * events for a guest that is freed. */
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     kd_connections_remove(front->params.connections, guest->connection);
     close(guest->socket);
@@ -85,8 +85,8 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
     free(guest);
 }
 
-/* Hands a new connection to its daemon once its first bytes show which daemon this is. gone: no more bytes will
- * come. Returns true if the connection is not handed over yet. */
+/* Hands a new connection to a daemon, as soon as the connection's first bytes show which daemon must serve it. gone:
+ * no more bytes will come. Returns true if the connection is not handed over yet. */
 static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
 {
     char begin[KD_BEGINS_BYTES];
@@ -171,7 +171,7 @@ static bool accept_one(struct kd_front *front)
     guest->spare = front->reserve < 0;
     while (front->last != guest && kd_connections_full(front->params.connections))
         send_away(front, front->last);
-    /* most requests arrive together with their connection, which then need not be watched */
+    /* most requests arrive together with their connection; such a connection need not be watched */
     if (look_at(front, guest, false))
         watch(front, guest);
     return true;
@@ -193,7 +193,7 @@ static void *run(void *user)
             else
                 look_at(front, events[i].data.ptr, events[i].events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR));
         }
-        /* accepts after the events, because accepting may close guests that have events */
+        /* connections are accepted after the events are handled, because accepting may close guests that have events */
         for (int i = 0; more && i < BATCH; i++)
             more = accept_one(front);
     }

@@ -18,7 +18,7 @@
 #define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
 #define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
 
-/* The end of a link, and its limit. */
+/* The terms of a link: when it expires, and how much device time its pictures may use. */
 struct kd_link_terms {
     uint64_t expires_s; /* Unix time */
     uint64_t budget_ms; /* limit of the device time that all pictures of the link may use together; 0: no limit */

@@ -12,8 +12,8 @@ struct kd_link_budgets;
 
 struct kd_link_budgets *kd_link_budgets_create(void);      /* returns NULL when out of memory */
 void kd_link_budgets_destroy(struct kd_link_budgets *all); /* accepts NULL */
-/* Reads the file in the folder `state`, and keeps it up to date from now on. Creates the file if there is none.
- * Returns KD_EINVAL if the file cannot be read or is not a file of link budgets. Call before the first request. */
+/* Reads the file in the folder `state`, and writes all later changes to it. Creates the file if there is none.
+ * Returns KD_EINVAL if the file cannot be read or is not a file of link budgets. Call this before the first request. */
 enum kd_status kd_link_budgets_open(struct kd_link_budgets *all, const char *state, struct kd_error *error);
 
 enum kd_link_left { KD_LINK_LEFT, KD_LINK_SPENT, KD_LINK_CROWDED };

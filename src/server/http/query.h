@@ -1,4 +1,5 @@
-/* Limits of query parameters. They are literals, because the parser uses them and openapi.json prints them. */
+/* Limits of query parameters. They are literals, so that openapi.json can print the same numbers that the parser
+ * uses. */
 #ifndef KD_SERVER_HTTP_QUERY_H
 #define KD_SERVER_HTTP_QUERY_H
 

@@ -62,8 +62,8 @@ struct MHD_Response *kd_reply_empty(const char *type)
 {
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
     /* Without this option libmicrohttpd announces chunks and sends the final chunk "0", although there is no body. A
-     * client that keeps the connection would take this chunk for the beginning of the next answer. With the option the
-     * library closes the connection. */
+     * client that keeps the connection would read this chunk as the beginning of the next answer. With the option
+     * the library closes the connection. */
     if (response)
         MHD_set_response_options(response, MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
     if (response && type)

@@ -26,8 +26,9 @@ enum kd_disposition { KD_INLINE, KD_ATTACHMENT };
 void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Adds Location, the address of the object that this request has made. It is relative to the request's address, such as
- * "sessions/ID" for /v1/sessions, so that it is valid behind a proxy that changes the prefix. response may be NULL. */
+/* Adds Location, the address of the object that this request has made. The address is relative to that of the
+ * request, such as "sessions/ID" for /v1/sessions. So it is valid behind a proxy that changes the prefix. response
+ * may be NULL. */
 void kd_reply_location(const struct kd_request *request, struct MHD_Response *response, const char *id);
 
 /* Queues the response and drops the reference. response NULL: sends kd_reply_no_memory. */

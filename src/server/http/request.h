@@ -32,17 +32,17 @@ struct kd_request {
     const struct kd_route *matched;
     const struct kd_visitor *visitor; /* owner of the access token; NULL: the request needed none */
     struct kd_link link;              /* the signed link by which the request came */
-    bool spent;                       /* Authorization holds the access token, so it cannot also hold a session's
-                                       * token */
-    const char *method, *rest;        /* rest: the segment of the path that the route has in braces */
+    /* Authorization holds the access token, so it cannot also hold the token of a session */
+    bool spent;
+    const char *method, *rest; /* rest: the segment of the path that the route has in braces */
     bool head, begun, body_announced, close;
     struct kd_once once;          /* hashes of the request's Idempotency-Key and content */
     struct sha256_ctx taken;      /* running hash of target and body, if the request has a key */
     struct kd_request *once_next; /* next request under way that has a key */
     struct kd_buffer body;
-    size_t body_mark;                              /* size of body when its deadline was last extended */
-    unsigned quality;                              /* quality of a lossy format; 0: the format's default */
-    const struct kd_format *format;                /* requested format of the picture; NULL: any, or no picture */
+    size_t body_mark;               /* size of body when its deadline was last extended */
+    unsigned quality;               /* quality of a lossy format; 0: the format's default */
+    const struct kd_format *format; /* requested format of the picture; NULL: any, or no picture */
     /* all formats that Accept allows, the preferred one first; `format` is the first of them that can hold the
      * scene, or accepts[0] if none can */
     const struct kd_format *accepts[16];

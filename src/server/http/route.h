@@ -48,7 +48,7 @@ struct kd_json;
 struct cJSON;
 struct kd_route;
 struct kd_taken {
-    const char *about, *what;     /* about: the request in a few words; what: name of its body */
+    const char *about, *what;     /* about: the request in a few words; what: a name for the request's body */
     size_t most;                  /* largest size of the body in bytes; 0: KD_BODY_MAX */
     const char *types;            /* media types of the body, "a/b c/d"; NULL: application/json. A PATCH may also
                                    * send a merge patch */
@@ -77,7 +77,7 @@ struct kd_query {                     /* a query parameter that is not a field o
     const char *was; /* the parameter's former name, which is deprecated; NULL: none */
 };
 struct kd_route {
-    const char *path; /* at most one segment is in braces; it matches any text, which becomes request->rest */
+    const char *path; /* at most one segment is in braces; it matches any text, which is stored in request->rest */
     unsigned methods;
     const char *answer, *summary; /* answer: media type (NULL: see `gives`); summary: a sentence for openapi.json */
     enum kd_takes takes;
@@ -87,8 +87,8 @@ struct kd_route {
     bool question;
     bool open;     /* needs no access token */
     bool signable; /* GET may come by a signed link instead of an access token (link.h) */
-    /* a page for browsers: takes the access token in its address, and asks for the token if the address has none
-     * (access.h) */
+    /* a page for browsers: the access token may be in the page's address; if there is none, the page asks for the
+     * token (access.h) */
     bool page;
     bool once;          /* POST takes Idempotency-Key (once.h) */
     bool parts;         /* GET may answer with a range, 206 (representation.h) */
@@ -121,13 +121,13 @@ static inline bool kd_route_for(unsigned methods, unsigned method) { return !met
 bool kd_route_has_query(const struct kd_route *route, const char *name);
 
 /* Value of the route's own query parameter. NULL if the query does not have it, or if the route has no such
- * parameter. *given: the name in the query, which may be the former one. Returns KD_EINVAL if the query has both
- * names. */
+ * parameter. *given: the name that the query uses, which may be the former name. Returns KD_EINVAL if the query has
+ * both names. */
 enum kd_status kd_route_query(const struct kd_request *request, const char *name, const char **given,
                               const char **value, struct kd_error *error);
-/* Returns KD_OK if the query has only parameters of the route and method, each at most once, and "token"; else
- * KD_EINVAL. Three kinds of queries are not checked: fields of a scene, parameters of a quantity (both are read by
- * the handler), and queries of pages. */
+/* Returns KD_OK if the query has only parameters of the route and method, each at most once, and "token". Otherwise
+ * returns KD_EINVAL. Three kinds of queries are not checked: fields of a scene, parameters of a quantity (both are
+ * read by the handler), and queries of pages. */
 enum kd_status kd_route_only(const struct kd_request *request, struct kd_error *error);
 bool kd_route_checks_query(const struct kd_route *route);
 /* True if the query has a former name of a parameter. */

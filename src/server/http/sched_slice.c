@@ -9,7 +9,7 @@
 #define SLICE_NS 100000 /* the shortest slice that the kernel accepts */
 
 /* struct sched_attr of linux/sched/types.h, version 0. It is defined here, because older C libraries lack it and
- * newer ones declare it themselves. */
+ * newer ones have a declaration of their own. */
 struct attributes {
     uint32_t size, policy;
     uint64_t flags;

@@ -1,5 +1,5 @@
-/* Short scheduling slices for threads that do little work but keep others waiting. Such a thread then runs soon
- * after it wakes, even when all cores are busy. */
+/* Short scheduling slices for threads that do little work, but for which other threads wait. Such a thread then runs
+ * soon after it wakes, even when all cores are busy. */
 #ifndef KD_SERVER_HTTP_SCHED_SLICE_H
 #define KD_SERVER_HTTP_SCHED_SLICE_H
 

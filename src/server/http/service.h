@@ -68,14 +68,15 @@ struct kd_sessions;
 struct kd_thumbnails;
 
 struct kd_server {
-    struct MHD_Daemon *daemon, *health_daemon; /* main daemon, and that of the health routes (front.h) */
+    /* daemon for all routes except the health routes; daemon of the health routes (front.h) */
+    struct MHD_Daemon *daemon, *health_daemon;
     struct kd_front *front;
     uint16_t port;
     struct kd_base_path base;
     /* address of the page without a slash at its end (public_url.h); NULL: taken from the request's Host */
     char *public_url;
     const char **hosts; /* accepted Host names, NULL-terminated; each malloc'd */
-    char **own;         /* kd_names_own if the server listens on a wildcard address; else NULL */
+    char **own;         /* result of kd_names_own if the server listens on a wildcard address; otherwise NULL */
     unsigned drain_ms, drain_s, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
@@ -101,8 +102,8 @@ struct kd_server {
     struct kd_link_budgets *links;          /* device time that signed links have used; used with access */
     const char *share_key;                  /* name of the key that signs shared scenes, in access; NULL: none */
     struct kd_auth_throttle *auth_throttle; /* throttle of wrong tokens, used with access */
-    struct kd_cors *cors;                   /* origins permitted besides our own; NULL: none */
-    /* true if pages of other sites may send requests, although they cannot read the answers */
+    struct kd_cors *cors;                   /* origins that are permitted besides the server's own; NULL: none */
+    /* true if requests that pages of other sites make are accepted; such pages cannot read the answers */
     bool cross_site;
     struct kd_measures *measures; /* durations of requests */
     /* Numbers of answers by the first digit of the status; 0: the connection was cut before a status. */

@@ -25,7 +25,7 @@
 #include <stdbool.h>
 
 #define KD_CLIENT 48         /* size of the name of a client */
-#define KD_SHARE_CLIENTS 64u /* limit of clients that are tracked at once; beyond it, clients share an entry */
+#define KD_SHARE_CLIENTS 64u /* limit of clients that are tracked at once; further clients share entries */
 
 /* Classes of work and their weights within a client. PIXEL runs as soon as it arrives, because a user points at the
  * picture and waits. While a user moves a view (LIVE), a job (JOB) gets a fifth of the time. While a job runs, an

@@ -14,8 +14,8 @@
 #define THREADS_MAX (4 * WORKERS_MAX) /* limit of threads, including threads that are suspended in a slice */
 #define PIECE_MS 15.                  /* time that a slice runs before other jobs go first */
 
-/* A suspended slice; the struct is on the stack of its thread. It is listed among the jobs, and is resumed when it
- * is the first in the list. */
+/* A suspended slice; the struct is on the stack of its thread. The slice is listed among the jobs, and is resumed
+ * when it is the first in the list. */
 struct paused {
     struct kd_scheduler_job place; /* must be the first member; its callback `turn` is NULL */
     pthread_cond_t resumed;
@@ -134,8 +134,8 @@ static void unref(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
     scheduler->n_accepted--;
 }
 
-/* Lists a job again, if it may have a further slice now. While a slice of a shared job is suspended no other slice of
- * it begins: each would occupy a thread. */
+/* Lists a job again, if it may have a further slice now. While a slice of a shared job is suspended, no other slice
+ * of that job begins, because each would occupy a thread. */
 static void list_again(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
     if (!job->paused && !job->over)
@@ -156,7 +156,7 @@ static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *j
     kd_watch_turn_begins();
     enum kd_slice_result turn = job->turn(job);
     kd_watch_turn_ends();
-    under_way = NULL; /* `done` may free the job, and is never suspended */
+    under_way = NULL; /* `done` may free the job, and cannot be suspended */
     stops = false;
     pthread_mutex_lock(&scheduler->lock);
     job->workers--;

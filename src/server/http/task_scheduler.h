@@ -48,8 +48,8 @@ void kd_scheduler_destroy(struct kd_scheduler *scheduler);
 enum kd_status kd_scheduler_admit(struct kd_scheduler *scheduler, const char *client, bool *quota,
                                   struct kd_error *error);
 void kd_scheduler_push(struct kd_scheduler *scheduler, struct kd_scheduler_job *job);
-/* Wakes a parked job, including one whose current slice is about to park it. The job must not have finished. Any
- * thread. */
+/* Wakes a parked job. If the job's current slice is about to park it, the job is not parked. The job must not have
+ * finished. Any thread. */
 void kd_scheduler_wake(struct kd_scheduler *scheduler, struct kd_scheduler_job *job);
 unsigned kd_scheduler_unfinished(struct kd_scheduler *scheduler);
 

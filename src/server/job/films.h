@@ -1,8 +1,8 @@
 /* Films of a job's frames, cached in the job's folder. Each film is encoded once and deleted with the job. Its size
  * counts towards the limit of the frames. Any thread.
  *
- * A request opens the film. If it does not exist yet, one request claims the job, encodes the film and releases the
- * claim, even on failure. Other requests retry a little later. */
+ * A request opens the film. If the film does not exist yet, one request claims the job and encodes the film. It then
+ * releases the claim, even on failure. Other requests retry a little later. */
 #ifndef KD_SERVER_JOB_FILMS_H
 #define KD_SERVER_JOB_FILMS_H
 

@@ -67,7 +67,7 @@ struct kd_job {
     /* time at which the job ended, on kd_clock_ms, because that clock ignores changes of the system time */
     double ended_ms;
     char delayed[160]; /* the reason why the job waits until due_ms */
-    bool begun_here;   /* this server has begun a frame of the job, or moved its bodies */
+    bool begun_here;   /* this server has begun a frame of the job, or has moved the bodies of the job's film */
     bool struck;       /* this server has counted an attempt in the job's record */
     unsigned finished_here;
     struct kd_job_stored_film films[KD_JOB_FILMS]; /* oldest first */
@@ -75,7 +75,7 @@ struct kd_job {
     bool filming;           /* a film is being encoded (films.c) */
     unsigned encoding;      /* frames rendered and not yet in files */
     uint64_t bytes;         /* total size of its frames and films */
-    unsigned revision;      /* incremented when its status changes */
+    unsigned revision;      /* incremented when the job's status changes */
     char client[KD_CLIENT]; /* client that requested the job; "": unknown, after a restart */
     bool listed;
     bool creating;  /* the job's files are being created, so no frame begins */
@@ -138,7 +138,7 @@ void kd_job_wake(struct kd_job *job, double now); /* resumes watchers that have 
 /* Makes a job from a spec and empties the spec. The job is not in the list yet. Returns NULL when out of memory. Called
  * without the lock. */
 struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec);
-void kd_job_append(struct kd_jobs *all, struct kd_job *job); /* adds it to the list as the youngest */
+void kd_job_append(struct kd_jobs *all, struct kd_job *job); /* adds the job to the list, as the youngest */
 /* resume.c, callback of kd_job_store_load: resumes a stored job. user: the jobs. Call it before any other thread
  * uses the jobs. */
 void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buffer *request);

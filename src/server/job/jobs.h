@@ -1,9 +1,8 @@
-/* Jobs: pictures, and sequences of pictures, that take longer than a client wants to hold a connection for.
- *
+/* Jobs: pictures, and sequences of pictures, that take longer than a client wants to keep a connection open.
  * The oldest unfinished job is rendered, one frame at a time and with the smallest share of the device. Its frames
- * are written to files. A job does not depend on its client: it ends when it is done, fails or is deleted. If the
- * server has a state folder, its jobs continue after a restart. Any thread; functions on watchers belong to the HTTP
- * thread. */
+ * are written to files. A job does not depend on its client: it ends when it is done, when it fails, or when it is
+ * deleted. If the server has a state folder, its jobs continue after a restart. Any thread; functions on watchers
+ * belong to the HTTP thread. */
 #ifndef KD_SERVER_JOB_JOBS_H
 #define KD_SERVER_JOB_JOBS_H
 
@@ -37,7 +36,7 @@ struct kd_jobs_params {
 };
 /* Loads the jobs of the state folder, if there is one. params->state may be freed afterwards. */
 enum kd_status kd_jobs_create(const struct kd_jobs_params *params, struct kd_jobs **out, struct kd_error *error);
-/* Starts the loaded jobs, once everything that they use exists. */
+/* Starts the loaded jobs. Call this after everything that the jobs use has been created. */
 void kd_jobs_begin(struct kd_jobs *all);
 /* Call it after kd_jobs_close, when the render queue has finished. Accepts NULL. */
 void kd_jobs_destroy(struct kd_jobs *all);
@@ -51,7 +50,7 @@ struct kd_job_draft {
     char preset[32];     /* preset with which the spec was parsed */
 };
 void kd_job_draft_finish(struct kd_job_draft *draft);
-/* Checks further frames until until_ms, but at least one. After the last frame it computes the frames' order.
+/* Checks further frames until until_ms, and at least one frame. After the last frame it computes the frames' order.
  * Returns KD_EINVAL or KD_ETOOBIG with a pointer into the request. */
 enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *draft, double until_ms,
                              struct kd_error *error);

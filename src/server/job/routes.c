@@ -150,7 +150,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     enum MHD_Result result = d->task.status == KD_ECANCELLED ? kd_reply_cancelled(request)
                              : d->task.status                ? refuse(request, &d->task.error, d->task.quota)
                                                              : answer(request, d->job, true);
-    /* the client does not know the job, and cannot request it again because it sent no key */
+    /* the job is deleted, because the client does not know it, and cannot request it again without a key */
     if (d->job && request->status != MHD_HTTP_ACCEPTED && !*request->once.key)
         kd_job_drop(d->job);
     return result;

@@ -63,8 +63,8 @@ static unsigned next_frame(struct kd_job *job)
 }
 
 /* Plans a frame on a worker, without the lock, because computing the critical curve of a camera alone takes
- * milliseconds. The members of the job that this function reads do not change meanwhile: the exposure is set only while
- * no frame is under way, the order only before the first frame. */
+ * milliseconds. The members of the job that this function reads do not change meanwhile. The exposure is set only
+ * while no frame is under way, and the order only before the first frame. */
 static enum kd_slice_result plan(struct kd_scheduler_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));

@@ -117,7 +117,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         rmdir(path);
         store->folder = -1;
         errno = cause;
-        /* otherwise another server has just removed the file, and this server tries again */
+        /* otherwise another server has just removed the new folder, because it looked left over; another attempt is
+         * made */
         if (cause != EWOULDBLOCK && cause != ENOENT)
             return kd_job_store_failed(error, "cannot create a folder for jobs");
     }

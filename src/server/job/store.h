@@ -37,9 +37,9 @@ struct kd_job_record {
 struct kd_job_store;
 enum { KD_JOB_MARK = 65 };
 
-/* Opens a store. If state is NULL it is a temporary folder in TMPDIR, which is deleted with the store. Else state is a
- * folder that no other server uses; it is created if needed. Returns KD_EIO with a message that contains the folder's
- * path. */
+/* Opens a store. If `state` is NULL, the store is a temporary folder in TMPDIR, which is deleted with the store.
+ * Otherwise `state` is a folder that no other server uses, and is created if needed. Returns KD_EIO with a message
+ * that contains the folder's path. */
 enum kd_status kd_job_store_open(const char *state, struct kd_job_store **out, struct kd_error *error);
 void kd_job_store_close(struct kd_job_store *store); /* accepts NULL */
 /* Removes the temporary folders that killed servers have left in TMPDIR. */

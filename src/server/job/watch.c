@@ -3,8 +3,8 @@
 #include "base/clock.h"
 #include "server/job/job_internal.h"
 
-/* limit of files removed in one check of all jobs; the removal takes some milliseconds and must not delay the
- * thread's other work */
+/* limit of files removed in one check of all jobs. Removal takes some milliseconds and must not delay the thread's
+ * other work */
 #define FILES_A_SWEEP 200
 
 void kd_job_watch(struct kd_job_watcher *watcher)
@@ -122,8 +122,8 @@ void kd_jobs_sweep(struct kd_jobs *all)
     kd_jobs_bury(all, FILES_A_SWEEP);
 }
 
-/* At a shutdown by request, takes back the attempts that were counted for jobs under way: they have not crashed the
- * server. */
+/* At a shutdown by request, takes back the attempts that were counted for jobs under way, because these jobs have
+ * not crashed the server. */
 static void take_back_strikes(struct kd_jobs *all)
 {
     for (struct kd_job *job = all->first; job; job = job->link)

@@ -26,7 +26,7 @@
 struct kd_question {
     unsigned number; /* counts the questions of this lesson; 0: no question has been asked */
     bool shown;      /* false: the question was withdrawn */
-    bool open;       /* answers are accepted; when it closes, pupils see the tally and the right choice */
+    bool open;       /* answers are accepted; when this ends, pupils see the tally and the right choice */
     char text[KD_LESSON_SIZE(KD_LESSON_TEXT)];
     unsigned n_choices;
     char choices[KD_LESSON_CHOICES][KD_LESSON_SIZE(KD_LESSON_CHOICE)];

@@ -1,5 +1,5 @@
-/* Cache of documents that are constant while the program runs. They are made at the start, both uncompressed and
- * compressed by gzip, each with an ETag. Afterwards they are read-only: any thread. */
+/* Cache of documents that are constant while the program runs. The documents are made at the start, uncompressed and
+ * compressed by gzip. Each form has an ETag. Afterwards they are read-only: any thread. */
 #ifndef KD_SERVER_OPENAPI_CACHED_DOCUMENTS_H
 #define KD_SERVER_OPENAPI_CACHED_DOCUMENTS_H
 

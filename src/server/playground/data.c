@@ -1,5 +1,5 @@
-/* Sends bodies and debris of a playground session in packed form, either at once or as soon as they are newer than
- * what the client has. */
+/* Sends bodies and debris of a playground session in packed form. If the client already has the newest tick, the
+ * answer waits for the next one. */
 #include "base/clock.h"
 #include "image/npy.h"
 #include "server/http/negotiate.h"

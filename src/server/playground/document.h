@@ -7,8 +7,8 @@
 #include "scene/scene.h"
 #include "server/playground/sessions.h"
 
-/* Moves "rate" and "paused" out of the tree into *pace. If one is absent, its member of *pace is unchanged. Returns
- * KD_EINVAL with a pointer. */
+/* Moves "rate" and "paused" out of the tree into *pace. If either of them is absent, the corresponding member of
+ * *pace is unchanged. Returns KD_EINVAL with a pointer. */
 enum kd_status kd_playground_session_read_pace(cJSON *tree, struct kd_playground_session_pace *pace,
                                                struct kd_error *error);
 /* Merges "scene" over *scene, and checks that the playground can be shown in the result. item is NULL if "scene" is

@@ -1,8 +1,8 @@
 /* Runs a playground session in slices.
  *
- * Its goal time advances with the clock, at the requested rate. The bodies follow in sub-steps until they have
- * passed the goal. They may lag behind it by LAG_S times the rate and catch up later; a larger lag is skipped. The
- * setting `budget` limits the sub-steps in each beat, a thirtieth of a second. */
+ * Its goal time advances with the clock, at the requested rate. The bodies follow in sub-steps until they have passed
+ * the goal. The bodies may lag behind the goal by LAG_S times the rate, and catch up later. A larger lag is skipped.
+ * The setting `budget` limits the sub-steps in each beat, a thirtieth of a second. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/playground_internal.h"
@@ -173,7 +173,7 @@ static double show(struct kd_playground_session *play, const struct order *order
     if (order->goes && play->shown && now - play->shown_ms < TICK_MS)
         return play->shown_ms + TICK_MS;
     if (play->shown && !kd_session_hungry(order->shown))
-        return now + TICK_MS; /* one set of bodies for each frame suffices, because further sets would never be shown */
+        return now + TICK_MS; /* one set of bodies for each frame suffices, because a frame shows only one */
     if (kd_playground_show(play->p, &dynamic, NULL))
         return now + MOST_MS; /* out of memory: try again later */
     play->shown = generation;
@@ -188,7 +188,7 @@ enum kd_slice_result kd_playground_session_turn(struct kd_scheduler_job *job)
 {
     struct kd_playground_session *play = (struct kd_playground_session *)job;
     bool behind = false;
-    /* taken first, because the job that owns it now may change what this slice has to do */
+    /* the playground is taken first, because the job that owns it now may change the work of this slice */
     if (!kd_playground_session_take(play, &play->waiter))
         return KD_SLICE_AWAY;
     double now = kd_clock_ms();

@@ -71,7 +71,7 @@ const char *kd_playground_session_id(const struct kd_playground_session *play);
 const char *kd_playground_session_token(const struct kd_playground_session *play);
 bool kd_playground_session_owned(const struct kd_playground_session *play,
                                  const char *token); /* compares in constant time; token may be NULL */
-/* Ends the session and notifies its watchers. why: the word that they get as the reason. */
+/* Ends the session and notifies its watchers. why: a word that the watchers get as the reason. */
 void kd_playground_session_end(struct kd_playground_session *play, const char *why);
 
 /* Takes the playground out of the session. The caller owns the playground until it calls kd_playground_session_give
@@ -95,8 +95,8 @@ void kd_playground_session_give(struct kd_playground_session *play, struct kd_pl
 void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p);
 void kd_playground_session_moved(struct kd_playground_session *play);
 uint32_t kd_playground_session_pieces(const struct kd_playground *p);
-/* Reserves the memory for a new debris capacity in place of the present one. At a limit it returns KD_EBUSY and
- * changes nothing. */
+/* Reserves the memory for a new debris capacity, in place of the memory for the present capacity. At a limit it
+ * returns KD_EBUSY and changes nothing. */
 enum kd_status kd_playground_session_room(struct kd_playground_session *play, uint32_t capacity, bool *quota,
                                           struct kd_error *error);
 
@@ -112,8 +112,8 @@ void kd_playground_session_set_pace(struct kd_playground_session *play, const st
 /* Returns an error if a frame of the scene would take too long or cannot be made. */
 enum kd_status kd_playground_sessions_takes(struct kd_playground_sessions *all, const struct kd_scene *scene,
                                             struct kd_error *error);
-/* Gets the scene of the playground's picture. A session of server/session renders it, with the bodies and debris, once
- * a client requests frames. */
+/* Gets the scene of the playground's picture. The picture is rendered by a session of server/session, with the
+ * bodies and debris, once a client requests frames. */
 void kd_playground_session_scene(struct kd_playground_session *play, struct kd_scene *out);
 /* Replaces the scene of the playground's picture. The scene must be resolved and valid. */
 enum kd_status kd_playground_session_set_scene(struct kd_playground_session *play, const struct kd_scene *scene,
@@ -154,7 +154,8 @@ struct kd_playground_session_watcher {
     bool waiting;       /* the watcher's connection is suspended */
     struct kd_playground_session_watcher *previous, *next;
 };
-/* Takes over the reference in watcher->play. after: generation of the client's newest tick; NULL: it has none. */
+/* Takes over the reference in watcher->play. after: generation of the newest tick that the client has; NULL: the
+ * client has none. */
 void kd_playground_session_watch(struct kd_playground_session_watcher *watcher, const uint64_t *after);
 void kd_playground_session_unwatch(struct kd_playground_session_watcher *watcher);
 enum kd_playground_session_news {

@@ -9,7 +9,9 @@
 #include <string.h>
 
 #define COMPILE_MS 2000.0 /* estimate before the first compilation: lavapipe compiles some kernels in this time */
-#define NICE 3 /* half the weight of live frames, so that compilations advance beside them with a smaller share */
+/* half the weight of live frames, so that compilations also advance while there are live frames, but with a smaller
+ * share */
+#define NICE 3
 
 /* limit of how often a job starts again for missing kernels; after that they are compiled while it owns the device */
 #define BEGINS_ANEW 8

@@ -61,9 +61,9 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
 }
 
 /* True if the client has enough device time left for the work. Work that a client waits for was checked when it
- * arrived, and frames of jobs when they were pushed (kd_render_queue_may_push). Other work begins as soon as its
- * client has enough; kd_render_queue_sweep checks that ten times a second. Work that has begun always continues,
- * because others wait for its lane and memory. */
+ * arrived, and frames of jobs when they were pushed (kd_render_queue_may_push). All other work begins as soon as its
+ * client has enough time left; kd_render_queue_sweep checks that ten times a second. Work that has begun always
+ * continues, because others wait for its lane and memory. */
 static bool may_be_paid(const struct kd_render_queue *queue, const struct kd_claim *claim)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;

@@ -17,7 +17,7 @@ struct kd_live_file {
     struct kd_buffer bytes;
     double encode_ms;
 };
-#define KD_LIVE_FILES 6 /* one lossless encoding, the others lossy */
+#define KD_LIVE_FILES 6 /* one lossless encoding; all others are lossy */
 
 struct kd_live_frame {
     _Atomic unsigned references;
@@ -29,7 +29,7 @@ struct kd_live_frame {
     bool last;                                /* no other frame follows; the last frame is lossless only */
     struct kd_live_file files[KD_LIVE_FILES]; /* existing entries do not change */
     unsigned n_files;                         /* grows under the lock of sessions */
-    struct kd_frame picture;                  /* pixels of the frame, unless it is the last */
+    struct kd_frame picture;                  /* pixels of the frame; empty if it is the last frame */
     struct kd_buffer approximations;          /* text of the header Kerrd-Approximations */
     /* hash of the approximations; the text is not sent again to a client that has it */
     uint32_t sentences;

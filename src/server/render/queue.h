@@ -43,13 +43,13 @@
 
 struct kd_render_queue;
 
-#define KD_ENCODERS 2      /* one of them takes only frames that encode quickly */
+#define KD_ENCODERS 2 /* one of them takes only frames that encode quickly */
 /* work that uses the device for at most this time runs without interruption; in milliseconds */
 #define KD_MOMENT_MS 100.0
 
 /* Stage of a job. A job in one of the last two stages has begun. */
 enum kd_render_stage {
-    KD_RENDER_WAITS,          /* the job waits for its first turn */
+    KD_RENDER_WAITS,          /* the job waits for its first turn, and needs no lane */
     KD_RENDER_WAITS_FOR_LANE, /* a long picture that waits for its first turn */
     KD_RENDER_WORKS,
     KD_RENDER_WORKS_IN_LANE,
@@ -75,8 +75,8 @@ struct kd_render_job {
     /* requests the kernels of `run`, with the job as user; NULL: `run` needs no kernels that take long to compile */
     kd_kernels_ask_fn ask;
     bool more;
-    /* The scene of a view that nobody is moving: afterwards the kernels that explain its pixels are compiled. NULL: no
-     * such view */
+    /* The scene of a view that nobody is moving. When the job is done, the kernels that explain the view's pixels
+     * are compiled in advance. NULL: no such view */
     const struct kd_scene *settled;
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; called by the owner of the device */
     /* Preview of a picture that is rendered in slices; may be NULL. Its user is the job. Called by the owner of the
@@ -91,7 +91,7 @@ struct kd_render_job {
     enum kd_status status;
     struct kd_error error;
     struct kd_buffer file;
-    struct kd_frame frame; /* has its layers only if `keeps` is set */
+    struct kd_frame frame; /* the frame has its layers only if `keeps` is set */
     /* queue_ms: time during which others owned the device, before the job began and between its slices */
     double queue_ms, encode_ms;
     double used_ms; /* device time that the job has used */
@@ -106,10 +106,11 @@ struct kd_render_job {
     struct kd_compilation *lacked;
     struct kd_compilation *ahead; /* kernels that explain the pixels of `settled` */
     unsigned lacks;               /* number of times that the job has found kernels missing */
-    struct kd_claim missing;      /* the job's claim in the fair queueing of compilations, while it lacks kernels */
+    /* the job's claim in the fair queueing of compilations, valid while the job lacks kernels */
+    struct kd_claim missing;
     /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
     double kernels_ms, missing_ms;
-    bool reads;                            /* an asset of its scene was not read yet when the job was submitted */
+    bool reads;                            /* when the job was submitted, an asset of its scene was not read yet */
     bool inside;                           /* the job uses the renderer, or waits between two slices */
     bool repeated;                         /* the device has failed once while this job owned it */
     double submitted_ms, turn_ms, away_ms; /* turn_ms: start of its present turn; away_ms: end of its last turn */

@@ -57,8 +57,8 @@ struct kd_render_queue {
     struct kd_shares missing;      /* fair queueing of compilations */
     /* compiling: kernels being compiled; compiled: kernels that are compiled but not yet passed to the renderer */
     struct kd_compilation *compiling, *compiled;
-    /* ahead: kernels that no job waits for; they are compiled while no other compilation waits. compiling_ahead: such
-     * kernels are being compiled now. */
+    /* ahead: kernels that no job waits for. They are compiled while no other compilation waits. compiling_ahead:
+     * kernels of this kind are being compiled now. */
     struct kd_compilation *ahead;
     bool compiling_ahead;
     double ahead_ms;                       /* time of the latest search for such kernels */
@@ -151,8 +151,8 @@ void kd_render_next(struct kd_render_queue *queue);
 void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job);
 /* Updates device_json. Called without the lock by the owner of the device. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue);
-/* Main functions of threads: kd_render_short_main runs short work, and its argument is the queue; kd_render_lane_main
- * runs a lane, which is its argument. They return when the queue is closing and empty. */
+/* Main functions of threads. kd_render_short_main runs short work; its argument is the queue. kd_render_lane_main
+ * runs a lane; its argument is the lane. They return when the queue is closing and empty. */
 void *kd_render_short_main(void *queue);
 void *kd_render_lane_main(void *lane);
 

@@ -373,7 +373,7 @@ static enum kd_status name_pixel(const struct kd_request *request, struct kd_pla
     return status || !trace ? status : kd_explain_trace(trace, plan, error);
 }
 
-/* Reduces the picture to that pixel, if possible. */
+/* Reduces the rendered picture to the requested pixel, if possible. */
 static enum kd_status narrow(const struct kd_request *request, struct kd_planned *planned, struct kd_error *error)
 {
     struct kd_capacity capacity;

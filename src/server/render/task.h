@@ -15,7 +15,7 @@
 struct kd_task;
 
 struct kd_task_kind {
-    const char *what; /* plural noun for messages: "the server ... takes no new <what>" */
+    const char *what; /* plural noun for messages, such as "quantities" in "the server ... takes no new quantities" */
     size_t size;      /* size of the struct whose first member is the task */
     enum kd_slice_result (*work)(struct kd_task *task, double until_ms); /* runs one slice on a worker */
     void (*finish)(struct kd_task *task);                                /* frees members of the struct; may be NULL */
@@ -49,7 +49,8 @@ void kd_task_destroy(struct kd_task *task); /* accepts NULL */
 /* Records an error of the task. Only the first error counts; KD_OK is ignored. Any thread. */
 void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_error *error);
 
-/* True if the queue admits another task. If not, *refused is the answer. what: see kd_task_kind. HTTP thread. */
+/* True if the queue admits another task. If it does not, *refused is the answer to the request. what: see
+ * kd_task_kind. HTTP thread. */
 bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const char *what, enum MHD_Result *refused);
 /* Starts an admitted task. HTTP thread. */
 enum MHD_Result kd_task_submit(struct kd_task *task);

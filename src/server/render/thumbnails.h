@@ -1,5 +1,6 @@
-/* Thumbnails of presets. Each is rendered when it is first requested (painter.h). Then it is kept in memory, and on
- * disk for later runs. Requests that arrive while it is being rendered wait for the same rendering. */
+/* Thumbnails of presets. Each is rendered when it is first requested (painter.h). After that the thumbnail is kept
+ * in memory, and on disk for later runs. Requests that arrive while a thumbnail is being rendered wait for the same
+ * rendering. */
 #ifndef KD_SERVER_RENDER_THUMBNAILS_H
 #define KD_SERVER_RENDER_THUMBNAILS_H
 
