@@ -109,7 +109,7 @@ int main(int argc, char **argv)
     atexit(kd_cli_close_stdout);
     if (argc < 1)
         return KD_EXIT_USAGE;
-    argv[0] = zero; /* messages then show the program's name without its folder */
+    argv[0] = zero; /* messages then show the program's name without its path */
     argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &choice);
     snprintf(name, sizeof name, "kerrd %s", choice.command->name);
     argv[choice.index] = name;

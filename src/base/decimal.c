@@ -10,7 +10,7 @@
 /* Giulietti's g(k): the 128 leading bits of 10^k, rounded up unless they are exact. */
 #define K_MIN (-292)
 #define K_MAX 324
-#define WORDS 38 /* number of 32-bit words: 10^324 has 1077 bits, and 2^1152/10^292 still has 183 */
+#define WORDS 38 /* number of 32-bit words: 10^324 has 1077 bits, and 2^1152/10^292 has 183 */
 
 struct g { uint64_t high, low; };
 static struct g powers[K_MAX - K_MIN + 1];

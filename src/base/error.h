@@ -10,7 +10,7 @@
 enum kd_status {
     KD_OK = 0,
     KD_EINVAL,     /* bad input, the caller's fault; the message names the field, its value and its range */
-    KD_ETOOBIG,    /* well-formed, but larger than this device or this server can hold */
+    KD_ETOOBIG,    /* the input is valid, but larger than this device or this server can hold */
     KD_ENOMEM,     /* the host or the device has no memory left */
     KD_EIO,        /* reading or writing a file or socket failed */
     KD_EFULL,      /* no room on the disk                                           */

@@ -27,7 +27,7 @@ struct kd_json {
     enum kd_status status;
     size_t begun; /* size of *out before the document began */
     unsigned depth;
-    bool lines; /* each member is on a line of its own, for human readers */
+    bool lines; /* each member is on a line of its own, for people who read the text */
     /* Writes a finite number in a format of its own; NULL: in the format of kd_decimal_print. */
     void (*print)(char out[KD_JSON_NUMBER], double value);
     struct { bool array, filled; } open[KD_JSON_DEPTH];

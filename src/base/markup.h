@@ -8,7 +8,7 @@
 #define KD_MARKUP_CONTENT "&<>"
 #define KD_MARKUP_ATTRIBUTE "&<>\"'"
 
-/* Appends the text and a NUL. `characters` of the text are replaced by references. KD_ENOMEM. */
+/* Appends the text, with its `characters` replaced by references, and a NUL. KD_ENOMEM. */
 enum kd_status kd_markup_escape(const char *text, const char *characters, struct kd_buffer *out);
 
 /* Replaces the references that kd_markup_escape writes by their characters, in place. */

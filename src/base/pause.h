@@ -16,7 +16,7 @@ extern _Thread_local bool (*kd_pause_hook)(void); /* NULL: this thread does not 
 
 static inline bool kd_pause(void) { return kd_pause_hook && kd_pause_hook(); }
 
-/* Pauses in a loop, whenever i is a multiple of n. */
+/* Calls kd_pause in a loop, whenever i is a multiple of n. */
 static inline bool kd_pause_every(uint64_t i, uint64_t n) { return i % n == 0 && kd_pause(); }
 
 #endif

@@ -257,7 +257,7 @@ void kd_program_reason(const struct kd_program *p, char out[300])
     while (*at && *at != '\n' && *at != '\r' && n < 300 - 5) {
         if ((unsigned char)*at < ' ' || *at == 0x7f)
             at = skip_control(at);
-        else if (!strncmp(at, " @ 0x", 5)) /* an address in the program's memory */
+        else if (!strncmp(at, " @ 0x", 5)) /* the text is an address in the program's memory */
             at += 5 + strspn(at + 5, "0123456789abcdefABCDEF");
         else if (strchr(before, last) && begins_path(at)) {
             at += strcspn(at, after);

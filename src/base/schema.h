@@ -110,7 +110,7 @@ static inline void kd_schema_strict(struct kd_json *json, const char *name, cons
     kd_schema_told(json, name, NULL, members, n);
 }
 
-/* Like kd_schema_strict, for a table whose length the compiler knows. */
+/* Like kd_schema_strict, for an array, whose length the macro computes. */
 #define KD_SCHEMA_STRICT(json, name, table) kd_schema_strict(json, name, table, sizeof(table) / sizeof *(table))
 /* A numeric constant as a string literal, with the digits it has in the source. */
 #define KD_SCHEMA_DIGITS_OF(x) #x

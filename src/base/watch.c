@@ -17,7 +17,7 @@
 enum { HELD = 16, KNOWN = 1 << 14, DEPTH = 24 };
 
 static _Thread_local bool answers;
-static _Thread_local double turn_ms; /* the thread's processor time when the slice began */
+static _Thread_local double turn_ms; /* the processor time of the thread when its slice began */
 static _Thread_local struct {
     const void *lock;
     double since_ms;

@@ -17,7 +17,8 @@ enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2, KD_EXIT_DEVICE = 
 /* argp children for --log-level and --device. The first has no input. The input of the second is a `const char *`,
  * which the parser initialises to $KERRD_DEVICE or "auto". */
 extern const struct argp kd_cli_log_argp, kd_cli_device_argp;
-extern const struct argp_child kd_cli_device_children[]; /* both children, the device's first */
+/* the children of both argp structs above; the device's first */
+extern const struct argp_child kd_cli_device_children[];
 #define KD_CLI_LOG_LEVELS "error|warn|info|debug"
 #define KD_CLI_LOG_LEVEL_DOC "lowest level of messages on standard error (default: warn)"
 #define KD_CLI_DEVICE_DOC "auto, an index of `kerrd doctor`, or part of a name (default: $KERRD_DEVICE, else auto)"
@@ -35,7 +36,7 @@ enum kd_status kd_cli_prefix(struct kd_error *error, const char *name);
  * cannot be closed. */
 _Noreturn void kd_cli_device_lost(const struct kd_error *error);
 
-/* Writes to stdout and flushes it, including earlier output. Returns an exit code. */
+/* Writes to stdout and flushes it, together with earlier output. Returns an exit code. */
 int kd_cli_print(const void *data, size_t size);
 
 /* Reports, once, why a write to stdout has failed; number: its errno. If the reader has closed the pipe, as in

@@ -16,7 +16,8 @@ enum { QUIET = 2 };
 enum kd_status kd_cli_code(FILE *to, const char *text)
 {
     static const char *const halves[2][2] = { { " ", "▄" },
-                                              /* the indices tell whether the upper and the lower module are dark */
+                                              /* first index: 1 if the upper module is dark; second index: 1 if the
+                                               * lower module is dark */
                                               { "▀", "█" } };
     QRcode *code = QRcode_encodeString8bit(text, 0, QR_ECLEVEL_M);
     if (!code)
@@ -39,7 +40,7 @@ static int likelihood(const char *name)
     for (int i = 0; i < 3; i++)
         if (!strncmp(name, networks[i], strlen(networks[i])))
             return 4 - i;
-    /* addresses come before names, which a telephone may not resolve */
+    /* addresses come before names, because a telephone may not be able to resolve a name */
     return strspn(name, "0123456789.") == strlen(name);
 }
 

@@ -35,7 +35,8 @@ struct arguments {
     const char *sets[SETS_MAX];
     size_t n_sets;
     double time;
-    /* bounded: --set budget was given; otherwise there is no budget, because it is meant for servers */
+    /* bounded: --set budget was given. Otherwise there is no limit, because the setting `budget` is meant for
+     * servers */
     bool list, bounded;
     struct kd_pictures_asked pictures;
 };
@@ -181,7 +182,7 @@ done:
 struct story {
     struct kd_buffer text;
     uint64_t told, lost;      /* told: number of the last event written; lost: number of lost events */
-    struct kd_error short_of; /* the reason why the simulation ended early; status KD_OK if it did not */
+    struct kd_error short_of; /* the reason why the simulation ended early; status KD_OK: it did not end early */
 };
 
 static enum kd_status add_lost(struct story *story, uint64_t to)

@@ -11,7 +11,7 @@
 struct kd_progress {
     double started, drawn; /* monotonic clock, in s */
     bool terminal, visible;
-    unsigned n, done; /* number of parts, and those that the caller has finished */
+    unsigned n, done; /* number of parts; number of parts that the caller has finished */
 };
 
 /* Begins n parts, such as pictures. From here on the first SIGINT or SIGTERM stops the work through

@@ -23,8 +23,8 @@ static struct kd_row_options rows;
 struct arguments {
     const char *input, *output, *device, *format;
     struct kd_row_texts fields;
-    bool trace, points;          /* trace: write the ray's steps; points: write points of its path instead of the
-                                  * steps */
+    /* trace: write the steps of the ray; points: write points of its path in place of the steps */
+    bool trace, points;
     struct kd_rays_request more; /* the rays that are given by --ray */
 };
 

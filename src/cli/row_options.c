@@ -29,7 +29,8 @@ static void name_default(const struct kd_row *row, const void *from, char *out, 
     int word = 0;
     double number = NAN;
     *out = 0;
-    if (!at || row->needed || strstr(row->help, "default")) /* skipped, because the help already states the default */
+    /* an option without a default is skipped, because the help already states it */
+    if (!at || row->needed || strstr(row->help, "default"))
         return;
     switch (row->kind) {
     case KD_KIND_WORD:

@@ -56,7 +56,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return 0;
 }
 
-static struct kd_server *running; /* for the signal handler, which has no argument for the server */
+static struct kd_server *running; /* a global variable, because a signal handler gets no argument */
 
 static void on_signal(int number)
 {
@@ -92,7 +92,7 @@ static void show_code(const char *address, uint16_t port, const char *base_path,
 
 static void announce(const char *address, uint16_t port, const char *base_path, const char *const *own)
 {
-    bool six = strchr(address, ':'); /* brackets are added, because URLs need them round an IPv6 address */
+    bool six = strchr(address, ':'); /* URLs need brackets round an IPv6 address */
     printf("kerrd: listening on http://%s%s%s:%u%s/\n", six ? "[" : "", address, six ? "]" : "", port, base_path);
     for (const char *const *name = own; name && *name; name++)
         printf("kerrd: reachable at http://%s:%u%s/\n", *name, port, base_path);

@@ -45,7 +45,7 @@ struct kd_setting_values {
 struct kd_settings {
     const struct kd_cli_setting *table;
     size_t n;
-    struct kd_setting_values *values; /* KD_SETTING_SOURCES entries for each setting, one after another */
+    struct kd_setting_values *values; /* for each setting, KD_SETTING_SOURCES entries in a row */
     char *file;                       /* configuration file that was read; NULL: none */
 };
 

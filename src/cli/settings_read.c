@@ -109,7 +109,7 @@ enum kd_status kd_settings_read_file(struct kd_settings *settings, const char *p
     enum kd_status status;
     if (path[0] == '-' && path[1] && access(++path, F_OK) && errno == ENOENT)
         return KD_OK;
-    KD_TRY(kd_file_read(path, FILE_MOST, &text, error)); /* the error of kd_file_read names the file */
+    KD_TRY(kd_file_read(path, FILE_MOST, &text, error)); /* the error of kd_file_read already names the file */
     status = kd_tree_parse((const char *)text.data, text.size, FILE_MOST, KD_SCAN_FEW, &tree, error);
     if (!status)
         status = read_members(settings, tree, error);

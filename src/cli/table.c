@@ -19,7 +19,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { SET_MOST = 32, PIECE = 32, PIECES = 64 }; /* PIECE: nodes of one item of work; PIECES: items between writes */
+/* PIECE: number of nodes in one item of work; PIECES: number of items between two writes */
+enum { SET_MOST = 32, PIECE = 32, PIECES = 64 };
 
 struct arguments {
     const char *input, *output, *name, **axes;
@@ -213,7 +214,7 @@ static enum kd_status open_part(struct part *part, const char *path, const struc
         KD_TRY(kd_error_set(error, KD_EIO, "cannot open %s: %s", part->path, strerror(errno)));
     if (flock(part->file, LOCK_EX | LOCK_NB))
         KD_TRY(kd_error_set(error, KD_EINVAL, "%s is in use by another process", part->path));
-    /* another process may have finished the table since the file was opened */
+    /* another process may have completed the table since the file was opened */
     if (fstat(part->file, &info) || !info.st_nlink || stat(part->path, &named) || named.st_ino != info.st_ino)
         KD_TRY(kd_error_set(error, KD_EINVAL, "%s is in use by another process", part->path));
     if (info.st_size > 0)

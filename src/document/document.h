@@ -65,7 +65,7 @@ struct kd_row {
     enum kd_kind kind;
     bool needed, fixed;          /* needed: must be given; fixed: cannot be changed afterwards */
     size_t offset;               /* offset in the struct that is filled */
-    double initial, least, most; /* for numbers; `initial` is also for a WORD and a BOOL */
+    double initial, least, most; /* for numbers; `initial` is also the default of a WORD and a BOOL */
     enum kd_open open;
     double above_0;    /* the smallest allowed value above 0, if 0 itself is allowed too */
     const char *words; /* "a|b|c" */
@@ -74,7 +74,7 @@ struct kd_row {
     int first;
     const char *typed; /* default as typed text, for a row that may be a range (kd_row_range) */
     size_t room, fewest;
-    unsigned of;             /* bit mask of the kinds of documents that have the field; 0: all kinds */
+    unsigned of;             /* bit mask of the kinds of documents that have this field; 0: all kinds */
     const char *unit, *help; /* unit NULL, "" or "1": none */
     /* Texts that replace the generated ones: the allowed values in words, and the members of the JSON Schema without
      * the description, such as "\"type\":\"number\"". They are for limits that depend on more than one field. */
@@ -84,7 +84,8 @@ struct kd_row {
 /* An object that is a list: an array of objects with the same fields. Its rows are those of the first element. */
 struct kd_list {
     const char *object;
-    size_t most, stride, size_at; /* limit; bytes from one element to the next; offset of the number of elements */
+    /* limit of elements; bytes from one element to the next; offset of the number of elements */
+    size_t most, stride, size_at;
 };
 /* A former name of an element. */
 struct kd_former {
@@ -134,19 +135,19 @@ struct kd_typed_place {
     const struct kd_row *row;
     const struct kd_list *list; /* NULL: none */
     size_t index;
-    bool former; /* the path has a former name of the element */
+    bool former; /* the path uses a former name of the element */
 };
 enum kd_status kd_document_place(const struct kd_document *document, const char *path, struct kd_typed_place *out,
                                  struct kd_error *error);
 
-/* Elements of a list; those that are added or removed get their defaults. */
+/* Set the number of elements of a list. Elements that are added or removed get their defaults. */
 const struct kd_list *kd_document_list(const struct kd_document *document, const char *object);
 size_t kd_list_size(const struct kd_list *list, const void *from);
 void kd_list_resize(const struct kd_document *document, const struct kd_list *list, void *to, size_t size);
 /* KD_EINVAL at the first element beyond the limit. */
 enum kd_status kd_list_check(const struct kd_list *list, size_t size, struct kd_error *error);
 
-/* Sets one field that is no array from a value. called: its name in messages. */
+/* Sets one field from a value; not for arrays. called: the field's name in messages. */
 enum kd_status kd_row_put(const struct kd_row *row, void *to, const struct kd_value *value, const char *called,
                           const char *pointer, struct kd_error *error);
 /* The two halves of kd_row_put. kd_row_take stores the value and returns whether the row accepts it. kd_row_refuse
@@ -188,7 +189,7 @@ void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE]);
 void kd_document_write(struct kd_json *json, const struct kd_document *document, const void *from);
 /* Writes one row's value as a member. A list is left out. */
 void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from);
-/* Like kd_row_write, under another name; NULL within an array. */
+/* Like kd_row_write, under another name. Within an array, the name is NULL. */
 void kd_row_write_as(struct kd_json *json, const char *name, const struct kd_row *row, const void *from);
 /* Writes the value that kd_row_get returns, in the form that it has in a document. */
 void kd_row_write_value(struct kd_json *json, const char *name, const struct kd_row *row, double value);

@@ -17,7 +17,7 @@ struct kd_long_strings {
     struct {
         size_t start, end;
         bool escapes;
-    } at[32]; /* the long strings; if there are more, the others stay in the text */
+    } at[32]; /* the long strings; strings that do not fit here stay in the text */
 };
 
 void kd_long_strings_find(struct kd_long_strings *strings, const char *text, size_t length);

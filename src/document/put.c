@@ -167,7 +167,7 @@ static double convert(const struct kd_row *row, const struct kd_value *value)
 
 static bool put_text(void *at, size_t room, const char *text)
 {
-    memset(at, 0, room); /* cleared, so that equal texts have equal bytes */
+    memset(at, 0, room); /* the rest is cleared, so that equal texts have equal bytes */
     memcpy(at, text, strlen(text));
     return true;
 }

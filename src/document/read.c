@@ -176,7 +176,7 @@ static enum kd_status refuse(const struct reader *r, const struct kd_object *obj
 
 static enum kd_status read_members(struct reader *r, const struct kd_object *object, const cJSON *members, bool patch);
 
-/* Resets the fields of an object, and of those within it. */
+/* Resets the fields of an object, and of the objects within it. */
 static void reset(struct reader *r, const struct kd_object *object)
 {
     const size_t n = strlen(object->name);

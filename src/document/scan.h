@@ -21,8 +21,8 @@ void kd_scan_skip_mark(const char **text, size_t *length);
 enum { KD_SCAN_FEW = 4096 };
 enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct kd_error *error);
 
-/* Checks only the bytes from start to end, with at most KD_SCAN_FEW values. For a reader that handles the other bytes
- * itself. Positions in messages are counted from text. */
+/* Checks only the bytes from start to end, with at most KD_SCAN_FEW values. It is for readers that handle the other
+ * bytes themselves. Positions in messages are counted from text. */
 enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error);
 
 /* True if the object has a member with this name, which consists of ASCII letters. Values are not read. If the text is

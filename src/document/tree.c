@@ -42,7 +42,7 @@ static _Thread_local uint64_t allocations;
 
 static void pause_if_large(uint64_t n)
 {
-    const int kept = errno; /* restored below, because the caller checks errno for ENOMEM */
+    const int kept = errno; /* restored below, because the caller compares errno with ENOMEM */
     if (shares && (n >= 65536 || ++allocations % 64 == 0))
         kd_pause();
     errno = kept;

@@ -11,7 +11,7 @@ struct search {
     const struct kd_document *document;
     const struct kd_object *in;
     const char *name;
-    bool bare; /* names are typed without the names of their objects */
+    bool bare; /* a typed name does not include the name of its object */
     int best;
     char meant[120];
 };

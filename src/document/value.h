@@ -17,7 +17,7 @@ struct kd_value kd_value_typed(const char *text);
  * where a number is needed"; otherwise "". */
 const char *kd_value_unwanted(const struct kd_value *value);
 
-/* Describes a value for messages. */
+/* Writes a description of a value for messages. */
 enum { KD_VALUE_SIZE = 80, KD_ALLOWED_SIZE = 400 };
 void kd_value_describe(const struct kd_value *value, char out[KD_VALUE_SIZE]);
 

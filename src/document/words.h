@@ -16,7 +16,7 @@ struct kd_word {
 };
 int kd_word_count(const char *words);
 struct kd_word kd_word(const char *words, int i);
-/* Copies word i; false if there are fewer. */
+/* Copies word i. Returns false if the list has no such word. */
 bool kd_word_at(const char *words, int i, char out[KD_WORD_ROOM]);
 /* Returns the index of a word, or -1 if the list does not have it. */
 int kd_word_index(const char *words, const char *text);

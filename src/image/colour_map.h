@@ -32,7 +32,7 @@ static inline struct kd_map_colour kd_map_table_at(const struct kd_map_table *ta
     return table->at[(size_t)(x * (KD_MAP_ENTRIES - 1) + 0.5)];
 }
 
-/* Assigns places on the map to values. */
+/* Mapping from values to places on the map. */
 struct kd_map_scale {
     double low, high; /* values at the ends of the map; if logarithmic, both must be above 0 */
     bool logarithmic;

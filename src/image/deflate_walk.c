@@ -94,7 +94,7 @@ static bool make(struct code *code, const uint8_t *lengths, unsigned n, bool dis
         next[l + 1] = (next[l] + code->count[l]) << 1;
         place[l + 1] = place[l] + code->count[l];
     }
-    if (all > 1u << BITS_MAX) /* more codes than possible */
+    if (all > 1u << BITS_MAX) /* there are more codes than possible */
         return false;
     for (unsigned i = 0; i < n; i++) {
         const unsigned l = lengths[i];

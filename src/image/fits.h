@@ -19,7 +19,7 @@ enum { KD_FITS_BLOCK = 2880, KD_FITS_CARD = 80 };
 /* Each appends a card; a text takes as many cards as it needs. key: at most 8 of A-Z, 0-9, - and _. comment: follows
  * the value as far as there is room; NULL: none. Characters other than printable ASCII become "?". KD_ENOMEM. */
 enum kd_status kd_fits_text(struct kd_buffer *cards, const char *key, const char *value, const char *comment);
-/* value must be finite */
+/* value: must be finite */
 enum kd_status kd_fits_real(struct kd_buffer *cards, const char *key, double value, const char *comment);
 enum kd_status kd_fits_integer(struct kd_buffer *cards, const char *key, long long value, const char *comment);
 enum kd_status kd_fits_logical(struct kd_buffer *cards, const char *key, bool value, const char *comment);

@@ -3,7 +3,7 @@
 #include "image/strips.h"
 
 #include <setjmp.h>
-#include <stdio.h> /* jpeglib.h needs it and does not include it */
+#include <stdio.h> /* needed by jpeglib.h, which does not include it */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,7 +22,8 @@ enum {
     APP1 = 0xe1,
 };
 
-static const char xmp_name[] = "http://ns.adobe.com/xap/1.0/"; /* the namespace; a NUL separates it from the packet */
+/* name of the namespace; a NUL separates it from the packet */
+static const char xmp_name[] = "http://ns.adobe.com/xap/1.0/";
 
 /* State of one compression: that of libjpeg, and that of the callbacks. */
 struct work {
@@ -234,7 +235,7 @@ const void *kd_jpeg_xmp(const void *data, size_t size, size_t *length)
     if (size < 4 || bytes[0] != 0xff || bytes[1] != SOI)
         return NULL;
     for (size_t at = 2; at + 4 <= size && bytes[at] == 0xff && bytes[at + 1] != SOS;) {
-        const size_t segment = (size_t)(bytes[at + 2] << 8 | bytes[at + 3]); /* counts its own two bytes */
+        const size_t segment = (size_t)(bytes[at + 2] << 8 | bytes[at + 3]); /* the length includes its own two bytes */
         if (segment < 2 || segment > size - at - 2)
             return NULL;
         if (bytes[at + 1] == APP1 && segment >= 2 + sizeof xmp_name &&

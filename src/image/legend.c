@@ -92,7 +92,7 @@ static size_t numbers(const struct kd_map_scale *scale, const struct row *row, s
     return n;
 }
 
-/* True if at least two characters' width is left between any two numbers. */
+/* True if between any two numbers there is room for at least two characters. */
 static bool fit(const struct kd_map_scale *scale, double room, const struct kd_tick *ticks, size_t n)
 {
     if (n > KD_LEGEND_TICKS)

@@ -36,7 +36,7 @@ static void on_error(png_structp png, png_const_charp message)
 static void on_warning(png_structp png, png_const_charp message)
 {
     (void)png;
-    (void)message; /* a malformed ancillary chunk does not affect the picture */
+    (void)message; /* a malformed ancillary chunk has no effect on the picture */
 }
 
 static png_voidp job_malloc(png_structp png, png_alloc_size_t size)
@@ -97,7 +97,8 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
             return kd_error_set(error, KD_EINVAL, "PNG text \"%s\" is not UTF-8", text->key);
         total += strlen(text->key) + strlen(text->value);
     }
-    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS) /* more text could be written, but not be read again */
+    /* more text could be written, but kerrd could not read it again */
+    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS)
         return kd_error_set(error, KD_EINVAL,
                             "%zu bytes of PNG text in %zu chunks; there must be at most %u bytes in %d chunks", total,
                             params->n_text, MAX_TEXT, MAX_CHUNKS - 1);

@@ -67,7 +67,7 @@ static enum kd_status put_header(struct kd_zip *zip, const struct entry *e)
 {
     struct record r = { 0 }, extra = { 0 };
     enum kd_status status;
-    if (is_long(e)) { /* both sizes are in a member's own header (APPNOTE 4.5.3) */
+    if (is_long(e)) { /* a member's own header must contain both sizes (APPNOTE 4.5.3) */
         put(&extra, 1, 2);
         put(&extra, 16, 2);
         put(&extra, e->size, 8);

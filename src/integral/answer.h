@@ -29,9 +29,9 @@ struct kd_integral_answer {
                                         * frequency */
     struct kd_alignment solved;        /* result of a comparison's search */
     const struct kd_integral_set *set; /* for a comparison of sets: the current set; otherwise NULL */
-    double chi2[2][KD_PRODUCTS];       /* for a comparison: chi^2 for the map, and for the finer map */
+    double chi2[2][KD_PRODUCTS];       /* for a comparison: chi^2 of the map, and chi^2 of the finer map */
     size_t rows;
-    double *columns[KD_INTEGRAL_COLUMNS]; /* each of length `rows`; a single allocation, columns[0] */
+    double *columns[KD_INTEGRAL_COLUMNS]; /* each has `rows` numbers; all are in one allocation, at columns[0] */
     const char *light;                    /* unit of columns that are light */
     /* Approximations besides those that every integral of this kind has: sentences from the plans of its pictures. */
     const char *told[KD_PLAN_MAX_APPROXIMATIONS];

@@ -226,7 +226,7 @@ enum kd_status kd_integral_fill_list(struct kd_integral_request *r, const char *
     return status;
 }
 
-/* Refuses a list that is given together with fields that would generate it. */
+/* Refuses a list if fields that would generate the list are given as well. */
 enum kd_status kd_integral_check_beside(const struct kd_integral_request *r, const char *list,
                                         const char *const *others, size_t n, struct kd_error *error)
 {
@@ -278,7 +278,7 @@ done:
     return status;
 }
 
-/* Requires a list, or a range with both ends. */
+/* Requires a list, or a range of which both ends are given. */
 enum kd_status kd_integral_check_frequencies(struct kd_integral_request *r, uint32_t most, struct kd_error *error)
 {
     static const char *const even[] = { "frequency_min_hz", "frequency_max_hz", "frequencies" };

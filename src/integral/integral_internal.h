@@ -18,7 +18,7 @@ enum kd_status kd_integral_make_room(struct kd_integral_request *request, const 
 
 /* check.c */
 bool kd_integral_given(const struct kd_integral_request *request, const char *name);
-/* Checks that a list is strictly increasing. */
+/* Checks that the numbers of a list are strictly increasing. */
 enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const char *name, struct kd_error *error);
 /* Refuses a list if fields that would generate the list are given as well. */
 enum kd_status kd_integral_check_beside(const struct kd_integral_request *request, const char *list,
@@ -46,7 +46,7 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
 /* scene.c */
 /* Reads the members "preset" and "scene" of a document. */
 enum kd_status kd_integral_read_scene(struct kd_integral_request *request, const cJSON *root, struct kd_error *error);
-/* Checks that visibilities can be computed of the scene's picture. */
+/* Checks that the scene's picture has visibilities. */
 enum kd_status kd_integral_check_flat(const struct kd_scene *scene, struct kd_error *error);
 enum kd_status kd_integral_check_visibility(struct kd_integral_request *request, struct kd_error *error);
 

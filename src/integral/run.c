@@ -20,7 +20,7 @@
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
 enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* columns of a spectrum of pictures */
 enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* values of a visibility */
-/* index of the value that sets have in the place of FLUX */
+/* index of the value that replaces FLUX for sets */
 enum { PICTURES };
 
 static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
@@ -174,7 +174,7 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
                      /* the layer of an image order is in the unit of light; the layer of the total light is in Jy/sr */
                      scene))
             multiply(map, n, (float)kd_radio_jansky_steradian(scene));
-        sum = total(map, n, &undefined); /* map 0, the total light, comes last, so that `sum` is its sum */
+        sum = total(map, n, &undefined); /* map 0, the total light, is summed last, so that `sum` becomes its sum */
         run->map[k] = map;
     }
     run->is_dark = !(sum > 0);
@@ -208,7 +208,7 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     if (kd_integral_is_finer(r, run->picture)) {
         c[FLUX_ERROR][row] = jy == c[JY][row] ? 0
                                               : fmin(KD_INTEGRAL_OF_DIFFERENCE * fabs(jy / c[JY][row] - 1),
-                                                     1); /* 1: the coarser picture showed no light */
+                                                     1); /* 1 if the coarser picture showed no light */
         run->answer.values[2] = fmax(run->answer.values[2], c[FLUX_ERROR][row]);
         return KD_OK;
     }

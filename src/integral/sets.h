@@ -11,7 +11,7 @@
 
 struct kd_integral_set {
     struct kd_scene scene;
-    double flux_jy, size, angle_deg; /* flux_jy NaN: as for the request */
+    double flux_jy, size, angle_deg; /* flux_jy NaN: the flux of the request */
     uint32_t row;                    /* index of the set in the request */
     uint64_t group;                  /* scenes with equal groups share a lens map */
 };
@@ -20,7 +20,7 @@ struct kd_integral_sets {
     cJSON *tree;                /* the member "sets", as it was in the document */
     struct kd_integral_set *at; /* ordered by group; equal scenes are adjacent */
     size_t n;
-    uint32_t *first; /* first set of each picture, and n behind the last */
+    uint32_t *first; /* first set of each picture, followed by n */
     unsigned pictures;
 };
 

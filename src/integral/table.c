@@ -260,7 +260,7 @@ static enum kd_status node_of(const struct kd_table *table, size_t node, struct 
 /* Fields that define bins of equal widths, in place of the list `edges`. */
 static const char *const even[] = { "energy_min", "energy_max", "bins" };
 
-/* The default energies are in keV, begin above 0, and surround the line of iron. */
+/* The default energies are in keV. They begin above 0 and surround the line of iron. */
 static enum kd_status set_energies(struct kd_table *table, struct kd_error *error)
 {
     struct kd_integral_request *base = &table->base;
@@ -406,7 +406,7 @@ static enum kd_status put_request(const struct kd_table *table, struct kd_buffer
     kd_json_object(&json, NULL);
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_row *f = &kd_integral_fields[i];
-        bool is_even = !strcmp(f->name, "rest_energy"); /* a table has its own default */
+        bool is_even = !strcmp(f->name, "rest_energy"); /* for a table this field has a default of its own */
         for (size_t k = 0; !edges && k < sizeof even / sizeof *even; k++)
             is_even = is_even || !strcmp(f->name, even[k]);
         bool varies = !(f->of & 1u << KD_INTEGRAL_LINE) || f->kind == KD_KIND_LIST ||

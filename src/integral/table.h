@@ -23,7 +23,7 @@ enum { KD_TABLE_AXES = 10, KD_TABLE_VALUES = 2000, KD_TABLE_NAME = 12 };
 /* An axis: a field of the request, or the inner edge divided by the ISCO's radius (inner_isco). */
 struct kd_table_axis {
     const struct kd_row *field;
-    bool isco, log; /* log: interpolated in the logarithm of the value */
+    bool isco, log; /* log: the interpolation uses the logarithm of the value */
     size_t n;
     double values[KD_TABLE_VALUES]; /* ascending; each is a 32-bit number, as in the file */
 };

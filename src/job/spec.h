@@ -35,7 +35,7 @@
 
 struct kd_job_spec {
     unsigned frames;
-    struct kd_timeline timeline; /* listed: a key for each frame; otherwise the keyframes */
+    struct kd_timeline timeline; /* listed: a key for each frame; otherwise the keyframes of the request */
     bool listed;
     struct kd_sweep *sweep;          /* NULL: the request has no axes */
     double every;                    /* time between two frames of a film, in M; 0: not a film */
@@ -54,12 +54,12 @@ struct kd_job_spec {
 /* The scene over which a request's scenes are merged, and values that replace parts of the request. */
 struct kd_job_base {
     const char *preset; /* name of a preset of scenes; NULL or "": none */
-    /* a scene instead of a preset; NULL: the defaults, or the default view of the playground */
+    /* a scene in place of a preset; NULL: the defaults, or the default view of the playground */
     const struct kd_scene *scene;
     unsigned samples; /* samples of motion blur, in place of the request's; 0: the request's */
     double shutter;   /* shutter as a fraction of a frame's time; 0: the request's */
-    /* Changes the scene of a sequence, or each scene of a list, before keyframes are merged over it. NULL: no
-     * change. */
+    /* Callback that changes the scene of a sequence, or each scene of a list, before keyframes are merged over it.
+     * NULL: no change. */
     enum kd_status (*change)(void *user, struct kd_scene *scene, struct kd_error *error);
     void *user;
 };

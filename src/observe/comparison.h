@@ -21,7 +21,7 @@ enum kd_product {
 extern const char *const kd_product_names[KD_PRODUCTS];
 
 struct kd_comparison_params {
-    unsigned products; /* one bit for each enum kd_product */
+    unsigned products; /* bit mask: one bit for each enum kd_product */
     /* These are applied in this order. average_s: visibilities are averaged in bins of this length, counted from
      * 1960-01-01; 0: no averaging. uv_min_gl: shorter baselines are left out. systematic_visibility: this fraction of
      * the amplitude is added to the error in quadrature. */
@@ -47,7 +47,7 @@ struct kd_comparison_row {
      * 34, 14 and 23 */
     uint8_t station[4];
     uint32_t at[4];    /* indices of the visibilities in `at` of struct kd_comparison */
-    bool conjugate[4]; /* this visibility is stored for the reverse baseline */
+    bool conjugate[4]; /* this visibility is stored for the opposite direction of its baseline */
     double data, error, model;
 };
 unsigned kd_product_stations(enum kd_product product);

@@ -17,7 +17,7 @@ struct kd_simulation {
      * visibilities into them. Weights and flagged data stay unchanged. */
     uint8_t *file;
     size_t size;
-    uint8_t *marks; /* if there is a file: KD_SIMULATION_MARKS bytes, all 0 */
+    uint8_t *marks; /* if there is a file: KD_SIMULATION_MARKS bytes, initially 0 */
     bool noise;
     uint64_t seed;
 };

@@ -30,7 +30,7 @@
 /* Maximum number of samples with an observer. Each takes some 2 ms; a stream ends when its client disconnects. */
 #define KD_ORBIT_SEEN_MAX 20000u
 #define KD_ORBIT_ROUNDING_MAX 1e-3
-#define KD_ORBIT_STEPS_MAX 1000000000. /* maximum number of steps of one orbit; so many steps take five minutes */
+#define KD_ORBIT_STEPS_MAX 1000000000. /* maximum number of steps of one orbit, which take five minutes */
 
 struct kd_orbit_request {
     struct kd_orbit_params params;

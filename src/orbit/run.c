@@ -75,7 +75,7 @@ enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run)
     return run->params->way == KD_WAY_RKN6 ? KD_ORBIT_RKN6 : KD_ORBIT_YOSHIDA6;
 }
 
-/* Solves t(Mino time) = time; t is monotonic. */
+/* Solves t(Mino time) = time by bisection; t is monotonic. */
 static double mino_at(const struct kd_orbit_run *run, double time)
 {
     double low = 0, high = time / run->frequencies.mino_t + 2 * run->period;
@@ -95,7 +95,7 @@ static double mino_at(const struct kd_orbit_run *run, double time)
  * Close to a whirl, a step that is too long does this. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
-    bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* also true for NAN */
+    bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* true for NAN as well */
     if (o->fate == KD_ORBIT_ESCAPE)
         return fallen;
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
@@ -131,7 +131,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
             return false;
         double w = path.place[KD_PATH_W].value, rate = path.rate[KD_PATH_W].value;
         bool falls = o->fate == KD_ORBIT_PLUNGE && w >= horizon;
-        /* the path turned within the step; for E = 1 it comes from infinity */
+        /* the path turned within the step; with E = 1 it comes from infinity */
         bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0;
         bool leaves = o->fate == KD_ORBIT_ESCAPE && ((w <= far && rate < 0) || back);
         if (falls || leaves) {
@@ -151,7 +151,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
     run->mino_end = path.mino.value;
     return !isnan(run->aim) || o->circular ||
            path.place[KD_PATH_W].value ==
-               run->start.w; /* the path ends at its start if the body starts on an unstable circle */
+               run->start.w; /* if the body starts on an unstable circle, the path ends at its start */
 }
 
 static enum kd_status no_end(const struct kd_orbit_run *run, struct kd_error *error)
@@ -247,7 +247,7 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
     enum kd_status status = cut(run, error);
     if (!status && !run->closed && !isnan(run->aim))
         status = find_end_again(run, error);
-    if (run->rounding > 1e-12) /* below this the error is negligible */
+    if (run->rounding > 1e-12) /* smaller errors are negligible */
         run->error_estimate = fmax(run->error_estimate, run->rounding);
     if (run->start.w_rate == 0 && kd_orbit_radial_slope(&run->orbit, run->start.w) < 0 && !run->orbit.circular) {
         run->periastra = 1;
@@ -311,7 +311,7 @@ static void take_worst(struct kd_orbit_drift *worst, struct kd_orbit_drift now)
 {
     worst->energy = fmax(worst->energy, fabs(now.energy));
     worst->carter = fmax(worst->carter, fabs(now.carter));
-    worst->mass = fmax(worst->mass, fabs(now.mass)); /* fmax ignores a NAN */
+    worst->mass = fmax(worst->mass, fabs(now.mass)); /* fmax ignores NAN */
     worst->binet = isnan(now.binet) ? NAN : fmax(worst->binet, fabs(now.binet));
 }
 

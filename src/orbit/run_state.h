@@ -21,7 +21,7 @@ struct kd_orbit_run {
                   * and `period` are not set */
     struct kd_orbit_bound bound;
     struct kd_orbit_frequencies frequencies;
-    double period; /* Mino time of a radial period; of a turn in phi if r is constant */
+    double period; /* Mino time of a radial period; if r is constant, of a turn in phi */
     /* set by kd_orbit_run_prepare */
     enum kd_orbit_end end;
     double mino_end, h;
@@ -39,7 +39,7 @@ struct kd_orbit_run {
     double first_phi, last_phi;  /* azimuth at the first and the last periastron */
     struct kd_place_view view;   /* view of the observer */
     struct kd_place_image image; /* the last image found */
-    unsigned missed;             /* number of samples since that image */
+    unsigned missed;             /* number of samples since that image was found */
 };
 
 #endif

@@ -86,7 +86,7 @@ static void directions(const double x[3], const double v[3], double e[3][3])
     for (int k = 0; k < 3; k++)
         across[k] = v[k] - out * e[0][k];
     length = kd_playground_radius(across);
-    if (!(length > 1e-9)) { /* radial motion: any tangential direction will do */
+    if (!(length > 1e-9)) { /* for radial motion any tangential direction will do */
         const int k = fabs(e[0][2]) < 0.9 ? 2 : 0;
         for (int i = 0; i < 3; i++)
             across[i] = (i == k) - e[0][k] * e[0][i];

@@ -21,7 +21,8 @@
 
 enum { KD_DEBRIS_SOURCES = 256, KD_DEBRIS_BINS = 128, KD_DEBRIS_PER_DECADE = 16 };
 
-/* LEAVES: before its first apocentre; RETURNS: falling back; BACK: back; FREE: the slot is empty. */
+/* LEAVES: the piece is before its first apocentre. RETURNS: it falls back. BACK: it has come back. FREE: the slot is
+ * empty. */
 enum kd_debris_stage { KD_DEBRIS_FREE, KD_DEBRIS_LEAVES, KD_DEBRIS_RETURNS, KD_DEBRIS_BACK };
 
 struct kd_debris_piece {
@@ -32,12 +33,12 @@ struct kd_debris_piece {
 struct kd_debris_source {
     uint32_t number; /* number of the source, from 1; 0: the place is free */
     char name[KD_PLAYGROUND_NAME];
-    double t;                /* time of the source's first piece */
+    double t;                /* time at which the source's first piece was torn off */
     double piece_mass;       /* mass of one of its pieces */
     double worth;            /* weight of a piece for pictures, as a fraction of a whole body */
     double spread;           /* half width of the pieces' energies, R/r_t^2 */
-    uint32_t pieces;         /* torn off so far */
-    uint32_t captured, lost; /* captured by the hole; replaced by newer pieces */
+    uint32_t pieces;         /* number of pieces torn off so far */
+    uint32_t captured, lost; /* number of pieces captured by the hole; number replaced by newer pieces */
     uint32_t back[KD_DEBRIS_BINS], all_back;
 };
 

@@ -84,7 +84,7 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
         kd_orbit_path_step(&next, g->h);
         const double then = kd_orbit_path_place(&next).t;
         if (isnan(then) || !(next.place[KD_PATH_W].value > 0) ||
-            g->from_t + then > t) /* the step would pass the horizon, infinity, or t */
+            g->from_t + then > t) /* the step would pass the horizon, infinity or t */
             return true;
         if (!*steps)
             return false;

@@ -17,7 +17,7 @@ static inline double kd_playground_radius(const double x[3]) { return sqrt(x[0] 
 
 static inline double kd_playground_potential(double r) { return -1 / (r - KD_PLAYGROUND_HORIZON); }
 
-/* The acceleration at x is this factor times x. */
+/* The acceleration at the position x is this factor times x. */
 static inline double kd_playground_pull(double r)
 {
     return -1 / (r * (r - KD_PLAYGROUND_HORIZON) * (r - KD_PLAYGROUND_HORIZON));

@@ -36,7 +36,7 @@ const struct kd_playground_preset *kd_playground_preset_in(const cJSON *tree);
 enum kd_status kd_playground_params_set(struct kd_playground_params *params, const char *name, const char *text,
                                         struct kd_error *error);
 
-/* Writes {settings, "bodies"}, and with `snapshot` also "state". KD_ENOMEM. */
+/* Writes {settings, "bodies"}. With `snapshot`, also writes "state". KD_ENOMEM. */
 enum kd_status kd_playground_write(struct kd_playground *p, bool snapshot, struct kd_buffer *out);
 /* Writes the present state: {"t", "settings", "bodies" with ids, "totals", "debris", "approximations"}. Leaves out
  * members that only snapshots need. */

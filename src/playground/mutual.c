@@ -75,7 +75,7 @@ WIDE static void pull(const struct kd_playground_mutual *p, size_t first, size_t
     double *const out[SUMS] = { p->ax, p->ay, p->az, p->potential, p->rate, p->near };
     for (size_t s = 0; s < SUMS; s++)
         for (size_t l = 0; l < LANES; l++)
-            out[s][first + l] = sum[s][l] - (s == NEAR); /* a body does not count itself */
+            out[s][first + l] = sum[s][l] - (s == NEAR); /* the count of near bodies excludes the body itself */
 }
 
 void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct kd_playground_body *bodies, size_t n,

@@ -47,7 +47,7 @@ struct kd_playground_spent {
     double merged;                                               /* energy that became heat in mergers */
     double capped;                                               /* energy removed because speeds are capped at c */
     double capped_momentum[3];     /* momentum removed by capping, where the pull of other bodies dominated */
-    double radiated;               /* energy of gravitational waves */
+    double radiated;               /* energy lost to gravitational waves */
     double torn_mass, torn_energy; /* converted to debris */
     /* Energy added or removed from outside: by adding, removing or changing bodies, and by recomputing the mutual
      * potential. */
@@ -72,7 +72,8 @@ struct kd_playground {
     /* The members from here on are derived from those above. */
     struct kd_playground_mutual mutual;
     bool disturbed;
-    double before; /* bodies were changed from outside since the last step: the energy before the change */
+    /* disturbed: bodies were changed from outside since the last step; before: energy before the first such change */
+    double before;
     double aim;
     /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. Bodies
      * move when all have reached it. */
@@ -120,7 +121,7 @@ struct kd_playground_run {
     /* Remaining sub-steps, or steps of geodesics with gravity "kerr". The caller may lower it after
      * kd_playground_begin. */
     uint32_t left;
-    bool stuck; /* the sub-step is below the resolution of t */
+    bool stuck; /* the sub-step is below the resolution of t, so time cannot advance */
 };
 void kd_playground_begin(struct kd_playground *p, double time, struct kd_playground_run *run);
 bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run,
@@ -149,18 +150,18 @@ void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N]);
 /* Restarts the series at the present time. span: its length in M; 0, the default: open-ended (series.h). */
 void kd_playground_series_begin(struct kd_playground *p, double span);
 
-/* Writes the approximations in force, as an array of strings. */
+/* Writes the approximations that are in use, as an array of strings. */
 void kd_playground_approximations(const struct kd_playground *p, struct kd_json *json, const char *name);
 
 /* Private to src/playground from here on. */
 
 /* Updates `mutual` if it is out of date. */
 void kd_playground_force(struct kd_playground *p);
-/* Accounts for changes from outside. */
+/* Adds the changes from outside to the sums. */
 void kd_playground_settle(struct kd_playground *p);
 /* Removes body i from the list. */
 void kd_playground_drop(struct kd_playground *p, size_t i);
-/* Captures, mergers and tides after a step of length h. */
+/* Handles captures, mergers and tides after a step of length h. */
 void kd_playground_capture(struct kd_playground *p);
 void kd_playground_merge(struct kd_playground *p, double h);
 void kd_playground_tides(struct kd_playground *p);

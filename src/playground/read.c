@@ -259,7 +259,7 @@ static enum kd_status copy(const struct kd_playground *from, struct kd_playgroun
         kd_playground_destroy(p);
         return kd_error_set(error, KD_ENOMEM, "no memory for a copy of the playground");
     }
-    if (from->n) /* an empty list has no array */
+    if (from->n) /* the array of an empty list is NULL */
         memcpy(p->bodies, from->bodies, from->n * sizeof *p->bodies);
     if (from->geodesics)
         memcpy(p->geodesics, from->geodesics, from->n * sizeof *p->geodesics);

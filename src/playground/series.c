@@ -21,7 +21,7 @@ void kd_series_begin(struct kd_playground_series *series, const double now[KD_SE
     series->n = 1;
 }
 
-/* An open-ended series is never full, so that a file has room for the present row. */
+/* The last row of an open-ended series is never used, so that a file has room for the present row. */
 double kd_series_next(const struct kd_playground_series *series)
 {
     if (series->span > 0 && series->n == KD_SERIES_ROWS)

@@ -45,7 +45,7 @@ enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *pres
 enum { KD_SHOW_NODES = 1 << 20, KD_SHOW_TURN_LEAST = 512, KD_SHOW_TURN_MOST = 8192 };
 struct kd_show_place {
     float row, column;
-}; /* in cells of KD_SHOW_TURN_MOST a turn, column from 0; NAN: not in the picture */
+}; /* in cells of KD_SHOW_TURN_MOST a turn; column is counted from 0; NAN: the piece is not in the picture */
 void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_show_place *out);
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynamic_bodies_debris *out);
 void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n,

@@ -127,7 +127,7 @@ static double step(struct kd_playground *p)
     p->rate = rate;
     kick(p, 0.5 * h);
     drift(p, h);
-    p->margin = fmin(2 * h, 1e6); /* two bodies may have touched within the step and be apart again */
+    p->margin = fmin(2 * h, 1e6); /* margin for bodies that touch within the step and are apart again at its end */
     kd_playground_force(p);
     kick(p, 0.5 * h);
     p->t += h;
@@ -235,7 +235,7 @@ static void advance_debris(struct kd_playground *p)
  * allows. Returns false if h is below the resolution of t. */
 static bool go(struct kd_playground *p)
 {
-    record_before(p, p->params.h_max); /* no step is longer */
+    record_before(p, p->params.h_max); /* no step is longer than h_max */
     if (p->n) {
         const double h = step(p);
         if (!(h > 0))
@@ -295,7 +295,7 @@ static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
     if (!(p->aim > p->t)) {
         p->aim = fmin(p->t + fmin(run->stride, affordable(p, run->left)), run->end);
         p->approached = 0;
-        run->stuck = !(p->aim > p->t); /* true if the step is below the resolution of t */
+        run->stuck = !(p->aim > p->t); /* true: the step is below the resolution of t */
     }
     const uint32_t piece = run->left < PIECE ? run->left : PIECE;
     uint32_t left = piece;

@@ -11,7 +11,7 @@
 
 #define KD_TIDE_BEGINS 0.5
 #define KD_TIDE_WHOLE 0.9
-#define KD_TIDE_OVER 0.4 /* a pass ends when r_t/r falls below this */
+#define KD_TIDE_OVER 0.4 /* a tidal pass ends when r_t/r falls below this */
 
 double kd_tide_radius(double mass, double radius);
 double kd_tide_spread(double mass, double radius);

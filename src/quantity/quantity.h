@@ -41,7 +41,7 @@ enum {
  * CSV. */
 struct kd_output {
     const char *name, *unit, *help;
-    bool fixed; /* independent of the quantity's parameters `along` a curve */
+    bool fixed; /* does not depend on the quantity's last `along` parameters */
 };
 
 struct kd_quantity {
@@ -73,7 +73,7 @@ void kd_quantity_names(char *out, size_t size);
 /* True if parameter i is one of the parameters along a curve. */
 bool kd_quantity_is_along(const struct kd_quantity *quantity, size_t i);
 
-extern const struct kd_row kd_quantity_digits; /* the parameter `digits` of all quantities */
+extern const struct kd_row kd_quantity_digits; /* value of the parameter `digits`, which all quantities have */
 struct kd_quantity_request {
     const struct kd_quantity *quantity;
     struct kd_range axes[KD_QUANTITY_PARAMETERS]; /* in the order of the parameters */
@@ -86,7 +86,7 @@ void kd_quantity_request_init(struct kd_quantity_request *request, const struct 
 enum kd_status kd_quantity_request_set(struct kd_quantity_request *request, const char *name, const char *text,
                                        struct kd_error *error);
 size_t kd_quantity_points(const struct kd_quantity_request *request);  /* saturates at KD_QUANTITY_POINTS + 1 */
-double kd_quantity_cost_ms(const struct kd_quantity_request *request); /* an estimate from the table alone */
+double kd_quantity_cost_ms(const struct kd_quantity_request *request); /* an estimate from the quantity's table alone */
 
 struct kd_quantity_answer {
     struct kd_quantity_request request;
@@ -121,7 +121,7 @@ void kd_quantity_run_finish(struct kd_quantity_run *run);
  * that no range changes. With several ranges the arrays are flat, in row-major order, described by "ranges" and
  * "shape". */
 enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct kd_buffer *out);
-/* Writes a line of names, then one line a point: all parameters, all outputs. */
+/* Writes a line of names, then one line for each point: all parameters, then all outputs. */
 enum kd_status kd_quantity_csv(const struct kd_quantity_answer *answer, struct kd_buffer *out);
 
 /* Both write all quantities with their parameters and outputs. The first writes JSON, the second the document

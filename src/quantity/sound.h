@@ -10,7 +10,7 @@
 
 #define KD_SOUND_HZ_MIN 20.0
 #define KD_SOUND_HZ_MAX 20000.0
-#define KD_SOUND_DAMPING_S 5.0           /* maximum decay time by a factor e, s */
+#define KD_SOUND_DAMPING_S 5.0           /* maximum time in which the sound decays by a factor e, in s */
 #define KD_SOUND_BYTES ((size_t)6 << 20) /* maximum size: a minute */
 
 /* Call before evaluation. KD_EINVAL if the quantity has no sound, or the request has more than one point or names a

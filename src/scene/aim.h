@@ -14,7 +14,7 @@
  * phi). The camera sees light that arrives along this line in the frame of zero angular momentum. For an infalling
  * observer the rain frame is used instead, whose space is flat if there is no spin. */
 struct kd_aim {
-    enum kd_aim_kind { KD_AIM_FREE, KD_AIM_HOLE, KD_AIM_PLACE } kind; /* FREE: yaw and pitch decide */
+    enum kd_aim_kind { KD_AIM_FREE, KD_AIM_HOLE, KD_AIM_PLACE } kind; /* FREE: the direction is that of yaw and pitch */
     double r, theta_deg, phi_deg;
 };
 

@@ -10,7 +10,7 @@ struct kd_control {
     const char *path; /* path of the field; without an index if it belongs to a list: "spots.r" */
     enum kd_control_kind {
         KD_CONTROL_SPAN,  /* the slider goes from a to b, because the field's range is much wider than is useful */
-        KD_CONTROL_FIRST, /* a is the number that appears when the user switches from the word to a number */
+        KD_CONTROL_FIRST, /* a is the number that the control shows when the user switches from the word to a number */
         /* While the field has its least value or its first word, the other fields of its section, or of its list
          * element, have no effect. */
         KD_CONTROL_SWITCH,

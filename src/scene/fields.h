@@ -493,7 +493,7 @@
          "rate of the observer's proper time: the observer moves along its path, a fall to the last possible " \
          "position or an orbit; coordinate time follows")
 
-/* Words that requests for rays share. */
+/* Words that requests for rays have in common with scenes. */
 #define KD_PROFILE_WORDS "draft|interactive|balanced|high|reference"
 #define KD_ENGINE_WORDS "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6"
 #define KD_PRECISION_WORDS "auto|f32|f64"
@@ -697,7 +697,7 @@
     SPAN("time", -1000, 1000) VARIES("time", "moves_with_time|dims_with_time")
 /* clang-format on */
 
-/* Obsolete names of list elements: OLD(name, list, index). They are still read, but never written. */
+/* Obsolete names of list elements: OLD(name, list, index). Such names are still read, but never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 
 enum kd_projection {

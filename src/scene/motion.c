@@ -143,7 +143,7 @@ bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
     struct kd_qnm mode;
     if (!(scene->style.ringdown > 0) || t < 0)
         return false;
-    /* succeeds: the spin of a valid scene is within the range of the modes */
+    /* cannot fail, because the spin of a valid scene is within the range of the modes */
     kd_qnm_find(2, 2, 0, kd_hole(fabs(scene->spacetime.spin)), &mode);
     *wave = kd_ringdown_wave(mode.omega, t);
     return true;

@@ -69,7 +69,7 @@ static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *e
                           scene->image.bit_depth);
 }
 
-/* Like the largest spin, the largest charge keeps the horizons apart by 1e-6 at least. */
+/* Like the largest spin, the largest charge is such that the horizons differ by at least 1e-6. */
 static enum kd_status charge(const struct kd_scene *scene, struct kd_error *error)
 {
     const double least = 1e-12, a = scene->spacetime.spin;
@@ -547,7 +547,8 @@ static enum kd_status field_uas(const struct kd_scene *scene, struct kd_error *e
 static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
 {
     const double width = kd_scene_width_uas(scene), most = BEAM_WIDTHS * width;
-    if (scene->style.beam_uas == 0 || scene->style.beam_uas <= most) /* the comparisons are false for NAN */
+    /* for a width of NAN the comparisons are false, so the beam is refused */
+    if (scene->style.beam_uas == 0 || scene->style.beam_uas <= most)
         return KD_OK;
     if (isnan(width))
         return kd_error_field(error, "/style/beam_uas",

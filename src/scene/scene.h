@@ -127,7 +127,7 @@ double kd_scene_lead(const struct kd_scene *scene);
 struct kd_fall_clock { double to_horizon, to_end, second; };
 bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out);
 
-/* True if the picture shows areas to scale, as the plane and pinhole projections do. */
+/* True if the picture shows areas to scale. This holds for the plane and pinhole projections. */
 bool kd_scene_is_flat(const struct kd_scene *scene);
 
 /* Makes the scene of one eye: -1 is the left one, 1 the right one. The scene must be valid, at a finite radius, and

@@ -221,7 +221,7 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
         if (!*kd_sections[i].name)
             add_fields(json, &kd_sections[i]);
-        else if (!strchr(kd_sections[i].name, '.')) /* a nested section is written with its parent */
+        else if (!strchr(kd_sections[i].name, '.')) /* a nested section is written as part of its parent */
             add_section(json, &kd_sections[i]);
     }
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)

@@ -66,7 +66,7 @@ enum kd_status kd_sweep_scene(const struct kd_sweep *sweep, unsigned scene, stru
 
 /* Writes a value as JSON. Fails with KD_ENOMEM only. */
 enum kd_status kd_sweep_value_json(const struct kd_sweep_value *value, struct kd_buffer *out);
-/* Writes a member with the axes in the form that kd_sweep_read accepts, each as a list. */
+/* Writes the axes as a member, in the form that kd_sweep_read accepts. Each axis is a list of values. */
 void kd_sweep_axes_json(const struct kd_sweep *sweep, struct kd_json *json, const char *name);
 /* Writes the name of a scene's file without its extension, such as "000012 spin=0.9 inclination_deg=40". Characters
  * that are unsuitable for file names become "_". A name that is too long is cut. */

@@ -20,7 +20,8 @@ struct kd_field_page {
 struct kd_nature { const char *word, *help; };
 
 struct kd_section {
-    const char *name; /* "" for the document itself, which is the last section; "disk.gas" for a nested section */
+    /* "" for the document itself, which is the last section; "disk.gas" for a section nested in another */
+    const char *name;
     const char *help;
     enum kd_section_group group;
     size_t first, count; /* the section's rows in kd_fields */
@@ -83,7 +84,7 @@ enum kd_status kd_field_store(struct kd_scene *scene, const struct kd_row *field
 bool kd_field_is_sound(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 /* The text of an ASSET; "": none. */
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_row *field, size_t index);
-/* Begins a JSON text with numbers in the form of the canonical document: 1e-5, not 0.00001. */
+/* Begins a JSON text whose numbers have the form of the canonical document: 1e-5, not 0.00001. */
 struct kd_json kd_scene_json(struct kd_buffer *out);
 /* Checks the member "version", which must be 1. */
 enum kd_status kd_scene_version(const struct kd_value *value, struct kd_error *error);

@@ -55,7 +55,7 @@ enum kd_ease { KD_EASE_NONE, KD_EASE_IN, KD_EASE_OUT, KD_EASE_IN_OUT };
 #define KD_WORD_OF(word) word
 #define KD_COMMA ,
 
-/* Largest r of a place to look at, in M. */
+/* Largest r, in M, of a place that the camera can look at. */
 #define KD_LOOK_AT_FAR 1e12
 
 struct kd_timeline_key {
@@ -76,7 +76,7 @@ struct kd_timeline {
 };
 void kd_timeline_finish(struct kd_timeline *timeline);
 
-/* The name of the places of keyframes in a request, and the range of these places. */
+/* The name of a keyframe's place in a request, and the range of places. */
 struct kd_timeline_form {
     const char *place; /* name of the member, such as "frame" */
     double most;

@@ -13,7 +13,7 @@
 /* the same for a radio frequency, whose energy in the matter's frame grows as 1/sqrt(distance to the horizon) */
 #define CLEAR_RADIO 1.0005
 
-#define TORUS 0.5 /* ratio of the inner edge to the radius of the largest pressure, as in common simulations */
+#define TORUS 0.5 /* ratio of the inner edge to the radius of the largest pressure, as in most simulations */
 
 bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
 

@@ -48,7 +48,7 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
         if (kd_connection_is_health(*socket_context))
-            kd_sched_short_slices(); /* called here, because this is the first code of ours on a daemon's thread */
+            kd_sched_short_slices(); /* this is the first of our functions that runs on a daemon's thread */
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;
@@ -278,7 +278,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) {
             .type = KD_PROBLEM_CROWDED, .retry_after = 1, .close = true, .detail = "too many connections are open"
         };
-    else if (kd_cors_is_preflight(request)) { /* browsers send preflights without a token */
+    else if (kd_cors_is_preflight(request)) { /* browsers send preflights without an access token */
         *result = kd_cors_preflight(request);
         return false;
     } else if (asks_of_all(request)) {

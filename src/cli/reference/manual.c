@@ -219,7 +219,7 @@ static bool has(const struct kd_options *options, const struct kd_option *option
     return false;
 }
 
-/* Writes all options except the ones in `told`. */
+/* Writes all options except those in `told`. */
 static void write_options(struct kd_writer *w, const struct kd_options *options, const struct kd_options *told)
 {
     for (size_t i = 0; i < options->n; i++)

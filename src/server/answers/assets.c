@@ -92,7 +92,7 @@ static void finish(struct kd_task *task)
     struct putting *p = (struct putting *)task;
     const struct kd_server *server = task->request->server;
     kd_asset_put_finish(&p->put);
-    /* the answer was not sent, so the client does not know the new asset */
+    /* the answer could not be sent, so the client does not know the new asset */
     if (p->put.created && task->request->status != MHD_HTTP_CREATED)
         kd_asset_store_remove_later(server->assets, p->put.asset, server->scheduler);
     if (p->put.asset)

@@ -31,7 +31,7 @@ struct job {
     bool malformed;
     enum { NEW, RENDERS, SUMS } stage;
     struct kd_integral_run run;
-    struct kd_render_job picture; /* the job is in the render queue while its stage is RENDERS */
+    struct kd_render_job picture; /* while its stage is RENDERS, the job is in the render queue */
     struct kd_buffer text;
     double planned_ms; /* planned time of the pictures up to the present one */
     /* the first picture of each size, as begin() has planned it */

@@ -311,7 +311,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     pthread_mutex_init(&job->lock, NULL);
     kd_orbit_request_init(&job->request);
     request->orbits = job;
-    /* suspended first, because the job may be done before push returns */
+    /* the request is suspended first, because the job may be done before push returns */
     MHD_suspend_connection(request->mhd);
     kd_scheduler_push(server->scheduler, &job->scheduled);
     return MHD_YES;

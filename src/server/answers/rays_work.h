@@ -22,7 +22,7 @@ struct kd_rays_job {
     double traced_from_ms;
     _Atomic size_t begun; /* number of rays that workers have begun */
     struct kd_render_job device;
-    size_t traced, turn; /* numbers of rays on the device: finished, and in the next call */
+    size_t traced, turn; /* numbers of rays on the device: rays that are finished, and rays of the next call */
 };
 
 /* Makes a job. Set `request` and `npy`, then submit it. If the job is not admitted, sets *refused and returns NULL. */

@@ -6,7 +6,8 @@
 #include "server/http/request.h"
 #include "server/render/shared.h"
 
-/* Texts in UTF-8, each followed by NUL. They contain nothing but kerrd's own strings and numbers. */
+/* Texts in UTF-8, each followed by a NUL. They consist of kerrd's own strings and of numbers, and contain no text of
+ * the client. */
 struct kd_shared {
     /* link: link of the left picture (scene/link.h); code: code of both pictures (image/text_code.h) */
     struct kd_buffer link, code;

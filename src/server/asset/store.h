@@ -27,7 +27,7 @@ struct kd_asset_limits {
         /* bytes: largest total size of all assets, including the unpacked bytes of grids that are being checked;
          * client_bytes: the same for one client */
         client_bytes;
-    double keep_s; /* an asset unused for this long may be evicted for a new one */
+    double keep_s; /* an asset that is unused for this long may be evicted for a new one */
 };
 /* Makes an empty store. */
 enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out,
@@ -60,7 +60,7 @@ struct kd_asset_put {
 };
 enum kd_asset_progress {
     KD_ASSET_MORE, /* call again */
-    KD_ASSET_WAIT, /* another thread works on the same bytes or makes room: call again a little later */
+    KD_ASSET_WAIT, /* another thread is storing the same bytes or is making room: call again a little later */
     KD_ASSET_OVER,
 };
 enum kd_status kd_asset_put_begin(struct kd_asset_put *put, struct kd_asset_store *store, const void *data, size_t size,
@@ -75,7 +75,7 @@ struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *h
  * workers only, because it waits for the disk. The memory is freed with the last reference. Returns false if another
  * thread has removed the asset. */
 bool kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
-/* Like kd_asset_store_remove, but a worker does it; for callers that must not wait. */
+/* Like kd_asset_store_remove, but a worker removes the asset; for callers that must not wait. */
 void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_scheduler *workers);
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
 /* Counts the assets that can be found, and their bytes. Assets whose files are being written or removed are left

@@ -207,7 +207,7 @@ struct brought {
     /* alone: the token in the page's address or in Kerrd-Access; if it is not NULL, it is the only token checked.
      * bearer: the token in Authorization. Each may be NULL. */
     const char *alone, *bearer;
-    const char *cookies[COOKIES]; /* checked after bearer if alone is NULL */
+    const char *cookies[COOKIES]; /* checked after `bearer`, if `alone` is NULL */
     size_t n_cookies;
 };
 
@@ -258,7 +258,7 @@ static unsigned guesses_wait_s(const struct kd_request *request, const struct br
 {
     struct kd_auth_throttle *auth_throttle = request->server->auth_throttle;
     const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer };
-    uint64_t hash = KD_HASH_BEGIN; /* set now, so that a token has the same hash in every part of a request */
+    uint64_t hash = KD_HASH_BEGIN; /* made once, so that a token has the same hash in every part of the request */
     /* A valid cookie alone may identify the visitor. A wrong token in Authorization then counts as a guess, unless
      * it may be a session's token. */
     if (request->visitor) {

@@ -12,7 +12,7 @@
 #define KD_ALLOWANCE_CLIENTS 256u
 
 struct kd_allowance {
-    /* time until the bucket holds 1 ms of device time */
+    /* time after which the bucket holds 1 ms of device time */
     unsigned seconds;
     struct kd_allowance_place {
         char client[KD_CLIENT];

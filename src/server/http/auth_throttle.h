@@ -12,7 +12,7 @@
 
 #define KD_GUESSES_MOST 20u  /* wrong tokens that an address may present in a burst */
 #define KD_GUESSES_EACH_S 3u /* seconds after which the address may present one more wrong token */
-#define KD_GUESSES_NAMES 64u /* owners of accepted tokens that are remembered for each address, the latest ones */
+#define KD_GUESSES_NAMES 64u /* owners of the latest accepted tokens that are remembered for each address */
 /* addresses tracked; when the table is full, the address with the fewest recent failures is evicted, and among
  * several such addresses the one least recently seen */
 #define KD_GUESSES_CLIENTS 256u

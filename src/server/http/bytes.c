@@ -15,7 +15,7 @@ struct kd_bytes {
     struct kd_bytes_params params;
     pthread_mutex_t lock;
     _Atomic size_t bytes;
-    struct place places[]; /* params.clients places, and one for all other clients */
+    struct place places[]; /* params.clients places, and one place for all other clients */
 };
 
 struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params)

@@ -19,12 +19,12 @@ struct kd_connections;
 struct kd_connection;
 
 enum kd_stage {
-    KD_STAGE_OPEN,   /* accepted; no complete request line yet */
+    KD_STAGE_OPEN,   /* the connection is accepted; its request line is not complete */
     KD_STAGE_HEADER, /* the request line has arrived */
     KD_STAGE_BODY,
     KD_STAGE_WORK, /* the server computes the answer: no deadline */
     KD_STAGE_REPLY,
-    KD_STAGE_IDLE, /* kept alive between requests */
+    KD_STAGE_IDLE, /* the connection is kept alive between two requests */
 };
 
 /* limit: largest number of connections; share: largest number of one client's connections. share = limit disables

@@ -22,7 +22,8 @@ void kd_cors_destroy(struct kd_cors *cors); /* accepts NULL */
 /* Returns the listed origin that sent the request. NULL if the origin is not listed, or if the request has no
  * Origin. This and all functions below: HTTP threads. */
 const char *kd_cors_origin(const struct kd_request *request);
-/* True if the request comes from a listed origin other than the server's own. Its cookies are then ignored. */
+/* True if the request comes from a listed origin other than the server's own. The cookies of such a request are
+ * ignored. */
 bool kd_cors_foreign(const struct kd_request *request);
 /* Adds the CORS headers to an answer if the request's origin is listed. No effect on a server without a list. */
 void kd_cors_add(const struct kd_request *request, struct MHD_Response *response);

@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <sys/resource.h>
 
-#define MOST 65536u /* upper bound, because each descriptor costs the kernel memory */
+#define MOST 65536u /* the limit is bounded, because each descriptor costs the kernel memory */
 /* Descriptors for other uses: the device, files being sent, lingering sockets, connections that have sent nothing
  * yet, health checks. */
 #define RESERVE 200u

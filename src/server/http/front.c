@@ -78,7 +78,8 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
         return;
     }
     unlink_guest(front, guest);
-    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* fails harmlessly if the socket is not watched yet */
+    /* this has no effect if the socket is not watched yet */
+    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     /* If this fails, the library has closed the socket. */
     if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)
         kd_connections_remove(front->params.connections, guest->connection);
@@ -158,11 +159,11 @@ static bool accept_one(struct kd_front *front)
     int socket = accept4(front->params.listener, (struct sockaddr *)&address, &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0 && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
         make_room(front);
-        return false; /* the waiting connection will be reported again */
+        return false; /* the event for the waiting connection will come again */
     }
     if (socket < 0)
         return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL &&
-               errno != EBADF; /* other errors concern a connection that is gone already */
+               errno != EBADF; /* all other errors concern a connection that is already gone */
     if (front->reserve < 0)
         front->reserve = keep_reserve();
     struct guest *guest = admit(front, socket, &address, size);

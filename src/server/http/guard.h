@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 struct kd_header {
-    char wrong_host[280]; /* detail of the answer if Host is malformed or not served */
+    char wrong_host[280]; /* detail of the answer if Host is malformed, or is not one of the names served */
     char host_text[280];  /* Host without trailing blanks */
     const char *host, *content_type;
     uint64_t content_length;

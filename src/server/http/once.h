@@ -18,7 +18,7 @@ enum { KD_ONCE_TEXT = 300 };
 
 struct kd_request;
 
-/* Two hashes by SHA-256, in hexadecimal; "" if the request has no key. */
+/* Two SHA-256 hashes in hexadecimal; "" if the request has no key. */
 struct kd_once {
     char key[65];     /* hash of the client, the route and the key */
     char request[65]; /* hash of the target and the body */
@@ -36,6 +36,6 @@ void kd_once_take(struct kd_request *request, const void *data, size_t size);
  * request was a different one. */
 enum kd_once_verdict { KD_ONCE_FIRST, KD_ONCE_AGAIN, KD_ONCE_REFUSED };
 enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier, enum MHD_Result *refused);
-void kd_once_end(struct kd_request *request); /* call it when the request has been answered */
+void kd_once_end(struct kd_request *request); /* must be called when the request has been answered */
 
 #endif

@@ -65,7 +65,7 @@ struct kd_problem {
     const char *pointer;       /* RFC 6901 pointer into the scene; NULL or "" for none */
     const char *offered;       /* 406, 415: the media types that are accepted */
     const char *allow;         /* 405: the methods that the route accepts */
-    const char *content_range; /* 416: the value of Content-Range, which has the length */
+    const char *content_range; /* 416: value of Content-Range, which states the length of the file */
     const char *request_id;    /* NULL or "" for none */
     unsigned retry_after;      /* Retry-After in seconds; 0: no such header */
     /* close the connection, because the rest of the request is not read or cannot be parsed safely */

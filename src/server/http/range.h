@@ -7,7 +7,7 @@
 enum kd_byte_range {
     KD_RANGE_WHOLE,  /* send all bytes: there is no Range, or it is ignored */
     KD_RANGE_PART,   /* send `count` bytes from position `first` */
-    KD_RANGE_BEYOND, /* no byte of the range exists: 416 */
+    KD_RANGE_BEYOND, /* the range is outside the file, so the status is 416 */
 };
 
 /* Decides which of `size` bytes a Range value selects. The whole is selected by NULL, by malformed values, by units

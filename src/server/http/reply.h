@@ -39,7 +39,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
-/* Sends the problem's status and headers with another body. */
+/* Sends an answer with the problem's status and headers, but with another body. */
 enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_problem *problem,
                                 struct MHD_Response *response);
 /* Evaluates If-Match against the ETag of the resource (RFC 9110 13.1.1); etag NULL: the resource has none. Returns
@@ -47,7 +47,7 @@ enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_prob
  * handlers kd_reply_send evaluates If-Match. */
 bool kd_reply_matches(struct kd_request *request, const char *etag);
 enum MHD_Result kd_reply_unmatched(struct kd_request *request);
-/* Answers OPTIONS with 204 and these methods as Allow. */
+/* Answers OPTIONS with 204; Allow contains these methods. */
 enum MHD_Result kd_reply_options(struct kd_request *request, const char *allow);
 /* Sends the problem that kd_problem_from makes of the error. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);

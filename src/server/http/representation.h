@@ -21,8 +21,8 @@ struct kd_representation {
      * unchanged until `release` is called. */
     int fd;                         /* a file, closed at the end; -1: none */
     const void *data;               /* bytes in memory; NULL: none */
-    MHD_ContentReaderCallback read; /* returns bytes from a position; positions only increase */
-    void (*release)(void *cls);     /* called at the end, also on failure */
+    MHD_ContentReaderCallback read; /* returns the bytes from a position on; the positions only increase */
+    void (*release)(void *cls);     /* called at the end in every case */
     void *cls;                      /* argument of read and release */
 };
 

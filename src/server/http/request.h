@@ -40,9 +40,10 @@ struct kd_request {
     struct sha256_ctx taken;      /* running hash of target and body, if the request has a key */
     struct kd_request *once_next; /* next request under way that has a key */
     struct kd_buffer body;
-    size_t body_mark;               /* size of body when its deadline was last extended */
-    unsigned quality;               /* quality of a lossy format; 0: the format's default */
-    const struct kd_format *format; /* requested format of the picture; NULL: any, or no picture */
+    size_t body_mark; /* size of body when its deadline was last extended */
+    unsigned quality; /* requested quality of a lossy format; 0: the format's default */
+    /* requested format of the picture; NULL: any format, or not a picture */
+    const struct kd_format *format;
     /* all formats that Accept allows, the preferred one first; `format` is the first of them that can hold the
      * scene, or accepts[0] if none can */
     const struct kd_format *accepts[16];
@@ -62,7 +63,7 @@ struct kd_request {
     unsigned status;     /* status of the reply, for the log */
 };
 
-/* Token in Authorization; NULL if there is none. Defined in reply.c. */
+/* Token in the header Authorization; NULL if there is none. Defined in reply.c. */
 const char *kd_bearer_of(struct kd_request *request);
 /* Token of a session, playground, job or asset, from Authorization or the query; NULL if there is none. Defined in
  * reply.c. */

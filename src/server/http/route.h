@@ -12,9 +12,9 @@
 
 struct kd_request;
 
-enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* HEAD is served wherever GET is */
+enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* every route with GET also has HEAD */
 
-/* All methods, for iteration. */
+/* List of all methods. */
 struct kd_method {
     const char *name, *lower; /* "GET", "get" */
     unsigned bit;
@@ -54,8 +54,8 @@ struct kd_taken {
                                    * send a merge patch */
     const char *schema, *changes; /* schema: JSON Schema of a body, as text; changes: the same for PATCH */
     bool may_lack;                /* the body may be missing */
-    /* body writes the member "requestBody", instead of `schema`; parameters writes entries of "parameters". May be
-     * NULL. */
+    /* body writes the member "requestBody" in place of `schema`; parameters writes entries of "parameters". Either
+     * may be NULL. */
     void (*body)(struct kd_json *json, const struct kd_route *route);
     void (*parameters)(struct kd_json *json, unsigned method, const struct cJSON *scene_schema);
 };
@@ -94,7 +94,7 @@ struct kd_route {
     bool parts;         /* GET may answer with a range, 206 (representation.h) */
     bool folders;       /* the parameter at the end of the path may contain slashes */
     bool owner;         /* POST needs the token of the object; PATCH and DELETE always do */
-    bool brief;         /* PATCH takes Prefer: return=minimal */
+    bool brief;         /* PATCH accepts the header Prefer: return=minimal */
     bool changes;       /* some answers have no ETag, because unfinished objects change */
     unsigned status[2]; /* statuses of success; { 0 }: 200. The status of DELETE is 204 */
     /* The handler. Called when the body is complete, and again when the work that it started is done. */
@@ -133,7 +133,7 @@ bool kd_route_checks_query(const struct kd_route *route);
 /* True if the query has a former name of a parameter. */
 bool kd_route_is_dated(const struct kd_request *request);
 
-/* Appends the path of the route with this rest, below the base path. */
+/* Appends the path of the route, below the base path. `rest` replaces the segment in braces. */
 enum kd_status kd_route_path(const struct kd_route *route, const char *rest, struct kd_buffer *out);
 /* Returns the route that a decoded path leads to, or NULL. Modifies the path: *rest points into it and is terminated
  * there. Ignores the base path. */

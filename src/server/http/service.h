@@ -47,8 +47,8 @@
 enum kd_phase {
     KD_SERVING,
     KD_DRAINING, /* /readyz fails; everything else is served */
-    KD_REFUSING, /* new renders are refused; accepted renders finish */
-    KD_CLOSING,  /* the server does not listen any more; answers under way are sent */
+    KD_REFUSING, /* new renders are refused; accepted renders are finished */
+    KD_CLOSING,  /* the server no longer listens; answers that have begun are sent */
     KD_STOPPED,
 };
 

@@ -38,7 +38,7 @@ enum kd_class {
         KD_N_CLASSES
 };
 
-/* Work that waits or runs; embedded in its owner's struct. */
+/* Work that waits or runs. The struct is embedded in that of the work's owner. */
 struct kd_claim {
     /* set before kd_shares_add */
     char client[KD_CLIENT];

@@ -13,7 +13,7 @@
 
 struct kd_target {
     char *text; /* buffer that the pointers below point into; owned */
-    char *path; /* path; once the route is found, without the base path */
+    char *path; /* the decoded path; once the route is found, without the base path */
     struct kd_target_pair { const char *name, *value; } pairs[KD_TARGET_PAIRS];
     size_t n_pairs;
 };

@@ -39,7 +39,7 @@ struct kd_scheduler {
 static _Thread_local struct kd_scheduler *mine;
 static _Thread_local struct kd_scheduler_job *under_way;
 static _Thread_local double piece_ms; /* time at which the current slice began or was last resumed */
-static _Thread_local bool stops;      /* nobody wants the result of the current slice's job */
+static _Thread_local bool stops;      /* true: nobody wants the result of the job whose slice is running */
 
 static void append(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
@@ -86,7 +86,7 @@ static void park(struct kd_scheduler *scheduler, struct kd_scheduler_job *job, b
     job->next = scheduler->parked;
     scheduler->parked = job;
     if (job->due_ms > 0)
-        pthread_cond_signal(&scheduler->changed); /* a sleeping worker must wake earlier */
+        pthread_cond_signal(&scheduler->changed); /* a sleeping worker must wake earlier than planned */
 }
 
 /* Resumes the jobs whose parking time has ended. Returns the time at which the next one ends, or INFINITY. */
@@ -149,7 +149,7 @@ static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *j
     job->workers++;
     job->woken = false;
     if (job->shared)
-        list_again(scheduler, job); /* so that other workers can join */
+        list_again(scheduler, job); /* other workers can now join */
     pthread_mutex_unlock(&scheduler->lock);
     under_way = job;
     piece_ms = kd_clock_ms();
@@ -235,7 +235,7 @@ static void pause_turn(struct kd_scheduler *scheduler)
     pthread_cond_signal(&scheduler->changed);
     while (me.place.listed && !scheduler->closing)
         pthread_cond_wait(&me.resumed, &scheduler->lock);
-    if (me.place.listed) { /* at shutdown a suspended slice is still in the list, because no worker resumes it */
+    if (me.place.listed) { /* at shutdown no worker resumes suspended slices, so this one is still in the list */
         take_out(scheduler, &me.place);
         scheduler->busy++;
     }

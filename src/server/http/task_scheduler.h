@@ -14,8 +14,8 @@
 enum kd_slice_result {
     KD_SLICE_MORE, /* the job has more to do */
     KD_SLICE_PARK, /* wait for kd_scheduler_wake, kd_scheduler_cancel or the job's due_ms, then continue */
-    KD_SLICE_AWAY, /* wait for kd_scheduler_wake alone, because another thread uses the job meanwhile */
-    KD_SLICE_LAST, /* the job has no further slice */
+    KD_SLICE_AWAY, /* wait for kd_scheduler_wake only, because another thread uses the job meanwhile */
+    KD_SLICE_LAST, /* the job is finished and has no further slice */
 };
 
 struct kd_scheduler_job {

@@ -164,7 +164,7 @@ struct looked {
     const struct kd_gather_format *format;
     uint64_t length; /* length of the archive, if it is known in advance */
     struct kd_job_film_writer writer;
-    struct kd_job_file film; /* fd is -1 before the film is opened */
+    struct kd_job_file film; /* fd is -1 until the film is opened */
 };
 
 static void finish(struct kd_task *task)

@@ -28,7 +28,7 @@ void kd_job_film_drop(struct kd_job *job)
     kd_dynamic_bodies_release(film->dynamic);
     film->dynamic = NULL;
     if (film->moving)
-        return; /* a worker owns it and frees it */
+        return; /* the worker that owns the playground frees it */
     kd_playground_destroy(film->p);
     film->p = NULL;
     if (job->all->filming == job)

@@ -40,7 +40,7 @@ enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data
 /* Publishes the film, so that it can be opened. Returns KD_EFULL if the files of all jobs would then exceed their
  * limit. */
 enum kd_status kd_job_film_keep(struct kd_job_film_writer *w, struct kd_error *error);
-/* Deletes an unpublished film and releases the claim, if they exist. */
+/* Deletes an unpublished film, and releases the claim. Either may not exist. */
 void kd_job_film_end(struct kd_job_film_writer *w);
 
 /* Finds films that were written before a restart. Call it before any other thread uses the job. */

@@ -30,13 +30,13 @@ struct kd_job_film {
     unsigned at;             /* frame that the playground has reached or is leaving */
     double begin;            /* the playground's time at frame 0 */
     double spent_ms;         /* computing time spent on moving the bodies */
-    /* the lock always protects the members from here on */
+    /* the lock protects the members from here on at all times */
     bool moving;
     unsigned to;                       /* target frame */
     struct kd_dynamic_bodies *dynamic; /* bodies at the target frame, a reference; NULL: not reached yet */
 };
 
-/* Common exposure of all frames. It is measured before the first frame is rendered (job/exposure.h). */
+/* Common exposure of all frames, which is measured before the first frame is rendered (job/exposure.h). */
 struct kd_job_exposure {
     unsigned n, done; /* n: number of pictures needed, 0 if the exposure is not measured; done: number of pictures
                        * measured */
@@ -73,7 +73,7 @@ struct kd_job {
     struct kd_job_stored_film films[KD_JOB_FILMS]; /* oldest first */
     unsigned n_films;
     bool filming;           /* a film is being encoded (films.c) */
-    unsigned encoding;      /* frames rendered and not yet in files */
+    unsigned encoding;      /* number of frames that are rendered and not yet in files */
     uint64_t bytes;         /* total size of its frames and films */
     unsigned revision;      /* incremented when the job's status changes */
     char client[KD_CLIENT]; /* client that requested the job; "": unknown, after a restart */
@@ -81,7 +81,7 @@ struct kd_job {
     bool creating;  /* the job's files are being created, so no frame begins */
     bool unwritten; /* the record has changed since it was written to disk */
     bool keeping;   /* no frame begins before the record is on disk */
-    bool measured;  /* `keeping` was set because the exposure has been measured */
+    bool measured;  /* true: `keeping` was set because the exposure has been measured */
     bool forgotten; /* the job's request is deleted from disk */
     struct kd_job_preview_hook preview;
     struct kd_job_watcher *watchers;
@@ -92,12 +92,13 @@ struct kd_jobs {
     struct kd_jobs_params params;
     struct kd_job_store *store;
     bool temporary;          /* the store is created with the first job and deleted at the end */
-    pthread_mutex_t opening; /* held while that store is created */
+    pthread_mutex_t opening; /* held while the store is created */
     /* Protects all members below. Never held while a file is written or removed, because the HTTP thread takes this
      * lock. */
     pthread_mutex_t lock;
-    struct kd_scheduler_job writer;  /* scheduler job that writes records (records.c) */
-    bool writes, begun;              /* writes: the writer is running; begun: other threads use the jobs */
+    struct kd_scheduler_job writer; /* scheduler job that writes records (records.c) */
+    /* writes: the writer is running; begun: kd_jobs_begin was called, so other threads use the jobs */
+    bool writes, begun;
     struct kd_job *first;            /* oldest first */
     struct kd_job *gone;             /* jobs whose files are to be removed */
     struct kd_job_render *rendering; /* frame that is in the render queue, or being planned */
@@ -120,7 +121,7 @@ static inline bool kd_job_is_active(const struct kd_job *job)
 /* records.c: requests that a worker write the job's record. Failures are logged. */
 void kd_job_write(struct kd_job *job);
 void kd_jobs_begin_writing(struct kd_jobs *all); /* starts the writer if any record has changed */
-/* Like kd_job_write; in addition, no frame of the job begins before the record is on disk. */
+/* Like kd_job_write. In addition, no frame of the job begins before the record is on disk. */
 void kd_job_keep(struct kd_job *job);
 /* Writes all changed records. Call it when no other thread uses the jobs. */
 void kd_jobs_write_all(struct kd_jobs *all);

@@ -45,7 +45,7 @@ void kd_jobs_destroy(struct kd_jobs *all);
  * checked so far. One thread at a time. */
 struct kd_job_draft {
     struct kd_job_spec spec;
-    struct kd_cost cost; /* cost of the frames checked so far; cost.frames of spec.frames have been checked */
+    struct kd_cost cost; /* cost of the frames checked so far, which are the first cost.frames of the spec */
     struct kd_once once; /* hashes of the Idempotency-Key and the request */
     char preset[32];     /* preset with which the spec was parsed */
 };
@@ -59,7 +59,7 @@ enum kd_status kd_jobs_check(const struct kd_jobs *all, struct kd_job_draft *dra
  * own. */
 enum kd_status kd_jobs_open(struct kd_jobs *all, struct kd_job_draft *draft, const char *text, size_t length,
                             const char *client, bool *quota, struct kd_job **out, struct kd_error *error);
-struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* returns a reference, or NULL */
+struct kd_job *kd_jobs_find(struct kd_jobs *all, const char *id); /* returns a counted reference, or NULL */
 /* Like kd_jobs_find, by the hash of the job's Idempotency-Key; "" finds none. */
 struct kd_job *kd_jobs_find_once(struct kd_jobs *all, const char *key);
 const struct kd_once *kd_job_once(const struct kd_job *job);
@@ -73,7 +73,7 @@ struct kd_job_status {
     enum kd_job_state state;
     bool deleted;
     const struct kd_series *series;
-    unsigned frames, finished, place; /* place: number of unfinished jobs before this one */
+    unsigned frames, finished, place; /* place: number of unfinished jobs before this one in the queue */
     double fraction;                  /* finished fraction of the whole job */
     double remaining_s;               /* NAN: unknown, because the job waits for others or has ended */
     double created, ended;            /* seconds since 1970 */
@@ -82,7 +82,7 @@ struct kd_job_status {
     const struct kd_sweep *sweep;     /* valid as long as the job; NULL: the job is not a sweep */
     uint64_t bytes;
     char error[480];
-    char delayed[160]; /* the reason why the job waits before a retry; "": it does not wait */
+    char delayed[160]; /* the reason why the job waits before a retry; "": the job is not waiting for one */
 };
 void kd_job_status(struct kd_job *job, struct kd_job_status *out);
 
@@ -90,7 +90,7 @@ struct kd_jobs_counts;
 /* Reads the counts. Returns false if the lock does not become free soon. */
 bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out);
 
-/* Opens a finished frame like kd_job_store_get. */
+/* Opens the file of a finished frame, like kd_job_store_get. */
 bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out);
 /* Gets the preview of a job of pictures, and requests that further previews are made. `png` is the frame under way,
  * rendered down to some row. If no frame is under way, `out` names the last finished frame. Returns false if there
@@ -98,7 +98,7 @@ bool kd_job_frame(struct kd_job *job, unsigned frame, struct kd_job_file *out);
 struct kd_job_sight {
     unsigned frame;
     bool finished;         /* the frame is finished; kd_job_frame opens its file */
-    uint32_t rows, height; /* of a frame under way: number of rendered rows, and number of all rows */
+    uint32_t rows, height; /* for a frame under way: number of rendered rows, and number of all rows */
 };
 bool kd_job_glimpse(struct kd_job *job, struct kd_buffer *png, struct kd_job_sight *out);
 /* Deletes a job: it cannot be found any more, not even after a restart. Its files are deleted with the last
@@ -114,10 +114,10 @@ struct kd_job_watcher {
     bool by_frame; /* true: the watcher waits for the frame `next`; false: it waits for any change */
     unsigned next, revision;
     double deadline_ms; /* end of waiting on kd_clock_ms; INFINITY: no end */
-    bool waiting;       /* the watcher's connection is suspended */
+    bool waiting;       /* the connection of the watcher is suspended */
     struct kd_job_watcher *previous, *next_watcher;
 };
-void kd_job_watch(struct kd_job_watcher *watcher); /* takes over the reference */
+void kd_job_watch(struct kd_job_watcher *watcher); /* takes over the caller's reference */
 void kd_job_unwatch(struct kd_job_watcher *watcher);
 enum kd_job_news {
     KD_JOB_NEWS,  /* the event that the watcher waited for has happened */

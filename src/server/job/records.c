@@ -72,7 +72,7 @@ static void done(struct kd_scheduler_job *writer)
 
 void kd_jobs_begin_writing(struct kd_jobs *all)
 {
-    /* kd_jobs_write_all writes the rest at shutdown */
+    /* at shutdown kd_jobs_write_all writes the remaining records */
     if (all->writes || !all->begun || all->closed || !first_unwritten(all))
         return;
     all->writes = true;

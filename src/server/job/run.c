@@ -307,7 +307,7 @@ static void rendered(struct kd_render_job *render)
     frame->job->encoding += !frame->measures;
     if (frame->measures)
         measured(frame->job, render->frame.exposure);
-    frame->job->fraction = 0; /* the next frame has made no progress yet */
+    frame->job->fraction = 0; /* the next frame has not made progress yet */
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
 }
@@ -321,7 +321,7 @@ static void done(struct kd_render_job *render)
     bool stored = !status && !frame->measures;
     if (stored)
         status = kd_job_store_put(all->store, job->record.id, frame->number, &render->file, &render->error);
-    /* Writing failed, for whatever cause. The frame can be rendered again later. */
+    /* The file could not be written, for whatever reason. The frame can be rendered again later. */
     if (stored && status)
         render->error.status = KD_EFULL;
     pthread_mutex_lock(&all->lock);
@@ -331,7 +331,7 @@ static void done(struct kd_render_job *render)
     } else
         all->rendering = NULL;
     if (frame->measures && frame->rendered)
-        status = KD_OK; /* the small picture's exposure is measured, and its file is not needed */
+        status = KD_OK; /* only the exposure of the small picture is used, so its file is not needed */
     else
         count_map(job, render);
     if (!status && !frame->measures)

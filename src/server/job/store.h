@@ -60,7 +60,7 @@ enum kd_status kd_job_store_request(const struct kd_job_store *store, const char
 enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record,
                                    struct kd_error *error);
 /* kd_job_store_forget removes a job's request, so that a restart does not find the job. kd_job_store_remove then
- * deletes at most `most` of its files, and returns true when all are gone. */
+ * deletes at most `most` of the job's files, and returns true when all are gone. */
 void kd_job_store_forget(struct kd_job_store *store, const char *id);
 bool kd_job_store_remove(struct kd_job_store *store, const char *id, unsigned most);
 
@@ -73,7 +73,7 @@ struct kd_job_file {
     /* changes whenever the file's bytes change; for a film it is the SHA-256 of the bytes */
     char mark[KD_JOB_MARK];
 };
-/* Opens a finished frame. Returns false if it does not exist. */
+/* Opens the file of a finished frame. Returns false if the file does not exist. */
 bool kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, struct kd_job_file *out);
 
 /* Opens a job's folder for films.c. Returns a descriptor, or -1 with errno. */

@@ -21,7 +21,7 @@ struct member {
 };
 enum { MEMBERS = 8 }; /* largest number of members of an object */
 
-/* The name of a field in a sentence, such as question.choices.1 for /question/choices/1. */
+/* Converts a pointer to a name for sentences, such as /question/choices/1 to question.choices.1. */
 static void field_name(char *name, size_t size, const char *pointer)
 {
     snprintf(name, size, "%s", pointer + 1);

@@ -21,10 +21,10 @@
 #define KD_LESSON_CHOICE 200u
 #define KD_LESSON_NAME 80u
 #define KD_LESSON_LANG 35u                                /* largest length of a language tag */
-#define KD_LESSON_SIZE(characters) (4 * (characters) + 1) /* bytes of UTF-8, and NUL */
+#define KD_LESSON_SIZE(characters) (4 * (characters) + 1) /* bytes of UTF-8, including the NUL */
 
 struct kd_question {
-    unsigned number; /* counts the questions of this lesson; 0: no question has been asked */
+    unsigned number; /* number of this question within the lesson, from 1; 0: no question has been asked */
     bool shown;      /* false: the question was withdrawn */
     bool open;       /* answers are accepted; when this ends, pupils see the tally and the right choice */
     char text[KD_LESSON_SIZE(KD_LESSON_TEXT)];
@@ -34,7 +34,7 @@ struct kd_question {
 };
 
 struct kd_pupil {
-    char key[KD_SECRET_ID]; /* made by the pupil's page; "": the place is free */
+    char key[KD_SECRET_ID]; /* key that the pupil's page has made; "": the place is free */
     char name[KD_LESSON_SIZE(KD_LESSON_NAME)];
     double seen_ms;
     unsigned answered; /* number of the question that `choice` answers; 0: none */
@@ -88,13 +88,14 @@ enum kd_status kd_lesson_to_json(const struct kd_lesson *one, const struct kd_le
 /* A change of a lesson by its teacher. A member that is absent in the document is NULL or false. */
 struct kd_lesson_change {
     const char *session, *link, *about, *lang; /* point into the document */
-    bool asks, withdraws;                      /* asks: the document has "question"; withdraws: its value is null */
+    /* asks: the document has "question"; withdraws: the value of "question" is null */
+    bool asks, withdraws;
     struct kd_question question;
-    bool moves, open; /* moves: the document has "open"; open: its value */
+    bool moves, open; /* moves: the document has "open"; open: the value of "open" */
 };
 /* An answer of a pupil. */
 struct kd_hand {
-    const char *pupil, *name; /* name NULL: not given */
+    const char *pupil, *name; /* name NULL: the document has no name */
     bool answers;
     unsigned question, choice;
 };

@@ -16,7 +16,7 @@ enum kd_status kd_playground_session_read_pace(cJSON *tree, struct kd_playground
 enum kd_status kd_playground_session_read_scene(const cJSON *item, const struct kd_playground *p,
                                                 const struct kd_assets *assets, struct kd_scene *scene,
                                                 struct kd_error *error);
-/* Returns the rate of the preset that the tree names, or the default rate. */
+/* Returns the rate of the preset that the document names, or the default rate. */
 double kd_playground_session_usual_rate(const cJSON *tree);
 /* Parses {"by": M} of a step. */
 enum kd_status kd_playground_session_read_step(const char *text, size_t length, double *by, struct kd_error *error);
@@ -36,7 +36,7 @@ enum kd_status kd_playground_session_to_json(const struct kd_playground_session 
 /* Writes {"columns": {name: [...]}}. */
 enum kd_status kd_playground_session_series_json(const struct kd_playground_series *series,
                                                  const double now[KD_SERIES_N], struct kd_buffer *out);
-/* Writes {"presets", "settings", "body"}: what requests may contain. */
+/* Writes {"presets", "settings", "body"}, which describe what a request may contain. */
 enum kd_status kd_playground_session_catalogue_json(struct kd_buffer *out);
 
 #endif

@@ -32,7 +32,7 @@ struct kd_session;
 struct kd_sessions;
 
 struct kd_playground_sessions_params {
-    struct kd_sessions *sessions; /* sessions that render their pictures */
+    struct kd_sessions *sessions; /* the sessions that render the pictures of playgrounds */
     struct kd_render_queue *renders;
     unsigned limit, client_limit; /* limits of sessions: of all clients, and of one */
     unsigned idle_ms;
@@ -65,8 +65,8 @@ void kd_playground_session_release(struct kd_playground_session *play); /* accep
 void kd_playground_session_promise(struct kd_playground_session *play, const struct kd_once *once);
 struct kd_playground_session *kd_playground_sessions_find_once(struct kd_playground_sessions *all, const char *key);
 const struct kd_once *kd_playground_session_once(
-    const struct kd_playground_session *play); /* reads the key of a session that was found by its key; HTTP thread
-                                                * only */
+    /* reads the Idempotency-Key of a session that was found by it; HTTP thread only */
+    const struct kd_playground_session *play);
 const char *kd_playground_session_id(const struct kd_playground_session *play);
 const char *kd_playground_session_token(const struct kd_playground_session *play);
 bool kd_playground_session_owned(const struct kd_playground_session *play,
@@ -136,7 +136,7 @@ struct kd_playground_session_tick {
     struct kd_buffer bodies, debris; /* packed rows of KD_PLAY_BODY_WORDS and KD_PLAY_DEBRIS_WORDS words */
     size_t n_bodies, n_debris, all_debris;
     bool has_debris;
-    uint32_t most; /* capacity of `debris` in pieces of debris */
+    uint32_t most; /* number of pieces of debris for which `debris` has room */
 };
 enum { KD_PLAY_HEAD_WORDS = 8, KD_PLAY_BODY_WORDS = 10, KD_PLAY_DEBRIS_WORDS = 4 };
 void kd_playground_session_tick_release(struct kd_playground_session_tick *tick); /* accepts NULL */

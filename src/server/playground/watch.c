@@ -123,8 +123,8 @@ enum kd_playground_session_news kd_playground_session_await(struct kd_playground
         what = KD_PLAY_GONE;
     } else if (what == KD_PLAY_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* suspended first, because the connection can be resumed as soon as the lock
-                                         * is released */
+        /* the connection is suspended first, because it can be resumed as soon as the lock is released */
+        MHD_suspend_connection(w->mhd);
         kd_playground_session_call(play);
     }
     pthread_mutex_unlock(&play->all->lock);

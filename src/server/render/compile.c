@@ -61,7 +61,7 @@ void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilatio
 {
     if (!compilation)
         return;
-    if (queue->ahead) /* another thread has found kernels meanwhile */
+    if (queue->ahead) /* another thread has found missing kernels meanwhile */
         kd_compilation_drop(queue->ahead);
     queue->ahead = compilation;
     pthread_cond_broadcast(&queue->changed);

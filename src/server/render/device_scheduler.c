@@ -83,7 +83,8 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
-    if (queue->failed) /* after a failure, only jobs that are inside the renderer run, so that they leave it */
+    /* after a failure, only jobs that are inside the renderer get turns, so that they can leave it */
+    if (queue->failed)
         return job->inside;
     if (job == &queue->rest && (queue->compiling || queue->inside)) /* freeing memory may close the device */
         return false;

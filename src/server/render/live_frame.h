@@ -24,11 +24,11 @@ struct kd_live_frame {
     uint64_t number;                          /* number within the session; numbers increase, with gaps */
     unsigned revision;                        /* revision of the session's scene */
     double time;                              /* time of the scene, in M */
-    double azimuth_deg;                       /* azimuth of the camera at that time */
+    double azimuth_deg;                       /* azimuth of the camera at the time of the frame */
     bool final;                               /* no refinement follows for this revision */
     bool last;                                /* no other frame follows; the last frame is lossless only */
-    struct kd_live_file files[KD_LIVE_FILES]; /* existing entries do not change */
-    unsigned n_files;                         /* grows under the lock of sessions */
+    struct kd_live_file files[KD_LIVE_FILES]; /* entries that exist do not change */
+    unsigned n_files;                         /* increases, under the lock of sessions */
     struct kd_frame picture;                  /* pixels of the frame; empty if it is the last frame */
     struct kd_buffer approximations;          /* text of the header Kerrd-Approximations */
     /* hash of the approximations; the text is not sent again to a client that has it */

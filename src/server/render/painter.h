@@ -22,7 +22,7 @@ struct kd_painter;
 struct kd_painting {
     struct kd_scene scene;
     const char *name; /* file name: letters, digits and - */
-    /* identifies the content: if the file's mark differs, the picture is rendered again */
+    /* mark of the content; if the mark of the file differs, the picture is rendered again */
     const char *mark;
     void (*done)(struct kd_painting *painting); /* called on the painter's thread */
     void *user;

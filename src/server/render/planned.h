@@ -18,7 +18,7 @@ struct kd_planned {
 };
 
 /* Returns the plan, which the request owns. Returns NULL if the request is refused or if workers must make the plan
- * first. The handler must then return *result; in the second case it is called again. */
+ * first. The handler must then return *result. If workers make the plan, the handler is called again afterwards. */
 struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *result);
 
 #endif

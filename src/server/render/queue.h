@@ -43,7 +43,7 @@
 
 struct kd_render_queue;
 
-#define KD_ENCODERS 2 /* one of them takes only frames that encode quickly */
+#define KD_ENCODERS 2 /* number of encoders; one of them takes only frames that encode quickly */
 /* work that uses the device for at most this time runs without interruption; in milliseconds */
 #define KD_MOMENT_MS 100.0
 
@@ -105,15 +105,15 @@ struct kd_render_job {
     /* Kernels that were found missing after the job had begun. The job starts again when they are compiled. */
     struct kd_compilation *lacked;
     struct kd_compilation *ahead; /* kernels that explain the pixels of `settled` */
-    unsigned lacks;               /* number of times that the job has found kernels missing */
+    unsigned lacks;               /* number of times that kernels were missing after the job had begun */
     /* the job's claim in the fair queueing of compilations, valid while the job lacks kernels */
     struct kd_claim missing;
-    /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
+    /* kernels_ms: time for which the job has waited for kernels; missing_ms: time at which it began to wait */
     double kernels_ms, missing_ms;
     bool reads;                            /* when the job was submitted, an asset of its scene was not read yet */
     bool inside;                           /* the job uses the renderer, or waits between two slices */
     bool repeated;                         /* the device has failed once while this job owned it */
-    double submitted_ms, turn_ms, away_ms; /* turn_ms: start of its present turn; away_ms: end of its last turn */
+    double submitted_ms, turn_ms, away_ms; /* turn_ms: start of the job's present turn; away_ms: end of its last turn */
 };
 
 #define KD_REOPENINGS 3       /* default number of times that a device may be reopened within KD_REOPENINGS_S */
@@ -136,9 +136,9 @@ void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity 
 const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
 /* Calls kd_renderer_cache_file of the queue's renderer. */
 char *kd_render_queue_cache_file(const struct kd_render_queue *queue, const char *suffix);
-/* Appends the description of the device, as it was after the latest render. */
+/* Appends the description of the device, which is updated after each render. */
 enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out);
-/* Appends the record of accuracy that is on disk. Errors are those of kd_renderer_accuracy_json. */
+/* Appends the record of accuracy that is stored on disk. It fails with the errors of kd_renderer_accuracy_json. */
 enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue, struct kd_buffer *out,
                                              struct kd_error *error);
 /* Starts to decode an asset that may become a sky, if its pixels fit in a quarter of the free memory. Any thread. */

@@ -9,14 +9,14 @@
 
 #include <pthread.h>
 
-#define KD_LONG_FRAME ((size_t)16 << 20) /* a frame of more bytes occupies an encoder for some tenths of a second */
+#define KD_LONG_FRAME ((size_t)16 << 20) /* an encoder needs some tenths of a second for a frame of more bytes */
 
 struct kd_render_list { struct kd_render_job *first, **end; };
 
 /* Lane: a thread that renders long pictures, one at a time. */
 struct kd_lane {
     struct kd_render_queue *queue;
-    struct kd_render_job *job; /* the job that it renders; NULL: the lane is free */
+    struct kd_render_job *job; /* the job that the lane renders; NULL: the lane is free */
     uint64_t bytes;            /* device memory that the job needs by its plan; 0: negligible */
     pthread_t thread;
 };
@@ -51,9 +51,9 @@ struct kd_render_queue {
     struct kd_error failure;       /* the reason why the device failed */
     unsigned inside;               /* number of jobs that are using the renderer */
     unsigned reopenings, reopened; /* reopenings: limit within KD_REOPENINGS_S; reopened: number since the start */
-    unsigned spent;                /* number of reopenings in the period that began at spent_from_ms */
+    unsigned spent;                /* number of reopenings since spent_from_ms */
     double spent_from_ms;          /* time at which the present period of reopenings began */
-    bool compiles;                 /* the compiler thread runs */
+    bool compiles;                 /* the thread that compiles kernels is running */
     struct kd_shares missing;      /* fair queueing of compilations */
     /* compiling: kernels being compiled; compiled: kernels that are compiled but not yet passed to the renderer */
     struct kd_compilation *compiling, *compiled;
@@ -87,7 +87,7 @@ static inline size_t kd_render_frame_bytes(const struct kd_render_job *job)
 
 static inline bool kd_render_has_begun(const struct kd_render_job *job) { return job->stage >= KD_RENDER_WORKS; }
 
-/* True if a client waits for the job, so that the job may be refused. */
+/* True if a client waits for the job; such a job may be refused. */
 static inline bool kd_render_is_awaited(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_PICTURE || job->claim.class == KD_CLASS_PIXEL ||
@@ -159,7 +159,7 @@ void *kd_render_lane_main(void *lane);
 /* encode.c: main function of an encoder thread; the argument is the queue. Returns when the queue is closing and
  * nothing is unfinished. */
 void *kd_render_encode_main(void *queue);
-/* Queues a rendered frame for encoding. Called with the lock. */
+/* Adds a rendered frame to the queue for encoding. Called with the lock. */
 void kd_render_encode(struct kd_render_queue *queue, struct kd_render_job *job);
 
 #endif

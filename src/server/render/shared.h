@@ -21,7 +21,7 @@ static inline int32_t kd_shared_height(int32_t width)
 
 struct kd_shared_scenes {
     struct kd_scene left, right; /* right: equal to left, unless the link is a pair */
-    bool measured;               /* the right side has the measurements of M87* instead of a picture (pair.data=1) */
+    bool measured;               /* the right side shows measurements of M87* in place of a picture (pair.data=1) */
 };
 
 /* Decodes and validates scenes. Returns false with *problem filled; its texts are in *error. The status is 404 if the

@@ -19,7 +19,7 @@ struct kd_task_kind {
     size_t size;      /* size of the struct whose first member is the task */
     enum kd_slice_result (*work)(struct kd_task *task, double until_ms); /* runs one slice on a worker */
     void (*finish)(struct kd_task *task);                                /* frees members of the struct; may be NULL */
-    void (*last)(struct kd_task *task); /* runs on a worker after the last slice; may be NULL */
+    void (*last)(struct kd_task *task); /* last call on a worker, after the last slice; may be NULL */
     /* Used by handlers with several kinds of tasks to answer the request; else NULL. Runs on the HTTP thread. */
     enum MHD_Result (*answer)(struct kd_request *request);
 };
@@ -52,7 +52,7 @@ void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_e
 /* True if the queue admits another task. If it does not, *refused is the answer to the request. what: see
  * kd_task_kind. HTTP thread. */
 bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const char *what, enum MHD_Result *refused);
-/* Starts an admitted task. HTTP thread. */
+/* Starts a task that the queue has admitted. HTTP thread. */
 enum MHD_Result kd_task_submit(struct kd_task *task);
 
 /* Returns the reason why a task must end: the client is `gone`, the server is stopping, or the deadline has passed.

@@ -22,7 +22,7 @@ void kd_thumbnails_cancel(struct kd_thumbnails *thumbnails);
 bool kd_thumbnails_hang(struct kd_thumbnails *thumbnails);
 /* Accepts NULL. */
 void kd_thumbnails_destroy(struct kd_thumbnails *thumbnails);
-/* Number of thumbnails that were rendered and not read from files. Any thread. */
+/* Number of thumbnails that were rendered, as opposed to read from files. Any thread. */
 unsigned kd_thumbnails_rendered(struct kd_thumbnails *thumbnails);
 
 #endif

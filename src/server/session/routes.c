@@ -88,7 +88,7 @@ static enum kd_status to_json(const struct kd_session *session, const struct kd_
         struct kd_json json = kd_json_begin(out);
         kd_json_object(&json, NULL);
         kd_json_number(&json, "fraction", state->progress.fraction);
-        kd_json_number(&json, "remaining_s", state->progress.left_s); /* NAN is written as null */
+        kd_json_number(&json, "remaining_s", state->progress.left_s); /* written as null if it is NAN */
         kd_json_end(&json);
         KD_TRY(kd_json_finish(&json));
     }

@@ -30,7 +30,7 @@ struct kd_session {
     struct kd_governor governor;
     struct kd_budget_entry demand; /* the session's entry in the budget, while the session is listed */
     unsigned revision;             /* revision of the scene */
-    double patched_ms;             /* time of the last patch; before the first patch, of the creation */
+    double patched_ms;             /* time of the last patch; if there was none, time of the creation */
     uint64_t order;                /* order of the latest patch that had an order */
     uint64_t begun;                /* number of frames begun */
     bool moved;                    /* in the latest frame some part of the scene moved by itself */
@@ -40,12 +40,12 @@ struct kd_session {
     unsigned encoding;
     bool adding; /* the latest frame is being encoded in a further format */
     struct kd_live_frame *latest;
-    double exposed_ms, exposure; /* exposed_ms: time at which the latest frame was rendered; exposure: of that frame,
-                                  * in stops */
-    unsigned exposed_revision;   /* revision of the scene in that frame; 0: there is no such frame */
+    /* exposed_ms: time at which the latest frame was rendered; exposure: exposure of that frame, in stops */
+    double exposed_ms, exposure;
+    unsigned exposed_revision; /* revision of the scene in that frame; 0: there is no such frame */
     /* shown_ms: time at which the latest frame was published; interval_ms: smoothed interval between frames */
     double shown_ms, interval_ms;
-    enum kd_status failed; /* status of the latest render, with `error`; a patch clears it */
+    enum kd_status failed; /* status of the latest render, with `error` as its error; cleared by a patch */
     struct kd_error error;
     struct kd_viewer *viewers;
     struct kd_session *next;

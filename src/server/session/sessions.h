@@ -52,7 +52,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
 void kd_session_show(struct kd_session *session, struct kd_dynamic_bodies *dynamic);
 /* Sets the limits of the quality reduction. */
 void kd_session_keep(struct kd_session *session, const struct kd_session_pace *pace);
-/* Replaces the scene. kd_sessions_takes must have accepted the plan. */
+/* Replaces the scene. kd_sessions_takes must have accepted the plan before. */
 void kd_session_put(struct kd_session *session, const struct kd_scene *scene, const struct kd_plan *plan);
 bool kd_session_watched(struct kd_session *session);     /* true if a viewer waits or reads a stream */
 unsigned kd_session_viewers(struct kd_session *session); /* number of viewers that wait or read a stream */
@@ -85,7 +85,7 @@ struct kd_session_state {
     unsigned revision, viewers;
     uint64_t frame;           /* number of the newest frame; 0: none yet */
     uint64_t order;           /* order of the latest patch that had an order; 0: no patch had one */
-    double path_at, path_end; /* seconds since the path began, and the path's length; both 0: no path */
+    double path_at, path_end; /* seconds since the path began, and length of the path; both 0: there is no path */
     struct kd_session_progress {
         /* true: the frame being made refines a scene at rest; false: it is the first frame of the present scene */
         bool refines;
@@ -115,7 +115,7 @@ struct kd_viewer {
     struct kd_session *session; /* a counted reference */
     struct MHD_Connection *mhd;
     int socket;
-    uint64_t seen; /* number of the newest frame that the viewer has taken */
+    uint64_t seen; /* number of the newest frame that the viewer has received */
     bool any;      /* the viewer reads only the descriptions of frames, so any encoding suffices */
     /* qualities of lossy frames that the viewer accepts, 1 to 100; 0: lossless only. `lossy` is for all frames but
      * the last, last_lossy for the last frame */
