@@ -64,8 +64,7 @@ static void make_powers(void)
         if (k < K_MAX)
             multiply_by_ten(&up);
     }
-    /* floor division in several steps gives the same result as one floor division by the product of the divisors */
-    down.word[WORDS - 2] = 1;
+    down.word[WORDS - 2] = 1; /* dividing step by step and rounding down equals dividing by the product */
     for (int k = -1; k >= K_MIN; k--) {
         divide_by_ten(&down);
         powers[k - K_MIN] = leading_bits(&down, 0);

@@ -67,8 +67,7 @@ static enum kd_status look(const struct arguments *arguments, struct kd_buffer *
     struct stat about;
     enum kd_status status;
     if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) ||
-        /* not read here: a pipe can be read only once */
-        !S_ISREG(about.st_mode))
+        !S_ISREG(about.st_mode)) /* a pipe can be read only once, so it is not read here */
         return KD_OK;
     KD_TRY(kd_file_read(options->document, PICTURE_MAX, picture, error));
     if (!picture->size || kd_format_of_bytes(picture->data, picture->size) != &kd_format_png) {

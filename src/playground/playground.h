@@ -72,8 +72,7 @@ struct kd_playground {
     /* The members from here on are derived from those above. */
     struct kd_playground_mutual mutual;
     bool disturbed;
-    /* disturbed: bodies were changed from outside since the last step; before: energy before the first such change */
-    double before;
+    double before; /* energy before the first change of bodies from outside since the last step */
     double aim;
     /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. Bodies
      * move when all have reached it. */

@@ -125,8 +125,7 @@ static enum kd_status do_list(struct kd_playground *p, enum list what, const cJS
     if (list && !cJSON_IsArray(list))
         return kd_error_field(error, pointer, "%s is not an array", name);
     if (list && what != ADD &&
-        /* for ADD the error names the first body beyond the limit */
-        cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX)
+        cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* ADD: names the first body beyond the limit */
         return kd_error_field(error, pointer, "%s has %d elements; it must have at most %u", name,
                               cJSON_GetArraySize(list), KD_PLAYGROUND_BODIES_MAX);
     for (const cJSON *one = list ? list->child : NULL; one; one = one->next) {

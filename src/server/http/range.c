@@ -48,8 +48,7 @@ enum kd_byte_range kd_range_read(const char *value, uint64_t size, uint64_t *fir
     struct spec spec;
     if (!value || strncasecmp(value, unit, strlen(unit)) || !read_spec(value + strlen(unit), &spec))
         return KD_RANGE_WHOLE;
-    /* RFC 9110 has no Content-Range for this failure if the file is empty */
-    if (spec.suffix && spec.last && !size)
+    if (spec.suffix && spec.last && !size) /* RFC 9110 has no Content-Range for this failure if the file is empty */
         return KD_RANGE_WHOLE;
     if (spec.suffix ? !spec.last : spec.first >= size)
         return KD_RANGE_BEYOND;

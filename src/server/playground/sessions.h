@@ -65,8 +65,7 @@ void kd_playground_session_release(struct kd_playground_session *play); /* accep
 void kd_playground_session_promise(struct kd_playground_session *play, const struct kd_once *once);
 struct kd_playground_session *kd_playground_sessions_find_once(struct kd_playground_sessions *all, const char *key);
 const struct kd_once *kd_playground_session_once(
-    /* reads the Idempotency-Key of a session that was found by it; HTTP thread only */
-    const struct kd_playground_session *play);
+    const struct kd_playground_session *play); /* reads the key of a session that its key has found; HTTP thread only */
 const char *kd_playground_session_id(const struct kd_playground_session *play);
 const char *kd_playground_session_token(const struct kd_playground_session *play);
 bool kd_playground_session_owned(const struct kd_playground_session *play,
