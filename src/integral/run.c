@@ -170,8 +170,8 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
                                            height - wcs.at[1].pixel };
     for (unsigned k = bands(run); k--;) {
         float *map = (float *)run->maps.data + k * n;
-        if (k && kd_scene_is_radio_alone(
-                     scene)) /* the layer of one order is in the unit of light, that of the total light in Jy/sr */
+        /* the layer of an image order is in the unit of light; the layer of the total light is in Jy/sr */
+        if (k && kd_scene_is_radio_alone(scene))
             multiply(map, n, (float)kd_radio_jansky_steradian(scene));
         sum = total(map, n, &undefined); /* map 0, the total light, is summed last, so that `sum` becomes its sum */
         run->map[k] = map;

@@ -50,8 +50,7 @@ static const struct {
     const char *path, *type;
     enum kd_status (*make)(struct kd_buffer *out);
 } makers[] = {
-    { "/openapi.json", KD_JSON_TYPE,
-      NULL /* not in this table: kd_openapi_json, which has other parameters, makes this document */ },
+    { "/openapi.json", KD_JSON_TYPE, NULL /* made separately by kd_openapi_json, which has other parameters */ },
     { "/docs", KD_HTML_TYPE, kd_route_table_html },
     { "/v1/schema", "application/schema+json", kd_scene_schema },
     { "/v1/presets", KD_JSON_TYPE, presets_json },
