@@ -140,7 +140,8 @@ struct kd_typed_place {
 enum kd_status kd_document_place(const struct kd_document *document, const char *path, struct kd_typed_place *out,
                                  struct kd_error *error);
 
-/* Set the number of elements of a list. Elements that are added or removed get their defaults. */
+/* kd_document_list finds a list by name. kd_list_resize sets the number of elements; elements that are added or
+ * removed get their defaults. */
 const struct kd_list *kd_document_list(const struct kd_document *document, const char *object);
 size_t kd_list_size(const struct kd_list *list, const void *from);
 void kd_list_resize(const struct kd_document *document, const struct kd_list *list, void *to, size_t size);

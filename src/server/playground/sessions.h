@@ -64,8 +64,8 @@ void kd_playground_session_release(struct kd_playground_session *play); /* accep
  * session by it. "" finds none. */
 void kd_playground_session_promise(struct kd_playground_session *play, const struct kd_once *once);
 struct kd_playground_session *kd_playground_sessions_find_once(struct kd_playground_sessions *all, const char *key);
-const struct kd_once *kd_playground_session_once(
-    const struct kd_playground_session *play); /* reads the key of a session that its key has found; HTTP thread only */
+/* Reads the key of a session that kd_playground_sessions_find_once has found. HTTP thread only. */
+const struct kd_once *kd_playground_session_once(const struct kd_playground_session *play);
 const char *kd_playground_session_id(const struct kd_playground_session *play);
 const char *kd_playground_session_token(const struct kd_playground_session *play);
 bool kd_playground_session_owned(const struct kd_playground_session *play,
