@@ -21,8 +21,8 @@ struct kd_map_colour { double r, g, b; };
 /* The colour at x. x is clamped to [0, 1]; for CATEGORICAL it is a whole number from 0 on. 2 us. */
 struct kd_map_colour kd_colour_map_at(enum kd_colour_map map, double x);
 
-/* The colours of kd_colour_map_at from a table, for many pixels. Each channel is exact to 1/150. For CATEGORICAL
- * at[i] is the colour of class i. Takes 2 ms. */
+/* The colours of kd_colour_map_at from a table, for many pixels. The error is at most 1/150 in each channel. For
+ * CATEGORICAL at[i] is the colour of class i. Takes 2 ms. */
 enum { KD_MAP_ENTRIES = 1024 };
 struct kd_map_table { struct kd_map_colour at[KD_MAP_ENTRIES]; };
 void kd_colour_map_fill(struct kd_map_table *table, enum kd_colour_map map);

@@ -25,7 +25,7 @@ enum {
 /* name of the namespace; a NUL separates it from the packet */
 static const char xmp_name[] = "http://ns.adobe.com/xap/1.0/";
 
-/* State of one compression: that of libjpeg, and that of the callbacks. */
+/* State of one compression: the state of libjpeg, and that of the callbacks. */
 struct work {
     struct jpeg_compress_struct info; /* first member, so that libjpeg's pointer can be cast to ours */
     struct jpeg_error_mgr errors;

@@ -46,7 +46,7 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
 /* scene.c */
 /* Reads the members "preset" and "scene" of a document. */
 enum kd_status kd_integral_read_scene(struct kd_integral_request *request, const cJSON *root, struct kd_error *error);
-/* Checks that the scene's picture has visibilities. */
+/* Check that visibilities can be computed from the scene's picture. */
 enum kd_status kd_integral_check_flat(const struct kd_scene *scene, struct kd_error *error);
 enum kd_status kd_integral_check_visibility(struct kd_integral_request *request, struct kd_error *error);
 

@@ -58,7 +58,7 @@ static const char *name_of(const struct kd_table_axis *axis)
     return ISCO;
 }
 
-/* Number of the image's axes that come before this one; IMAGE_AXES for all others. */
+/* Number of the axes of the image that come before this axis; IMAGE_AXES for all other axes. */
 static size_t rank_of(const struct kd_table_axis *axis)
 {
     size_t i = 0;

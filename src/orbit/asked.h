@@ -1,4 +1,4 @@
-/* A request for orbits as plain values: one orbit, and the parameters of all. Any thread. */
+/* A request for orbits as plain values: one orbit, and the parameters that all orbits share. Any thread. */
 #ifndef KD_ORBIT_ASKED_H
 #define KD_ORBIT_ASKED_H
 
@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define KD_ORBIT_SAMPLES_MAX 200000u /* limit for one orbit, and for the sum over many orbits */
+#define KD_ORBIT_SAMPLES_MAX 200000u /* limit of samples of one orbit, and of the sum over many orbits */
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
 

@@ -31,7 +31,7 @@ struct kd_debris_piece {
 };
 
 struct kd_debris_source {
-    uint32_t number; /* number of the source, from 1; 0: the place is free */
+    uint32_t number; /* number of the source, from 1; 0: this slot is free */
     char name[KD_PLAYGROUND_NAME];
     double t;                /* time at which the source's first piece was torn off */
     double piece_mass;       /* mass of one of its pieces */

@@ -44,7 +44,7 @@
  * momentum balance. */
 struct kd_playground_spent {
     double captured_mass, captured_energy, captured_momentum[3]; /* angular momentum */
-    double merged;                                               /* energy that became heat in mergers */
+    double merged;                                               /* energy that became heat in mergers of bodies */
     double capped;                                               /* energy removed because speeds are capped at c */
     double capped_momentum[3];     /* momentum removed by capping, where the pull of other bodies dominated */
     double radiated;               /* energy lost to gravitational waves */

@@ -37,7 +37,7 @@ enum { KD_SERIES_COLUMNS(KD_SERIES_COLUMN_) KD_SERIES_N };
 struct kd_playground_series {
     double begin, interval; /* M */
     double span;            /* M; 0: open-ended */
-    size_t n;               /* number of rows; 0: not begun */
+    size_t n;               /* number of rows; 0: the series has not begun */
     double rows[KD_SERIES_ROWS][KD_SERIES_N];
 };
 

@@ -55,7 +55,7 @@ struct kd_dynamic_bodies_debris {
 
 struct kd_dynamic_bodies {
     atomic_uint holders;
-    uint64_t generation; /* unique in the process */
+    uint64_t generation; /* number that is unique in the process */
     double time;         /* coordinate time of the contents, in M */
     char snapshot[65];   /* SHA-256 of the playground's state that the set shows, for files of pictures; "": unknown */
     /* The bodies move in a potential instead of the metric. Their r and velocity are used as if they were those of

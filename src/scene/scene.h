@@ -51,7 +51,8 @@ struct kd_scene {
         const struct kd_dynamic_bodies *at;
         uint64_t generation;
     } dynamic; /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
-    struct kd_scene_matter matter; /* description of the grid volume.grid, set by kd_scene_resolve; 0: no description */
+    /* description of the grid that volume.grid names, set by kd_scene_resolve; 0: no description */
+    struct kd_scene_matter matter;
 };
 
 /* Sets every field to its default, which is the scene of an empty document. */
@@ -176,8 +177,8 @@ bool kd_scene_is_magnetic(const struct kd_scene *scene);
 /* True if all light is of one frequency, so that the picture's flux is physical: only a volume at a radio frequency is
  * visible, or only a disk with disk.band "frequency". */
 bool kd_scene_is_radio_alone(const struct kd_scene *scene);
-/* The frequency of the light of a scene for which the function above is true, in GHz, and the path of the field that
- * contains it. Undefined for all other scenes. */
+/* Frequency of the light in GHz, and path of the field that contains it, for a scene for which
+ * kd_scene_is_radio_alone is true. Undefined for all other scenes. */
 double kd_scene_frequency_ghz(const struct kd_scene *scene);
 const char *kd_scene_frequency_path(const struct kd_scene *scene);
 void kd_scene_set_frequency(struct kd_scene *scene, double ghz);

@@ -17,7 +17,7 @@ struct reader {
     struct kd_sweep *sweep;
     const struct kd_assets *assets;
     struct kd_error *error;
-    /* The axis that is being read. It is the last one of the sweep. */
+    /* The axis that is being read; always the last axis of the sweep so far. */
     const struct kd_row *field;
     size_t index; /* index of the list element that has the field */
     char pointer[100];

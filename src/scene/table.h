@@ -47,7 +47,7 @@ extern const struct kd_row kd_fields[KD_FIELD_COUNT];
 extern const struct kd_field_page kd_field_pages[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
 extern const struct kd_former kd_old_names[KD_OLD_NAME_COUNT];
-extern const struct kd_document kd_scene_document; /* the rows as a document, which fills struct kd_scene */
+extern const struct kd_document kd_scene_document; /* the rows as a document, whose target is struct kd_scene */
 
 /* Both find an entry by name; NULL if there is none. The section "" is the document itself. Names are
  * case-sensitive. */

@@ -242,7 +242,7 @@ static bool makes_something(const struct kd_request *request)
 
 static bool is_options(const struct kd_request *request) { return !strcmp(request->method, "OPTIONS"); }
 
-/* True if OPTIONS concerns the whole server: its target is "*", or an address without a path (RFC 9112 3.2.4). */
+/* True if OPTIONS concerns the whole server. Its target is then "*", or an address without a path (RFC 9112 3.2.4). */
 static bool asks_of_all(const struct kd_request *request)
 {
     return is_options(request) && !request->body_announced &&

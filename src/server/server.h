@@ -1,4 +1,5 @@
-/* The HTTP service: routes, limits, and a bounded queue in front of the render thread. It uses no Vulkan type. */
+/* The HTTP service: routes, limits, and a bounded queue in front of the render thread. This header uses no Vulkan
+ * type. */
 #ifndef KD_SERVER_SERVER_H
 #define KD_SERVER_SERVER_H
 

@@ -11,7 +11,7 @@
 
 struct kd_rays_job {
     struct kd_task task;            /* must be the first member */
-    struct kd_rays_request request; /* initialised by the job; a JSON body is merged into it */
+    struct kd_rays_request request; /* initialised when the job is made; a JSON body is merged into it */
     bool npy;                       /* the body is an array in NPY */
     /* results in addition to those of the task */
     bool malformed; /* KD_EINVAL because the body is not JSON */

@@ -16,7 +16,7 @@ struct kd_asset {
     struct kd_asset_about about;
     char client[KD_CLIENT];
     double used_ms;
-    unsigned references; /* counted references, including the store's own */
+    unsigned references; /* number of references, including the store's own */
     enum kd_asset_state state;
     struct kd_scheduler_job removal; /* scheduler job that removes the asset's files (kd_asset_store_remove_later) */
     struct kd_asset_store *store;

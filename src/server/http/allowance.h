@@ -23,7 +23,7 @@ struct kd_allowance {
 /* Contents of the client's bucket in ms of device time; negative: debt. INFINITY if there is no limit. Also INFINITY
  * for the client "", which owns the jobs that continue after a restart. */
 double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, double now_ms);
-/* Subtracts device time that work of a client has used. */
+/* Subtracts device time that a client's work has used. */
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms);
 /* Milliseconds until the bucket holds at least 1 ms after owed_ms has been subtracted as well; 0 if that is true
  * now. */

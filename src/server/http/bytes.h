@@ -18,8 +18,8 @@ struct kd_bytes_params {
      * one. */
     unsigned clients;
     size_t max, share; /* limits in bytes: of all clients together; of one client */
-    /* bytes beyond max that are reserved for bodies or answers of at most `small` bytes; a client may use the
-     * fraction share / max of this reserve */
+    /* reserve: bytes beyond max for bodies or answers of at most `small` bytes; a client may use the fraction share
+     * / max of the reserve */
     size_t reserve, small;
     bool lone; /* a client that holds nothing may exceed share; if no client holds anything, it may also exceed max */
 };

@@ -16,7 +16,7 @@
 #define KD_LINK_LEEWAY_S 60u          /* seconds for which an expired link still works, because clocks differ */
 #define KD_LINK_LATEST_S 253402300799 /* last second of the year 9999 */
 #define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
-#define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
+#define KD_SHARED_DAYS 30             /* number of days for which the link of a shared scene works */
 
 /* The terms of a link: when it expires, and how much device time its pictures may use. */
 struct kd_link_terms {

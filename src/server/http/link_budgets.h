@@ -5,7 +5,7 @@
 
 #include "server/http/link.h"
 
-#define KD_LINK_BUDGETS 16384u /* largest number of links with a budget whose use is remembered */
+#define KD_LINK_BUDGETS 16384u /* largest number of links with a budget whose use is stored */
 #define KD_LINK_BUDGETS_FILE "link-budgets"
 
 struct kd_link_budgets;

@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* X(name, HTTP status, word in the type's URI, title) */
+/* X(name, HTTP status, word in the URI of the type, title) */
 #define KD_PROBLEMS(X) \
     X(BAD_REQUEST, 400, "bad-request", "The request is not valid HTTP") \
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object") \

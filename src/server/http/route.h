@@ -49,7 +49,7 @@ struct cJSON;
 struct kd_route;
 struct kd_taken {
     const char *about, *what;     /* about: the request in a few words; what: a name for the request's body */
-    size_t most;                  /* largest size of the body in bytes; 0: KD_BODY_MAX */
+    size_t most;                  /* largest size of the body in bytes; 0: the default KD_BODY_MAX */
     const char *types;            /* media types of the body, "a/b c/d"; NULL: application/json. A PATCH may also
                                    * send a merge patch */
     const char *schema, *changes; /* schema: JSON Schema of a body, as text; changes: the same for PATCH */
@@ -70,7 +70,7 @@ enum kd_gives {
 };
 
 /* In the structs below, methods 0 means all methods of the route. */
-struct kd_query {                     /* a query parameter that is not a field of a scene */
+struct kd_query {                     /* a query parameter that is not a field of the scene */
     const char *name, *schema, *help; /* schema: JSON Schema as text; NULL: the names of the formats of jobs */
     unsigned methods;
     bool required;
@@ -108,7 +108,7 @@ struct kd_route {
         unsigned methods, status;
         const char *headers;
     } tells[3];                                  /* names of the answers' headers, "A B" */
-    struct { unsigned methods, status; } may[2]; /* problems that the other members do not imply */
+    struct { unsigned methods, status; } may[2]; /* problems of the route that its other members do not imply */
 };
 
 /* All routes, in server/routes.c. */

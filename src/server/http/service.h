@@ -116,7 +116,7 @@ struct kd_server {
     /* set drain_s after a stop request; remaining work is then cancelled, and its clients get an answer */
     _Atomic bool ended;
     pthread_mutex_t lock;                      /* protects all members below */
-    struct kd_sessions_counts sessions_counts; /* the counts that were last read */
+    struct kd_sessions_counts sessions_counts; /* counts as they were last read, for use while a lock is not free */
     struct kd_jobs_counts jobs_counts;
     struct kd_playground_sessions_counts playgrounds_counts;
     pthread_cond_t changed;

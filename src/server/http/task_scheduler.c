@@ -27,7 +27,7 @@ struct kd_scheduler {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool closing;
-    /* first: listed jobs, in the order in which they run; parked: jobs that wait */
+    /* first: listed jobs, in the order in which they run; parked: jobs that wait for an event */
     struct kd_scheduler_job *first, **end, *parked;
     struct kd_scheduler_job *accepted; /* all jobs that are not done */
     unsigned n_accepted, unfinished;

@@ -8,7 +8,7 @@
 /* Writes the members of an operation's "responses". */
 void kd_openapi_problems(struct kd_json *json, const struct kd_route *route, unsigned method);
 /* kd_openapi_has_problem: whether this operation may answer with this status. kd_openapi_problem_is_common: whether
- * any operation may answer with it. */
+ * operations in general may answer with it, independent of the route. */
 bool kd_openapi_has_problem(const struct kd_route *route, unsigned method, unsigned status);
 bool kd_openapi_problem_is_common(unsigned status);
 /* Writes the members of components.responses. There is one for each status, such as "Problem404". */

@@ -22,7 +22,7 @@ double kd_playground_session_usual_rate(const cJSON *tree);
 enum kd_status kd_playground_session_read_step(const char *text, size_t length, double *by, struct kd_error *error);
 
 struct kd_playground_session_json_options {
-    const struct kd_scene *scene; /* scene of the playground's picture */
+    const struct kd_scene *scene; /* scene of the picture of the playground */
     /* the token is included, because the client has just opened the session */
     bool token;
     /* bodies with ids above this are listed as "added"; UINT32_MAX: no such list */

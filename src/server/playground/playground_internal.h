@@ -37,14 +37,14 @@ struct kd_playground_session {
     struct kd_scene scene; /* scene of the playground's picture */
     /* session that renders the picture, a counted reference; NULL: no client has requested a picture */
     struct kd_session *picture;
-    bool unshown;                                 /* the picture has no bodies yet */
+    bool unshown;                                 /* true: the picture has no bodies yet */
     double looked_at_ms;                          /* time at which a frame was last requested */
     bool held;                                    /* a thread has taken ownership of the playground */
     struct kd_playground_session_waiter *waiters; /* jobs that wait until they can take the playground */
     /* only the job that has taken the playground (kd_playground_session_take) uses the members from here on */
     struct kd_playground_session_waiter waiter; /* entry of the session's own job in the list of waiters */
     struct kd_playground *p;
-    double looked_ms, goal, allowance; /* clock of the session's slices (run.c); looked_ms 0: the clock is stopped */
+    double looked_ms, goal, allowance; /* clock of the session's slices (run.c); looked_ms 0: the clock does not run */
     double ticked_ms, measured_ms, measured_t, shown_ms;
     uint64_t shown; /* generation of the bodies that the picture shows; 0: none */
 };

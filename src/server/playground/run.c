@@ -19,7 +19,7 @@
 #define FEW 64       /* number of bodies up to which a sub-step takes a microsecond or two */
 #define PIECES 16    /* sub-steps between two checks of the clock, with few bodies */
 
-/* Work of a slice, read at its start. */
+/* Data that a slice needs, read at its start. */
 struct order {
     bool over, goes, anew, awaited;
     double rate;

@@ -37,7 +37,7 @@ struct kd_live_frame {
     char accuracy[KD_ACCURACY_TEXT], timing[400], quality[200], clock[KD_CLOCK_TEXT], flux[KD_FLUX_TEXT];
 };
 
-/* Values that describe the frame. */
+/* Values that describe a frame. */
 struct kd_live_note {
     uint64_t number;
     unsigned revision;

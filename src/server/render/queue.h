@@ -58,7 +58,7 @@ enum kd_render_stage {
 enum kd_render_kernels { KD_KERNELS_UNKNOWN, KD_KERNELS_MISSING, KD_KERNELS_THERE };
 
 struct kd_render_job {
-    /* members set by the submitter */
+    /* the members from here on are set by the submitter */
     struct kd_claim claim; /* client and class for the scheduler; left_ms is set from the plan */
     struct kd_scene scene;
     struct kd_plan plan;
@@ -117,7 +117,7 @@ struct kd_render_job {
 };
 
 #define KD_REOPENINGS 3       /* default number of times that a device may be reopened within KD_REOPENINGS_S */
-#define KD_REOPENINGS_S 600.0 /* window in which reopenings are counted */
+#define KD_REOPENINGS_S 600.0 /* time in which reopenings are counted */
 #define KD_REOPENINGS_NONE UINT_MAX
 
 /* Returns when the device is open, or with the error. client_limit: limit of waiting jobs of one client. client_s:

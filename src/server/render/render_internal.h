@@ -45,7 +45,7 @@ struct kd_render_queue {
     unsigned limit, client_limit, unfinished;
     bool lost;
     struct kd_error lost_error;
-    bool hangs; /* a call into the driver hangs, so its thread cannot be joined */
+    bool hangs; /* true: a call into the driver hangs, so its thread cannot be joined */
     /* failed: the device has failed, and is reopened once `inside` is 0; reopening: it is being reopened */
     bool failed, reopening;
     struct kd_error failure;       /* the reason why the device failed */
@@ -62,7 +62,7 @@ struct kd_render_queue {
     struct kd_compilation *ahead;
     bool compiling_ahead;
     double ahead_ms;                       /* time of the latest search for such kernels */
-    _Atomic bool uncompiled;               /* the kernels being compiled are not needed any more */
+    _Atomic bool uncompiled;               /* true: the kernels being compiled are not needed any more */
     double compile_ms;                     /* running mean of the time of a compilation; 0: none yet */
     struct kd_pulse pulse, compiler_pulse; /* watchdogs of the device's owner and of the compiler */
     _Atomic bool cancel;

@@ -20,7 +20,7 @@ struct kd_session {
     struct kd_once once;     /* hashes of the request that created the session */
     struct kd_scene scene;   /* the session's scene at the time since_ms */
     struct kd_timeline path; /* path that the session has followed since since_ms; without keyframes: no path */
-    struct kd_scene on_path; /* latest valid scene on the path */
+    struct kd_scene on_path; /* the latest scene on the path that was valid */
     struct kd_dynamic_bodies *dynamic; /* bodies of a playground that are shown in the scene; NULL: none, or none yet */
     /* crowded: the session shows bodies of a playground; dynamic_moved: the bodies differ from those in the latest
      * frame */
@@ -38,7 +38,7 @@ struct kd_session {
     bool listed;
     struct kd_session_frame *rendering; /* frame that is not rendered yet */
     unsigned encoding;
-    bool adding; /* the latest frame is being encoded in a further format */
+    bool adding; /* true: the latest frame is being encoded in a further format */
     struct kd_live_frame *latest;
     /* exposed_ms: time at which the latest frame was rendered; exposure: exposure of that frame, in stops */
     double exposed_ms, exposure;
