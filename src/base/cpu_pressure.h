@@ -1,6 +1,6 @@
 /* Processor pressure: how long this process's threads have waited for a core, from /proc/self/task/N/schedstat
- * (Documentation/scheduler/sched-stats.rst of Linux). Other load slows this process's work by about that much. Any
- * thread. */
+ * (Documentation/scheduler/sched-stats.rst of Linux). The waiting time is a measure of how much other load slows
+ * this process down. Any thread. */
 #ifndef KD_BASE_CPU_PRESSURE_H
 #define KD_BASE_CPU_PRESSURE_H
 

@@ -18,8 +18,8 @@ struct kd_memory_limit {
     const char *by;
 };
 
-/* Bytes left by the limits of address space (RLIMIT_AS, `ulimit -v`) and of data (RLIMIT_DATA, `ulimit -d`).
- * UINT64_MAX: neither limit is set, or the use cannot be read. */
+/* Bytes that the process may still allocate within the limits of address space (RLIMIT_AS, `ulimit -v`) and of data
+ * (RLIMIT_DATA, `ulimit -d`). UINT64_MAX: neither limit is set, or the use cannot be read. */
 uint64_t kd_address_space_left(void);
 
 /* Returns false if not even MemAvailable can be read: no descriptors are left, or /proc is missing. root: prefix of

@@ -16,7 +16,8 @@ void kd_parallel(size_t n, void (*each)(void *user, size_t item), void *user);
  * than there are cores. All calls together start at most one thread less than there are cores. */
 void kd_parallel_idle(size_t n, void (*each)(void *user, size_t item), void *user);
 
-/* For tests and benchmarks: kd_parallel_idle uses this many threads, however busy the cores are. 0: idle cores only. */
+/* For tests and benchmarks: kd_parallel_idle uses this number of threads, regardless of how busy the cores are. 0:
+ * it uses idle cores only. */
 extern _Thread_local unsigned kd_parallel_threads;
 
 #endif

@@ -45,8 +45,8 @@ bool kd_program_over(struct kd_program *program, int *code);
  * and produces no output. moved: the caller has seen output since the last call. Call it regularly. A gap between
  * two calls counts as at most one second, because the machine may have been suspended. */
 double kd_program_idle_ms(struct kd_program *program, bool moved, double now_ms);
-/* Gets the first line of the program's standard error in a form that can be shown: without control characters, and
- * without paths and addresses of this machine. "" if the program has printed nothing. */
+/* Gets the first line of the program's standard error in a form that may be shown to clients: control characters,
+ * paths and addresses of this machine are removed. "" if the program has printed nothing. */
 void kd_program_reason(const struct kd_program *program, char out[300]);
 void kd_program_end(struct kd_program *program); /* may be called for a program that was never started */
 

@@ -1,5 +1,5 @@
-/* Writes JSON Schemas of answers. An object has exactly the members in its list, so that tests that validate real
- * answers find additional and missing members. One thread at a time for a document. */
+/* Writes JSON Schemas of answers. The schema of an object permits exactly the members in its list. So tests that
+ * validate real answers find additional and missing members. One thread at a time for a document. */
 #ifndef KD_BASE_SCHEMA_H
 #define KD_BASE_SCHEMA_H
 

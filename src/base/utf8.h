@@ -16,8 +16,8 @@ bool kd_utf8_valid(const char *text);
 
 /* Replaces each byte that is not part of valid UTF-8 by "?". */
 void kd_utf8_sanitize(char *text);
-/* Like kd_utf8_sanitize, and also replaces control characters: line feed, tab and carriage return by a blank, others by
- * "?". */
+/* Like kd_utf8_sanitize, and also replaces control characters: line feed, tab and carriage return by a blank, all
+ * other control characters by "?". */
 void kd_utf8_show(char *text);
 
 /* Copies as many whole characters of text as fit in size bytes. Each byte of a control character or of invalid UTF-8

@@ -1,7 +1,7 @@
 /* Functions shared by the subcommands of kerrd, which commands.h lists. Main thread only.
  *
- * A subcommand gets its own arguments; argv[0] is "kerrd NAME". It returns an exit code. A usage error exits from argp
- * with KD_EXIT_USAGE. */
+ * A subcommand gets its own arguments; argv[0] is "kerrd NAME". The subcommand returns an exit code. On a usage error,
+ * argp ends the program with KD_EXIT_USAGE. */
 #ifndef KD_CLI_CLI_H
 #define KD_CLI_CLI_H
 

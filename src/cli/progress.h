@@ -27,7 +27,8 @@ double kd_progress_clock(void); /* monotonic clock, in s */
 
 /* If a signal was caught, kills the process by that signal, as shells expect; otherwise returns. */
 void kd_progress_reraise(void);
-/* Ends a command. Reports the error and returns the exit code, or kills the process by the signal that stopped it. */
+/* Ends a command. Reports the error and returns the exit code, or kills the process by the signal that stopped the
+ * command. */
 int kd_progress_exit(enum kd_status status, const struct kd_error *error);
 
 #endif

@@ -62,8 +62,8 @@ bool kd_setting_takes(const struct kd_cli_setting *setting, const char *text, ch
 enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_setting_source source, const char *text,
                                 struct kd_error *error);
 
-/* The next three functions are in settings_read.c. Their errors are KD_EINVAL, and name the file or variable, the
- * option, the value and what is accepted. */
+/* The next three functions are in settings_read.c. Their errors are KD_EINVAL. The message names the file or
+ * variable, the option, the value and the accepted values. */
 /* Reads a configuration file, a JSON object. A path "-FILE" reads FILE if FILE exists. */
 enum kd_status kd_settings_read_file(struct kd_settings *settings, const char *path, struct kd_error *error);
 /* Reads the environment variables KERRD_...; empty ones are ignored. */

@@ -59,8 +59,8 @@ struct kd_number_list {
 };
 
 struct kd_row {
-    /* object: the member of the document that contains the field, or a nested one such as "disk.gas"; NULL or "": the
-     * document itself */
+    /* object: the member of the document that contains the field. It may be a nested one such as "disk.gas". NULL or
+     * "": the document itself */
     const char *object, *name;
     enum kd_kind kind;
     bool needed, fixed;          /* needed: must be given; fixed: cannot be changed afterwards */
@@ -81,7 +81,8 @@ struct kd_row {
     const char *allowed, *schema;
 };
 
-/* An object that is a list: an array of objects with the same fields. Its rows are those of the first element. */
+/* An object that is a list: an array of objects with the same fields. The rows of such an object are those of the
+ * first element. */
 struct kd_list {
     const char *object;
     /* limit of elements; bytes from one element to the next; offset of the number of elements */
@@ -174,8 +175,8 @@ struct kd_range {
     size_t count; /* 1: a single number */
 };
 double kd_range_at(const struct kd_range *range, size_t i);
-/* Reads a row of numbers from typed text: a number or the row's word, or "first:last:count". For a WORD, the range is
- * its index. On an error *range is unchanged. */
+/* Reads a row of numbers from typed text: a number or the row's word, or "first:last:count". For a WORD, the range
+ * consists of the word's index. On an error *range is unchanged. */
 enum kd_status kd_row_range(const struct kd_row *row, const char *text, const char *pointer, struct kd_range *range,
                             struct kd_error *error);
 /* Writes the schema of what kd_row_range reads, with the default, as a member. */
@@ -202,7 +203,8 @@ void kd_row_type_members(struct kd_json *json, const struct kd_row *row);
 void kd_row_schema(struct kd_json *json, const char *name, const struct kd_row *row);
 /* Like kd_row_schema, without the row's description. */
 void kd_row_type(struct kd_json *json, const char *name, const struct kd_row *row);
-/* Writes "required", if a field of the document itself, or of one of its objects, is needed. */
+/* Writes the member "required" if a field must be given. The field may be one of the document itself or of one of
+ * its objects. */
 void kd_document_required(struct kd_json *json, const struct kd_document *document);
 /* Writes the array `name` of {"name", "type", "default", "least", "most", "words", "fixed", "help"}, for a page's
  * controls. Lists, vectors and texts are left out. */

@@ -4,8 +4,8 @@
 
 #include "document/document.h"
 
-/* An object of the document that is being read; "" is the document itself. list: the list of which it is an element, or
- * NULL. */
+/* An object of the document that is being read; "" is the document itself. list: the list that has the object as an
+ * element, or NULL. */
 struct kd_object {
     const char *name;
     const struct kd_list *list;

@@ -51,8 +51,7 @@ struct kd_scene {
         const struct kd_dynamic_bodies *at;
         uint64_t generation;
     } dynamic; /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
-    /* description of the grid that volume.grid names, set by kd_scene_resolve; 0: no description */
-    struct kd_scene_matter matter;
+    struct kd_scene_matter matter; /* description of the grid volume.grid, set by kd_scene_resolve; 0: no description */
 };
 
 /* Sets every field to its default, which is the scene of an empty document. */

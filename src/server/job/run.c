@@ -229,8 +229,8 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
 
 #define COUNTED_MS 500.0 /* shortest interval between two writes of a sweep's number of lens maps to its record */
 
-/* Counts the lens map of a frame, if a map was traced. The record of a sweep is written from time to time, so that
- * the number survives a restart. */
+/* Counts the lens map of a frame, if a map was traced. For a sweep, the job's record is written from time to time,
+ * so that the number of lens maps survives a restart. */
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
     const unsigned traced =
@@ -359,7 +359,8 @@ static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draf
 {
     const struct kd_cost *cost = &draft->cost;
     const unsigned frames = draft->spec.frames;
-    /* Until all frames are checked, any lens map may turn out to be shared, so the time of tracing is not counted. */
+    /* Until all frames are checked, every lens map may still turn out to be shared with another frame. So the time
+     * of tracing is not counted. */
     const double not_spent = cost->frames < frames ? cost->trace_ms : cost->shared_ms;
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)

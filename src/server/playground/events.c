@@ -59,7 +59,7 @@ done:
 }
 
 /* Writes the next part of the stream into s->text. Returns false if there is no part yet, or if the stream has
- * ended; in the latter case *end is set. */
+ * ended. If it has ended, *end is set. */
 static bool fetch(struct stream *s, ssize_t *end)
 {
     struct kd_playground_session_tick *tick = NULL;

@@ -137,8 +137,8 @@ static bool has_debris(const struct kd_playground_session_tick *tick, uint32_t w
     return !wanted || (tick->has_debris && tick->most >= wanted);
 }
 
-/* Publishes a tick if a client waits for one and the tick is due. Returns the latest time of the next call; 0: no next
- * call is needed. */
+/* Publishes a tick if a client waits for one and the tick is due. Returns the time by which it must be called again;
+ * 0: no further call is needed. */
 static double publish(struct kd_playground_session *play, const struct order *order, double now)
 {
     const struct kd_playground_session_state state = kd_playground_session_state(play);
@@ -163,7 +163,8 @@ static double publish(struct kd_playground_session *play, const struct order *or
     return 0;
 }
 
-/* Passes the new bodies to the picture. Returns the latest time at which it must be called again; 0: no such time. */
+/* Passes the new bodies to the picture. Returns the time by which it must be called again; 0: no further call is
+ * needed. */
 static double show(struct kd_playground_session *play, const struct order *order, double now)
 {
     struct kd_dynamic_bodies *dynamic = NULL;

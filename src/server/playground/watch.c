@@ -50,8 +50,8 @@ bool kd_playground_session_awaited(const struct kd_playground_session *play)
     return false;
 }
 
-/* Takes the first event in the log after the last one sent. Its number in *event shows how many events between were
- * discarded. */
+/* Takes the first event in the log after the last one sent. The number of this event, in *event, shows how many
+ * events in between were discarded. */
 static void take_event(struct kd_playground_session_watcher *w, struct kd_playground_event *event)
 {
     const struct kd_playground_event *found = NULL;

@@ -150,8 +150,8 @@ static bool is_any(const struct kd_claim *claim, void *user)
     return !atomic_load(&job_of((struct kd_claim *)claim)->drop);
 }
 
-/* Adds the time that the job has waited to kernels_ms. This time is not part of queue_ms, in which others owned the
- * device. */
+/* Adds the time that the job has waited to kernels_ms. This time is not part of queue_ms, the time during which
+ * others owned the device. */
 static void end_waiting(struct kd_render_job *job)
 {
     const double now = kd_clock_ms();

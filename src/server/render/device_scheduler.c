@@ -33,8 +33,8 @@ static bool fits(const struct kd_render_queue *queue, const struct kd_render_job
 
 static bool is_brief(const struct kd_render_job *job) { return job->plan.cost.estimate_ms <= BRIEF_MS; }
 
-/* Finds a lane for a long picture; NULL: none yet. A client has at most one lane for each class, not counting brief
- * pictures. */
+/* Finds a lane for a long picture. NULL: no lane is available yet. A client has at most one lane for each class, not
+ * counting brief pictures. */
 static struct kd_lane *lane_for(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_lane *found = NULL;

@@ -256,8 +256,8 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
         n += waits;
         own += waits && !strcmp(job->claim.client, client);
     }
-    unsigned next = !queue->holder; /* number of jobs about to start: 1 if the device is idle; such a job does not
-                                     * count as waiting */
+    /* number of jobs that are about to start. It is 1 if the device is idle; such a job does not count as waiting */
+    unsigned next = !queue->holder;
     pthread_mutex_unlock(&queue->lock);
     if (n >= queue->limit + next)
         return kd_error_set(error, KD_EBUSY, "too many waiting renders (limit %u)", n);

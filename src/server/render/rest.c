@@ -1,4 +1,5 @@
-/* Frees the renderer's cached memory after some time without requests. Also trims the heap, even under load. */
+/* Frees the renderer's cached memory after some time without requests. Also trims the heap, which is done even under
+ * load. */
 #include "render/device/rest.h"
 
 #include "base/allocator.h"

@@ -61,7 +61,7 @@ static void describe_file(struct MHD_Response *response, const struct kd_live_fr
 }
 
 /* Adds headers about the request: the revision that the request made, and how long the request waited in the server.
- * From this time the client can compute the network's delay. */
+ * The client can subtract this time to find the delay of the network. */
 static void tell_request(struct MHD_Response *response, const struct kd_viewer *viewer)
 {
     char number[24];

@@ -225,7 +225,7 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     kd_session_promise(session, &request->once);
     kd_session_state(session, &state);
     result = answer_created(request, session, &state);
-    /* the client does not know the session, and cannot request it again because it sent no key */
+    /* the session ends, because the client does not know it, and cannot request it again without a key */
     if (request->status != MHD_HTTP_CREATED && !*request->once.key)
         kd_session_end(session);
     kd_session_release(session);

@@ -111,7 +111,7 @@ void kd_session_pump(struct kd_session *s)
     }
     s->on_path = scene;
     const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
-    /* If the scene moved in the latest frame and is at rest now, the next frame differs as well. */
+    /* If the scene moved in the latest frame and is at rest now, the next frame will differ too. */
     if (moves || s->moved || s->dynamic_moved)
         kd_session_govern(s, now, &scene, flies || s->flew);
     const struct kd_frame_decision decision = kd_governor_decide(&s->governor, now);
