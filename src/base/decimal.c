@@ -73,7 +73,8 @@ static void make_powers(void)
 
 __extension__ typedef unsigned __int128 wide;
 
-/* Returns the leading 64 bits of g n / 2^127. The last of these bits is set if any bit below it is. */
+/* Returns the leading 64 bits of g n / 2^127. The last of these bits is also set if any lower bit of the number is
+ * set. */
 static uint64_t round_to_odd(struct g g, uint64_t n)
 {
     wide x = (wide)g.low * n, y = (wide)g.high * n + (uint64_t)(x >> 64);

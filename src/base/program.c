@@ -82,7 +82,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     sigaddset(&usual, SIGXFSZ);
     posix_spawnattr_setsigmask(&how, &none);
     posix_spawnattr_setsigdefault(&how, &usual);
-    /* The program has a process group of its own, so that Ctrl-C reaches kerrd only, which then ends the program. */
+    /* The program has a process group of its own, so that Ctrl-C reaches only kerrd. kerrd then ends the program. */
     posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     if (!(code = posix_spawn_file_actions_adddup2(&files, in, 0)) &&
         !(code = posix_spawn_file_actions_adddup2(&files, told, 2)) &&

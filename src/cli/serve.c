@@ -97,7 +97,7 @@ static void announce(const char *address, uint16_t port, const char *base_path, 
     for (const char *const *name = own; name && *name; name++)
         printf("kerrd: reachable at http://%s:%u%s/\n", *name, port, base_path);
     show_code(address, port, base_path, own);
-    /* The parent may be waiting for this line in a pipe. If it cannot be written, the service continues. */
+    /* The parent may be waiting for this line in a pipe. If the line cannot be written, the service continues. */
     if (fflush(stdout) || ferror(stdout))
         kd_log(KD_LOG_ERROR, "cannot write to standard output: %s", strerror(errno));
     clearerr(stdout);
@@ -210,7 +210,7 @@ static void set_log(const struct kd_settings *settings)
     kd_log_set_format(strcmp(kd_settings_text(settings, KD_SERVE_LOG_FORMAT), "json") ? KD_LOG_TEXT : KD_LOG_JSON);
 }
 
-/* Reads the environment and the file. It does so after the flags, which may name the file and take precedence. */
+/* Reads the environment and the file. The flags are read before, because they may name the file and take precedence. */
 static enum kd_status configure(struct kd_settings *settings, struct kd_error *error)
 {
     enum kd_status status;

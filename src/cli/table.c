@@ -155,7 +155,8 @@ static enum kd_status read_at(const struct part *part, void *bytes, size_t size,
     return KD_OK;
 }
 
-/* True if the file begins with the table's head that has this sum of rows. bytes: a buffer with room for a head. */
+/* True if the file begins with the head that this table has for this sum of rows. bytes: a buffer with room for a
+ * head. */
 static enum kd_status begins_with(const struct part *part, const struct kd_table *table, uint32_t sum, uint8_t *bytes,
                                   bool *does, struct kd_error *error)
 {
@@ -246,7 +247,8 @@ done:
     return status;
 }
 
-/* Rows between two writes: pieces of consecutive nodes with the same hole and inclination, computed in parallel. */
+/* The rows between two writes. They are those of consecutive nodes with the same hole and inclination, and are
+ * computed in parallel, in pieces. */
 struct batch {
     const struct kd_table *table;
     uint8_t *rows;

@@ -13,8 +13,8 @@ struct kd_value {
 /* Interprets typed text like a value of a document: as a number, as true or false, otherwise as a string. */
 struct kd_value kd_value_typed(const char *text);
 
-/* Text that a message adds after a value if a number is required and the value is not a number, such as ", a string
- * where a number is needed"; otherwise "". */
+/* Text that a message adds after a value, such as ", a string where a number is needed". It is "" if no number is
+ * required, or if the value is a number. */
 const char *kd_value_unwanted(const struct kd_value *value);
 
 /* Writes a description of a value for messages. */

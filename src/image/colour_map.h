@@ -18,7 +18,7 @@ enum kd_colour_map { KD_MAP_SEQUENTIAL, KD_MAP_HEAT, KD_MAP_DIVERGING, KD_MAP_CY
 /* Encoded sRGB in [0, 1]. */
 struct kd_map_colour { double r, g, b; };
 
-/* The colour at x. x is clamped to [0, 1]; for CATEGORICAL it is a whole number from 0 on. 2 us. */
+/* The colour at x. x is clamped to [0, 1]; for CATEGORICAL it is a whole number, 0 or more. Takes 2 us. */
 struct kd_map_colour kd_colour_map_at(enum kd_colour_map map, double x);
 
 /* The colours of kd_colour_map_at from a table, for many pixels. The error is at most 1/150 in each channel. For
@@ -37,7 +37,7 @@ struct kd_map_scale {
     double low, high; /* values at the ends of the map; if logarithmic, both must be above 0 */
     bool logarithmic;
 };
-/* Place on the map: 0 at low, 1 at high; values beyond are not clamped. 0 if low equals high. */
+/* Place on the map: 0 for the value `low`, 1 for `high`. Values beyond these are not clamped. 0 if low equals high. */
 double kd_map_scale_place(const struct kd_map_scale *scale, double value);
 
 #endif

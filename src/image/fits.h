@@ -36,8 +36,8 @@ struct kd_fits_array {
 enum kd_status kd_fits_image(struct kd_buffer *out, bool primary, const struct kd_fits_array *array,
                              const struct kd_buffer *cards);
 
-/* An HDU may also be written in pieces: its header, which includes the sum of the data; then the data; then zeros up
- * to a whole block. */
+/* An HDU may also be written in pieces, in this order: its header, which includes the sum of the data; the data;
+ * zeros up to a whole block. */
 struct kd_fits_shape {
     bool primary;
     /* a BINTABLE of axes[1] rows of axes[0] bytes, with `columns` columns, whose cards the caller provides;
@@ -49,8 +49,8 @@ struct kd_fits_shape {
 /* Appends the header. data_sum: kd_fits_sum of all data. KD_ENOMEM. */
 enum kd_status kd_fits_head(struct kd_buffer *out, const struct kd_fits_shape *shape, const struct kd_buffer *cards,
                             uint32_t data_sum);
-/* kd_fits_sum: sum of data (ones' complement, of big-endian words), in pieces of whole words, starting from sum 0.
- * kd_fits_add_sums: the sum of two sums. */
+/* kd_fits_sum: sum of data (ones' complement, of big-endian words). Data may be summed in pieces of whole words; the
+ * first sum is 0. kd_fits_add_sums: the sum of two sums. */
 uint32_t kd_fits_sum(uint32_t sum, const void *data, size_t size);
 uint32_t kd_fits_add_sums(uint32_t a, uint32_t b);
 /* Number of zeros that must follow `size` bytes of data. */

@@ -46,7 +46,8 @@ static void write_centred(const struct panel *p, double x, uint32_t y, const cha
     write_text(p, (uint32_t)fmax(fmin(x - 0.5 * width, most), p->dot), y, text);
 }
 
-/* Round numbers between the ends of a scale: multiples of a step, or a few numbers in each decade. */
+/* Round numbers between the ends of a scale. They are multiples of a step or, on a logarithmic scale, a few numbers
+ * in each decade. */
 struct row {
     double step;
     const double *of_decade;
@@ -172,7 +173,8 @@ uint32_t kd_legend_dot(const struct kd_canvas *canvas)
     return kd_canvas_dot(canvas, PANEL_WIDTH + 2 * MARGIN, PANEL_HEIGHT);
 }
 
-/* Width of the panel: that of the bar, or of a title that ends at `title_end`; limited by the picture's. */
+/* Width of the panel: the width of the bar, or of a title that ends at `title_end`. It is limited by the picture's
+ * width. */
 static uint32_t panel_width(const struct kd_canvas *canvas, uint32_t dot, uint32_t title_end)
 {
     const uint32_t least = PANEL_WIDTH * dot, most = canvas->width - 2 * MARGIN * dot,

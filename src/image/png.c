@@ -289,8 +289,8 @@ static uint32_t big_endian(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* Checks a file before libpng reads it, so that the error can name the fault. Moreover, libpng 1.6 allocates the length
- * in a text chunk's header, up to 2 GiB, before it checks whether so many bytes follow. */
+/* Checks a file before libpng reads it, so that the error can name the fault. Moreover, libpng 1.6 trusts the length
+ * in a text chunk's header: it allocates up to 2 GiB before it checks whether so many bytes follow. */
 static enum kd_status check_header(const uint8_t *data, size_t size, size_t *texts, size_t *end, struct kd_error *error)
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };

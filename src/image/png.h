@@ -25,8 +25,8 @@ struct kd_png_params {
 };
 enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffer *out, struct kd_error *error);
 
-/* A decoded picture; RGB whatever the file held. Free with kd_png_finish. Limits: 32768 pixels a side, 1 MiB of
- * text. */
+/* A decoded picture. It is RGB, even if the file held another type. Free with kd_png_finish. Limits: 32768 pixels a
+ * side, 1 MiB of text. */
 struct kd_png {
     uint32_t width, height;
     int bit_depth; /* 8 or 16 */

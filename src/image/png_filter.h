@@ -1,6 +1,7 @@
 /* Filters rows of a PNG before compression (PNG specification, third edition, W3C 2025, section 9). Pure, any thread.
  *
- * A row is `stride` bytes, `step` of them a pixel. The filtered row has one byte more, the filter's number in front. */
+ * A row is `stride` bytes, `step` of them a pixel. The filtered row is one byte longer: it begins with the filter's
+ * number. */
 #ifndef KD_IMAGE_PNG_FILTER_H
 #define KD_IMAGE_PNG_FILTER_H
 

@@ -42,8 +42,8 @@ struct kd_integral_answer {
 enum kd_status kd_integral_make_columns(struct kd_integral_answer *answer, size_t rows, struct kd_error *error);
 
 /* Computes an integral that needs no pictures (integral/run.h handles all). The request must have been checked. On
- * failure there is nothing to finish. Takes some 10 to 100 ms, less for a recently used spin and inclination;
- * up to some seconds for a corona off the axis. */
+ * failure there is nothing to finish. Takes some 10 to 100 ms, less for a recently used spin and inclination, but up
+ * to some seconds for a corona off the axis. */
 enum kd_status kd_integral_compute(const struct kd_integral_request *request, struct kd_integral_answer *answer,
                                    struct kd_error *error);
 /* The word that a number of a column of words stands for; NULL: none. */

@@ -506,8 +506,8 @@ static enum kd_status returning_of(const struct kd_integral_request *r, struct k
     return KD_OK;
 }
 
-/* Adds scattered light to the fluxes, and fills the columns of polarisation. The direct light is computed here again;
- * the largest relative difference from the flux that the column already has is added to the error. */
+/* Adds scattered light to the fluxes, and fills the columns of polarisation. The direct light is computed here a
+ * second time. The largest relative difference between the two results is added to the error. */
 static enum kd_status add_stokes(const struct kd_integral_request *r, const struct kd_disk_image *image,
                                  const struct kd_disk_spectrum_params *params, struct kd_integral_answer *answer,
                                  struct kd_error *error)

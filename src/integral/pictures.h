@@ -10,8 +10,8 @@ enum { KD_INTEGRAL_USUAL_FREQUENCIES = 13 };
  * could then coincide */
 #define KD_INTEGRAL_FINER 1.5
 
-/* The difference between the coarse and the finer picture, multiplied by this factor, is the error of the coarse one.
- * The error falls as 1/(pixels per side)^2, so the factor is 1/(1 - 1/1.5^2). */
+/* The error of the coarse picture is this factor times the difference between the coarse and the finer picture. The
+ * error falls as 1/(pixels per side)^2, so the factor is 1/(1 - 1/1.5^2). */
 #define KD_INTEGRAL_OF_DIFFERENCE (1 / (1 - 1 / (KD_INTEGRAL_FINER * KD_INTEGRAL_FINER)))
 
 /* Number of pictures that a checked request needs; 0: it is not made of pictures. */
@@ -39,7 +39,8 @@ void kd_integral_name_set(const struct kd_integral_request *request, unsigned pi
  * volume. */
 enum kd_status kd_integral_make_scene(struct kd_integral_request *request, struct kd_error *error);
 
-/* For a picture seen from far away: radians a pixel, and the longest baseline that this pixel size resolves. */
+/* For a picture seen from far away: the size of a pixel in radians, and the longest baseline that pixels of this
+ * size resolve. */
 double kd_integral_pixel(const struct kd_scene *scene);
 double kd_integral_nyquist_gl(const struct kd_scene *scene);
 

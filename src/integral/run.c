@@ -115,7 +115,8 @@ static void multiply(float *map, size_t n, float factor)
         map[i] *= factor;
 }
 
-/* Flux of a sky that has the border's mean brightness everywhere, as a fraction of the map's sum. */
+/* Estimate of the light beyond the map: the flux of a sky that has the border's mean brightness everywhere, as a
+ * fraction of the map's sum. */
 static double border_share(const float *map, uint32_t width, uint32_t height, double sum)
 {
     double edge = 0, n = 0;

@@ -64,8 +64,9 @@ struct kd_job_base {
     void *user;
 };
 
-/* Parses and validates a request. assets: those that scenes may use; NULL: hashes are not checked. Afterwards every
- * scene of a list and every keyframe is valid. KD_EINVAL with a pointer into the request, or to /preset. */
+/* Parses and validates a request. assets: the assets that scenes may use; NULL: hashes are not checked. After
+ * success every scene of a list and every keyframe is valid. KD_EINVAL with a pointer into the request, or to
+ * /preset. */
 enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct kd_job_base *base,
                                  const struct kd_assets *assets, struct kd_job_spec *out, struct kd_error *error);
 void kd_job_spec_finish(struct kd_job_spec *spec);

@@ -58,7 +58,7 @@ static struct agreement agree(const struct search *s, double east, double north)
     return a;
 }
 
-/* Agreement at each cell of a grid. From cell to cell a phase turns by a constant factor. */
+/* Agreement at each cell of a grid of shifts. From cell to cell, a phase turns by a constant factor. */
 static void fill_cells(const struct search *s, double cell, int cells)
 {
     const int side = 2 * cells + 1;

@@ -22,16 +22,16 @@ extern const char *const kd_product_names[KD_PRODUCTS];
 
 struct kd_comparison_params {
     unsigned products; /* bit mask: one bit for each enum kd_product */
-    /* These are applied in this order. average_s: visibilities are averaged in bins of this length, counted from
-     * 1960-01-01; 0: no averaging. uv_min_gl: shorter baselines are left out. systematic_visibility: this fraction of
-     * the amplitude is added to the error in quadrature. */
+    /* The next three steps are applied in this order. average_s: visibilities are averaged in bins of this length,
+     * counted from 1960-01-01; 0: no averaging. uv_min_gl: shorter baselines are left out. systematic_visibility:
+     * this fraction of the amplitude is added to the error in quadrature. */
     double average_s, uv_min_gl, systematic_visibility;
     /* fractional error of each station: sqrt 2 times this fraction is added to an amplitude's error */
     double systematic_amplitude;
     double systematic_closure_phase_deg; /* added to a closure phase's error */
     double snr_cut;                      /* data with a smaller signal-to-noise ratio are left out */
-    /* amplitudes are used as measured; otherwise they are debiased to sqrt(|V|^2 - sigma^2), and closures are debiased
-     * too */
+    /* true: amplitudes are used as measured; false: they are debiased to sqrt(|V|^2 - sigma^2), and closures are
+     * debiased too */
     bool measured;
     /* all triangles and quadrangles are used; otherwise a minimal set, which contains the first station */
     bool maximal;
@@ -43,8 +43,8 @@ struct kd_comparison_row {
     enum kd_product product;
     bool imaginary;
     double hour;
-    /* 2, 3 or 4 stations. With 2 stations the datum uses V of the baseline 12; with 3, of 12, 23 and 31; with 4, of 12,
-     * 34, 14 and 23 */
+    /* 2, 3 or 4 stations. With 2 stations the datum uses V of the baseline 12. With 3 stations it uses the baselines
+     * 12, 23 and 31; with 4 stations, 12, 34, 14 and 23 */
     uint8_t station[4];
     uint32_t at[4];    /* indices of the visibilities in `at` of struct kd_comparison */
     bool conjugate[4]; /* this visibility is stored for the opposite direction of its baseline */

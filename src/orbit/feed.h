@@ -19,8 +19,8 @@ struct kd_orbit_feed {
     struct kd_orbit_sample samples[KD_ORBIT_FEED_SAMPLES];
 };
 
-/* The request must have been checked, and must outlive the feed. This solves every orbit, and fails with KD_EINVAL like
- * kd_orbit_run_init. NDJSON is for one orbit only. */
+/* The request must have been checked, and must outlive the feed. The function solves every orbit, and fails with
+ * KD_EINVAL as kd_orbit_run_init does. NDJSON is for one orbit only. */
 enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request,
                                   enum kd_orbit_format format, struct kd_error *error);
 void kd_orbit_feed_finish(struct kd_orbit_feed *feed);

@@ -10,7 +10,7 @@
 
 #define LONGEST_TURNS 1000 /* maximum turns of an orbit followed to its end: a whirl next to an unstable circle */
 #define DEFAULT_PERIODS 10
-/* after this many samples in a row without an image, only one sample in SEARCH_EVERY gets a full search */
+/* after this many samples in a row without an image, only one sample in SEARCH_EVERY gets a full search for an image */
 #define SEARCHES 3
 #define SEARCH_EVERY 64
 /* The search for an orbit's end halves the step up to this many times. Each halving reduces the error by a factor of

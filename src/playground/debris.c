@@ -256,8 +256,8 @@ struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int 
     };
 }
 
-/* False if a bin is only partly covered in time. That is the bin that contains the present, and the first bin in which
- * a piece came back. The last bin is unbounded. */
+/* False if a bin is only partly covered in time. This is true of the bin that contains the present, and of the first
+ * bin in which a piece came back. The last bin is unbounded. */
 static bool is_whole(const struct kd_playground_debris *debris, const struct kd_debris_source *source, int bin)
 {
     const double age = debris->t - source->t;

@@ -19,9 +19,10 @@ struct kd_playground_mutual {
     double *x, *y, *z, *mass, *radius;
     double *ax, *ay, *az;
     double *potential; /* per unit mass */
-    double *rate;      /* sum of (m_i + m_j)/s^3 over its pairs: the square of a rate that is at least the rate of the
-                        * fastest pair */
-    double *near;      /* number of bodies within R_i + R_j + margin */
+    /* for each body: sum of (m_i + m_j)/s^3 over its pairs. This is the square of a rate that is at least the rate
+     * of the fastest pair */
+    double *rate;
+    double *near; /* number of bodies within R_i + R_j + margin */
     void *block;
 };
 

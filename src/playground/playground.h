@@ -74,8 +74,8 @@ struct kd_playground {
     bool disturbed;
     double before; /* energy before the first change of bodies from outside since the last step */
     double aim;
-    /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. Bodies
-     * move when all have reached it. */
+    /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. When
+     * all have reached this time, the bodies move. */
     size_t approached;
     bool forced;                  /* true if `mutual` is up to date */
     double margin;                /* margin that `mutual` was computed with */

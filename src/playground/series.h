@@ -41,8 +41,8 @@ struct kd_playground_series {
     double rows[KD_SERIES_ROWS][KD_SERIES_N];
 };
 
-/* Begins with the row `now`. span > 0: KD_SERIES_ROWS rows over this time in M, and none later. span 0: open-ended,
- * initially with this `interval` > 0. */
+/* Begins with the row `now`. span > 0: the series has KD_SERIES_ROWS rows over this time in M, and none later. span
+ * 0: the series is open-ended, and starts with this `interval` > 0. */
 void kd_series_begin(struct kd_playground_series *series, const double now[KD_SERIES_N], double span, double interval);
 double kd_series_next(const struct kd_playground_series *series); /* time of the next row; INFINITY if there is none */
 /* Adds the rows between two sub-steps, excluding `before`. */

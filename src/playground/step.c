@@ -106,8 +106,8 @@ static void kick(struct kd_playground *p, double time)
     }
 }
 
-/* Moves all bodies on straight lines. The hole does not attract those that pass its capture radius; they are
- * captured after the step. */
+/* Moves all bodies on straight lines. Bodies that pass the hole's capture radius are not attracted by the hole any
+ * more; they are captured after the step. */
 static void drift(struct kd_playground *p, double time)
 {
     for (size_t i = 0; i < p->n; i++)

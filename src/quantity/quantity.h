@@ -33,9 +33,9 @@ enum {
     KD_QUANTITY_POINTS = KD_RANGE_MOST, /* maximum for one answer */
 };
 
-/* A parameter is a row whose value is a number or a word. A number may be limited to whole numbers. It may have a word,
- * for which the function gets INFINITY. For a parameter with words the function gets the index. The default is
- * `typed`. */
+/* A parameter is a row whose value is a number or a word. A number may be limited to whole numbers. A number may
+ * also have a word as an alternative, for which the function gets INFINITY. For a parameter with words the function
+ * gets the index of the word. The default is `typed`. */
 
 /* An output is NaN where the quantity is undefined (`help` says where). NaN is null in JSON, and an empty field in
  * CSV. */
@@ -57,8 +57,8 @@ struct kd_quantity {
      * parameter's pointer if a value is outside the domain. */
     enum kd_status (*evaluate)(const double *in, double *out, void *memory, bool fresh, struct kd_error *error);
     size_t memory_size;
-    /* Maximum time on a core of 2020, in microseconds, including the text of the answer: for each point, and
-     * additionally for each fresh point. */
+    /* Maximum times on a core of 2020, in microseconds, including the text of the answer: point_us for each point,
+     * fresh_us additionally for each fresh point. */
     double point_us, fresh_us;
     bool sound; /* one point can be played as sound: quantity/sound.h */
 };

@@ -16,8 +16,8 @@
 /* Call before evaluation. KD_EINVAL if the quantity has no sound, or the request has more than one point or names a
  * time. */
 enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request, struct kd_error *error);
-/* KD_EINVAL at /mass_msun, with the frequency and the masses and shifts that are audible; or at /stretch, with the
- * maximum. */
+/* KD_EINVAL at /mass_msun has a message with the frequency, and with the masses and shifts for which the sound is
+ * audible. KD_EINVAL at /stretch has a message with the maximum. */
 enum kd_status kd_quantity_sound(const struct kd_quantity_answer *answer, struct kd_buffer *out,
                                  struct kd_error *error);
 

@@ -1,6 +1,6 @@
-/* Further data for the page's control of a field, in addition to the field's row: the table KD_SCENE_CONTROLS of
- * scene/fields.h. In the JSON Schema they are x-span, x-first, x-switch, x-with, x-varies and x-button. Constant data
- * and pure functions, any thread. */
+/* Data for the page's control of a field, in addition to the field's row. They are in the table KD_SCENE_CONTROLS of
+ * scene/fields.h. In the JSON Schema they are x-span, x-first, x-switch, x-with, x-varies and x-button. Constant
+ * data and pure functions, any thread. */
 #ifndef KD_SCENE_CONTROL_H
 #define KD_SCENE_CONTROL_H
 

@@ -135,8 +135,8 @@ struct kd_observer_motion kd_body_motion(const struct kd_body *body)
     return motion;
 }
 
-/* m counts around the hole's own axis. If the spin a is negative the disk turns against the hole, and the hole rings as
- * for |a|. */
+/* m counts around the hole's own axis. If the spin a is negative, the disk turns against the hole. The hole itself
+ * rings as for |a|. */
 bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
 {
     double t = scene->top.time - scene->style.ringdown_time;

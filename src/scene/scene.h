@@ -82,8 +82,8 @@ const char *kd_scene_preset_title(size_t index);
 #define KD_SCENE_JSON_MAX (1u << 20)
 enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error);
 
-/* Merges a patch (RFC 7396). It works like kd_scene_from_json, but null resets a field, or all fields of a section or
- * element, to the default; for a list, null removes all elements. */
+/* Merges a patch (RFC 7396). It works like kd_scene_from_json, except that null has a meaning. null resets a field,
+ * or all fields of a section or element, to the default; for a list, null removes all elements. */
 enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error);
 
 /* Sets one scalar field from text, by its dotted path ("camera.inclination_deg", "spots.0.r"). The next free index

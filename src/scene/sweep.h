@@ -47,9 +47,9 @@ struct kd_sweep {
     unsigned scenes;
 };
 
-/* Reads an object of axes over a valid scene. Each value is checked against its field; whether a combination is valid
- * is checked by kd_sweep_scene. assets: where names are looked up; NULL: hashes are not looked up. Returns KD_EINVAL
- * with the pointer /axes/FIELD/NUMBER, or KD_ENOMEM. Free *out with kd_sweep_free. */
+/* Reads an object of axes over a valid scene. Each value is checked against its field. Combinations of values are
+ * checked later, by kd_sweep_scene. assets: where names are looked up; NULL: hashes are not looked up. Returns
+ * KD_EINVAL with the pointer /axes/FIELD/NUMBER, or KD_ENOMEM. Free *out with kd_sweep_free. */
 enum kd_status kd_sweep_read(const cJSON *axes, const struct kd_scene *base, const struct kd_assets *assets,
                              struct kd_sweep **out, struct kd_error *error);
 

@@ -49,7 +49,7 @@ extern const struct kd_section kd_sections[KD_SECTION_COUNT];
 extern const struct kd_former kd_old_names[KD_OLD_NAME_COUNT];
 extern const struct kd_document kd_scene_document; /* the rows as a document, whose target is struct kd_scene */
 
-/* Both find an entry by name; NULL if there is none. The section "" is the document itself. Names are
+/* Both functions find an entry by its name; NULL if there is none. The section "" is the document itself. Names are
  * case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
 /* kd_section_is_part tells whether `section` is nested in `whole`. kd_section_member returns its name within the

@@ -7,7 +7,7 @@
 
 #include "server/http/shares.h"
 
-/* number of buckets that can be stored; a full bucket is not stored. If all places are taken, the fullest bucket is
+/* number of buckets that can be stored. Full buckets need no place. If all places are taken, the fullest bucket is
  * dropped */
 #define KD_ALLOWANCE_CLIENTS 256u
 

@@ -1,5 +1,5 @@
-/* Memory budget of requests: bytes of bodies that are being received and of answers that the client has not taken yet,
- * in total and for each client. Any thread.
+/* Memory budget of requests: bytes of bodies that are being received, and of answers that clients have not read yet.
+ * They are counted in total and for each client. Any thread.
  *
  * No client may hold more than its share, and a reserve is kept for small requests. */
 #ifndef KD_SERVER_HTTP_BYTES_H

@@ -12,7 +12,7 @@
 
 #include <stdbool.h>
 
-/* limit of open connections of the health routes' daemon; if there are more, the oldest is shut down */
+/* limit of open connections of the health routes' daemon; beyond it, the oldest connection is shut down */
 #define KD_HEALTH_CONNECTIONS 64u
 
 struct kd_connections;

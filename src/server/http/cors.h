@@ -1,5 +1,5 @@
-/* Cross-origin access (the Fetch standard's CORS protocol): answers preflight requests and sets the headers that let
- * pages of the origins of --cors-origin and --embed-origin use the server.
+/* Cross-origin access (the Fetch standard's CORS protocol): answers preflight requests and sets the CORS headers. These
+ * permit pages of the origins of --cors-origin and --embed-origin to use the server.
  *
  * A page sends its access token in Authorization or Kerrd-Access. No answer allows credentials, and the cookie of our
  * own page is ignored in cross-origin requests. */

@@ -1,5 +1,6 @@
 /* The public address of this server. It is used in URLs that must be absolute, such as links and pictures that other
- * sites show. It is --public-url, or else "http://" and the Host of the request, which the server has checked. */
+ * sites show. The address is --public-url. Without this option it is "http://" and the Host of the request, which
+ * the server has checked. */
 #ifndef KD_SERVER_HTTP_PUBLIC_URL_H
 #define KD_SERVER_HTTP_PUBLIC_URL_H
 

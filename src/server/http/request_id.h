@@ -1,4 +1,5 @@
-/* Request IDs: the log, the answer and the records of proxies and clients carry the same ID. Any thread. */
+/* Request IDs. The log, the answer and the records of proxies and clients contain the same ID for a request. Any
+ * thread. */
 #ifndef KD_SERVER_HTTP_REQUEST_ID_H
 #define KD_SERVER_HTTP_REQUEST_ID_H
 

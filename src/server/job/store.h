@@ -45,8 +45,8 @@ void kd_job_store_close(struct kd_job_store *store); /* accepts NULL */
 /* Removes the temporary folders that killed servers have left in TMPDIR. */
 void kd_job_store_tidy(void);
 
-/* Calls `found` for each job. Jobs with fewer attempts come first; among jobs with equally many, the oldest comes
- * first. Unreadable jobs are logged. The callback owns the request. */
+/* Calls `found` for each job. Jobs with fewer attempts come first. Jobs with the same number of attempts come in the
+ * order of their age, the oldest first. Unreadable jobs are logged. The callback owns the request. */
 enum kd_status kd_job_store_load(struct kd_job_store *store,
                                  void (*found)(void *user, const struct kd_job_record *record,
                                                struct kd_buffer *request),

@@ -121,8 +121,8 @@ enum kd_status kd_playground_session_set_scene(struct kd_playground_session *pla
  * limit; *quota is true if that is the limit of one client. HTTP thread. */
 enum kd_status kd_playground_session_picture(struct kd_playground_session *play, bool *quota, struct kd_session **out,
                                              struct kd_error *error);
-/* Begins a step that a client has requested. Returns false unless the session is paused and no other step is under way.
- * Nothing else changes the playground until kd_playground_session_stepped. */
+/* Begins a step that a client has requested. Returns false unless the session is paused and no other step is under
+ * way. No other work changes the playground until kd_playground_session_stepped is called. */
 bool kd_playground_session_step(struct kd_playground_session *play);
 void kd_playground_session_stepped(struct kd_playground_session *play);
 

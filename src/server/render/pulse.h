@@ -17,8 +17,8 @@
 
 struct kd_pulse {
     _Atomic int64_t beat_ms; /* time of the last beat; 0: the thread is idle */
-    /* members of the observer: the last beat that it saw, the time of its last check, and for how long the beat has
-     * not changed */
+    /* members of the observer: the last beat that it has seen, the time of its last check, and the time for which
+     * the beat has not changed */
     int64_t seen_ms, looked_ms, missing_ms;
 };
 

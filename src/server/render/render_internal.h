@@ -68,7 +68,8 @@ struct kd_render_queue {
     _Atomic bool cancel;
     struct kd_render_measures measures;
     struct kd_render_job rest; /* job that frees memory after rest_ms without requests */
-    /* worked_ms: when the last request arrived or work last ended; trimmed_ms: when the heap was last trimmed */
+    /* worked_ms: time at which the last request arrived or work last ended; trimmed_ms: time at which the heap was
+     * last trimmed */
     double rest_ms, worked_ms, trimmed_ms;
     bool rested; /* memory has been freed since worked_ms */
 

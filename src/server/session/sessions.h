@@ -117,8 +117,8 @@ struct kd_viewer {
     int socket;
     uint64_t seen; /* number of the newest frame that the viewer has received */
     bool any;      /* the viewer reads only the descriptions of frames, so any encoding suffices */
-    /* qualities of lossy frames that the viewer accepts, 1 to 100; 0: lossless only. `lossy` is for all frames but
-     * the last, last_lossy for the last frame */
+    /* qualities of lossy frames that the viewer accepts, 1 to 100; 0: lossless only. last_lossy is for the last
+     * frame, `lossy` for all other frames */
     unsigned lossy, last_lossy;
     const struct kd_live_file *file; /* the frame's file in the encoding of this viewer; the frame owns the file */
     /* A frame whose encoding was finished only after a newer frame had replaced it; a counted reference. */
