@@ -404,7 +404,7 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
                           show(v->outer).text, show_bound(least).text);
 }
 
-/* limit of the growth of a jet's brightness between its edges, in octaves; more overflows single precision */
+/* limit of the growth of a jet's brightness between its edges, in octaves; more growth overflows single precision */
 #define JETS_GROWTH 60
 static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -441,7 +441,7 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
     return KD_OK;
 }
 
-/* least time between flashes, in durations of a flash: half-way between two flashes, exp(-18) of the peak is left */
+/* least time between two flashes, in durations of a flash: half-way between them exp(-18) of the peak is left */
 #define FLASH_APART 12
 #define BODIES_CLEAR 1.05 /* a body's smallest radius as a multiple of the horizon's */
 

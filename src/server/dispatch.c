@@ -23,7 +23,7 @@
 
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "too many bytes of your request bodies are being received at once (limit for one client)"
-/* largest body that can arrive within the basic deadline at 32 kB/s; the default deadline is 30 s */
+/* largest body that can arrive at 32 kB/s within the default deadline of 30 s */
 #define PACE ((size_t)960000)
 
 static int socket_of(struct MHD_Connection *mhd)
@@ -232,8 +232,8 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem, s
     return found;
 }
 
-/* True if the request creates an object whose address is not known yet, so that If-Match cannot hold. If the object
- * already has an address, its handler evaluates If-Match. */
+/* True if the request creates an object whose address is not known yet, so that If-Match cannot be fulfilled. If the
+ * object already has an address, the handler evaluates If-Match. */
 static bool makes_something(const struct kd_request *request)
 {
     return !request->route->question && !strchr(request->route->path, '{') &&
@@ -323,8 +323,8 @@ static void read_trace(struct kd_request *request)
     kd_buffer_finish(&value);
 }
 
-/* Handles the complete header. If the announced body must be refused, it is refused here, and libmicrohttpd then
- * closes the connection. A request without a body is answered in the next call, which keeps the connection. */
+/* Handles the complete header. If the announced body must be refused, this happens here, and libmicrohttpd then
+ * closes the connection. A request without a body is answered in the next call, so that the connection stays open. */
 static enum MHD_Result begin(struct kd_request *request, const char *version)
 {
     struct kd_server *server = request->server;

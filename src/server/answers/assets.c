@@ -151,8 +151,8 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 static const struct kd_task_kind KIND = { "assets", sizeof(struct putting), work, finish };
 
-/* True if Content-Type contradicts the first bytes. If so, `text` holds the message. Bytes of an unknown kind are
- * refused later, when they are parsed. */
+/* True if Content-Type contradicts the first bytes. In that case `text` holds the message. Bytes of an unknown kind
+ * are refused later, when they are parsed. */
 static bool wrong_type(const struct kd_request *request, char text[200])
 {
     static const struct {
@@ -208,8 +208,8 @@ static void write_sky(struct kd_json *json, const struct kd_server *server)
         kd_asset_release(server->assets, sky);
 }
 
-/* Answers with the number and size of assets and the limits. It lists no hash of a client's asset, because everybody
- * who knows a hash may download the asset. */
+/* Answers with the number and size of assets and the limits. The answer contains no hash of a client's asset,
+ * because anybody who has a hash may download the asset. */
 enum MHD_Result kd_handle_assets(struct kd_request *request)
 {
     if (!strcmp(request->method, "PUT"))

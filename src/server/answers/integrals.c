@@ -99,7 +99,7 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->scheduled.client, bytes, &task->held, &task->quota, error));
     /* An integral without pictures is computed in one slice, which pauses when other work waits (base/pause.h). Most
-     * take some hundredths of a second; lines and echoes of a corona off the axis take up to some seconds. */
+     * integrals take some hundredths of a second. Lines and echoes of a corona off the axis take up to some seconds. */
     KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
 done:
     return status;

@@ -31,7 +31,7 @@ struct kd_asset_putting {
                            struct kd_error *error);
 };
 
-/* Finds the least recently used asset. Returns NULL if it may not be evicted. Called with the lock. */
+/* Finds the least recently used asset. Returns NULL if this asset may not be evicted. Called with the lock. */
 static struct kd_asset *oldest(const struct kd_asset_store *store, bool any_age)
 {
     struct kd_asset *best = NULL;

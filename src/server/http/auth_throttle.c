@@ -42,7 +42,7 @@ static double tries_now(const struct place *p, double now_ms)
                         : KD_GUESSES_MOST;
 }
 
-/* True if p should be evicted before `than`. */
+/* True if p should be evicted before the entry `than`. */
 static bool gives_way(const struct place *p, const struct place *than, double now_ms)
 {
     const double a = tries_now(p, now_ms), b = tries_now(than, now_ms);

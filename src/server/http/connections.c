@@ -18,7 +18,7 @@
 #define IDLE_MS 60e3   /* longer than libmicrohttpd's idle timeout, so it ends only connections that trickle bytes */
 #define CROWDED_MS 2e3 /* time that a connection beyond the limit has to send its header */
 #define REPLY_MS 30e3  /* time that a client has to read an answer; large answers get more time by the next constant */
-/* bytes of an answer for each further millisecond: 32 kB/s, the speed of a poor mobile line */
+/* an answer gets one more millisecond for this many bytes: 32 kB/s, the speed of a poor mobile line */
 #define BYTES_PER_MS 32
 
 #define STALL_MS 2e3 /* a client that reads at all takes some bytes within this time, even on a slow line */
@@ -144,8 +144,8 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-/* Counts the connections of the client of `one`, including `one` itself. handed_on: counts only those that have been
- * handed to a daemon. */
+/* Counts the connections of the client of `one`, including `one` itself. handed_on: counts only connections that
+ * have been handed to a daemon. */
 static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
 {
     unsigned n = 0;

@@ -14,7 +14,7 @@
  * yet, health checks. */
 #define RESERVE 200u
 
-/* True if the limit suffices. Each connection needs two descriptors: its socket and a file to send. */
+/* True if the limit of descriptors suffices. Each connection needs two descriptors: its socket and a file to send. */
 static bool fit(unsigned connections, rlim_t limit) { return 2 * kd_connections_most(connections) + RESERVE <= limit; }
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

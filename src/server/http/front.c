@@ -20,7 +20,7 @@
 #define FULL_MS 10 /* pause between two checks for a free descriptor */
 #define BATCH 64   /* events handled, and connections accepted, in one iteration */
 
-/* A connection that has not been handed to a daemon yet. It has the deadline of a header (connections.h). */
+/* A connection that has not been handed to a daemon yet. Its deadline is that of a header (connections.h). */
 struct guest {
     struct guest *previous, *next;
     struct kd_connection *connection;
@@ -123,8 +123,8 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     return guest;
 }
 
-/* Watches a guest's socket. The events are edge-triggered, because bytes that are only peeked at would keep a
- * level-triggered event set. */
+/* Watches a guest's socket. The events are edge-triggered. Level-triggered events would repeat for ever, because the
+ * bytes are only peeked at and stay in the socket. */
 static void watch(struct kd_front *front, struct guest *guest)
 {
     struct epoll_event event = { .events = EPOLLIN | EPOLLRDHUP | EPOLLET, .data.ptr = guest };
@@ -134,8 +134,8 @@ static void watch(struct kd_front *front, struct guest *guest)
 
 static int keep_reserve(void) { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
-/* Frees a descriptor when all are in use: closes the guest that has waited longest. If there is none, releases the
- * reserve; if that is released already, waits FULL_MS. */
+/* Frees a descriptor when all are in use. Closes the guest that has waited longest. If there is no guest, releases
+ * the reserve. If the reserve is already released, waits for FULL_MS. */
 static void make_room(struct kd_front *front)
 {
     struct pollfd waiting = { .fd = front->params.listener, .events = POLLIN };

@@ -7,7 +7,8 @@
 #define BLANKS " \t"
 #define DIGITS "0123456789"
 
-/* Reads a number of at least one digit and moves *at behind it. Numbers beyond 64 bits become the largest. */
+/* Reads a number of at least one digit and moves *at behind it. Numbers that exceed 64 bits become the largest
+ * number of 64 bits. */
 static bool number(const char **at, uint64_t *out)
 {
     const size_t n = strspn(*at, DIGITS);

@@ -89,7 +89,7 @@ static void park(struct kd_scheduler *scheduler, struct kd_scheduler_job *job, b
         pthread_cond_signal(&scheduler->changed); /* a sleeping worker must wake earlier than planned */
 }
 
-/* Resumes the jobs whose parking time has ended. Returns the time at which the next one ends, or INFINITY. */
+/* Resumes the jobs whose parking time has ended. Returns the time at which the next parking time ends, or INFINITY. */
 static double unpark_due(struct kd_scheduler *scheduler)
 {
     double next = INFINITY;
@@ -243,7 +243,7 @@ static void pause_turn(struct kd_scheduler *scheduler)
 }
 
 /* Hook of base/pause.h: suspends this thread's slice until the other listed jobs have each had a slice. If no other
- * thread can run them, the slice continues. */
+ * thread can run the other jobs, the slice continues. */
 static bool let_others_go_first(void)
 {
     struct kd_scheduler *scheduler = mine;

@@ -236,7 +236,7 @@ static bool open_film(struct looked *l)
     return kd_job_film_open(l->whole->job, l->format->name, l->whole->source.rate, &l->film);
 }
 
-/* If the film is cached, opens it. Else encodes it, or waits for the request that does so. */
+/* If the film is cached, opens it. Otherwise encodes it, or waits for the request that is encoding it. */
 static enum kd_slice_result encode(struct kd_task *task, double until_ms)
 {
     struct looked *l = (struct looked *)task;

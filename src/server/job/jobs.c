@@ -195,7 +195,7 @@ void kd_jobs_destroy(struct kd_jobs *all)
     free(all);
 }
 
-/* True if another job is accepted. A finished job may be deleted to make room. Called with the lock. */
+/* True if another job can be accepted. For this, a finished job may be deleted to make room. Called with the lock. */
 static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned unfinished = 0, stored = 0, own = 0;

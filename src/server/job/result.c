@@ -66,7 +66,7 @@ static bool open_next(struct frames *f)
     return true;
 }
 
-/* Produces more bytes; or sets f->over at the end; or sets *wait if the answer must be suspended. Returns false on
+/* Produces more bytes, or sets f->over at the end, or sets *wait if the answer must be suspended. Returns false on
  * failure. */
 static bool advance(struct frames *f, bool *wait)
 {

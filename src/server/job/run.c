@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* limit of frames that are rendered and not yet in files; one can be rendered while another is encoded */
+/* limit of frames that are rendered and not yet in files: one frame can be rendered while another is encoded */
 #define BEHIND_MAX 2
 struct kd_job_render {
     struct kd_render_job render;       /* must be the first member: the queue stores a pointer to it */
