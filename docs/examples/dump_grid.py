@@ -1,7 +1,12 @@
 #!/usr/bin/env python3
-"""Makes a grid for volume.model "grid" of a dump of a simulation in Kerr and Schild's coordinates: dump_grid.py DUMP.npz OUT.npz. The dump has the spin `a`, `r`, `theta` and `phi` in even steps
-of log r, theta and phi (a code's own grid is interpolated to such first), and of the shape (rows, columns, layers) `rho`, the electrons' temperature `te` in K, `u` = u^t, u^r, u^theta, u^phi and
-`B` = B^r, B^theta, B^phi, all but te in the code's units, its factor sqrt(4 pi) in B; `rho_unit` is the density 1 in g cm^-3."""
+"""Makes a grid for volume.model "grid" from a dump of a simulation in Kerr-Schild coordinates.
+
+dump_grid.py DUMP.npz OUT.npz
+
+The dump has the spin `a`, and `r`, `theta` and `phi` in even steps of log r, theta and phi. (Interpolate a code's own
+grid to such steps first.) The following arrays have the shape (rows, columns, layers): the density `rho`, the electron
+temperature `te` in K, `u` = u^t, u^r, u^theta, u^phi, and `B` = B^r, B^theta, B^phi. All except te are in the code's
+units, with the factor sqrt(4 pi) in B. `rho_unit` is the code's unit of density in g cm^-3."""
 
 import json
 import sys
@@ -15,7 +20,7 @@ S = R**2 + a**2 * (1 - s2)
 h = 2 * R / S
 
 
-def lower(v):  # the index, with the metric in ingoing coordinates of Kerr and Schild
+def lower(v):  # lowers the index, with the metric in ingoing Kerr-Schild coordinates
     along = h * v[0] + (1 + h) * (v[1] - a * s2 * v[3])
     return np.array(
         [-v[0] + h * (v[0] + v[1] - a * s2 * v[3]), along, S * v[2], s2 * (S * v[3] - a * along) + 0 * v[0]]

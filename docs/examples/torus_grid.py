@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Samples the torus of Fishbone & Moncrief 1976 onto a grid for volume.model "grid". A converter of a simulation's
-dump is dump_grid.py."""
+"""Samples the torus of Fishbone & Moncrief 1976 on a grid for volume.model "grid". dump_grid.py is a converter for
+dumps of simulations."""
 
 import argparse
 import json
