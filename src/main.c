@@ -103,12 +103,13 @@ int main(int argc, char **argv)
     /* A client that disconnects must not end the server. Other commands notice a closed pipe by
      * kd_cli_stdout_failed. */
     signal(SIGPIPE, SIG_IGN);
-    /* If a file would exceed `ulimit -f`, this makes it a write error, after which the partial file is removed. */
+    /* With this signal ignored, exceeding `ulimit -f` becomes a write error, after which the partial file is
+     * removed. */
     signal(SIGXFSZ, SIG_IGN);
     atexit(kd_cli_close_stdout);
     if (argc < 1)
         return KD_EXIT_USAGE;
-    argv[0] = zero; /* messages then show the program's name without its folder */
+    argv[0] = zero; /* messages then show the program's name without its path */
     argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &choice);
     snprintf(name, sizeof name, "kerrd %s", choice.command->name);
     argv[choice.index] = name;

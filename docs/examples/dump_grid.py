@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Makes a grid for volume.model "grid" from a dump of a simulation in Kerr-Schild coordinates: dump_grid.py DUMP.npz
-OUT.npz
+"""Makes a grid for volume.model "grid" from a dump of a simulation in Kerr-Schild coordinates.
+
+dump_grid.py DUMP.npz OUT.npz
 
 The dump has the spin `a`, and `r`, `theta` and `phi` in even steps of log r, theta and phi. (Interpolate a code's own
-grid to such a grid first.) The following arrays have the shape (rows, columns, layers): `rho`; the electrons'
-temperature `te` in K; `u` = u^t, u^r, u^theta, u^phi; and `B` = B^r, B^theta, B^phi. All except te are in the code's
-units, and B contains the factor sqrt(4 pi). `rho_unit` is the density in g cm^-3 that is 1 in the code's units.
-"""
+grid to such steps first.) The following arrays have the shape (rows, columns, layers): the density `rho`, the electron
+temperature `te` in K, `u` = u^t, u^r, u^theta, u^phi, and `B` = B^r, B^theta, B^phi. All except te are in the code's
+units, with the factor sqrt(4 pi) in B. `rho_unit` is the code's unit of density in g cm^-3."""
 
 import json
 import sys
@@ -20,7 +20,7 @@ S = R**2 + a**2 * (1 - s2)
 h = 2 * R / S
 
 
-def lower(v):  # lowers the index with the metric in ingoing Kerr-Schild coordinates
+def lower(v):  # lowers the index, with the metric in ingoing Kerr-Schild coordinates
     along = h * v[0] + (1 + h) * (v[1] - a * s2 * v[3])
     return np.array(
         [-v[0] + h * (v[0] + v[1] - a * s2 * v[3]), along, S * v[2], s2 * (S * v[3] - a * along) + 0 * v[0]]
@@ -29,7 +29,9 @@ def lower(v):  # lowers the index with the metric in ingoing Kerr-Schild coordin
 
 below = lower(u)
 bt = sum(B[i] * below[i + 1] for i in range(3))
-b = np.array([bt, *((B[i] + bt * u[i + 1]) / u[0] for i in range(3))])  # the field in the matter's frame, in code units
+b = np.array(
+    [bt, *((B[i] + bt * u[i + 1]) / u[0] for i in range(3))]
+)  # the field in the frame of the matter, code units
 gauss = np.sqrt(4 * np.pi * float(dump["rho_unit"])) * 2.99792458e10
 arrays = dict(
     density=dump["rho"] * float(dump["rho_unit"]) / 1.67262192e-24,

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Samples the torus of Fishbone & Moncrief 1976 onto a grid for volume.model "grid". For a simulation's dump see
-dump_grid.py."""
+"""Samples the torus of Fishbone & Moncrief 1976 on a grid for volume.model "grid". dump_grid.py is a converter for
+dumps of simulations."""
 
 import argparse
 import json
@@ -34,7 +34,7 @@ def metric(
     return sigma * delta / area, a * (2 * r - q2) / area, np.maximum(area * s2 / sigma, 1e-12)
 
 
-def log_h(r, s2):  # equation 3.6 with u^t u_phi = l everywhere. Returns ln h up to a constant, and u_phi
+def log_h(r, s2):  # equation 3.6 with u^t u_phi = l everywhere: ln h but for a constant, and u_phi
     lapse2, omega, g = metric(r, s2)
     root = np.sqrt(1 + 4 * l**2 * lapse2 / g)
     return 0.5 * np.log((1 + root) / lapse2) - 0.5 * root - omega * l, np.sqrt(g * (root - 1) / 2)

@@ -1,4 +1,4 @@
-/* A growing byte buffer. Its initialiser owns it; not thread-safe.
+/* A growing byte buffer. The code that initialises a buffer owns it. Not thread-safe.
  *
  *     struct kd_buffer b = { 0 };
  *     if (kd_buffer_append(&b, data, n)) ... KD_ENOMEM ...
@@ -17,7 +17,7 @@ struct kd_buffer {
 };
 
 enum kd_status kd_buffer_append(struct kd_buffer *buffer, const void *data, size_t size);
-/* Appends printf output. A NUL follows the text; size does not count it. */
+/* Appends printf output, followed by a NUL that `size` does not count. */
 enum kd_status kd_buffer_printf(struct kd_buffer *buffer, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 void kd_buffer_finish(struct kd_buffer *buffer); /* frees the memory; the buffer may be used again */

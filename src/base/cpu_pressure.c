@@ -16,7 +16,7 @@ static void add(struct kd_cpu_pressure *sum, int tasks, const char *task)
     if (file >= 0)
         close(file);
     if (n <= 0)
-        return; /* returns, because the thread has ended since it was listed */
+        return; /* the thread has ended since it was listed */
     text[n] = 0;
     if (sscanf(text, "%lf %lf", &ran, &waited) == 2) {
         sum->ran_ns += ran;

@@ -10,7 +10,7 @@
 /* Giulietti's g(k): the 128 leading bits of 10^k, rounded up unless they are exact. */
 #define K_MIN (-292)
 #define K_MAX 324
-#define WORDS 38 /* number of 32-bit words: 10^324 has 1077 bits, and 2^1152/10^292 still has 183 */
+#define WORDS 38 /* number of 32-bit words: 10^324 has 1077 bits, and 2^1152/10^292 has 183 */
 
 struct g { uint64_t high, low; };
 static struct g powers[K_MAX - K_MIN + 1];
@@ -64,7 +64,7 @@ static void make_powers(void)
         if (k < K_MAX)
             multiply_by_ten(&up);
     }
-    down.word[WORDS - 2] = 1; /* the floor of repeated divisions equals the floor of the quotient by their product */
+    down.word[WORDS - 2] = 1; /* dividing step by step and rounding down equals dividing by the product */
     for (int k = -1; k >= K_MIN; k--) {
         divide_by_ten(&down);
         powers[k - K_MIN] = leading_bits(&down, 0);
@@ -73,7 +73,8 @@ static void make_powers(void)
 
 __extension__ typedef unsigned __int128 wide;
 
-/* Returns the leading 64 bits of g n / 2^127. The last of these bits is set if any bit below it is. */
+/* Returns the leading 64 bits of g n / 2^127. The last of these bits is also set if any lower bit of the number is
+ * set. */
 static uint64_t round_to_odd(struct g g, uint64_t n)
 {
     wide x = (wide)g.low * n, y = (wide)g.high * n + (uint64_t)(x >> 64);
@@ -195,8 +196,8 @@ size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value)
 
 double kd_decimal_round(double value, int digits)
 {
-    /* Powers of ten up to 10^22 and integers up to 10^15 are exact as doubles, so a single division or product of them
-     * rounds only once. */
+    /* Powers of ten up to 10^22 and integers up to 10^15 are exact as doubles. So a single product or quotient of
+     * two of them is rounded only once. */
     static const double exact[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     const int most = sizeof exact / sizeof *exact - 1;

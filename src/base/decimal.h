@@ -1,8 +1,8 @@
 /* Converts doubles to decimal text. The text has the fewest digits that read back as the same double; among such texts
  * it is the one nearest to the value. Any thread.
  *
- * For bulk output: it is some fifty times as fast as trying printf with 15, 16 and 17 digits. Raffaello Giulietti, "The
- * Schubfach way to render doubles", 2020. */
+ * For bulk output: about fifty times as fast as trying printf with 15, 16 and 17 digits. The algorithm is that of
+ * Raffaello Giulietti, "The Schubfach way to render doubles", 2020. */
 #ifndef KD_BASE_DECIMAL_H
 #define KD_BASE_DECIMAL_H
 
@@ -10,12 +10,12 @@
 
 enum { KD_DECIMAL_SIZE = 32 };
 
-/* Prints a finite value as a JSON number: 0.25, -12, 1.5e-7, 1e300. It also writes a NUL, and returns the length
- * without it. */
+/* Prints a finite value as a JSON number: 0.25, -12, 1.5e-7, 1e300. Adds a NUL, and returns the length without the
+ * NUL. */
 size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value);
 
-/* Rounds value to `digits` significant decimal digits: the result prints in no more digits. A tie may be rounded either
- * way. Infinities and NAN are returned unchanged, and so is any value if digits is 16 or more. */
+/* Rounds value to `digits` significant decimal digits: the result prints in no more digits. A tie may be rounded
+ * either way. Infinities and NAN are returned unchanged. If digits is 16 or more, every value is returned unchanged. */
 enum { KD_DECIMAL_DIGITS = 17 }; /* the most digits that a double needs */
 double kd_decimal_round(double value, int digits);
 

@@ -22,7 +22,8 @@ static void fill(struct kd_error *error, enum kd_status status, const char *poin
     error->retry_s = 0;
     snprintf(error->pointer, sizeof error->pointer, "%s", pointer);
     vsnprintf(error->message, sizeof error->message, format, args);
-    /* Both may quote text that is not valid. The pointer is for programs, so it keeps control characters. */
+    /* Message and pointer may quote text that is not valid UTF-8. The pointer is read by programs, so it keeps
+     * control characters. */
     mend_pointer(error->pointer);
     kd_utf8_show(error->message);
 }

@@ -10,7 +10,7 @@
 enum kd_status {
     KD_OK = 0,
     KD_EINVAL,     /* bad input, the caller's fault; the message names the field, its value and its range */
-    KD_ETOOBIG,    /* well-formed, but larger than this device or this server can hold */
+    KD_ETOOBIG,    /* the input is valid, but larger than this device or this server can hold */
     KD_ENOMEM,     /* the host or the device has no memory left */
     KD_EIO,        /* reading or writing a file or socket failed */
     KD_EFULL,      /* no room on the disk                                           */
@@ -24,9 +24,9 @@ enum kd_status {
 struct kd_error {
     enum kd_status status;
     char pointer[160]; /* RFC 6901 JSON pointer to the offending field; "" if there is none */
-    char message[480]; /* one sentence; it needs no full stop and no line feed */
+    char message[480]; /* one sentence, without a full stop or a line feed */
     unsigned retry_s;  /* with KD_EBUSY: seconds after which to retry; 0: unknown */
-}; /* Both texts are UTF-8, and the message has no control characters, whatever is quoted in them. */
+}; /* Both texts are valid UTF-8, and the message has no control characters, even where it quotes text from outside. */
 
 /* Fills *error (if not NULL) and returns status, so that callers can `return kd_error_set(...)`. */
 enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const char *format, ...)
@@ -36,14 +36,14 @@ enum kd_status kd_error_set(struct kd_error *error, enum kd_status status, const
 enum kd_status kd_error_field(struct kd_error *error, const char *pointer, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Prepends parent, a JSON pointer, to the pointer of *error (which may be NULL). If the result is too long it is cut,
- * at whole characters and escapes. */
+/* Prepends parent, a JSON pointer, to the pointer of *error (which may be NULL). A result that is too long is
+ * truncated between whole characters and escapes. */
 void kd_error_inside(struct kd_error *error, const char *parent);
 
-/* One step of a function that can fail. KD_TRY(f(...)) stores what f returned in the function's local `enum kd_status
- * status`. Unless that is KD_OK it jumps to the label `done`. There the function frees its resources and returns
- * status; the successful path ends there too. Variables that are read after `done` must be set before the first step.
- * In a loop, a failing step also leaves the function. */
+/* One step of a function that can fail. KD_TRY(f(...)) stores what f returned in the function's local `enum
+ * kd_status status`. Unless that is KD_OK it jumps to the label `done`. There the function frees its resources and
+ * returns status. The successful path ends at `done` too. Variables that are read after `done` must be set before
+ * the first step. In a loop, a failing step also leaves the function. */
 #define KD_TRY(step) \
     do { \
         if ((status = (step))) \

@@ -48,7 +48,7 @@ static void put_string(struct kd_json *json, const char *text)
     put(json, "\"", 1);
 }
 
-/* Writes what precedes a value: the comma and the name. */
+/* Writes the comma and the name that precede a value. */
 static void lead(struct kd_json *json, const char *name)
 {
     if (!json->depth) {

@@ -10,7 +10,7 @@
  *     return kd_json_finish(&json);
  *
  * After the first failure nothing more is written; kd_json_finish returns the status and removes the partial document.
- * `name` is the member's name within an object. Within an array, and for the outermost value, it is NULL. */
+ * `name` is the member's name within an object. Within an array, and for the outermost value, `name` is NULL. */
 #ifndef KD_BASE_JSON_H
 #define KD_BASE_JSON_H
 
@@ -27,8 +27,8 @@ struct kd_json {
     enum kd_status status;
     size_t begun; /* size of *out before the document began */
     unsigned depth;
-    bool lines; /* each member is on a line of its own, for human readers */
-    /* Writes a finite number in another form than kd_decimal_print; NULL: in that form. */
+    bool lines; /* each member is on a line of its own, for people who read the text */
+    /* Writes a finite number in a format of its own; NULL: in the format of kd_decimal_print. */
     void (*print)(char out[KD_JSON_NUMBER], double value);
     struct { bool array, filled; } open[KD_JSON_DEPTH];
 };
@@ -51,7 +51,7 @@ void kd_json_null(struct kd_json *json, const char *name);
 /* Writes a value that is JSON text already. */
 void kd_json_raw(struct kd_json *json, const char *name, const char *text, size_t length);
 
-/* Writes members of the object that is open: JSON text without the braces. */
+/* Writes members into the object that is open. The text is JSON without the braces. */
 void kd_json_members(struct kd_json *json, const char *text);
 
 enum kd_status kd_json_finish(struct kd_json *json);

@@ -61,7 +61,7 @@ static void write_text(enum kd_log_level level, const char *message)
 {
     char line[4 * MESSAGE];
     kd_utf8_print(line, sizeof line, message);
-    fprintf(stderr, "kerrd: %s: %s\n", names[level], line); /* a single call, as above */
+    fprintf(stderr, "kerrd: %s: %s\n", names[level], line); /* a single call, so that lines do not interleave */
 }
 
 void kd_log(enum kd_log_level level, const char *format, ...)

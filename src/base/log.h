@@ -19,13 +19,13 @@ bool kd_log_tells(enum kd_log_level level); /* true if events of this level are 
 
 void kd_log(enum kd_log_level level, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* A member of an event. Its value is text if that is not NULL, else number. A member whose number is not finite is
- * left out. */
+/* A member of an event. Its value is `text` if text is not NULL, otherwise `number`. A member whose number is not
+ * finite is left out. */
 struct kd_log_member {
     const char *name, *text;
     double number;
 };
-/* Logs an event with a name of its own. The JSON format writes the members, the text format the message. */
+/* Logs an event under its own name. The JSON format writes the members, the text format the message. */
 void kd_log_event(enum kd_log_level level, const char *event, const struct kd_log_member *members, size_t n,
                   const char *message);
 

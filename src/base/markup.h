@@ -4,11 +4,11 @@
 
 #include "base/buffer.h"
 
-/* Characters to escape: in content only; in attributes as well as in content. */
+/* Sets of characters to escape: the first is for content only, the second for attributes and content. */
 #define KD_MARKUP_CONTENT "&<>"
 #define KD_MARKUP_ATTRIBUTE "&<>\"'"
 
-/* Appends the text and a NUL. `characters` of the text are replaced by references. KD_ENOMEM. */
+/* Appends the text, with its `characters` replaced by references, and a NUL. KD_ENOMEM. */
 enum kd_status kd_markup_escape(const char *text, const char *characters, struct kd_buffer *out);
 
 /* Replaces the references that kd_markup_escape writes by their characters, in place. */

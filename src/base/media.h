@@ -8,7 +8,8 @@
 #define KD_PROBLEM_TYPE "application/problem+json"   /* RFC 9457 */
 #define KD_HTML_TYPE "text/html; charset=utf-8"
 #define KD_CSV_TYPE "text/csv"
-#define KD_CSV_HEADED_TYPE KD_CSV_TYPE "; charset=utf-8; header=present" /* RFC 4180: the first line has names */
+/* header=present (RFC 4180): the first line has the names of the columns */
+#define KD_CSV_HEADED_TYPE KD_CSV_TYPE "; charset=utf-8; header=present"
 #define KD_EVENTS_TYPE "text/event-stream"
 #define KD_BYTES_TYPE "application/octet-stream"
 #define KD_FRAMES_TYPE "application/x-kerrd-frames" /* docs/live.md */

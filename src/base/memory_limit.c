@@ -85,8 +85,8 @@ static FILE *open_list(const char *root, const char *path)
 }
 
 /* Finds the folder of the process's group, and how much of its path is the mount point. In a container the mount may
- * show only part of the tree. Then the path in /proc/self/cgroup is relative to the whole tree, or names a group that
- * is not visible here. */
+ * show only part of the tree. The path in /proc/self/cgroup is then relative to the whole tree, or names a group
+ * that is not visible here. */
 static bool find_group(const char *root, const struct version *version, char *folder, size_t size, size_t *mount_length)
 {
     char line[4096], mounted[1024], mount[1024], group[1024];
@@ -112,7 +112,7 @@ static bool find_group(const char *root, const struct version *version, char *fo
     return snprintf(folder, size, "%s%s", mount, strcmp(below, "/") ? below : "") < (int)size;
 }
 
-/* Bytes that one group leaves; UINT64_MAX if it has no limit. */
+/* Bytes that the limit of one group leaves free; UINT64_MAX if the group has no limit. */
 static uint64_t left_in(const char *root, const char *folder, const struct version *version)
 {
     char path[PATH_MAX];
@@ -128,8 +128,8 @@ static uint64_t left_in(const char *root, const char *folder, const struct versi
     return used < most ? most - used : 0;
 }
 
-/* Finds the smallest amount of memory that is left in the process's control group or one of its ancestors up to the
- * mount. Each of them may have a limit. */
+/* Each control group from the process's own up to the mount may have a limit. Finds the smallest amount of memory
+ * that one of them leaves free. */
 static void least_of_groups(const char *root, const struct version *version, struct kd_memory_limit *least)
 {
     char folder[2560];

@@ -11,7 +11,7 @@ struct work {
     void (*each)(void *user, size_t item);
     void *user;
     _Atomic size_t next;
-    bool yields; /* the threads end when other work needs their cores */
+    bool yields; /* the threads end when other work needs these cores */
     pthread_t threads[KD_PARALLEL_THREADS - 1];
     size_t begun;
 };
@@ -71,8 +71,8 @@ void kd_parallel(size_t n, void (*each)(void *user, size_t item), void *user)
     finish(&work);
 }
 
-/* Starts a thread for each idle core, but not more than there are items left. Starts none if other calls have taken the
- * last core. */
+/* Starts a thread for each idle core, but not more threads than there are items left. Starts none if other calls use
+ * all cores by now. */
 static void start_where_idle(struct work *w)
 {
     const size_t next = atomic_load(&w->next), left = next < w->n ? w->n - next : 0;

@@ -11,12 +11,13 @@
 /* Uses as many threads as there are cores, at most KD_PARALLEL_THREADS. */
 void kd_parallel(size_t n, void (*each)(void *user, size_t item), void *user);
 
-/* Like kd_parallel, on idle cores only; for items that take about 100 us or more. Before each of its own items the
- * caller starts a thread for each idle core. A started thread ends after an item if more threads want to run than there
- * are cores. All calls together start at most one thread less than there are cores. */
+/* Like kd_parallel, on idle cores only; for items that take about 100 us or more. Before the caller runs an item
+ * itself, it starts a thread for each idle core. A started thread ends after an item if more threads want to run
+ * than there are cores. All calls together start at most one thread less than there are cores. */
 void kd_parallel_idle(size_t n, void (*each)(void *user, size_t item), void *user);
 
-/* For tests and benchmarks: kd_parallel_idle uses this many threads, however busy the cores are. 0: idle cores only. */
+/* For tests and benchmarks: kd_parallel_idle uses this number of threads, regardless of how busy the cores are. 0:
+ * it uses idle cores only. */
 extern _Thread_local unsigned kd_parallel_threads;
 
 #endif

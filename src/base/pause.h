@@ -3,9 +3,9 @@
  * others run first; everywhere else it does nothing. The caller must not hold a lock that others may need in the
  * meantime. Any thread.
  *
- * kd_pause returns true if nobody waits for the result any more. It then returns true to the end of the request. A loop
- * that gets true ends. What it has computed is incomplete: it must not be kept for other requests, and the function
- * that returns a status returns KD_ECANCELLED. */
+ * kd_pause returns true once nobody waits for the result any more, and then until the request ends. A loop that gets
+ * true must end. The result of such a loop is incomplete and must not be kept for other requests. A function that
+ * returns a status then returns KD_ECANCELLED. */
 #ifndef KD_BASE_PAUSE_H
 #define KD_BASE_PAUSE_H
 
@@ -16,7 +16,7 @@ extern _Thread_local bool (*kd_pause_hook)(void); /* NULL: this thread does not 
 
 static inline bool kd_pause(void) { return kd_pause_hook && kd_pause_hook(); }
 
-/* Pauses in a loop, whenever i is a multiple of n. */
+/* Calls kd_pause in a loop, whenever i is a multiple of n. */
 static inline bool kd_pause_every(uint64_t i, uint64_t n) { return i % n == 0 && kd_pause(); }
 
 #endif

@@ -17,7 +17,7 @@
 #include <unistd.h>
 
 #define PIPE_BYTES (1 << 20) /* capacity of the pipe; the bytes written between two polls should fit into it */
-#define NICE 10              /* lower priority, because pictures that users wait for come first */
+#define NICE 10              /* lower priority, because pictures that users wait for are more urgent */
 
 extern char **environ;
 
@@ -39,7 +39,7 @@ static bool make_pipe(int *ours, int *its, bool we_write)
     return fcntl(*ours, F_SETFL, O_NONBLOCK) == 0;
 }
 
-/* Closes all descriptors from 4 on. Libraries may have left them open. */
+/* Closes all descriptors from 4 on, because libraries may have left some of them open. */
 /* tests define KD_PROGRAM_LISTS */
 #if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 34) && !defined(KD_PROGRAM_LISTS)
 static int close_others(posix_spawn_file_actions_t *files)
@@ -82,7 +82,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     sigaddset(&usual, SIGXFSZ);
     posix_spawnattr_setsigmask(&how, &none);
     posix_spawnattr_setsigdefault(&how, &usual);
-    /* The program has a process group of its own, so that Ctrl-C reaches kerrd only, which then ends the program. */
+    /* The program has a process group of its own, so that Ctrl-C reaches only kerrd. kerrd then ends the program. */
     posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     if (!(code = posix_spawn_file_actions_adddup2(&files, in, 0)) &&
         !(code = posix_spawn_file_actions_adddup2(&files, told, 2)) &&
@@ -257,7 +257,7 @@ void kd_program_reason(const struct kd_program *p, char out[300])
     while (*at && *at != '\n' && *at != '\r' && n < 300 - 5) {
         if ((unsigned char)*at < ' ' || *at == 0x7f)
             at = skip_control(at);
-        else if (!strncmp(at, " @ 0x", 5)) /* an address in the program's memory */
+        else if (!strncmp(at, " @ 0x", 5)) /* the text is an address in the program's memory */
             at += 5 + strspn(at + 5, "0123456789abcdefABCDEF");
         else if (strchr(before, last) && begins_path(at)) {
             at += strcspn(at, after);

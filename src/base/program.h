@@ -28,24 +28,25 @@ struct kd_program {
 
 /* True if the PATH has a program of this name that we may execute. */
 bool kd_program_known(const char *name);
-/* Starts argv[0], which is searched for on the PATH. out becomes the program's descriptor 3; the caller still owns it.
- * If the program writes a file of more than `most` bytes, it ends. It runs at a lower priority, inherits no other
- * descriptors, and its standard output goes to /dev/null. KD_EABSENT: there is no such program. KD_EIO. */
+/* Starts argv[0], which is searched for on the PATH. out becomes the program's descriptor 3; the caller still owns
+ * it. A program that writes a file of more than `most` bytes is ended. The program runs at a lower priority and
+ * inherits no other descriptors. Its standard output goes to /dev/null. KD_EABSENT: there is no such program.
+ * KD_EIO. */
 enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most, struct kd_program *program,
                                 struct kd_error *error);
-/* Returns how many bytes the pipe took. 0: the pipe is full at present, or the program has closed it;
- * kd_program_over tells which. */
+/* Returns how many bytes the pipe took. 0: the pipe is full at present, or the program has closed it.
+ * kd_program_over distinguishes the two cases. */
 size_t kd_program_write(struct kd_program *program, const void *data, size_t size);
 void kd_program_hang_up(struct kd_program *program);
 /* True if the program has ended. *code: its exit code, or -1 if a signal ended it. This call also reads the program's
  * standard error, and kills children that it has left behind. */
 bool kd_program_over(struct kd_program *program, int *code);
-/* Milliseconds for which the program has been idle at now_ms. It is idle while it uses no processor time and
- * produces no output. moved: the caller has seen output since the last call. Call it regularly. A gap between two
- * calls counts as at most one second, because the machine may have been suspended. */
+/* Milliseconds for which the program has been idle at now_ms. The program is idle while it uses no processor time
+ * and produces no output. moved: the caller has seen output since the last call. Call it regularly. A gap between
+ * two calls counts as at most one second, because the machine may have been suspended. */
 double kd_program_idle_ms(struct kd_program *program, bool moved, double now_ms);
-/* Gets the first line of the program's standard error in a form that can be shown: without control characters, and
- * without paths and addresses of this machine. "" if the program has printed nothing. */
+/* Gets the first line of the program's standard error in a form that may be shown to clients: control characters,
+ * paths and addresses of this machine are removed. "" if the program has printed nothing. */
 void kd_program_reason(const struct kd_program *program, char out[300]);
 void kd_program_end(struct kd_program *program); /* may be called for a program that was never started */
 

@@ -17,7 +17,7 @@ static bool read_all(int fd, size_t most, struct kd_buffer *out)
             continue;
         if (n < 0)
             return false;
-        if (out->size - before + (size_t)n > most) { /* fails, because the file has grown since fstat */
+        if (out->size - before + (size_t)n > most) { /* the file has grown since fstat */
             errno = EFBIG;
             return false;
         }

@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* While a file is written it is called NAME.kerrd-XXXXXX, with six letters or digits. Users do not give such names to
- * their own files, but they may well have a NAME.backup. */
+/* A temporary file is named NAME.kerrd-XXXXXX, with six letters or digits. The pattern must not match files of
+ * users, who may well have a NAME.backup. */
 #define KD_TEMPORARY_MARK ".kerrd-"
 enum { KD_TEMPORARY_TAIL = sizeof KD_TEMPORARY_MARK - 1 + 6 };
 

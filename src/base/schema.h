@@ -1,5 +1,5 @@
-/* Writes JSON Schemas of answers. An object has exactly the members in its list, so that tests that validate real
- * answers find additional and missing members. One thread at a time for a document. */
+/* Writes JSON Schemas of answers. The schema of an object permits exactly the members in its list. So tests that
+ * validate real answers find additional and missing members. One thread at a time for a document. */
 #ifndef KD_BASE_SCHEMA_H
 #define KD_BASE_SCHEMA_H
 
@@ -51,8 +51,8 @@ static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_sch
     kd_json_end(json);
 }
 
-/* Writes the schema of one word, as a constant and as an enumeration with one entry. With "const" alone, generated
- * clients would take the word in one branch of a union for the only possible one. */
+/* Writes the schema of one word, as a constant and as an enumeration with one entry. With "const" alone, client
+ * generators treat the word of one branch of a union as the only possible word. */
 static inline void kd_schema_word(struct kd_json *json, const char *name, const char *word)
 {
     kd_json_object(json, name);
@@ -110,7 +110,7 @@ static inline void kd_schema_strict(struct kd_json *json, const char *name, cons
     kd_schema_told(json, name, NULL, members, n);
 }
 
-/* Like kd_schema_strict, for a table whose length the compiler knows. */
+/* Like kd_schema_strict, for an array, whose length the macro computes. */
 #define KD_SCHEMA_STRICT(json, name, table) kd_schema_strict(json, name, table, sizeof(table) / sizeof *(table))
 /* A numeric constant as a string literal, with the digits it has in the source. */
 #define KD_SCHEMA_DIGITS_OF(x) #x

@@ -12,7 +12,7 @@ int kd_spelling_distance(const char *given, const char *known);
  * missing from a name, the distance is 1. */
 int kd_spelling_score(const char *given, const char *known);
 
-/* The nearest of the names that were offered; `name` stays NULL if none is near. Initialise with { 0 }. */
+/* The nearest of the names that were offered. `name` is NULL if none of them is near. Initialise with { 0 }. */
 struct kd_spelling_best {
     const char *name;
     int score;

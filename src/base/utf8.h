@@ -16,13 +16,13 @@ bool kd_utf8_valid(const char *text);
 
 /* Replaces each byte that is not part of valid UTF-8 by "?". */
 void kd_utf8_sanitize(char *text);
-/* Like kd_utf8_sanitize, and also replaces control characters: line feed, tab and carriage return by a blank, others by
- * "?". */
+/* Like kd_utf8_sanitize, and also replaces control characters: line feed, tab and carriage return by a blank, all
+ * other control characters by "?". */
 void kd_utf8_show(char *text);
 
 /* Copies as many whole characters of text as fit in size bytes. Each byte of a control character or of invalid UTF-8
- * becomes \xNN, so that a line stays one line and a terminal executes no escape sequence. size is at least 1. Four
- * bytes for each byte of text, plus one for the NUL, always suffice. */
+ * becomes \xNN, so that a line stays one line and a terminal executes no escape sequence. size is at least 1. A size
+ * of four bytes for each byte of text, plus one for the NUL, always suffices. */
 void kd_utf8_print(char *to, size_t size, const char *text);
 
 /* Convert Latin-1 to UTF-8. kd_latin1_size returns how many bytes are needed, including the NUL. kd_latin1_copy returns

@@ -17,7 +17,7 @@
 enum { HELD = 16, KNOWN = 1 << 14, DEPTH = 24 };
 
 static _Thread_local bool answers;
-static _Thread_local double turn_ms; /* the thread's processor time when the slice began */
+static _Thread_local double turn_ms; /* the processor time of the thread when its slice began */
 static _Thread_local struct {
     const void *lock;
     double since_ms;
@@ -80,8 +80,8 @@ void kd_watch_taken(const void *lock)
     n_held++;
 }
 
-/* On a shared machine, the time of other processes may be counted as a thread's own. So a violation is reported
- * only if the limit is exceeded four times over, or if a thread exceeds it for the third time. */
+/* On a shared machine, the time of other processes may be counted as a thread's own. So a violation is reported only
+ * if a thread exceeds four times the limit, or exceeds the limit for the third time. */
 static void too_long(const char *rule, double ms, double most_ms)
 {
     static _Thread_local unsigned times;

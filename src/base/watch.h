@@ -20,9 +20,9 @@
 void kd_watch_answers(void); /* marks the calling thread as one that answers requests */
 void kd_watch_turn_begins(void);
 void kd_watch_turn_ends(void);
-void kd_watch_slow_lock(void); /* the lock that the calling thread took last is a slow one */
-/* For watch_calls.c. They report that the calling thread has taken or released a lock, is about to use a disk
- * (syncs: by fsync), or is about to destroy a lock. */
+void kd_watch_slow_lock(void); /* marks the lock that the calling thread took last as a slow lock */
+/* Hooks for watch_calls.c. The calling thread has taken or released a lock, is about to use a disk (syncs: by
+ * fsync), or is about to destroy a lock. */
 void kd_watch_taken(const void *lock);
 void kd_watch_given(const void *lock);
 void kd_watch_disk(bool syncs);

@@ -8,12 +8,12 @@ struct kd_named_asset {
     char name[KD_ASSET_NAME];
     const char *path;
     struct kd_asset_found found; /* description of the file's contents; its hash is "" until the file is read */
-    bool used;                   /* a field of the scene uses it */
+    bool used;                   /* a field of the scene uses this asset */
 };
 struct kd_asset_options { /* initialise to 0 */
     struct kd_named_asset *list;
     size_t n;
-    /* documents other than the scene may use assets; the caller reads them before it calls kd_asset_options_check */
+    /* documents other than the scene may use assets; the caller reads those documents before kd_asset_options_check */
     bool later;
 };
 

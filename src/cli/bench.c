@@ -165,13 +165,13 @@ done:
     return status;
 }
 
-/* Returns the command line, without quoting. */
+/* Returns the command line, whose words are not quoted. */
 static char *command_of(int argc, char **argv)
 {
     struct kd_buffer text = { 0 };
     for (int i = 0; i < argc; i++)
         if (kd_buffer_printf(&text, "%s%s", i ? " " : "", argv[i])) {
-            kd_buffer_finish(&text); /* discards the text, because a truncated command line would mislead */
+            kd_buffer_finish(&text); /* the text is discarded, because a truncated command line would mislead */
             break;
         }
     return (char *)text.data;

@@ -94,7 +94,7 @@ _Noreturn void kd_cli_device_lost(const struct kd_error *error)
 
 void kd_cli_stdout_failed(int number)
 {
-    static bool told; /* ensures that the failure is reported once, although kd_cli_close_stdout fails as well */
+    static bool told; /* prevents a second report, because kd_cli_close_stdout fails as well */
     if (number == EPIPE) {
         signal(SIGPIPE, SIG_DFL);
         raise(SIGPIPE);

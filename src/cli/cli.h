@@ -1,7 +1,7 @@
 /* Functions shared by the subcommands of kerrd, which commands.h lists. Main thread only.
  *
- * A subcommand gets its own arguments; argv[0] is "kerrd NAME". It returns an exit code. A usage error exits from argp
- * with KD_EXIT_USAGE. */
+ * A subcommand gets its own arguments; argv[0] is "kerrd NAME". The subcommand returns an exit code. On a usage error,
+ * argp ends the program with KD_EXIT_USAGE. */
 #ifndef KD_CLI_CLI_H
 #define KD_CLI_CLI_H
 
@@ -14,10 +14,11 @@
 
 enum { KD_EXIT_OK = 0, KD_EXIT_FAILURE = 1, KD_EXIT_USAGE = 2, KD_EXIT_DEVICE = 3 };
 
-/* argp children for --log-level and --device. The first has no input. The input of the second is a `const char *`; the
- * parser sets it first to $KERRD_DEVICE or "auto". */
+/* argp children for --log-level and --device. The first has no input. The input of the second is a `const char *`,
+ * which the parser initialises to $KERRD_DEVICE or "auto". */
 extern const struct argp kd_cli_log_argp, kd_cli_device_argp;
-extern const struct argp_child kd_cli_device_children[]; /* both children, the device's first */
+/* the children of both argp structs above; the device's first */
+extern const struct argp_child kd_cli_device_children[];
 #define KD_CLI_LOG_LEVELS "error|warn|info|debug"
 #define KD_CLI_LOG_LEVEL_DOC "lowest level of messages on standard error (default: warn)"
 #define KD_CLI_DEVICE_DOC "auto, an index of `kerrd doctor`, or part of a name (default: $KERRD_DEVICE, else auto)"
@@ -35,17 +36,17 @@ enum kd_status kd_cli_prefix(struct kd_error *error, const char *name);
  * cannot be closed. */
 _Noreturn void kd_cli_device_lost(const struct kd_error *error);
 
-/* Writes to stdout and flushes it, including earlier output. Returns an exit code. */
+/* Writes to stdout and flushes it, together with earlier output. Returns an exit code. */
 int kd_cli_print(const void *data, size_t size);
 
-/* Reports, once, why a write to stdout has failed; number: its errno. If the reader has closed the pipe, as in `kerrd
- * plan | head`, it ends the program by SIGPIPE without a message, like other tools. */
+/* Reports, once, why a write to stdout has failed; number: its errno. If the reader has closed the pipe, as in
+ * `kerrd plan | head`, the function ends kerrd by SIGPIPE without a message, as other tools end. */
 void kd_cli_stdout_failed(int number);
 
 /* For atexit: flushes stdout, so that the exit code is 1 if help or a list could not be written. */
 void kd_cli_close_stdout(void);
 
-/* Both functions parse an option's text. If it is not valid they return false and leave *out unchanged.
+/* Both functions parse an option's text. If the text is not valid, they return false and leave *out unchanged.
  * KD_CLI_BYTES_ALLOWED describes the accepted sizes in messages. */
 bool kd_cli_read_number(const char *text, unsigned minimum, unsigned maximum, unsigned *out);
 bool kd_cli_read_bytes(const char *text, uint64_t *out);

@@ -10,9 +10,9 @@
  * line of text holds two rows of modules. Returns KD_ENOMEM when out of memory. */
 enum kd_status kd_cli_code(FILE *to, const char *text);
 
-/* Chooses, from the names of this machine, the one that other machines most likely reach: an address of a private
- * network, else another address, else a name. names: NULL-terminated, or NULL. Returns NULL if there is only
- * loopback. */
+/* Chooses, from the names of this machine, the one that other machines can most likely reach. The order of
+ * preference is: an address of a private network, any other address, a name. names: NULL-terminated, or NULL.
+ * Returns NULL if there is only loopback. */
 const char *kd_cli_code_of(const char *const *names);
 
 #endif

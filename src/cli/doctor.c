@@ -133,7 +133,7 @@ static void print_cache(void)
         free(path);
 }
 
-/* Prints whether validation layers are available; only an attempt to load them shows that. */
+/* Prints whether validation layers are available. Only an attempt to load them can tell. */
 static void print_validation(const char *device)
 {
     struct kd_vk *vk = NULL;
@@ -212,7 +212,7 @@ static int examine(const char *device)
     printf("verdict: %s\n", status ? "not usable" : "usable");
     if (!status)
         return kd_cli_print("", 0);
-    fflush(stdout); /* text on stdout must precede the message on stderr */
+    fflush(stdout); /* text on stdout must be flushed before the message on stderr */
     kd_cli_fail(&error);
     return status == KD_EINVAL ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
 }

@@ -17,7 +17,7 @@ const struct kd_format *kd_cli_picture_format(const struct argp_state *state, co
  * caller must finish *frame, even after an error. */
 enum kd_status kd_cli_draw(struct kd_renderer *renderer, const struct kd_format *format, struct kd_scene *scene,
                            struct kd_plan *plan, struct kd_frame *frame, double *ms, struct kd_error *error);
-/* Like kd_cli_draw, with a plan that the caller has made. */
+/* Like kd_cli_draw, with the caller's own plan. */
 enum kd_status kd_cli_draw_planned(struct kd_renderer *renderer, const struct kd_scene *scene,
                                    const struct kd_plan *plan, struct kd_frame *frame, double *ms,
                                    struct kd_error *error);

@@ -20,7 +20,7 @@ static const struct {
 
 static const char *const unfinished[] = {
     "tmp", "part", "new", "old", "bak", NULL
-}; /* extensions of a file that will be renamed or has been */
+}; /* extensions of temporary names: the file will be renamed, or has been */
 
 static const char *find(const char *const words[], const char *word)
 {

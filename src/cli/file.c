@@ -42,10 +42,10 @@ enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out
     return status;
 }
 
-/* The file that symbolic links lead to, because rename would replace a link. */
+/* The file that a symbolic link finally leads to. A rename would replace the link instead of that file. */
 struct target {
     char *path;    /* malloc'd */
-    bool in_place; /* it exists and is not a regular file, so it must not be replaced */
+    bool in_place; /* the path exists and is not a regular file, so it must not be replaced */
 };
 
 static enum kd_status find_target(const char *path, struct target *out, struct kd_error *error)

@@ -21,7 +21,7 @@
 enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER, KEY_ONLY };
 
 struct arguments {
-    struct kd_scene_command base; /* the film's request is the document of these options */
+    struct kd_scene_command base; /* the document of these options is the request of a film */
     const char *state;
     const struct kd_gather_format *kind; /* format of the film; NULL: none, only frames are made */
     unsigned rate, samples, first, last; /* first, last: numbers of the first and the last frame to render */
@@ -269,7 +269,7 @@ done:
     return status;
 }
 
-/* Measures the common exposure, if there is one and the folder does not hold it yet. Writes film.json. */
+/* Measures the common exposure if the film has one and film.json does not contain it yet. Writes film.json. */
 static enum kd_status expose(struct work *w, struct kd_error *error)
 {
     unsigned frames[KD_JOB_EXPOSURE_FRAMES];

@@ -22,8 +22,8 @@ enum kd_status kd_frames_open(struct kd_frames *frames, struct kd_error *error);
  * of the film may use the folder at the same time; otherwise this process locks it for itself. Returns KD_EINVAL if
  * another process has locked it. Call kd_frames_find next. */
 enum kd_status kd_frames_open_folder(struct kd_frames *frames, const char *path, bool shared, struct kd_error *error);
-/* Counts the frames in the folder. Removes unfinished files, unless the folder is shared. It is an error if a folder or
- * a link has the name of a frame. */
+/* Counts the frames in the folder. Removes unfinished files, unless the folder is shared. A folder or a link with
+ * the name of a frame is an error. */
 enum kd_status kd_frames_find(struct kd_frames *frames, unsigned *found, struct kd_error *error);
 static inline bool kd_frames_has(const struct kd_frames *frames, unsigned frame) { return frames->sizes[frame] > 0; }
 

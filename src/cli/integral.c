@@ -246,7 +246,7 @@ static void set_options(enum kd_integral what, struct argp_option *options, stru
     options[n] = (struct argp_option) { 0 };
 }
 
-/* Options of one integral, and the texts that they refer to. */
+/* Options of one integral, and the texts that these options refer to. */
 struct table {
     struct argp argp;
     struct argp_option options[KD_ROW_OPTIONS + 4];

@@ -141,7 +141,7 @@ static enum kd_status write_answer(const struct arguments *arguments, struct kd_
             return status;
     }
     kd_progress_begin(&source.progress, 1);
-    /* The first bytes are computed before the file is opened, so that bad input leaves no file. */
+    /* The first bytes are computed before the file is opened, so that no file is made if the input is invalid. */
     source.status = kd_orbit_feed_more(feed, &source.ready, error);
     if (!source.status && feed->request->many) {
         share(feed);

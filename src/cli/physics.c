@@ -41,7 +41,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Options of one quantity, and the texts that they refer to. */
+/* Options of one quantity, and the texts that these options refer to. */
 struct options {
     struct argp_option table[KD_QUANTITY_PARAMETERS + 4];
     char names[KD_QUANTITY_PARAMETERS][NAME_SIZE], values[KD_QUANTITY_PARAMETERS][NAME_SIZE],
@@ -149,7 +149,7 @@ static error_t parse_name(int key, char *text, struct argp_state *state)
         if (!kd_quantity_find(text))
             argp_error(state, "there is no quantity \"%s\"; known are %s", text, names);
         *index = state->next - 1;
-        state->next = state->argc; /* stops, because the remaining arguments belong to the quantity */
+        state->next = state->argc; /* parsing stops here, because the remaining arguments belong to the quantity */
         return 0;
     }
     return ARGP_ERR_UNKNOWN;

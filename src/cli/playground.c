@@ -35,7 +35,8 @@ struct arguments {
     const char *sets[SETS_MAX];
     size_t n_sets;
     double time;
-    /* bounded: --set budget was given; otherwise there is no budget, because it is meant for servers */
+    /* bounded: --set budget was given. Otherwise there is no limit, because the setting `budget` is meant for
+     * servers */
     bool list, bounded;
     struct kd_pictures_asked pictures;
 };
@@ -181,7 +182,7 @@ done:
 struct story {
     struct kd_buffer text;
     uint64_t told, lost;      /* told: number of the last event written; lost: number of lost events */
-    struct kd_error short_of; /* the reason why the simulation ended early; status KD_OK if it did not */
+    struct kd_error short_of; /* the reason why the simulation ended early; status KD_OK: it did not end early */
 };
 
 static enum kd_status add_lost(struct story *story, uint64_t to)
@@ -263,7 +264,7 @@ static void tell_short(const struct kd_playground *p, double t, bool bounded, st
 }
 
 /* Moves the playground to the time t. The budget of sub-steps is meant for servers, so it applies only if the option
- * was given. */
+ * --set budget was given. */
 static enum kd_status go_on(const struct arguments *a, struct kd_playground *p, double t, struct story *story,
                             struct kd_error *error)
 {

@@ -65,7 +65,7 @@ static void name_of(const struct kd_pictures *p, char out[4096])
         snprintf(out, 4096, "%s", p->asked->path);
         return;
     }
-    /* the width may have a leading 0 or not: numbers in names are padded with zeros in both cases */
+    /* numbers in names are padded with zeros, whether or not the width has a leading 0 */
     const int width = atoi(at + 1);
     snprintf(out, 4096, "%.*s%0*u%s", (int)(at - p->asked->path), p->asked->path, width, p->made, at + length);
 }

@@ -32,11 +32,11 @@ struct kd_pictures {
     double ms; /* render time of all pictures */
 };
 
-/* Returns KD_EINVAL if path is not valid. If `every` is set it must have exactly one %d as in printf, otherwise
- * none. */
+/* Returns KD_EINVAL if path is not valid. If `every` is set, the path must contain exactly one %d as in printf;
+ * otherwise it must contain none. */
 enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct kd_error *error);
-/* Prepares rendering. view: JSON of the default scene for this playground, which is used if no scene is given. view
- * NULL: the default scene, with the camera at the distance of the bodies. */
+/* Prepares rendering. view: JSON of the scene that is used if no scene is given. If view is NULL too, the default
+ * scene is used, with the camera at the distance of the bodies. */
 enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
                                  struct kd_pictures *out, struct kd_error *error);
 /* Renders the playground in its present state and writes the file. */

@@ -24,7 +24,7 @@ static void draw(double fraction, double elapsed)
     memset(bar, '#', (size_t)full);
     bar[CELLS] = 0;
     fprintf(stderr, "\r\033[K[%s] %3.0f %%", bar, 100 * fraction);
-    if (fraction > 0.05) /* earlier estimates are too inaccurate */
+    if (fraction > 0.05) /* earlier estimates of the remaining time are too inaccurate */
         fprintf(stderr, "  %.0f s left", elapsed * (1 - fraction) / fraction);
     fflush(stderr);
 }

@@ -23,9 +23,9 @@ static struct kd_row_options rows;
 struct arguments {
     const char *input, *output, *device, *format;
     struct kd_row_texts fields;
-    bool trace, points;          /* trace: write the ray's steps; points: write points of its path instead of the
-                                  * steps */
-    struct kd_rays_request more; /* the rays that --ray gives */
+    /* trace: write the steps of the ray; points: write points of its path in place of the steps */
+    bool trace, points;
+    struct kd_rays_request more; /* the rays that are given by --ray */
 };
 
 static const struct argp_option own[] = {
@@ -233,7 +233,7 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     KD_TRY(settle(arguments, &request, &renderer, error));
     if (request.params.observer) {
         kd_rays_looks_label(&request.params, request.alpha_beta, 1, request.alpha_beta, &outward, &energy);
-        request.params.observer = 0; /* from here on the ray is given without reference to an observer */
+        request.params.observer = 0; /* from here on the ray is described without reference to an observer */
     }
     status = kd_rays_steps(renderer, &request.params, &(struct kd_ray_labels) { request.alpha_beta, &outward, 1 },
                            &steps, error);

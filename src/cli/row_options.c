@@ -21,8 +21,7 @@ static void name_value(const struct kd_row *row, char *out, size_t size)
     snprintf(out, size, "%s%s%s", plain, word ? "|" : "", word ? row->words : "");
 }
 
-/* Describes the value that a row has in a request before anything is given. Writes nothing if the row has no such
- * value, or is a list. */
+/* Describes the default value of a row. Writes nothing if the row has no default, or is a list. */
 static void name_default(const struct kd_row *row, const void *from, char *out, size_t size)
 {
     const void *at = from ? (const char *)from + row->offset : NULL;
@@ -30,7 +29,8 @@ static void name_default(const struct kd_row *row, const void *from, char *out, 
     int word = 0;
     double number = NAN;
     *out = 0;
-    if (!at || row->needed || strstr(row->help, "default")) /* skipped, because the help already states the default */
+    /* an option without a default is skipped, because the help already states it */
+    if (!at || row->needed || strstr(row->help, "default"))
         return;
     switch (row->kind) {
     case KD_KIND_WORD:
@@ -73,7 +73,8 @@ void kd_row_options_add(struct kd_row_options *to, struct argp_option *table, si
             *c = '-';
         if ((document->of && row->of && !(row->of & document->of)) || has(to, option))
             continue;
-        if (to->n == KD_ROW_OPTIONS) /* every start of the command fails here if a table has outgrown the room */
+        /* if a table outgrows this array, the command fails at every start, so that the mistake is noticed */
+        if (to->n == KD_ROW_OPTIONS)
             abort();
         const size_t k = to->n++;
         name_default(row, from, initial, sizeof initial);

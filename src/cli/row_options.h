@@ -1,5 +1,5 @@
-/* Options of a command that stand for the rows of its request: --inclination-deg for inclination_deg. Name, argument
- * and help follow from the row, so that a new row is an option too. Main thread only. */
+/* Options of a command, one for each row of its request: --inclination-deg for inclination_deg. Name, argument and
+ * help of the option are made from the row, so that a new row becomes an option automatically. Main thread only. */
 #ifndef KD_CLI_ROW_OPTIONS_H
 #define KD_CLI_ROW_OPTIONS_H
 
@@ -18,8 +18,8 @@ struct kd_row_options {
 /* Text of each of these options; NULL: the option was not given. */
 struct kd_row_texts { const char *of[KD_ROW_OPTIONS]; };
 
-/* Adds an option for each row of the document, unless an option already has the row's name. The table must have room;
- * its next place is *n. from: the values that the rows have before anything is given, for the help; NULL: unknown.
+/* Adds an option for each row of the document, unless an option already has the row's name. The table must have
+ * room; *n is the index of its next free place. from: the rows' default values, which the help shows; NULL: unknown.
  * about: begins the help; may be "". objects: an option begins with the name of the row's object. */
 void kd_row_options_add(struct kd_row_options *to, struct argp_option *table, size_t *n,
                         const struct kd_document *document, const void *from, const char *about, bool objects,

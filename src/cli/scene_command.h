@@ -40,9 +40,9 @@ struct kd_scene_command {
     double ms;    /* render time */
 };
 
-/* Parser of the arguments above, for a command with kd_scene_device_children. It takes -o, -t and --memory if the
- * command's table has them; other keys are left to the command, which calls this parser for keys that it does not know.
- */
+/* Parser of the arguments above, for a command with kd_scene_device_children. It handles -o, -t and --memory if the
+ * command's table has them. A command with further keys has a parser of its own, which calls this one for all keys
+ * that it does not handle. */
 error_t kd_scene_command_parse(int key, char *text, struct argp_state *state);
 
 enum kd_status kd_scene_command_load(struct kd_scene_command *command, struct kd_error *error);

@@ -44,7 +44,7 @@ static void add_set(struct kd_scene_options *options, const char *text, struct a
         argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--set");
 }
 
-/* Adds "1920x1080" as its two fields. options owns their texts. */
+/* Adds "1920x1080" as two fields. `options` owns their texts. */
 bool kd_scene_options_add_size(struct kd_scene_options *options, const char *text)
 {
     size_t width = strspn(text, "0123456789"), height = text[width] ? strspn(text + width + 1, "0123456789") : 0;
@@ -61,7 +61,7 @@ static void add_size(struct kd_scene_options *options, const char *text, struct 
         argp_error(state, "--size is %s; it must be WIDTHxHEIGHT in pixels, as in 1920x1080", text);
 }
 
-/* Adds "512x512+1024+0" as its four fields. options owns their texts. */
+/* Adds "512x512+1024+0" as four fields. `options` owns their texts. */
 bool kd_scene_options_add_tile(struct kd_scene_options *options, const char *text)
 {
     static const char *const names[] = { "width", "height", "left", "top" };

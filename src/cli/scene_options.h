@@ -14,7 +14,7 @@
 struct kd_scene_options {
     const char *document; /* a path or "-"; NULL: none */
     const char *preset, *from;
-    /* True: the document is not a whole scene but is merged over one, so that it may be used together with --from. */
+    /* true: the document is a patch that is merged over a scene, so it may be combined with --from */
     bool document_is_over;
     const char **set; /* texts "path=value", from --set, --size and --tile */
     size_t n_set;
@@ -27,12 +27,12 @@ struct kd_scene_options {
 
 /* An argp child. Its input is a struct kd_scene_options that is initialised to 0. It takes the positional argument. */
 extern const struct argp kd_scene_options_argp;
-/* The child parsers of these options: the scene's options first, then the two of cli.h. */
+/* The child parsers of these options: the options of the scene first, then the two children of cli.h. */
 extern const struct argp_child kd_scene_device_children[];
 
 /* Loads and validates the merged scene. */
 enum kd_status kd_scene_options_load(struct kd_scene_options *options, struct kd_scene *out, struct kd_error *error);
-/* Like kd_scene_options_load, over *scene. For options without --preset and --from. */
+/* Like kd_scene_options_load, but merges over *scene. For commands without --preset and --from. */
 enum kd_status kd_scene_options_merge(struct kd_scene_options *options, struct kd_scene *scene, struct kd_error *error);
 /* Applies every --set and --size to *scene, without validation. */
 enum kd_status kd_scene_options_set(const struct kd_scene_options *options, struct kd_scene *scene,

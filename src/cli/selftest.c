@@ -13,7 +13,7 @@
 struct report {
     struct kd_json *rows; /* NULL: the output is text */
     unsigned checks, failed, compared;
-    double nearest; /* among the checks that passed, the largest ratio of error to bound */
+    double nearest; /* the largest ratio of error to bound among the checks that passed */
     char nearest_what[128];
 };
 
@@ -52,7 +52,7 @@ static bool report(void *user, const struct kd_selftest_row *row)
     else
         print_row(row);
     if (fflush(stdout))
-        kd_cli_stdout_failed(errno); /* reported here, because the reason is no longer known later */
+        kd_cli_stdout_failed(errno); /* reported here, while errno still has the reason */
     return true;
 }
 

@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* Runs the self-test on the device and prints its table, or a JSON document if `json` is true. *failed is the number of
- * failed checks; if only these fail it returns KD_OK. */
+/* Runs the self-test on the device and prints its table, or a JSON document if `json` is true. *failed is the number
+ * of failed checks. Failed checks alone do not change the result KD_OK. */
 enum kd_status kd_cli_selftest(const char *device, bool json, unsigned *failed, struct kd_error *error);
 
 #endif

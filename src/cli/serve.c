@@ -56,7 +56,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return 0;
 }
 
-static struct kd_server *running; /* for the signal handler, which has no argument for the server */
+static struct kd_server *running; /* a global variable, because a signal handler gets no argument */
 
 static void on_signal(int number)
 {
@@ -70,8 +70,8 @@ static void set_signals(void (*handler)(int))
     struct sigaction hangup;
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGINT, &action, NULL);
-    if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN) /* keeps the signal ignored if nohup has
-                                                                            * set it to be ignored */
+    /* if nohup has set the signal to be ignored, it stays ignored */
+    if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN)
         sigaction(SIGHUP, &action, NULL);
 }
 
@@ -92,12 +92,12 @@ static void show_code(const char *address, uint16_t port, const char *base_path,
 
 static void announce(const char *address, uint16_t port, const char *base_path, const char *const *own)
 {
-    bool six = strchr(address, ':'); /* brackets are added, because URLs need them round an IPv6 address */
+    bool six = strchr(address, ':'); /* URLs need brackets round an IPv6 address */
     printf("kerrd: listening on http://%s%s%s:%u%s/\n", six ? "[" : "", address, six ? "]" : "", port, base_path);
     for (const char *const *name = own; name && *name; name++)
         printf("kerrd: reachable at http://%s:%u%s/\n", *name, port, base_path);
     show_code(address, port, base_path, own);
-    /* The parent may be waiting for this line in a pipe. If it cannot be written, the service continues. */
+    /* The parent may be waiting for this line in a pipe. If the line cannot be written, the service continues. */
     if (fflush(stdout) || ferror(stdout))
         kd_log(KD_LOG_ERROR, "cannot write to standard output: %s", strerror(errno));
     clearerr(stdout);
@@ -128,7 +128,7 @@ static enum kd_status stop_at_eof(struct kd_error *error)
     if (code)
         return kd_error_set(error, KD_EIO, "cannot start the thread that waits for the end of standard input: %s",
                             strerror(code));
-    pthread_detach(thread); /* not joined, because it ends with the process */
+    pthread_detach(thread); /* the thread is not joined, because it ends with the process */
     return KD_OK;
 }
 
@@ -184,7 +184,8 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
     status = kd_server_wait(running, error);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);
-    set_signals(SIG_IGN); /* ignored, because the server has stopped and another Ctrl-C must not change the exit code */
+    /* signals are ignored, because the server has stopped and another Ctrl-C must not change the exit code */
+    set_signals(SIG_IGN);
     kd_server_destroy(running);
     return status;
 }
@@ -209,12 +210,13 @@ static void set_log(const struct kd_settings *settings)
     kd_log_set_format(strcmp(kd_settings_text(settings, KD_SERVE_LOG_FORMAT), "json") ? KD_LOG_TEXT : KD_LOG_JSON);
 }
 
-/* Reads the environment and the file. It does so after the flags, which may name the file and take precedence. */
+/* Reads the environment and the file. The flags are read before, because they may name the file and take precedence. */
 static enum kd_status configure(struct kd_settings *settings, struct kd_error *error)
 {
     enum kd_status status;
     KD_TRY(kd_settings_read_environment(settings, environ, error));
-    set_log(settings); /* set first, so that errors in the file are logged as flags and environment require */
+    /* set before the file is read, so that errors in the file are logged as flags and environment require */
+    set_log(settings);
     if (kd_settings_text(settings, KD_SERVE_CONFIG))
         KD_TRY(kd_settings_read_file(settings, kd_settings_text(settings, KD_SERVE_CONFIG), error));
     set_log(settings);

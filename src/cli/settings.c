@@ -90,7 +90,7 @@ enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_
     return KD_OK;
 }
 
-/* The effective values of a setting; NULL if none is given. */
+/* The values that are in effect for a setting; NULL if none is given. */
 static const struct kd_setting_values *found(const struct kd_settings *settings, size_t i)
 {
     for (int source = KD_SETTING_SOURCES - 1; source >= 0; source--)

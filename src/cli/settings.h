@@ -1,5 +1,5 @@
-/* Settings of a server program, from flags, the environment and a configuration file. One table checks all of them. A
- * flag overrides the environment, which overrides the file, which overrides the default. Main thread only.
+/* Settings of a server program, from flags, the environment and a configuration file. All three are checked by one
+ * table. A flag overrides the environment, which overrides the file, which overrides the default. Main thread only.
  *
  * The option `client-share` is the flag --client-share, the member "client-share" of the file's object, and the
  * environment variable KERRD_CLIENT_SHARE. */
@@ -45,11 +45,12 @@ struct kd_setting_values {
 struct kd_settings {
     const struct kd_cli_setting *table;
     size_t n;
-    struct kd_setting_values *values; /* KD_SETTING_SOURCES entries for each setting, one after another */
+    struct kd_setting_values *values; /* for each setting, KD_SETTING_SOURCES entries in a row */
     char *file;                       /* configuration file that was read; NULL: none */
 };
 
-#define KD_SETTING_VARIABLE 48 /* size of the longest variable name, KERRD_ALLOW_CROSS_SITE, and some more */
+/* room for the longest variable name, KERRD_ALLOW_CROSS_SITE, and a few characters more */
+#define KD_SETTING_VARIABLE 48
 
 enum kd_status kd_settings_init(struct kd_settings *settings, const struct kd_cli_setting *table, size_t n,
                                 struct kd_error *error);
@@ -61,9 +62,9 @@ bool kd_setting_takes(const struct kd_cli_setting *setting, const char *text, ch
 enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_setting_source source, const char *text,
                                 struct kd_error *error);
 
-/* The next three functions are in settings_read.c. Their errors are KD_EINVAL, and name the file or variable, the
- * option, the value and what is accepted. */
-/* Reads a JSON object; "-FILE" reads FILE if it exists. */
+/* The next three functions are in settings_read.c. Their errors are KD_EINVAL. The message names the file or
+ * variable, the option, the value and the accepted values. */
+/* Reads a configuration file, a JSON object. A path "-FILE" reads FILE if FILE exists. */
 enum kd_status kd_settings_read_file(struct kd_settings *settings, const char *path, struct kd_error *error);
 /* Reads the environment variables KERRD_...; empty ones are ignored. */
 enum kd_status kd_settings_read_environment(struct kd_settings *settings, char *const *environment,
@@ -73,7 +74,7 @@ void kd_settings_warn(const struct kd_settings *settings, char *const *environme
 /* Makes the name of a setting's environment variable, such as "KERRD_CLIENT_SHARE". */
 void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTING_VARIABLE]);
 
-/* Effective value of setting i. If it is not given and has no default, the result is NULL, 0 or false. */
+/* Effective value of setting i. If the setting is not given and has no default, the result is NULL, 0 or false. */
 const char *kd_settings_text(const struct kd_settings *settings, size_t i);
 unsigned kd_settings_number(const struct kd_settings *settings, size_t i);
 uint64_t kd_settings_bytes(const struct kd_settings *settings, size_t i);

@@ -21,7 +21,7 @@
 #define PREFIX "KERRD_"
 #define FILE_MOST ((size_t)64 << 10)
 
-/* Variables that are not settings. They are for developers of Vulkan code and of the scripts in the repository. */
+/* Variables that are not settings. They are for developers of Vulkan code, and for the scripts in the repository. */
 static const char *const others[] = { "KERRD_VALIDATE", "KERRD_WATCH", "KERRD_WERROR" };
 
 void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTING_VARIABLE])
@@ -109,7 +109,7 @@ enum kd_status kd_settings_read_file(struct kd_settings *settings, const char *p
     enum kd_status status;
     if (path[0] == '-' && path[1] && access(++path, F_OK) && errno == ENOENT)
         return KD_OK;
-    KD_TRY(kd_file_read(path, FILE_MOST, &text, error)); /* the error of kd_file_read names the file */
+    KD_TRY(kd_file_read(path, FILE_MOST, &text, error)); /* the error of kd_file_read already names the file */
     status = kd_tree_parse((const char *)text.data, text.size, FILE_MOST, KD_SCAN_FEW, &tree, error);
     if (!status)
         status = read_members(settings, tree, error);

@@ -90,8 +90,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Looks for the longest end of the path that is a route for links. folders: whether to try routes whose names
- * contain folders, or all other routes. */
+/* Looks for the longest end of the path that is a route for links. folders: true: only routes whose last parameter
+ * may contain slashes; false: only the other routes. */
 static enum kd_status find_end(const char *path, bool folders, struct kd_buffer *out, bool *found)
 {
     enum kd_status status = KD_OK;
@@ -110,8 +110,8 @@ static enum kd_status find_end(const char *path, bool folders, struct kd_buffer 
     return status;
 }
 
-/* Writes the path below the server's base path. Routes whose names have folders are tried last, because a base path
- * may itself begin like one of them. */
+/* Writes the path below the server's base path. Routes whose last parameter may contain slashes are tried last,
+ * because a base path may itself begin like one of them. */
 static enum kd_status below_base(const char *path, struct kd_buffer *out, struct kd_error *error)
 {
     bool found;

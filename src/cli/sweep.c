@@ -84,7 +84,7 @@ struct work {
     struct kd_encoder encoder;
     struct kd_progress progress;
     struct kd_frames frames;
-    double *fluxes; /* flux of each scene in Jy; NAN: its picture has none */
+    double *fluxes; /* flux of each scene in Jy; NAN: the scene's picture has none */
     unsigned traced;
 };
 

@@ -19,7 +19,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { SET_MOST = 32, PIECE = 32, PIECES = 64 }; /* PIECE: nodes of one item of work; PIECES: items between writes */
+/* PIECE: number of nodes in one item of work; PIECES: number of items between two writes */
+enum { SET_MOST = 32, PIECE = 32, PIECES = 64 };
 
 struct arguments {
     const char *input, *output, *name, **axes;
@@ -121,7 +122,7 @@ struct part {
     char *path;
     int file;
     struct kd_buffer head;
-    size_t rows, resumed; /* number of complete rows; those of earlier runs */
+    size_t rows, resumed; /* number of complete rows; number of these rows that earlier runs have made */
     uint32_t sum;
 };
 
@@ -154,7 +155,8 @@ static enum kd_status read_at(const struct part *part, void *bytes, size_t size,
     return KD_OK;
 }
 
-/* True if the file begins with the table's head that has this sum of rows. bytes: a buffer with room for a head. */
+/* True if the file begins with the head that this table has for this sum of rows. bytes: a buffer with room for a
+ * head. */
 static enum kd_status begins_with(const struct part *part, const struct kd_table *table, uint32_t sum, uint8_t *bytes,
                                   bool *does, struct kd_error *error)
 {
@@ -168,8 +170,8 @@ done:
     return status;
 }
 
-/* Sums the rows that the file has, and checks that the file begins with this table's head. The head is that of an
- * unfinished table, or that of all rows if only the renaming of the file was missing. */
+/* Adds up the rows that the file has, and checks that the file begins with this table's head. The head may be that
+ * of an unfinished table. It is the final head if only the renaming of the file was missing. */
 static enum kd_status resume(struct part *part, const struct kd_table *table, uint64_t size, struct kd_error *error)
 {
     const size_t row = kd_table_row_bytes(table), room = part->head.size > row ? part->head.size : row;
@@ -213,7 +215,7 @@ static enum kd_status open_part(struct part *part, const char *path, const struc
         KD_TRY(kd_error_set(error, KD_EIO, "cannot open %s: %s", part->path, strerror(errno)));
     if (flock(part->file, LOCK_EX | LOCK_NB))
         KD_TRY(kd_error_set(error, KD_EINVAL, "%s is in use by another process", part->path));
-    /* another process may have finished the table since the file was opened */
+    /* another process may have completed the table since the file was opened */
     if (fstat(part->file, &info) || !info.st_nlink || stat(part->path, &named) || named.st_ino != info.st_ino)
         KD_TRY(kd_error_set(error, KD_EINVAL, "%s is in use by another process", part->path));
     if (info.st_size > 0)
@@ -245,11 +247,12 @@ done:
     return status;
 }
 
-/* Rows between two writes: pieces of consecutive nodes with the same hole and inclination, computed in parallel. */
+/* The rows between two writes. They are those of consecutive nodes with the same hole and inclination, and are
+ * computed in parallel, in pieces. */
 struct batch {
     const struct kd_table *table;
     uint8_t *rows;
-    size_t first, n; /* the batch's nodes; its pieces */
+    size_t first, n; /* first node and number of nodes of the batch */
     struct piece {
         size_t first, n; /* nodes */
         enum kd_status status;

@@ -43,7 +43,7 @@ static bool has_attribute(const char *attributes, long wanted)
     return false;
 }
 
-/* Reads until the answer about attributes has arrived, or the time is over. Returns true for Ctrl-C. */
+/* Reads until the answer about attributes has arrived, or the time is over. Returns true if Ctrl-C was typed. */
 static bool listen(int fd, char answer[ANSWER_SIZE])
 {
     const double end = kd_clock_ms() + KD_TERMINAL_WAIT_MS;
@@ -66,8 +66,8 @@ static bool listen(int fd, char answer[ANSWER_SIZE])
     return false;
 }
 
-/* Sends `query` and reads the answer; "" if there is none. Meanwhile echo and signal keys are off, because a signal
- * could leave the terminal in raw mode. */
+/* Sends `query` and reads the answer; "" if there is none. Meanwhile echo and the keys for signals are off, because
+ * a signal could leave the terminal in raw mode. */
 static void ask(int fd, const char *query, char answer[ANSWER_SIZE])
 {
     struct termios before, raw;

@@ -20,8 +20,8 @@ enum { KD_TERMINAL_WAIT_MS = 2000 };
 struct kd_terminal kd_terminal_ask(void);
 
 /* Computes the largest size that fits in the terminal above `lines` lines of text, with the same aspect ratio and at
- * least one pixel. Unless `enlarge` is true, the size does not grow. If the terminal's size is unknown, it does not
- * change. */
+ * least one pixel. If `enlarge` is false, the result is not larger than the given size. If the terminal's size is
+ * unknown, the size is unchanged. */
 void kd_terminal_fit(const struct kd_terminal *terminal, uint32_t lines, bool enlarge, uint32_t *width,
                      uint32_t *height);
 

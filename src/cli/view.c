@@ -58,8 +58,8 @@ static enum kd_status choose(const struct arguments *arguments, const struct kd_
                         getenv("TMUX") ? ", or the tmux in front of it," : "", remedy);
 }
 
-/* Reads the document if it is a picture that kerrd has made. Otherwise *picture stays empty, and the options of the
- * scene read the document. */
+/* Reads the document if it is a picture that kerrd has made. Otherwise *picture stays empty, and the document is
+ * read later by the options of the scene. */
 static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene,
                            struct kd_error *error)
 {
@@ -67,8 +67,7 @@ static enum kd_status look(const struct arguments *arguments, struct kd_buffer *
     struct stat about;
     enum kd_status status;
     if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) ||
-        !S_ISREG(about.st_mode)) /* returns, because a pipe can be read only once and the options of the scene read
-                                  * it */
+        !S_ISREG(about.st_mode)) /* a pipe can be read only once, so it is not read here */
         return KD_OK;
     KD_TRY(kd_file_read(options->document, PICTURE_MAX, picture, error));
     if (!picture->size || kd_format_of_bytes(picture->data, picture->size) != &kd_format_png) {

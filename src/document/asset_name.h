@@ -4,7 +4,7 @@
 
 #include <stdbool.h>
 
-/* Room for the SHA-256 of an asset in hexadecimal digits, or for its name, with a NUL. */
+/* Room for the SHA-256 of an asset in hexadecimal digits, or for the name of an asset; both with a NUL. */
 #define KD_ASSET_NAME 65
 
 bool kd_asset_is_hash(const char *text);

@@ -4,8 +4,8 @@
 
 #include "document/document.h"
 
-/* An object of the document that is being read; "" is the document itself. list: the list of which it is an element, or
- * NULL. */
+/* An object of the document that is being read; "" is the document itself. list: the list that has the object as an
+ * element, or NULL. */
 struct kd_object {
     const char *name;
     const struct kd_list *list;
@@ -17,14 +17,15 @@ struct kd_mention { char pointer[sizeof((struct kd_error *)0)->pointer], called[
 /* place.c: the place of a member of the object. name NULL: the object itself. */
 struct kd_mention kd_mention_of(const char *pointer, const struct kd_object *object, const char *name);
 
-/* find.c: whether a row belongs to the document and to this object. object NULL or "": the document itself. */
+/* find.c: whether a row belongs to the document and to the given object. object NULL or "": the object is the
+ * document itself. */
 bool kd_row_is_of(const struct kd_document *document, const struct kd_row *row, const char *object);
 const struct kd_row *kd_find_row(const struct kd_document *document, const char *object, const char *name,
                                  const struct kd_row *after);
 /* The object `name` within an object, or NULL. */
 const char *kd_find_object(const struct kd_document *document, const char *object, const char *name);
 const struct kd_former *kd_find_former(const struct kd_document *document, const char *name);
-/* True if the row is the first of an object that is a member of this one. */
+/* True if the row is the first row of an object that is a member of the given object. */
 bool kd_row_opens(const struct kd_document *document, const struct kd_row *row, const char *object);
 
 /* unknown.c: KD_EINVAL with "there is no field X here; did you mean Y?". typed: the name comes from a command line. */
@@ -33,8 +34,8 @@ enum kd_status kd_unknown(const struct kd_document *document, const struct kd_ob
 
 /* Sets a row to its default. put.c */
 void kd_row_reset(const struct kd_row *row, void *to);
-/* list.c: reads an index, such as "3", below the list's limit and not beyond the next free index. Removes elements with
- * all defaults from the end, but keeps `least`. */
+/* list.c. The first function reads an index, such as "3", which must be below the list's limit and not beyond the
+ * next free index. The second removes elements with all defaults from the end, but keeps `least` elements. */
 enum kd_status kd_list_index(const struct kd_list *list, const char *token, const char *pointer, size_t *index,
                              struct kd_error *error);
 enum kd_status kd_list_reach(const struct kd_list *list, size_t size, size_t index, const char *pointer,

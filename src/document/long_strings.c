@@ -106,7 +106,7 @@ static const char *unescape(const char *from, char **to)
         return from + 2;
     }
     const unsigned unit = digits(from + 2);
-    const bool pair = unit >= 0xd800 && unit < 0xdc00; /* RFC 8259, section 7: the other half of the pair follows */
+    const bool pair = unit >= 0xd800 && unit < 0xdc00; /* a pair: the other half follows (RFC 8259, section 7) */
     *to = put_utf8(*to, pair ? 0x10000 + ((unit - 0xd800) << 10) + (digits(from + 8) - 0xdc00) : unit);
     return from + (pair ? 12 : 6);
 }

@@ -1,6 +1,6 @@
 /* Handles long strings of a JSON document, such as a playground's debris. cJSON would read them for up to 200 ms
- * without a pause. They are cut out before cJSON reads the rest, and inserted into its tree afterwards. The document
- * must have been scanned (scan.h), so that all escapes are complete. Any thread. */
+ * without a pause. Therefore they are cut out of the text before cJSON parses it, and inserted into cJSON's tree
+ * afterwards. The document must have been scanned (scan.h), so that all escapes are complete. Any thread. */
 #ifndef KD_DOCUMENT_LONG_STRINGS_H
 #define KD_DOCUMENT_LONG_STRINGS_H
 
@@ -17,7 +17,7 @@ struct kd_long_strings {
     struct {
         size_t start, end;
         bool escapes;
-    } at[32]; /* the long strings; if there are more, the others stay in the text */
+    } at[32]; /* the long strings; strings that do not fit here stay in the text */
 };
 
 void kd_long_strings_find(struct kd_long_strings *strings, const char *text, size_t length);

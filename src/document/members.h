@@ -1,5 +1,5 @@
-/* Single values of a request that are in no table of rows. Errors name the member, its value and what it must be, and
- * have the pointer into the request. Any thread. */
+/* Single values of a request that are in no table of rows. Errors name the member, its value and the allowed values.
+ * Their pointer leads to the member within the request. Any thread. */
 #ifndef KD_DOCUMENT_MEMBERS_H
 #define KD_DOCUMENT_MEMBERS_H
 
@@ -8,7 +8,7 @@
 #include <cjson/cJSON.h>
 #include <stddef.h>
 
-/* Returns KD_EINVAL, because the item is not what `allowed` describes in words. */
+/* Returns KD_EINVAL with a message that says that the item must be what `allowed` describes. */
 enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const char *allowed, struct kd_error *error);
 
 /* Reads an integer from `least` to `most`. */

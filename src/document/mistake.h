@@ -5,7 +5,7 @@
 #include <stddef.h>
 
 /* Explains why the JSON is not valid at offset `at`; NULL: it is none of the known mistakes. before: the last syntax
- * character in front of it; 'v' stands for the end of a value, 0 for the beginning. */
+ * character before `at`. 'v' stands for the end of a value, 0 for the beginning of the text. */
 const char *kd_json_mistake(const char *text, size_t length, size_t at, char before);
 
 /* Guesses the encoding of text that is not UTF-8: "UTF-16" or "UTF-32"; NULL: it is neither. */

@@ -1,4 +1,4 @@
-/* Reads and writes numbers as in JSON and on command lines, whatever the locale of the process is. Any thread. */
+/* Reads and writes numbers as in JSON and on command lines, independent of the locale of the process. Any thread. */
 #ifndef KD_DOCUMENT_NUMBER_H
 #define KD_DOCUMENT_NUMBER_H
 
@@ -11,7 +11,7 @@ size_t kd_number_span(const char *text, size_t length);
 /* Like kd_number_span, for a number typed on a command line or in a query, which may also be .5, -.5 or 5. */
 size_t kd_number_span_typed(const char *text, size_t length);
 
-/* Reads a number of either kind. Beyond the range of a double the result is infinite. */
+/* Reads a number of either of these two forms. Beyond the range of a double the result is infinite. */
 double kd_number_parse(const char *text);
 
 /* Writes the number with 15, 16 or 17 digits, the fewest of these that read back as the same double. */

@@ -109,8 +109,8 @@ static enum kd_status find_object(const struct kd_document *document, const char
         enum kd_status status = kd_list_index(object->list, *token ? token : *name, "", &object->index, error);
         return status || *token ? status : whole_element(document, object, error);
     } else if (*token)
-        *name = *name - strlen(token) - 1; /* no split, because this object has no such member: the name itself
-                                            * contains a dot */
+        /* not split: the object has no such member, so the dot belongs to the name */
+        *name = *name - strlen(token) - 1;
     return KD_OK;
 }
 

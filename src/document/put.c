@@ -167,7 +167,7 @@ static double convert(const struct kd_row *row, const struct kd_value *value)
 
 static bool put_text(void *at, size_t room, const char *text)
 {
-    memset(at, 0, room); /* cleared, so that equal texts have equal bytes */
+    memset(at, 0, room); /* the rest is cleared, so that equal texts have equal bytes */
     memcpy(at, text, strlen(text));
     return true;
 }
@@ -195,7 +195,7 @@ bool kd_row_take(const struct kd_row *row, void *to, const struct kd_value *valu
     }
 }
 
-/* True if a number was meant: the row has no words, or the text is a number in quotes. */
+/* True if the text was meant as a number: the row has no words, or the text is a number in quotes. */
 static bool wants_number(const struct kd_row *row, const struct kd_value *value)
 {
     if (row->kind != KD_KIND_REAL && row->kind != KD_KIND_INT && row->kind != KD_KIND_LIST &&

@@ -54,8 +54,8 @@ static bool all_hold(const struct kd_row *row, const struct kd_range *range, dou
     return true;
 }
 
-/* Checks a number or range that was typed. On failure `fault` describes what is wrong; it is empty if the form is
- * wrong. */
+/* Checks a number or range that was typed. On failure `fault` describes the error. `fault` is empty if the text has
+ * the wrong form. */
 static bool check(const struct kd_row *row, const char *text, struct kd_range *range, char fault[KD_VALUE_SIZE])
 {
     char told[KD_NUMBER_SIZE];
@@ -94,7 +94,7 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
         kd_row_allowed(row, allowed);
         snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed),
                  ", or a range first:last:count of 2 to %d such values", KD_RANGE_MOST);
-        if (strchr(text, ':')) { /* a range, not a string in place of a number */
+        if (strchr(text, ':')) { /* the value is a range, so it is not a string in place of a number */
             kd_value_describe(&value, given);
             return kd_error_field(error, pointer, "%s is %s%s; it must be %s", row->name, given, fault, allowed);
         }
@@ -117,7 +117,7 @@ void kd_row_range_schema(struct kd_json *json, const char *name, const struct kd
         kd_row_type_members(json, row);
     } else {
         kd_json_array(json, "anyOf");
-        /* The word comes first, because generators of clients take the first type that fits the default, and "infinity"
+        /* The word comes first. Generators of clients take the first type that fits the default, and "infinity" also
          * parses as a number. */
         if (row->words)
             kd_schema_word(json, NULL, row->words);

@@ -119,7 +119,7 @@ static enum kd_status read_array_row(const struct kd_row *row, void *to, const c
                  : read_numbers(row, to, &items, called, pointer, error);
 }
 
-/* Reads a row from an item, or from typed text. named: its name in messages, if that is not its path. */
+/* Reads a row from an item, or from typed text. named: name of the row in messages, if that is not its path. */
 static enum kd_status read_row(const struct kd_row *row, void *to, const cJSON *item, const char *text,
                                const struct kd_object *object, const char *pointer, const char *named,
                                struct kd_error *error)
@@ -176,7 +176,7 @@ static enum kd_status refuse(const struct reader *r, const struct kd_object *obj
 
 static enum kd_status read_members(struct reader *r, const struct kd_object *object, const cJSON *members, bool patch);
 
-/* Resets the fields of an object, and of those within it. */
+/* Resets the fields of an object, and of the objects within it. */
 static void reset(struct reader *r, const struct kd_object *object)
 {
     const size_t n = strlen(object->name);
@@ -292,8 +292,8 @@ static enum kd_status read_list(struct reader *r, const struct kd_list *list, co
     return refuse(r, &object, item, allowed);
 }
 
-/* Creates the element of a former name. If it lies beyond the next free index, the elements before it are created with
- * defaults. */
+/* Creates the element of a former name. If this element lies beyond the next free index, the elements before it are
+ * created with defaults. */
 static enum kd_status read_former(struct reader *r, const struct kd_former *former, const cJSON *members,
                                   const cJSON *item)
 {
@@ -331,8 +331,9 @@ static enum kd_status read_part(struct reader *r, const struct kd_object *object
 static enum kd_status read_members(struct reader *r, const struct kd_object *object, const cJSON *members, bool patch)
 {
     enum kd_status status = KD_OK;
-    const struct kd_row *last = NULL, *highest = NULL; /* rows that were given: the last one, and the highest one; a row
-                                                        * beyond the highest is given for the first time */
+    /* last: the row that was given last; highest: the highest row given so far. A row beyond the highest cannot have
+     * been given before */
+    const struct kd_row *last = NULL, *highest = NULL;
     for (const cJSON *item = members->child; item && !status; item = item->next) {
         const struct kd_row *row = kd_find_row(r->document, object->name, item->string, last);
         if (!row) {
@@ -372,7 +373,7 @@ enum kd_status kd_document_patch(const struct kd_document *document, void *to, c
     return read_whole(&reader, object);
 }
 
-/* Sets a field of an element, which is created if it is the next one. */
+/* Sets a field of an element. If the element is the next one after the end of the list, it is created. */
 static enum kd_status set_in_list(const struct kd_document *document, void *to, const struct kd_typed_place *place,
                                   const char *text, struct kd_error *error)
 {

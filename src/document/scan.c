@@ -14,7 +14,7 @@
 
 enum {
     DEPTH_MAX = 32,
-    NUMBER_MAX = 60, /* limit of a number's bytes; cJSON stops reading a number after 63 */
+    NUMBER_MAX = 60, /* limit of a number's bytes, because cJSON reads only 63 of them */
 };
 
 struct scan {

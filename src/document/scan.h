@@ -16,13 +16,13 @@
 void kd_scan_skip_mark(const char **text, size_t *length);
 
 /* Checks a whole document without a byte order mark. most: limit of the number of values, each of which costs cJSON
- * some 64 bytes. KD_SCAN_FEW is far more than a scene has fields, so that a document that is too large is refused at
- * little cost. */
+ * some 64 bytes. KD_SCAN_FEW is far more than the number of fields of a scene. With this limit a document that is
+ * too large is refused at little cost. */
 enum { KD_SCAN_FEW = 4096 };
 enum kd_status kd_scan_json(const char *text, size_t length, size_t most, struct kd_error *error);
 
-/* Checks only the bytes from start to end, with at most KD_SCAN_FEW values. For a reader that handles the other bytes
- * itself. Positions in messages are counted from text. */
+/* Checks only the bytes from start to end, with at most KD_SCAN_FEW values. It is for readers that handle the other
+ * bytes themselves. Positions in messages are counted from text. */
 enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, struct kd_error *error);
 
 /* True if the object has a member with this name, which consists of ASCII letters. Values are not read. If the text is

@@ -11,8 +11,8 @@ void kd_text_clip(char *out, size_t size, const char *text);
 /* Returns the separator that precedes item i of n in "a, b or c". */
 const char *kd_text_or(size_t i, size_t n);
 
-/* Appends "/token" to a JSON pointer (RFC 6901: ~ and / are escaped). A token that does not fit is left out, so that
- * the pointer names its parent. */
+/* Appends "/token" to a JSON pointer (RFC 6901: ~ and / are escaped). A token that does not fit is left out; the
+ * pointer then names the token's parent. */
 void kd_text_pointer(char *pointer, size_t size, const char *token);
 
 /* Line and column of a byte in a text, both counted from 1. Columns count characters. */

@@ -29,7 +29,7 @@ cJSON *kd_tree_read(const char *text, size_t length, bool *starved)
     struct kd_number_locale locale = kd_number_locale_enter();
     errno = 0;
     cJSON *root = cJSON_ParseWithLength(text, length);
-    /* cJSON reports this like text that is not JSON, but malloc sets errno */
+    /* cJSON reports lack of memory in the same way as invalid JSON, but malloc then sets errno */
     *starved = !root && errno == ENOMEM;
     kd_number_locale_leave(locale);
     return root;
@@ -42,7 +42,7 @@ static _Thread_local uint64_t allocations;
 
 static void pause_if_large(uint64_t n)
 {
-    const int kept = errno; /* restored below, because the caller checks errno for ENOMEM */
+    const int kept = errno; /* restored below, because the caller compares errno with ENOMEM */
     if (shares && (n >= 65536 || ++allocations % 64 == 0))
         kd_pause();
     errno = kept;

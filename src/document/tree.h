@@ -10,14 +10,14 @@
 #include <stddef.h>
 
 /* Reads a document. The text need not end in a NUL. KD_EINVAL without a pointer: the text is not a JSON document, or
- * has more than `most` bytes or `values` values. While it reads, other requests may run (base/pause.h). Free *out with
- * kd_tree_free, during which they may run too; for a small tree cJSON_Delete is sufficient. */
+ * has more than `most` bytes or `values` values. While it reads, other requests may run (base/pause.h). Free *out
+ * with kd_tree_free, which lets other requests run too. For a small tree cJSON_Delete is sufficient. */
 enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
                              struct kd_error *error);
 void kd_tree_free(cJSON *root); /* accepts NULL */
 
-/* Parses text of kerrd's own files. Returns NULL if it is not JSON, or when out of memory; *starved is then set. Free
- * the result with cJSON_Delete. */
+/* Parses text of kerrd's own files. Returns NULL if the text is not JSON, or when out of memory; *starved is true
+ * only in the second case. Free the result with cJSON_Delete. */
 cJSON *kd_tree_read(const char *text, size_t length, bool *starved);
 
 /* Converts an item to a value. The value is valid as long as the item. */

@@ -13,11 +13,11 @@ struct kd_value {
 /* Interprets typed text like a value of a document: as a number, as true or false, otherwise as a string. */
 struct kd_value kd_value_typed(const char *text);
 
-/* Text that a message adds after a value if a number is required and the value is not a number, such as ", a string
- * where a number is needed"; otherwise "". */
+/* Text that a message adds after a value, such as ", a string where a number is needed". It is "" if no number is
+ * required, or if the value is a number. */
 const char *kd_value_unwanted(const struct kd_value *value);
 
-/* Describes a value for messages. */
+/* Writes a description of a value for messages. */
 enum { KD_VALUE_SIZE = 80, KD_ALLOWED_SIZE = 400 };
 void kd_value_describe(const struct kd_value *value, char out[KD_VALUE_SIZE]);
 

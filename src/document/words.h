@@ -1,5 +1,5 @@
-/* Lists of words such as "a|b|c", and series of them: some words in any order, each at most once. A word that is listed
- * as "b_N" stands for b, b_0, b_1, ... in a series. Pure, any thread. */
+/* Lists of words such as "a|b|c", and series of them: some words in any order, each at most once. If a word is
+ * listed as "b_N", a series may contain b, b_0, b_1, ... Pure, any thread. */
 #ifndef KD_DOCUMENT_WORDS_H
 #define KD_DOCUMENT_WORDS_H
 
@@ -16,13 +16,13 @@ struct kd_word {
 };
 int kd_word_count(const char *words);
 struct kd_word kd_word(const char *words, int i);
-/* Copies word i; false if there are fewer. */
+/* Copies word i. Returns false if the list has no such word. */
 bool kd_word_at(const char *words, int i, char out[KD_WORD_ROOM]);
 /* Returns the index of a word, or -1 if the list does not have it. */
 int kd_word_index(const char *words, const char *text);
 
-/* A series of words. number: the N of a word "b_N"; -1: the word has none. Entries from count on are 0, so that equal
- * series have equal bytes. */
+/* A series of words. number: the N of a word "b_N"; -1: the word has no number. Unused entries, from index count on,
+ * are 0, so that equal series have equal bytes. */
 struct kd_words {
     int32_t count;
     struct kd_numbered_word { int16_t word, number; } at[KD_WORDS_MOST];
@@ -32,7 +32,8 @@ struct kd_words {
 struct kd_word kd_words_root(const char *known, int i, bool *numbered);
 /* Adds a word. Returns false if it is not known, is already there, or does not fit; *words is then unchanged. */
 bool kd_words_add(const char *known, const char *text, size_t length, struct kd_words *words);
-/* Reads "a,b_1" from a command line or a link. Returns false if kd_words_add does, or if the text is empty. */
+/* Reads "a,b_1" from a command line or a link. Returns false if kd_words_add returns false for a word, or if the
+ * text is empty. */
 bool kd_words_read(const char *known, const char *text, struct kd_words *out);
 bool kd_words_hold(const char *known, const struct kd_words *words);
 /* Writes the name of a word, with its number. */

@@ -173,8 +173,8 @@ static void add_number_or_word(struct kd_json *json, const struct kd_row *row)
     kd_json_end(json);
 }
 
-/* Appends words of a series as alternatives: those that may be followed by a number if numbered is true, otherwise the
- * others. */
+/* Appends words of a series as alternatives. numbered: true: only the words that a number may follow; false: only
+ * the other words. */
 static size_t add_roots(char *pattern, size_t used, size_t size, const char *words, bool numbered)
 {
     const char *separator = "";

@@ -1,5 +1,5 @@
-/* Writes formatted text into a buffer. After the first failure nothing more is written, and `status` is that failure.
- */
+/* Writes formatted text into a buffer. After the first failure nothing more is written, and `status` keeps that
+   failure. */
 #ifndef KD_DOCUMENT_WRITER_H
 #define KD_DOCUMENT_WRITER_H
 

@@ -15,9 +15,9 @@ struct kd_canvas {
 
 #define KD_CANVAS_INK ((struct kd_map_colour) { 0.92, 0.92, 0.92 })
 
-/* kd_canvas_put sets one pixel to encoded sRGB in [0, 1], rounded; kd_canvas_mix to a mean of that and its old value,
- * of which `share` is the new one's weight, 0 to 1. kd_canvas_darken reduces it to a fifth of its value. x and y must
- * be inside the canvas. */
+/* kd_canvas_put sets one pixel to encoded sRGB in [0, 1], rounded. kd_canvas_mix blends a colour into the pixel:
+ * `share` is the weight of the new colour, 0 to 1. kd_canvas_darken reduces the pixel to a fifth of its value. x and
+ * y must be inside the canvas. */
 void kd_canvas_mix(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour, double share);
 void kd_canvas_put(const struct kd_canvas *canvas, uint32_t x, uint32_t y, struct kd_map_colour colour);
 void kd_canvas_darken(const struct kd_canvas *canvas, uint32_t x, uint32_t y);
@@ -33,8 +33,8 @@ void kd_canvas_write(const struct kd_canvas *canvas, uint32_t x, uint32_t y, uin
                      const char *text);
 uint32_t kd_canvas_text_width(uint32_t dot, const char *text);
 
-/* Returns the number of pixels for each dot: the largest with which `width` dots fit the picture's width and
- * `height` dots take at most a seventh of its height, but at least 1. */
+/* Returns the number of pixels for each dot. It is the largest number for which `width` dots fit the picture's width
+ * and `height` dots take at most a seventh of the picture's height; at least 1. */
 uint32_t kd_canvas_dot(const struct kd_canvas *canvas, uint32_t width, uint32_t height);
 
 #endif

@@ -65,7 +65,8 @@ static double chroma_of(double lightness, double hue, double limit)
 static struct kd_map_colour sequential(double x)
 {
     double lightness = 8 + 86 * x, hue = 310 - 208 * x, most = chroma_of(lightness, hue, 140);
-    return colour(lightness, pow(pow(most, -6) + pow(58, -6), -1.0 / 6), hue); /* a smooth minimum of `most` and 58 */
+    /* a smooth approximation of the minimum of `most` and 58 */
+    return colour(lightness, pow(pow(most, -6) + pow(58, -6), -1.0 / 6), hue);
 }
 
 static struct kd_map_colour heat(double x)
@@ -85,7 +86,7 @@ static struct kd_map_colour cyclic(double x) { return colour(70, 38, x < 1 ? 360
 
 static struct kd_map_colour categorical(double x)
 {
-    static const double lightnesses[] = { 82, 62, 72 }; /* adjacent classes differ in grey, too */
+    static const double lightnesses[] = { 82, 62, 72 }; /* adjacent classes also differ in grey */
     double n = fmax(floor(x), 0), lightness = lightnesses[(int)fmod(n, 3)], hue = 80 + 137.50776 * n;
     return colour(lightness, chroma_of(lightness, hue, 140), hue);
 }

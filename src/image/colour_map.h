@@ -18,11 +18,11 @@ enum kd_colour_map { KD_MAP_SEQUENTIAL, KD_MAP_HEAT, KD_MAP_DIVERGING, KD_MAP_CY
 /* Encoded sRGB in [0, 1]. */
 struct kd_map_colour { double r, g, b; };
 
-/* The colour at x. x is clamped to [0, 1]; for CATEGORICAL it is a whole number from 0 on. 2 us. */
+/* The colour at x. x is clamped to [0, 1]; for CATEGORICAL it is a whole number, 0 or more. Takes 2 us. */
 struct kd_map_colour kd_colour_map_at(enum kd_colour_map map, double x);
 
-/* The colours of kd_colour_map_at from a table, for many pixels: within 1/150 of a channel. For CATEGORICAL at[i] is
- * the colour of class i. 2 ms. */
+/* The colours of kd_colour_map_at from a table, for many pixels. The error is at most 1/150 in each channel. For
+ * CATEGORICAL at[i] is the colour of class i. Takes 2 ms. */
 enum { KD_MAP_ENTRIES = 1024 };
 struct kd_map_table { struct kd_map_colour at[KD_MAP_ENTRIES]; };
 void kd_colour_map_fill(struct kd_map_table *table, enum kd_colour_map map);
@@ -32,12 +32,12 @@ static inline struct kd_map_colour kd_map_table_at(const struct kd_map_table *ta
     return table->at[(size_t)(x * (KD_MAP_ENTRIES - 1) + 0.5)];
 }
 
-/* Assigns places on the map to values. */
+/* Mapping from values to places on the map. */
 struct kd_map_scale {
     double low, high; /* values at the ends of the map; if logarithmic, both must be above 0 */
     bool logarithmic;
 };
-/* Place on the map: 0 at low, 1 at high; values beyond are not clamped. 0 if low equals high. */
+/* Place on the map: 0 for the value `low`, 1 for `high`. Values beyond these are not clamped. 0 if low equals high. */
 double kd_map_scale_place(const struct kd_map_scale *scale, double value);
 
 #endif

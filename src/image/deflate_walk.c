@@ -94,7 +94,7 @@ static bool make(struct code *code, const uint8_t *lengths, unsigned n, bool dis
         next[l + 1] = (next[l] + code->count[l]) << 1;
         place[l + 1] = place[l] + code->count[l];
     }
-    if (all > 1u << BITS_MAX) /* more codes than possible */
+    if (all > 1u << BITS_MAX) /* there are more codes than possible */
         return false;
     for (unsigned i = 0; i < n; i++) {
         const unsigned l = lengths[i];
@@ -109,7 +109,7 @@ static bool make(struct code *code, const uint8_t *lengths, unsigned n, bool dis
     return true;
 }
 
-/* Finds the symbol of the code in the next bits, and the code's length in *bits; BAD: there is none. */
+/* Finds the symbol whose code is in the next bits. *bits: length of the code. BAD: there is no such symbol. */
 static int find(const struct code *code, uint64_t held, unsigned *bits)
 {
     int value = 0, first = 0, place = 0;

@@ -1,5 +1,5 @@
-/* Finds where the last block of a deflate stream begins and ends (RFC 1951). libdeflate makes complete streams only;
- * the result shows what to change in one so that another stream may follow. Pure, any thread. */
+/* Finds where the last block of a deflate stream begins and ends (RFC 1951). libdeflate makes complete streams only.
+ * The result tells which bits of a stream to change, so that another stream can follow. Pure, any thread. */
 #ifndef KD_IMAGE_DEFLATE_WALK_H
 #define KD_IMAGE_DEFLATE_WALK_H
 

@@ -22,7 +22,7 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *dat
 {
     struct file *f = user;
     size_t end = f->from + offset + size;
-    while (f->out->size < end) { /* also writes the skipped bytes, as zeros */
+    while (f->out->size < end) { /* also writes the skipped bytes as zeros */
         static const uint8_t zeros[4096];
         size_t more = end - f->out->size;
         if (kd_buffer_append(f->out, zeros, more < sizeof zeros ? more : sizeof zeros)) {

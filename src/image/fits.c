@@ -61,7 +61,8 @@ enum kd_status kd_fits_comment(struct kd_buffer *cards, const char *text)
     return put_card(cards, card);
 }
 
-/* Length of the next piece of a text between quotes, in which quotes are doubled; a doubled pair is not split. */
+/* Length of the next piece of a text. Quotes within the text are doubled, and a doubled pair is not split between
+ * pieces. */
 static size_t piece_of(const char *text, size_t most, char *out)
 {
     size_t used = 0, n = 0;

@@ -62,7 +62,7 @@ uint32_t kd_font_next(const char **text)
     const unsigned char *c = (const unsigned char *)*text;
     const size_t n = kd_utf8_sequence(*text, strlen(*text));
     *text += n ? n : 1;
-    /* sequences of more bytes have no shape */
+    /* sequences of more bytes have no shape in this font */
     return n == 1 ? c[0] : n == 2 ? (c[0] & 0x1fu) << 6 | (c[1] & 0x3fu) : NO_LETTER;
 }
 
@@ -100,7 +100,7 @@ double kd_font_distance(uint32_t letter, double x, double y)
             least = fmin(least, (i - x) * (i - x) + (j - y) * (j - y));
             for (int k = 0; k < 4; k++) {
                 const int dx = ways[k][0], dy = ways[k][1];
-                /* Dots at a corner are joined by its sides, not across. */
+                /* Dots that meet at a corner are joined along its sides, not diagonally. */
                 const bool corner = dx && dy && (kd_font_dot(letter, i + dx, j) || kd_font_dot(letter, i, j + dy));
                 if (kd_font_dot(letter, i + dx, j + dy) && !corner)
                     least = fmin(least, square_of(i - x, j - y, dx, dy));

@@ -16,7 +16,7 @@ uint32_t kd_font_next(const char **text);
 bool kd_font_has(uint32_t letter);
 bool kd_font_dot(uint32_t letter, int x, int y); /* x from the left, y from the top; false outside the grid */
 
-/* Distance of a point from the nearest stroke of a letter, in dots; a point in the middle of the first dot is (0, 0).
+/* Distance of a point from the nearest stroke of a letter, in dots. The middle of the first dot is at (0, 0).
  * Distances above 1 are returned as 1. */
 double kd_font_distance(uint32_t letter, double x, double y);
 

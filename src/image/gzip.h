@@ -6,7 +6,7 @@
 
 #include <stdbool.h>
 
-/* ONCE: for one answer, quickly. KEPT: for a document that is sent many times, as short as can be. */
+/* ONCE: for an answer that is sent once; fast. KEPT: for a document that is sent many times; as small as possible. */
 enum kd_gzip { KD_GZIP_ONCE, KD_GZIP_KEPT };
 
 /* Returns false if the buffer is unchanged, because the stream would not be shorter or memory ran out. */

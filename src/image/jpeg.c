@@ -3,7 +3,7 @@
 #include "image/strips.h"
 
 #include <setjmp.h>
-#include <stdio.h> /* jpeglib.h needs it and does not include it */
+#include <stdio.h> /* needed by jpeglib.h, which does not include it */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,9 +22,10 @@ enum {
     APP1 = 0xe1,
 };
 
-static const char xmp_name[] = "http://ns.adobe.com/xap/1.0/"; /* the namespace; a NUL separates it from the packet */
+/* name of the namespace; a NUL separates it from the packet */
+static const char xmp_name[] = "http://ns.adobe.com/xap/1.0/";
 
-/* State of one compression: that of libjpeg, and that of the callbacks. */
+/* State of one compression: the state of libjpeg, and that of the callbacks. */
 struct work {
     struct jpeg_compress_struct info; /* first member, so that libjpeg's pointer can be cast to ours */
     struct jpeg_error_mgr errors;
@@ -55,7 +56,7 @@ static void append(struct work *work, size_t size)
         longjmp(work->back, 1);
 }
 
-/* libjpeg requires that the buffer be emptied completely, whatever it reports as free */
+/* libjpeg requires that the buffer be emptied completely, regardless of the free space that it reports */
 static boolean put_piece(j_compress_ptr info)
 {
     append((struct work *)info, PIECE);
@@ -149,9 +150,9 @@ static size_t scan_of(const struct kd_buffer *jpeg, uint32_t height)
     }
 }
 
-/* The first strip's file provides the header; of the other files only the scans follow, each after a restart marker.
- * All strips have the same tables, and a decoder resets its state at such a marker, as an encoder of the whole picture
- * does (T.81, F.1.1.5.1). */
+/* The file of the first strip is copied with its header. From the files of the other strips only the scans are
+ * copied, each after a restart marker. All strips have the same tables, and a decoder resets its state at such a
+ * marker, as an encoder of the whole picture does (T.81, F.1.1.5.1). */
 static enum kd_status join_strip(void *user, size_t strip, const struct kd_buffer *bytes)
 {
     const struct picture *p = user;
@@ -234,7 +235,7 @@ const void *kd_jpeg_xmp(const void *data, size_t size, size_t *length)
     if (size < 4 || bytes[0] != 0xff || bytes[1] != SOI)
         return NULL;
     for (size_t at = 2; at + 4 <= size && bytes[at] == 0xff && bytes[at + 1] != SOS;) {
-        const size_t segment = (size_t)(bytes[at + 2] << 8 | bytes[at + 3]); /* counts its own two bytes */
+        const size_t segment = (size_t)(bytes[at + 2] << 8 | bytes[at + 3]); /* the length includes its own two bytes */
         if (segment < 2 || segment > size - at - 2)
             return NULL;
         if (bytes[at + 1] == APP1 && segment >= 2 + sizeof xmp_name &&

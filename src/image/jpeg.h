@@ -5,9 +5,9 @@
  * KD_JPEG_FULL_COLOUR colours have half the width and height (4:2:0); from there on they have full size (4:4:4).
  * Below KD_JPEG_THRIFTY Huffman tables are optimised for the picture, for 5 to 12 % fewer bytes in twice the time.
  *
- * Strips of at least 256 Ki pixels are encoded separately, on as many cores as are idle, as restart intervals of
- * one scan: the decoded pixels are those of a scan without intervals. Below KD_JPEG_THRIFTY, and for smaller
- * pictures, there is one strip and no interval. */
+ * Strips of at least 256 Ki pixels are encoded separately, on as many cores as are idle, as restart intervals of one
+ * scan. The intervals do not change the decoded pixels. Below KD_JPEG_THRIFTY, and for smaller pictures, there is one
+ * strip and no interval. */
 #ifndef KD_IMAGE_JPEG_H
 #define KD_IMAGE_JPEG_H
 
@@ -26,8 +26,8 @@ enum { KD_JPEG_FULL_COLOUR = 88, KD_JPEG_THRIFTY = 70 };
 enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
                               struct kd_buffer *out, struct kd_error *error);
 
-/* Length of the longest XMP packet: a segment has 65535 bytes, including its length and the name of the namespace (XMP
- * Specification Part 3, 1.1.3). */
+/* Length of the longest XMP packet. A segment has 65535 bytes, which include its length and the name of the
+ * namespace (XMP Specification Part 3, 1.1.3). */
 #define KD_JPEG_XMP_MAX 65502
 
 /* Appends a JPEG of kd_jpeg_encode with an XMP packet. KD_ETOOBIG beyond KD_JPEG_XMP_MAX; KD_ENOMEM; on error out->size
@@ -35,7 +35,8 @@ enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pi
 enum kd_status kd_jpeg_add_xmp(const struct kd_buffer *file, const void *xmp, size_t size, struct kd_buffer *out,
                                struct kd_error *error);
 
-/* Finds the XMP packet of a JPEG; NULL if there is none, or if the file is no JPEG. *length: its bytes. */
+/* Finds the XMP packet of a JPEG. NULL if there is none, or if the file is not a JPEG. *length: length of the packet
+ * in bytes. */
 const void *kd_jpeg_xmp(const void *data, size_t size, size_t *length);
 
 #endif

@@ -15,7 +15,7 @@ enum {
     GAP = 3,
     MARGIN = 4,
     PANEL_WIDTH = BAR_WIDTH + 2 * PADDING +
-        4 * KD_FONT_ADVANCE, /* numbers at the ends of the bar extend beyond the bar by half their length */
+        4 * KD_FONT_ADVANCE, /* numbers at the ends of the bar extend beyond it by half their length */
     PANEL_HEIGHT = 2 * PADDING + 2 * KD_FONT_HEIGHT + BAR_HEIGHT + TICK + 2 * GAP,
 };
 _Static_assert(PANEL_WIDTH + 2 * MARGIN <= KD_LEGEND_LEAST_WIDTH && PANEL_HEIGHT + 2 * MARGIN <= KD_LEGEND_LEAST_HEIGHT,
@@ -46,7 +46,8 @@ static void write_centred(const struct panel *p, double x, uint32_t y, const cha
     write_text(p, (uint32_t)fmax(fmin(x - 0.5 * width, most), p->dot), y, text);
 }
 
-/* Round numbers between the ends of a scale: multiples of a step, or a few numbers in each decade. */
+/* Round numbers between the ends of a scale. They are multiples of a step or, on a logarithmic scale, a few numbers
+ * in each decade. */
 struct row {
     double step;
     const double *of_decade;
@@ -92,7 +93,7 @@ static size_t numbers(const struct kd_map_scale *scale, const struct row *row, s
     return n;
 }
 
-/* True if at least two characters' width is left between any two numbers. */
+/* True if between any two numbers there is room for at least two characters. */
 static bool fit(const struct kd_map_scale *scale, double room, const struct kd_tick *ticks, size_t n)
 {
     if (n > KD_LEGEND_TICKS)
@@ -128,8 +129,8 @@ size_t kd_legend_ticks(const struct kd_map_scale *scale, double room, struct kd_
     size_t n = scale->logarithmic ? logarithmic_ticks(scale, room, out) : 0;
     if (n > 1 || (n && fmax(scale->low, scale->high) > 10 * fmin(scale->low, scale->high)))
         return n;
-    /* Steps of 1, 2, 5, 10, ... times a hundredth to a tenth of the length: the finest that fits. A logarithmic scale
-     * that stays within a decade has such numbers, too. */
+    /* The step is 1, 2, 5, 10, ... or 500 times a power of ten between a hundredth and a tenth of the bar's range.
+     * The finest step that fits is used. A logarithmic scale within one decade has such steps, too. */
     static const double factors[] = { 1, 2, 5 };
     for (int i = 0; i < 9; i++) {
         const struct row row = { .step = step * factors[i % 3] * pow(10, i / 3) };
@@ -172,7 +173,8 @@ uint32_t kd_legend_dot(const struct kd_canvas *canvas)
     return kd_canvas_dot(canvas, PANEL_WIDTH + 2 * MARGIN, PANEL_HEIGHT);
 }
 
-/* Width of the panel: that of the bar, or of a title that ends at `title_end`; limited by the picture's. */
+/* Width of the panel: the width of the bar, or of a title that ends at `title_end`. It is limited by the picture's
+ * width. */
 static uint32_t panel_width(const struct kd_canvas *canvas, uint32_t dot, uint32_t title_end)
 {
     const uint32_t least = PANEL_WIDTH * dot, most = canvas->width - 2 * MARGIN * dot,

@@ -71,7 +71,7 @@ struct reader {
     const char *at; /* NUL at the end of the header */
     struct kd_npy *array;
     struct kd_error *error;
-    bool text; /* text is accepted, too */
+    bool text; /* text is accepted as well */
 };
 
 static enum kd_status fail(struct reader *r, const char *what)
@@ -306,7 +306,7 @@ static enum kd_status read_all(const void *data, size_t size, bool text, struct 
     uint64_t items = 1, bytes;
     out->header_size = start + length;
     out->item_size = kd_npy_item_size(out);
-    bool overflow = false; /* checked even if a zero follows, as in NumPy */
+    bool overflow = false; /* checked even if a later dimension is 0, as in NumPy */
     for (size_t i = 0; i < out->n_dimensions; i++)
         overflow |= __builtin_mul_overflow(items, out->shape[i], &items);
     if (overflow || __builtin_mul_overflow(items, (uint64_t)out->item_size, &bytes))
@@ -347,7 +347,7 @@ enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer 
     const enum kd_npy_type type = array.fields[0].type;
     if (status)
         return status;
-    /* computed only here, because an empty array may have no valid address */
+    /* computed after the check above, because an empty array may have no valid address */
     const uint8_t *p = (const uint8_t *)data + array.header_size;
     if (array.n_fields != 1 || array.fields[0].name[0] ||
         !(type == KD_NPY_U1 ? array.n_dimensions == 1 : type >= KD_NPY_TEXT && array.n_dimensions == 0))

@@ -1,7 +1,7 @@
 /* Writes and reads NumPy's .npy files, format versions 1.0 and 2.0: little-endian numbers in C order. Any thread.
  *
- * Supported are floats of 8 and 4 bytes, whole numbers of 4, and bytes. An element is one number or a record of
- * named ones, some of which may be short arrays. Anything else that NumPy can store is refused by name. */
+ * Supported are floats of 8 and 4 bytes, whole numbers of 4, and bytes. An element is one number or a record of named
+ * ones, some of which may be short arrays. Other types that NumPy can store are errors, which name the type. */
 #ifndef KD_IMAGE_NPY_H
 #define KD_IMAGE_NPY_H
 
@@ -42,12 +42,12 @@ struct kd_npy {
 /* Writes everything up to the first element; the size of this is a multiple of 64 bytes. */
 enum kd_status kd_npy_write_header(const struct kd_npy *array, struct kd_buffer *out);
 
-/* Parses a whole file: its elements are at data + out->header_size, possibly unaligned. KD_EINVAL with what is wrong,
- * including missing or surplus bytes at the end. */
+/* Parses a whole file: its elements are at data + out->header_size, possibly unaligned. KD_EINVAL with a message
+ * about the fault. Missing or surplus bytes at the end are faults too. */
 enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, struct kd_error *error);
 
 /* Appends a text to *out as UTF-8: from an array of no dimension that holds a str (as numpy.array(TEXT) makes it) or
- * bytes; or from a list of bytes, |u1. KD_EINVAL with what is wrong; KD_ENOMEM. */
+ * bytes; or from a list of bytes, |u1. KD_EINVAL with a message about the fault; KD_ENOMEM. */
 enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer *out, struct kd_error *error);
 
 size_t kd_npy_item_size(const struct kd_npy *array);

@@ -13,8 +13,8 @@
 #define MAX_TEXT (1u << 20)
 #define MAX_CHUNKS 100 /* text chunks; a compressed chunk of 1 KiB may still unpack to MAX_TEXT */
 
-/* libpng leaves a failing call by longjmp. Everything that such a call changes is in this struct, in the frame of
- * the function that cleans up, so that a jump can neither clobber a register variable nor skip a free. */
+/* libpng leaves a failing call by longjmp. All variables that such a call changes are in this struct, in the stack
+ * frame of the function that cleans up. So a jump cannot clobber a register variable, and cannot skip a free. */
 struct job {
     png_structp png;
     png_infop info;
@@ -36,7 +36,7 @@ static void on_error(png_structp png, png_const_charp message)
 static void on_warning(png_structp png, png_const_charp message)
 {
     (void)png;
-    (void)message; /* a malformed ancillary chunk does not affect the picture */
+    (void)message; /* a malformed ancillary chunk has no effect on the picture */
 }
 
 static png_voidp job_malloc(png_structp png, png_alloc_size_t size)
@@ -97,7 +97,8 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
             return kd_error_set(error, KD_EINVAL, "PNG text \"%s\" is not UTF-8", text->key);
         total += strlen(text->key) + strlen(text->value);
     }
-    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS) /* more text could be written, but not be read again */
+    /* more text could be written, but kerrd could not read it again */
+    if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS)
         return kd_error_set(error, KD_EINVAL,
                             "%zu bytes of PNG text in %zu chunks; there must be at most %u bytes in %d chunks", total,
                             params->n_text, MAX_TEXT, MAX_CHUNKS - 1);
@@ -179,10 +180,10 @@ static void source_read(png_structp png, png_bytep data, size_t size)
     job->left -= size;
 }
 
-/* Text in one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng skips a text chunk, with only a
- * warning, if it is too long, unpacks to too much, is damaged, or comes after too many others; in which of these cases
- * it does so differs between 1.6.39 and 1.6.48. The skipped chunk may have been the scene, so a missing text is an
- * error. */
+/* Text in one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng skips a text chunk, with only
+ * a warning, if it is too long, unpacks to too much, is damaged, or comes after too many others; which of these
+ * chunks it skips differs between 1.6.39 and 1.6.48. A skipped chunk may have held the scene, so a missing text is
+ * an error. */
 static enum kd_status take_text(struct job *job)
 {
     png_textp text = NULL;
@@ -226,7 +227,7 @@ static void check_promise(struct job *job, uint32_t height)
         png_error(job->png, "the file is too short for its width and height");
 }
 
-/* Requests RGB of 8 or 16 bits from libpng, whatever the file holds. Alpha is dropped, not blended. */
+/* Requests RGB of 8 or 16 bits from libpng, for every type of file. Alpha is dropped, not blended. */
 static int set_transforms(struct job *job)
 {
     png_set_expand(job->png);
@@ -253,7 +254,7 @@ static void read_pixels(struct job *job)
         job->no_memory = true;
         png_error(job->png, "out of memory");
     }
-    /* Interlaced passes read the previous contents before they write. */
+    /* the passes of an interlaced file read the previous contents before they write */
     memset(picture->pixels, 0, stride * picture->height);
     for (int pass = 0; pass < passes; pass++)
         for (uint32_t y = 0; y < picture->height; y++)
@@ -265,7 +266,7 @@ static void read_info(struct job *job)
     png_set_read_fn(job->png, job, source_read);
     png_set_user_limits(job->png, MAX_SIDE, MAX_SIDE);
     png_set_chunk_malloc_max(job->png, MAX_TEXT + 128); /* room for MAX_TEXT and the key */
-    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);  /* libpng accepts two fewer */
+    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);  /* libpng accepts two chunks fewer than this limit */
     /* damaged text counts as damage of the file */
     png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_read_info(job->png, job->info);
@@ -288,8 +289,8 @@ static uint32_t big_endian(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* Checks a file before libpng reads it, so that the error can name the fault. Moreover, libpng 1.6 allocates the length
- * in a text chunk's header, up to 2 GiB, before it checks whether so many bytes follow. */
+/* Checks a file before libpng reads it, so that the error can name the fault. Moreover, libpng 1.6 trusts the length
+ * in a text chunk's header: it allocates up to 2 GiB before it checks whether so many bytes follow. */
 static enum kd_status check_header(const uint8_t *data, size_t size, size_t *texts, size_t *end, struct kd_error *error)
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };

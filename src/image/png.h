@@ -25,8 +25,8 @@ struct kd_png_params {
 };
 enum kd_status kd_png_encode(const struct kd_png_params *params, struct kd_buffer *out, struct kd_error *error);
 
-/* A decoded picture; RGB whatever the file held. Free with kd_png_finish. Limits: 32768 pixels a side, 1 MiB of
- * text. */
+/* A decoded picture. It is RGB, even if the file held another type. Free with kd_png_finish. Limits: 32768 pixels a
+ * side, 1 MiB of text. */
 struct kd_png {
     uint32_t width, height;
     int bit_depth; /* 8 or 16 */
@@ -36,12 +36,12 @@ struct kd_png {
 };
 enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, struct kd_error *error);
 
-/* Header of a PNG file, without decoding its pixels. KD_EINVAL unless its chunks are complete and end with the file,
- * libpng accepts the header, and the file is large enough for its number of pixels. Only decoding tells whether the
- * pixels are valid. */
+/* Reads the header of a PNG file without decoding its pixels. Returns KD_EINVAL in three cases: the chunks are
+ * incomplete or do not end with the file, libpng rejects the header, or the file is too small for its number of
+ * pixels. Invalid pixels are found only by decoding. */
 struct kd_png_about {
     uint32_t width, height;
-    int bit_depth, channels; /* as in the file: 1, 2, 4, 8 or 16; 1 to 4, and 1 for a palette */
+    int bit_depth, channels; /* bit_depth as in the file: 1, 2, 4, 8 or 16; channels: 1 to 4, and 1 for a palette */
 };
 enum kd_status kd_png_look(const void *data, size_t size, struct kd_png_about *out, struct kd_error *error);
 

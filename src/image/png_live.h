@@ -13,7 +13,7 @@
  * memory is kept (png_strips.h). Costs of a frame: bench/results, *-encode.md.
  *
  * The file: IHDR, sRGB, an IDAT for each strip, IEND. It has no text. The metadata of a live frame are sent separately.
- * A frame to be kept is rendered again, as a file that carries its scene (render/output/png.h). */
+ * To save a frame, it is rendered again as a file that contains its scene (render/output/png.h). */
 #ifndef KD_IMAGE_PNG_LIVE_H
 #define KD_IMAGE_PNG_LIVE_H
 

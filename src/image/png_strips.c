@@ -100,7 +100,8 @@ static bool make_room(uint8_t **memory, size_t *size, size_t wanted)
 {
     if (wanted <= *size)
         return true;
-    free(*memory); /* the old contents are not needed, so that freeing first avoids realloc's copy */
+    /* the old contents are not needed, so the buffer is freed first to avoid the copy that realloc makes */
+    free(*memory);
     *memory = malloc(wanted);
     *size = *memory ? wanted : 0;
     return *memory;
@@ -121,8 +122,8 @@ static const uint8_t *row_at(const struct work *w, uint32_t y, uint8_t *room)
     return room;
 }
 
-/* At the lowest levels trying all filters costs more than it gains. Sub makes the smallest files of kerrd's pictures
- * among filters whose cost is negligible beside deflate's (docs/decisions/0004-live-png.md). */
+/* At the lowest levels trying all filters costs more than it gains. Among the filters whose cost is negligible
+ * compared with deflate, Sub makes the smallest files of kerrd's pictures (docs/decisions/0004-live-png.md). */
 static void filter(const struct work *w, uint32_t first, uint32_t end, struct workspace *workspace)
 {
     const size_t stride = w->stride;
@@ -202,8 +203,8 @@ void kd_png_strips_destroy(struct kd_png_strips *strips)
     free(strips);
 }
 
-/* A piece by libdeflate takes a quarter longer than a whole stream (deflate_walk.h), so pictures that one core
- * encodes in some ten milliseconds are not divided. */
+/* A piece that libdeflate makes takes a quarter longer than a whole stream (deflate_walk.h). So pictures that one
+ * core encodes in some ten milliseconds are not divided. */
 static size_t least_in_strips(enum kd_deflate_engine engine) { return engine == KD_DEFLATE_ISAL ? MIB : 4 * MIB; }
 
 enum kd_status kd_png_strips_append(struct kd_png_strips *strips, const struct kd_png_params *params,

@@ -10,8 +10,8 @@
 /* Appends one chunk. KD_ENOMEM, after which part of the chunk may have been appended. */
 enum kd_status kd_png_chunk(struct kd_buffer *out, const char type[5], const void *data, size_t size);
 
-/* Working memory, 1 to 2 MiB for each thread that worked concurrently, kept between pictures. One thread at a time
- * uses it. */
+/* Working memory, kept between pictures: 1 to 2 MiB for each thread that encoded strips at the same time. Only one
+ * thread at a time may use the struct. */
 struct kd_png_strips;
 enum kd_status kd_png_strips_create(enum kd_deflate_engine engine, struct kd_png_strips **out, struct kd_error *error);
 void kd_png_strips_destroy(struct kd_png_strips *strips); /* accepts NULL */

@@ -16,8 +16,8 @@ struct kd_sky_scale {
  * the picture's width. */
 double kd_sky_scale_bar(const struct kd_sky_scale *scale, uint32_t width);
 
-/* Letters and lines as in a legend (image/legend.h). The beam is left out if it is wider than a quarter of the
- * picture's smaller side. Returns false, and draws nothing, if the picture is too small for a legend. */
+/* Letters and lines have the same size as in a legend (image/legend.h). The beam is left out if it is wider than a
+ * quarter of the picture's smaller side. Returns false, and draws nothing, if the picture is too small for a legend. */
 bool kd_sky_scale_draw(const struct kd_canvas *canvas, const struct kd_sky_scale *scale);
 
 #endif

@@ -17,8 +17,8 @@ struct kd_strips {
     void *user;
 };
 
-/* Bytes of strips are kept only until they are joined. Returns the status of a call that failed, after which no
- * other strip begins; KD_ENOMEM. */
+/* Bytes of strips are kept only until they are joined. If a call fails, no other strip begins, and the status of
+ * that call is returned. KD_ENOMEM. */
 enum kd_status kd_strips_encode(const struct kd_strips *strips);
 
 #endif

@@ -26,7 +26,7 @@ static void to_letters(const uint8_t *bytes, size_t size, char *out)
     *out = 0;
 }
 
-/* Decodes base64url to *size bytes; false if to_letters could not have written this code. */
+/* Decodes base64url to *size bytes. Returns false if the code is not in the form that to_letters writes. */
 static bool to_bytes(const char *code, size_t length, uint8_t *out, size_t *size)
 {
     uint32_t bits = 0;

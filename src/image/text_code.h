@@ -5,15 +5,15 @@
 
 #include "base/buffer.h"
 
-/* Limits of a code and of the text that it unpacks to, checked before anything is allocated. */
+/* Limits of the size of a code, and of the text that it unpacks to. They are checked before anything is allocated. */
 enum { KD_TEXT_CODE_MOST = 2048, KD_TEXT_CODE_TEXT_MOST = 8192 };
 
 /* Appends the code of `size` bytes, and a NUL that out->size does not count. KD_ETOOBIG if text or code exceed these
  * limits. KD_ENOMEM. */
 enum kd_status kd_text_code_write(const void *text, size_t size, struct kd_buffer *out, struct kd_error *error);
 
-/* Appends the text of a code, and a NUL that out->size does not count. KD_EINVAL, KD_ETOOBIG with a sentence on what
- * the code must be. KD_ENOMEM. */
+/* Appends the text of a code, and a NUL that out->size does not count. KD_EINVAL and KD_ETOOBIG have a message about
+ * the required form of a code. KD_ENOMEM. */
 enum kd_status kd_text_code_read(const char *code, struct kd_buffer *out, struct kd_error *error);
 
 #endif

@@ -32,7 +32,7 @@ static bool find_end(const uint8_t *data, size_t size, size_t *at)
 
 struct directory {
     uint64_t n, size, at;
-    size_t end; /* offset of what follows the directory */
+    size_t end; /* position up to which the directory may extend */
 };
 
 /* Takes the counts of a ZIP64 file from its own end record (APPNOTE 4.3.14), to which a locator before the end
@@ -152,7 +152,7 @@ const struct kd_unzip_member *kd_unzip_find(const struct kd_unzip *zip, const ch
     return NULL;
 }
 
-/* Data of a member, after its own header; NULL unless all of it is before the directory. */
+/* Data of a member, behind the member's own header. NULL unless all of the data are before the directory. */
 static const uint8_t *bytes_of(const struct kd_unzip *zip, const struct kd_unzip_member *m)
 {
     if (zip->directory < HEADER || m->at > zip->directory - HEADER || memcmp(zip->data + m->at, "PK\3\4", 4))

@@ -15,7 +15,7 @@
 enum { KD_UNZIP_MEMBERS = 1024 };
 
 struct kd_unzip_member {
-    const char *name; /* points into the file; not terminated */
+    const char *name; /* points into the file; not NUL-terminated */
     size_t name_size;
     uint64_t size, packed, at; /* at: offset of the member's own header */
     uint32_t crc;
@@ -29,14 +29,14 @@ struct kd_unzip {
     size_t n;
 };
 
-/* Reads the directory; the file's bytes must remain valid until kd_unzip_finish. KD_EINVAL with what is wrong, in a
- * sentence that calls the file "it"; KD_ENOMEM. */
+/* Reads the directory; the file's bytes must remain valid until kd_unzip_finish. KD_EINVAL with a sentence about the
+ * fault, in which "it" means the file; KD_ENOMEM. */
 enum kd_status kd_unzip_open(const void *data, size_t size, struct kd_unzip *out, struct kd_error *error);
-void kd_unzip_finish(struct kd_unzip *zip); /* accepts a struct that could not be opened */
+void kd_unzip_finish(struct kd_unzip *zip); /* accepts a struct whose kd_unzip_open has failed */
 /* Finds a member, the first one of this name; NULL if there is none. */
 const struct kd_unzip_member *kd_unzip_find(const struct kd_unzip *zip, const char *name);
-/* Unpacks a member of at most `most` bytes into *out. *out must be empty, and stays so on failure. KD_EINVAL with what
- * is wrong, as the end of a sentence: "is longer than ..."; KD_ENOMEM. */
+/* Unpacks a member of at most `most` bytes into *out. *out must be empty, and stays so on failure. KD_EINVAL with a
+ * message that completes a sentence about the member: "is longer than ..."; KD_ENOMEM. */
 enum kd_status kd_unzip_take(const struct kd_unzip *zip, const struct kd_unzip_member *member, size_t most,
                              struct kd_buffer *out, struct kd_error *error);
 

@@ -17,8 +17,9 @@
 enum kd_status kd_webp_encode(uint32_t width, uint32_t height, const uint8_t *pixels, unsigned quality,
                               struct kd_buffer *out, struct kd_error *error);
 
-/* Bound of the memory of kd_webp_encode with the file: that of noise at quality 100. Up to 16 Mi pixels libwebp keeps
- * tokens, 28 bytes a pixel of noise; a larger picture is encoded without them, in 3.3. */
+/* Upper bound of the memory of kd_webp_encode, including the file. The worst case is noise at quality 100. Up to 16
+ * Mi pixels libwebp keeps tokens, which take 28 bytes a pixel for noise. A larger picture is encoded without tokens
+ * and takes 3.3 bytes a pixel. */
 uint64_t kd_webp_bytes(uint32_t width, uint32_t height);
 
 /* Appends a WebP of kd_webp_encode with an XMP packet. KD_ENOMEM; on error out->size is unchanged. */

@@ -67,7 +67,7 @@ static enum kd_status put_header(struct kd_zip *zip, const struct entry *e)
 {
     struct record r = { 0 }, extra = { 0 };
     enum kd_status status;
-    if (is_long(e)) { /* both sizes are in a member's own header (APPNOTE 4.5.3) */
+    if (is_long(e)) { /* a member's own header must contain both sizes (APPNOTE 4.5.3) */
         put(&extra, 1, 2);
         put(&extra, 16, 2);
         put(&extra, e->size, 8);
@@ -112,7 +112,7 @@ static enum kd_status put_directory_entry(struct kd_zip *zip, const struct entry
     put(&r, 3 << 8 | 45, 2); /* made on Unix */
     put_common(&r, e, true);
     put(&r, extra.size, 2);
-    put(&r, 0, 2 + 2 + 2); /* comment, disk, internal attributes */
+    put(&r, 0, 2 + 2 + 2); /* length of the comment, disk number and internal attributes */
     put(&r, FILE_MODE, 4);
     put(&r, saturate(e->at), 4);
     KD_TRY(emit(zip, r.bytes, r.size));

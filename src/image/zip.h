@@ -17,8 +17,8 @@ enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip
  * *out. KD_ENOMEM. */
 enum kd_status kd_zip_begin(struct kd_zip *zip, const char *name, uint64_t size);
 enum kd_status kd_zip_append(struct kd_zip *zip, const void *data, size_t size);
-/* Counts the missing bytes of the open member as written, without producing them. Used to compute the size of a
- * file. KD_ENOMEM. */
+/* Counts the missing bytes of the open member as written, without producing them. This serves to compute the size of
+ * a file. KD_ENOMEM. */
 enum kd_status kd_zip_pass_over(struct kd_zip *zip);
 /* Adds a whole member. KD_ENOMEM. */
 enum kd_status kd_zip_add(struct kd_zip *zip, const char *name, const void *data, size_t size);

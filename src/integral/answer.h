@@ -9,7 +9,7 @@
 
 enum { KD_INTEGRAL_COLUMNS = 12, KD_INTEGRAL_VALUES = 12 };
 
-/* Contents of an integral's answer, besides its parameters. */
+/* Contents of an integral's answer, except its parameters. */
 struct kd_integral_column {
     const char *name, *unit, *help; /* unit NULL: the answer's unit of light */
     bool words;                     /* the column's numbers are codes of words: kd_integral_word */
@@ -29,11 +29,11 @@ struct kd_integral_answer {
                                         * frequency */
     struct kd_alignment solved;        /* result of a comparison's search */
     const struct kd_integral_set *set; /* for a comparison of sets: the current set; otherwise NULL */
-    double chi2[2][KD_PRODUCTS];       /* for a comparison: chi^2 for the map, and for the finer map */
+    double chi2[2][KD_PRODUCTS];       /* for a comparison: chi^2 of the map, and chi^2 of the finer map */
     size_t rows;
-    double *columns[KD_INTEGRAL_COLUMNS]; /* each of length `rows`; a single allocation, columns[0] */
+    double *columns[KD_INTEGRAL_COLUMNS]; /* each has `rows` numbers; all are in one allocation, at columns[0] */
     const char *light;                    /* unit of columns that are light */
-    /* Approximations beyond those of its kind: sentences from the plans of its pictures. */
+    /* Approximations besides those that every integral of this kind has: sentences from the plans of its pictures. */
     const char *told[KD_PLAN_MAX_APPROXIMATIONS];
     size_t n_told;
 };
@@ -42,8 +42,8 @@ struct kd_integral_answer {
 enum kd_status kd_integral_make_columns(struct kd_integral_answer *answer, size_t rows, struct kd_error *error);
 
 /* Computes an integral that needs no pictures (integral/run.h handles all). The request must have been checked. On
- * failure there is nothing to finish. Takes some 10 to 100 ms, less for a recently used spin and inclination;
- * up to some seconds for a corona off the axis. */
+ * failure there is nothing to finish. Takes some 10 to 100 ms, less for a recently used spin and inclination, but up
+ * to some seconds for a corona off the axis. */
 enum kd_status kd_integral_compute(const struct kd_integral_request *request, struct kd_integral_answer *answer,
                                    struct kd_error *error);
 /* The word that a number of a column of words stands for; NULL: none. */

@@ -6,7 +6,7 @@
 #define HAS(name) "{\"required\":[\"" name "\"]}"
 #define BOTH(one, other) "{\"required\":[\"" one "\",\"" other "\"]}"
 #define ALONE(name) "{\"required\":[\"" name "\"],\"not\":{\"anyOf\":["
-/* A member given with an emissivity that it does not belong to. */
+/* A member that does not belong to the emissivity with which it is given. */
 #define NOT_OF(name, words) \
     "{\"required\":[\"" name "\",\"emissivity\"],\"properties\":{\"emissivity\":{\"enum\":[" words "]}}}"
 #define CORONAE "\"ring\",\"disk\",\"slab\""

@@ -64,14 +64,15 @@ struct kd_integral_request {
     uint32_t pixels; /* pixels on the longer side of a picture; 0: the default */
     int unchecked;   /* 0: finer pictures estimate the error */
     struct kd_number_list u, v, lengths,
-        /* For a visibility, in Gl (10^9 wavelengths): a list of baselines, or lengths and angles, which are expanded
-         * into one. */
+        /* For a visibility, in Gl (10^9 wavelengths): a list of baselines, or lists of lengths and angles, which are
+         * expanded into baselines. */
         angles_deg;
-    double length_max; /* NaN: half of what the pixels resolve */
+    double length_max; /* NaN: half of the longest baseline that the pixels resolve */
     uint32_t baselines, orders;
     uint32_t digits;                    /* significant digits of the columns' numbers in text */
     struct kd_observation *observation; /* for a comparison or a simulation: malloc'd; NULL: none given */
-    /* For a simulation from a uvfits file: its bytes, malloc'd, which the run fills with simulated visibilities. */
+    /* For a simulation from a uvfits file: the bytes of that file, malloc'd. The run replaces their visibilities by
+     * simulated ones. */
     uint8_t *file;
     size_t file_size;
     uint32_t seed;
@@ -86,7 +87,7 @@ struct kd_integral_request {
     int scattering;           /* 1: the scattering towards Sgr A* is applied, observe/scattering.h */
     double flux_jy;           /* NaN: the scene's own flux, or the best fit if the scene has none */
     uint32_t products, solve; /* bit masks: products of enum kd_product; solve: KD_ALIGN_... */
-    uint64_t seen[2];         /* bit mask of the fields that were given */
+    uint64_t seen[2];         /* bit mask of the fields that the request gives */
 };
 
 /* The hole of a thin disk, for use as an argument. The value lives until the end of the enclosing block. */
@@ -97,7 +98,8 @@ struct kd_integral_request {
 static inline bool kd_integral_is_pictured(enum kd_integral what) { return what >= KD_INTEGRAL_VOLUME; }
 static inline bool kd_integral_is_mapped(enum kd_integral what) { return what >= KD_INTEGRAL_VISIBILITY; }
 
-/* True if fields of a checked request may be left open. An open field is NAN, and its word in the answer. */
+/* True if fields of a checked request may be left open. An open field is NAN in the request, and a word in the
+ * answer. */
 static inline bool kd_integral_leaves_open(enum kd_integral what)
 {
     return kd_integral_is_mapped(what) || what == KD_INTEGRAL_LAGS;

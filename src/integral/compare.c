@@ -207,7 +207,7 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
     answer->values[NORTH] = answer->solved.north * KD_UAS_PER_RADIAN;
 }
 
-/* Lists the solved quantities. The flux is one of them if no other value determines it. */
+/* Lists the solved quantities. The flux is solved for if no other value determines it. */
 static void write_solved(struct kd_json *json, const struct kd_integral_answer *answer)
 {
     static const struct {

@@ -12,7 +12,8 @@ void kd_integral_compare_judge(struct kd_integral_answer *answer, double (*model
 /* Write the members of an answer that only comparisons have, and their schemas. */
 void kd_integral_compare_write(struct kd_json *json, const struct kd_integral_answer *answer);
 void kd_integral_compare_schema(struct kd_json *json);
-/* For one set of a comparison: takes the model's visibilities, NULL if the picture is dark, and fills its row. */
+/* For one set of a comparison: takes the model's visibilities, or NULL if the picture is dark, and fills the set's
+ * row. */
 void kd_integral_sets_judge(struct kd_integral_answer *answer, double (*model)[2]);
 void kd_integral_sets_write(struct kd_json *json, const struct kd_integral_answer *answer);
 void kd_integral_sets_schema(struct kd_json *json);

@@ -395,8 +395,8 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
                                      .energy = r->energy };
 }
 
-/* cos i below which rays from a source to the observer are not found: they pass the plane where the observer is. From
- * here to edge-on the flux changes by 3e-5. */
+/* cos i below which rays from a source to the observer are not found, because they pass the plane of the observer.
+ * From here to edge-on the flux changes by 3e-5. */
 #define FLATTEST 1.7e-4
 
 /* The light that reaches the observer from the source itself; NaN if there is no source. */
@@ -506,8 +506,8 @@ static enum kd_status returning_of(const struct kd_integral_request *r, struct k
     return KD_OK;
 }
 
-/* Adds scattered light to the fluxes, and fills the columns of polarisation. The direct light is computed here again;
- * the largest relative difference from the flux that the column already has is added to the error. */
+/* Adds scattered light to the fluxes, and fills the columns of polarisation. The direct light is computed here a
+ * second time. The largest relative difference between the two results is added to the error. */
 static enum kd_status add_stokes(const struct kd_integral_request *r, const struct kd_disk_image *image,
                                  const struct kd_disk_spectrum_params *params, struct kd_integral_answer *answer,
                                  struct kd_error *error)
@@ -543,7 +543,7 @@ static enum kd_status compute_spectrum(const struct kd_integral_request *r, cons
     struct kd_disk_spectrum_params params = { r->inner,       r->outer,    r->mass_msun,
                                               r->distance_pc, r->mdot_edd, r->colour_correction,
                                               r->limb,        NULL };
-    struct kd_returning *table = NULL; /* for scattered light, the only check is that its energies balance */
+    struct kd_returning *table = NULL; /* scattered light has only one check: the balance of its energies */
     const struct kd_hole *const hole = kd_integral_hole(r);
     const double hottest = fmax(r->inner, kd_disk_peak_page_thorne(hole)), distance = r->distance_pc * KD_PARSEC_M;
     enum kd_status status;
@@ -596,7 +596,7 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
         answer->told[answer->n_told++] = of_hole->text;
 done:
     free(image);
-    if (kd_pause()) /* fails, because a result after a pause that returned true is incomplete */
+    if (kd_pause()) /* the result counts as a failure: after a pause that returned true it is incomplete */
         status =
             kd_error_set(error, KD_ECANCELLED, "nobody waits for the %s any more", kd_integral_name(request->what));
     if (status)

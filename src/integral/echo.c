@@ -8,8 +8,8 @@
 #include <stdlib.h>
 
 enum { ISCO, STRENGTH, DIRECT_FLUX, DIRECT_G, DIRECT_TIME, UNIT, AFTER };
-enum { INSIDE = AFTER, MEAN, ERROR }; /* further values of an impulse response */
-enum { WORST = AFTER };               /* further values of lags */
+enum { INSIDE = AFTER, MEAN, ERROR }; /* values that only an impulse response has */
+enum { WORST = AFTER };               /* values that only lags have */
 
 /* The source exists: the request has been checked. */
 static struct kd_echo_params params_of(const struct kd_integral_request *r)

@@ -8,7 +8,7 @@
 enum { KEPT = 8 }; /* number of cached images, 150 kB each */
 
 static struct entry {
-    double inclination_deg; /* inclination; it and the hole of the image form the key */
+    double inclination_deg; /* inclination; together with the image's hole it is the key */
     unsigned long used;     /* time of last use; 0: empty */
     struct kd_disk_image image;
 } entries[KEPT];

@@ -6,7 +6,7 @@
 #include "physics/disk/disk_image.h"
 #include "physics/spacetime/hole.h"
 
-/* Gives a copy of the image, which is computed if not cached. The caller frees it. */
+/* Gets a copy of the image, and computes the image if it is not cached. The caller frees the copy. */
 enum kd_status kd_cached_disk_image(const struct kd_hole *hole, double inclination_deg, struct kd_disk_image **out,
                                     struct kd_error *error);
 

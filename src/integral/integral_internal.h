@@ -18,9 +18,9 @@ enum kd_status kd_integral_make_room(struct kd_integral_request *request, const 
 
 /* check.c */
 bool kd_integral_given(const struct kd_integral_request *request, const char *name);
-/* Checks that a list is strictly increasing. */
+/* Checks that the numbers of a list are strictly increasing. */
 enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const char *name, struct kd_error *error);
-/* Refuses a list that is given together with fields that would generate it. */
+/* Refuses a list if fields that would generate the list are given as well. */
 enum kd_status kd_integral_check_beside(const struct kd_integral_request *request, const char *list,
                                         const char *const *others, size_t n, struct kd_error *error);
 /* Fills a list with n numbers in geometric progression, or, if `first` is 0, with the midpoints of n parts of 0 to
@@ -46,7 +46,7 @@ struct kd_line_params kd_integral_line_params(const struct kd_integral_request *
 /* scene.c */
 /* Reads the members "preset" and "scene" of a document. */
 enum kd_status kd_integral_read_scene(struct kd_integral_request *request, const cJSON *root, struct kd_error *error);
-/* Checks that visibilities can be computed of the scene's picture. */
+/* Check that visibilities can be computed from the scene's picture. */
 enum kd_status kd_integral_check_flat(const struct kd_scene *scene, struct kd_error *error);
 enum kd_status kd_integral_check_visibility(struct kd_integral_request *request, struct kd_error *error);
 

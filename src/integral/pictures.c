@@ -45,8 +45,9 @@ struct kd_scene kd_integral_scene(const struct kd_integral_request *r, unsigned 
     scene.style.bloom = 0;
     if (kd_integral_is_mapped(r->what)) {
         scene.image.layers = layers_of(r, &scene);
-    } else { /* uses the scene's own frequency, to which the flux refers, because normalised matter must be the same
-              * at all frequencies */
+    } else {
+        /* The scene's own frequency is used, to which the flux refers, because normalised matter must be the same at
+         * all frequencies. */
         scene.volume.normalise_ghz =
             isfinite(scene.volume.normalise_ghz) ? scene.volume.normalise_ghz : r->scene->volume.frequency_ghz;
         kd_scene_set_frequency(&scene, r->frequencies_hz.at[picture / (r->unchecked ? 1 : 2)] * 1e-9);

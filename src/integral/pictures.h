@@ -6,18 +6,18 @@
 #include "render/output/format.h"
 
 enum { KD_INTEGRAL_USUAL_FREQUENCIES = 13 };
-/* pixels per side of the finer picture divided by those of the coarse one; with 2, aliases of both grids could
- * coincide */
+/* pixels per side of the finer picture divided by those of the coarse one; not 2, because the aliases of both grids
+ * could then coincide */
 #define KD_INTEGRAL_FINER 1.5
 
-/* The difference between the coarse and the finer picture, multiplied by this factor, is the error of the coarse one.
- * The error falls as 1/(pixels per side)^2, so the factor is 1/(1 - 1/1.5^2). */
+/* The error of the coarse picture is this factor times the difference between the coarse and the finer picture. The
+ * error falls as 1/(pixels per side)^2, so the factor is 1/(1 - 1/1.5^2). */
 #define KD_INTEGRAL_OF_DIFFERENCE (1 / (1 - 1 / (KD_INTEGRAL_FINER * KD_INTEGRAL_FINER)))
 
 /* Number of pictures that a checked request needs; 0: it is not made of pictures. */
 unsigned kd_integral_pictures(const struct kd_integral_request *request);
-/* The scene of a picture, for the format below. If the error is to be estimated, every other picture is a finer
- * version of the one before. */
+/* The scene of a picture, for the format below. If the error is to be estimated, every second picture is a finer
+ * version of the picture before it. */
 struct kd_scene kd_integral_scene(const struct kd_integral_request *request, unsigned picture);
 bool kd_integral_is_finer(const struct kd_integral_request *request, unsigned picture);
 
@@ -30,7 +30,8 @@ const struct kd_format *kd_integral_picture_format(enum kd_integral what);
 enum kd_status kd_integral_plan(const struct kd_integral_request *request, struct kd_scene *scene,
                                 const struct kd_capacity *capacity, struct kd_plan *out, struct kd_error *error);
 
-/* Names the first set of a picture in an error about it, KD_EINVAL. Does nothing for other requests and errors. */
+/* Adds to an error about a picture the name of the first set that uses this picture, KD_EINVAL. Does nothing for
+ * other requests and errors. */
 void kd_integral_name_set(const struct kd_integral_request *request, unsigned picture, enum kd_status status,
                           struct kd_error *error);
 
@@ -38,7 +39,8 @@ void kd_integral_name_set(const struct kd_integral_request *request, unsigned pi
  * volume. */
 enum kd_status kd_integral_make_scene(struct kd_integral_request *request, struct kd_error *error);
 
-/* For a picture seen from far away: radians a pixel, and the longest baseline that this pixel size resolves. */
+/* For a picture seen from far away: the size of a pixel in radians, and the longest baseline that pixels of this
+ * size resolve. */
 double kd_integral_pixel(const struct kd_scene *scene);
 double kd_integral_nyquist_gl(const struct kd_scene *scene);
 

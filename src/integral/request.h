@@ -17,10 +17,10 @@
 #define KD_INTEGRAL_BODY_MAX ((size_t)1 << 20) /* maximum size of a document */
 #define KD_INTEGRAL_TIMES 4096u                /* maximum bins of time of an echo */
 #define KD_INTEGRAL_ROWS 20000u                /* maximum rows of an answer */
-#define KD_INTEGRAL_LIST 20001u                /* maximum length of a list */
-#define KD_INTEGRAL_TRANSFERS 5000u            /* maximum rows of a transfer function: 0.1 ms each */
+#define KD_INTEGRAL_LIST 20001u                /* maximum number of numbers in a list */
+#define KD_INTEGRAL_TRANSFERS 5000u            /* maximum rows of a transfer function; each takes 0.1 ms */
 #define KD_INTEGRAL_FREQUENCIES 1000u
-#define KD_INTEGRAL_LAG_FREQUENCIES 200u /* maximum frequencies of lags: some 10 ms each */
+#define KD_INTEGRAL_LAG_FREQUENCIES 200u /* maximum frequencies of lags; each takes some 10 ms */
 #define KD_INTEGRAL_PICTURES 200u        /* maximum frequencies of a spectrum made of pictures */
 #define KD_INTEGRAL_LEAST_HZ 1e3         /* lowest frequency, as for volume.frequency_ghz */
 #define KD_INTEGRAL_MOST_HZ 1e21         /* highest frequency, likewise */
@@ -28,7 +28,7 @@
 #define KD_INTEGRAL_FACE_ON 0.1
 /* degrees from edge-on within which there is no transfer function; the same limit is in fields.c */
 #define KD_INTEGRAL_EDGE_ON 0.01
-#define KD_INTEGRAL_ORDERS 8u /* image orders that are distinguished */
+#define KD_INTEGRAL_ORDERS 8u /* maximum number of image orders that are distinguished */
 
 void kd_integral_request_init(struct kd_integral_request *request, enum kd_integral what);
 void kd_integral_request_finish(struct kd_integral_request *request);
@@ -36,7 +36,7 @@ void kd_integral_request_finish(struct kd_integral_request *request);
 /* Merges a document into the request. Returns KD_EINVAL without a pointer if the text is not a JSON document. */
 enum kd_status kd_integral_request_read(struct kd_integral_request *request, const char *text, size_t length,
                                         struct kd_error *error);
-/* Like the function above, followed by kd_integral_request_check. */
+/* Like kd_integral_request_read, followed by kd_integral_request_check. */
 enum kd_status kd_integral_request_json(struct kd_integral_request *request, const char *text, size_t length,
                                         struct kd_error *error);
 
@@ -46,7 +46,8 @@ enum kd_status kd_integral_request_set(struct kd_integral_request *request, cons
 /* Sets the observation of a comparison from the bytes of its file. Returns KD_EINVAL at /observation. */
 enum kd_status kd_integral_set_observation(struct kd_integral_request *request, const void *data, size_t size,
                                            struct kd_error *error);
-/* Call after all fields are set: fills in fields that follow from others, and checks the rules between fields. */
+/* Call this after all fields are set. It fills in the fields that follow from other fields, and checks the rules
+ * between fields. */
 enum kd_status kd_integral_request_check(struct kd_integral_request *request, struct kd_error *error);
 
 /* kd_integral_name: the NAME of an integral in its path /v1/NAME. kd_integral_of_route: the integral of such a path. */

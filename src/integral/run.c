@@ -20,7 +20,7 @@
 enum { U, V, LENGTH, ORDER, RE, IM, AMPLITUDE, PHASE, ERROR };          /* columns of a visibility */
 enum { HZ, SI, JY, NU_L_NU, FLUX_ERROR };                               /* columns of a spectrum of pictures */
 enum { FLUX, PIXEL, WIDTH, HEIGHT, LONGEST, BORDER, UNDEFINED, WORST }; /* values of a visibility */
-/* index of the value that sets have in the place of FLUX */
+/* index of the value that replaces FLUX for sets */
 enum { PICTURES };
 
 static unsigned bands(const struct kd_integral_run *run) { return 1 + run->answer.request->orders; }
@@ -115,7 +115,8 @@ static void multiply(float *map, size_t n, float factor)
         map[i] *= factor;
 }
 
-/* Flux of a sky that has the border's mean brightness everywhere, as a fraction of the map's sum. */
+/* Estimate of the light beyond the map: the flux of a sky that has the border's mean brightness everywhere, as a
+ * fraction of the map's sum. */
 static double border_share(const float *map, uint32_t width, uint32_t height, double sum)
 {
     double edge = 0, n = 0;
@@ -170,10 +171,10 @@ static enum kd_status begin_map(struct kd_integral_run *run, struct kd_buffer *f
                                            height - wcs.at[1].pixel };
     for (unsigned k = bands(run); k--;) {
         float *map = (float *)run->maps.data + k * n;
-        if (k && kd_scene_is_radio_alone(
-                     scene)) /* the layer of one order is in the unit of light, that of the total light in Jy/sr */
+        /* the layer of an image order is in the unit of light; the layer of the total light is in Jy/sr */
+        if (k && kd_scene_is_radio_alone(scene))
             multiply(map, n, (float)kd_radio_jansky_steradian(scene));
-        sum = total(map, n, &undefined); /* map 0, the total light, comes last, so that `sum` is its sum */
+        sum = total(map, n, &undefined); /* map 0, the total light, is summed last, so that `sum` becomes its sum */
         run->map[k] = map;
     }
     run->is_dark = !(sum > 0);
@@ -207,7 +208,7 @@ static enum kd_status take_flux(struct kd_integral_run *run, struct kd_buffer *f
     if (kd_integral_is_finer(r, run->picture)) {
         c[FLUX_ERROR][row] = jy == c[JY][row] ? 0
                                               : fmin(KD_INTEGRAL_OF_DIFFERENCE * fabs(jy / c[JY][row] - 1),
-                                                     1); /* 1: the coarser picture showed no light */
+                                                     1); /* 1 if the coarser picture showed no light */
         run->answer.values[2] = fmax(run->answer.values[2], c[FLUX_ERROR][row]);
         return KD_OK;
     }
@@ -247,9 +248,9 @@ static void put(struct kd_integral_run *run, size_t row, double re, double im)
     c[RE][row] = re, c[IM][row] = im, c[AMPLITUDE][row] = hypot(re, im), c[PHASE][row] = atan2(im, re) * (180 / M_PI);
 }
 
-/* Visibility of the map, enlarged and rotated, at a baseline. Neither map is made: the visibility of an enlarged map
- * equals that of the map at a baseline that is longer by the same factor, and that of a rotated map equals that of the
- * map at a baseline that is rotated back. Observations use the conjugate of kd_fourier's sign
+/* Visibility of the map, enlarged and rotated, at a baseline. The enlarged and rotated map is not computed.
+ * Enlarging the map by a factor is equivalent to a baseline that is longer by this factor. Rotating the map is
+ * equivalent to a baseline that is rotated back. Observations use the conjugate of kd_fourier's sign
  * (observe/observation.h). */
 static void model_at(struct kd_integral_run *run, size_t i, double size, double angle_deg, double out[2])
 {

@@ -41,7 +41,7 @@ enum kd_status kd_integral_run_begin(struct kd_integral_run *run, const struct k
 /* Takes ownership of the file's bytes. Returns KD_EINVAL at /scene if the picture has no light. */
 enum kd_status kd_integral_run_take(struct kd_integral_run *run, struct kd_buffer *file, const struct kd_scene *scene,
                                     const struct kd_plan_report *report, struct kd_error *error);
-/* Continues until `until_ms` on kd_clock_ms. Returns false when this picture is finished. */
+/* Continues with the current picture until `until_ms` on kd_clock_ms. Returns false when that picture is finished. */
 bool kd_integral_run_step(struct kd_integral_run *run, double until_ms);
 void kd_integral_run_finish(struct kd_integral_run *run);
 

@@ -74,7 +74,7 @@ static enum kd_status read_own(struct kd_integral_set *set, const cJSON *item, b
     return KD_OK;
 }
 
-/* Checks what a set has against what is solved for, which would replace it. */
+/* Checks that a set does not give a value that the request solves for, because the solution would replace the value. */
 static enum kd_status check_solved(const struct kd_integral_request *r, const cJSON *item, struct kd_error *error)
 {
     static const struct {

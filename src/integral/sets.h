@@ -1,5 +1,5 @@
-/* Parameter sets of a comparison: a scene for each set, ordered so that pictures and lens maps are shared. Private to
- * this module, and to the file that estimates their cost. */
+/* Parameter sets of a comparison: a scene for each set, ordered so that pictures and lens maps are shared. Private
+ * to this module, and to the file that estimates the cost of the sets. */
 #ifndef KD_INTEGRAL_SETS_H
 #define KD_INTEGRAL_SETS_H
 
@@ -11,16 +11,16 @@
 
 struct kd_integral_set {
     struct kd_scene scene;
-    double flux_jy, size, angle_deg; /* flux_jy NaN: as for the request */
+    double flux_jy, size, angle_deg; /* flux_jy NaN: the flux of the request */
     uint32_t row;                    /* index of the set in the request */
     uint64_t group;                  /* scenes with equal groups share a lens map */
 };
 
 struct kd_integral_sets {
-    cJSON *tree;                /* the member "sets" as it was read */
+    cJSON *tree;                /* the member "sets", as it was in the document */
     struct kd_integral_set *at; /* ordered by group; equal scenes are adjacent */
     size_t n;
-    uint32_t *first; /* first set of each picture, and n behind the last */
+    uint32_t *first; /* first set of each picture, followed by n */
     unsigned pictures;
 };
 

@@ -40,9 +40,9 @@ static const struct {
 };
 enum { IMAGE_AXES = 2 + KD_HOLE_MORE_COUNT };
 
-/* Default axes, chosen so that interpolated profiles of r^-3 are within 0.3 % of the line (docs/xspec.md). Other
- * parameters of the emissivity have one value each, unless the request gives them an axis: a table of this accuracy in
- * three dimensions would have 1e5 nodes or more. */
+/* Default axes, chosen so that interpolated profiles of r^-3 are within 0.3 % of the line (docs/xspec.md). All other
+ * parameters of the emissivity have one value, unless the request gives them an axis. A table of this accuracy in
+ * three dimensions would have at least 1e5 nodes. */
 static const char *const defaults[KD_TABLE_DEFAULTS] = {
     "spin=0:0.6/11,0.64:0.8/5,0.82:0.9/5,0.91:0.95/5,0.955:0.98/6,0.9825:0.99/4,0.9916:0.998/5",
     "inclination_deg=5:25/41,25.3:40/50,40.2:50/50,50.16:65/93,65.13:80/115",
@@ -58,7 +58,7 @@ static const char *name_of(const struct kd_table_axis *axis)
     return ISCO;
 }
 
-/* Number of the image's axes that come before this one; IMAGE_AXES for all others. */
+/* Number of the axes of the image that come before this axis; IMAGE_AXES for all other axes. */
 static size_t rank_of(const struct kd_table_axis *axis)
 {
     size_t i = 0;
@@ -260,7 +260,7 @@ static enum kd_status node_of(const struct kd_table *table, size_t node, struct 
 /* Fields that define bins of equal widths, in place of the list `edges`. */
 static const char *const even[] = { "energy_min", "energy_max", "bins" };
 
-/* The default energies are in keV, begin above 0, and surround the line of iron. */
+/* The default energies are in keV. They begin above 0 and surround the line of iron. */
 static enum kd_status set_energies(struct kd_table *table, struct kd_error *error)
 {
     struct kd_integral_request *base = &table->base;
@@ -406,7 +406,7 @@ static enum kd_status put_request(const struct kd_table *table, struct kd_buffer
     kd_json_object(&json, NULL);
     for (size_t i = 0; i < kd_n_integral_fields; i++) {
         const struct kd_row *f = &kd_integral_fields[i];
-        bool is_even = !strcmp(f->name, "rest_energy"); /* a table has its own default */
+        bool is_even = !strcmp(f->name, "rest_energy"); /* for a table this field has a default of its own */
         for (size_t k = 0; !edges && k < sizeof even / sizeof *even; k++)
             is_even = is_even || !strcmp(f->name, even[k]);
         bool varies = !(f->of & 1u << KD_INTEGRAL_LINE) || f->kind == KD_KIND_LIST ||
@@ -472,7 +472,7 @@ done:
     return status;
 }
 
-/* The value at which a fit begins: that of the request if it lies between the ends, otherwise the middle one. */
+/* The initial value of a fit: the request's value if it lies between the ends, otherwise the middle value. */
 static double initial_of(const struct kd_table *table, const struct kd_table_axis *axis)
 {
     struct kd_integral_request base = table->base;

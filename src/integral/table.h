@@ -1,7 +1,7 @@
 /* Tables of line profiles for fits of X-ray spectra: additive table models of XSPEC and programs with its models, as
  * FITS files (K. A. Arnaud, OGIP Memo 92-009, "The File Format for XSPEC Table Models"). A table is the profile of a
  * line (physics/disk/line_profile.h) at all combinations of the values of its axes, its nodes. Fitting programs
- * interpolate between them, linearly in each axis or in its logarithm.
+ * interpolate between the nodes, linearly in each axis or in its logarithm.
  *
  * Nodes are numbered from 0; the last axis varies fastest. The file is kd_table_head, the rows of all nodes in order,
  * and zeros up to a whole block. Any thread; a table that is read only may be used by several. */
@@ -23,24 +23,25 @@ enum { KD_TABLE_AXES = 10, KD_TABLE_VALUES = 2000, KD_TABLE_NAME = 12 };
 /* An axis: a field of the request, or the inner edge divided by the ISCO's radius (inner_isco). */
 struct kd_table_axis {
     const struct kd_row *field;
-    bool isco, log; /* log: interpolated in the logarithm of the value */
+    bool isco, log; /* log: the interpolation uses the logarithm of the value */
     size_t n;
     double values[KD_TABLE_VALUES]; /* ascending; each is a 32-bit number, as in the file */
 };
 
 struct kd_table {
-    struct kd_integral_request base; /* the request of the first node, which was checked */
+    struct kd_integral_request base; /* the checked request of the first node */
     struct kd_table_axis *axes;      /* axes of the hole and of the inclination, if there are any, come first */
     size_t n_axes, nodes;
-    size_t run; /* successive nodes with one hole and inclination, which have the disk's image in common */
+    /* number of successive nodes that have the same hole and inclination, and therefore share the disk's image */
+    size_t run;
     char name[KD_TABLE_NAME + 1];
 };
 
-/* Makes a table from a request for a line. The request need not be checked. The table becomes its owner, even on
- * failure. axes: texts FIELD=VALUES; VALUES are numbers and ranges START:STOP/COUNT with commas, with "log:" before
- * them for an axis in the logarithm. Spin and inclination have default axes if they have neither an axis nor a given
- * value. All nodes are checked. Returns KD_EINVAL at the pointer of the field, or KD_ENOMEM. Free the table with
- * kd_table_finish, also after a failure. */
+/* Makes a table from a request for a line. The request need not be checked. The table takes ownership of the
+ * request, even on failure. axes: texts FIELD=VALUES; VALUES are numbers and ranges START:STOP/COUNT with commas,
+ * with "log:" before them for an axis in the logarithm. Spin and inclination have default axes if they have neither
+ * an axis nor a given value. All nodes are checked. Returns KD_EINVAL at the pointer of the field, or KD_ENOMEM.
+ * Free the table with kd_table_finish, also after a failure. */
 enum kd_status kd_table_init(struct kd_table *table, struct kd_integral_request *request, const char *const *axes,
                              size_t n_axes, const char *name, struct kd_error *error);
 void kd_table_finish(struct kd_table *table);
@@ -50,14 +51,14 @@ void kd_table_finish(struct kd_table *table);
 enum kd_status kd_table_head(const struct kd_table *table, uint32_t rows_sum, struct kd_buffer *out,
                              struct kd_error *error);
 
-/* Writes a member with the axes: their fields, interpolation and values. */
+/* Writes the axes as a member: for each axis the field, the interpolation and the values. */
 void kd_table_axes_json(const struct kd_table *table, struct kd_json *json, const char *name);
 
 /* Bytes of a row: a whole number of 32-bit words. */
 size_t kd_table_row_bytes(const struct kd_table *table);
 
-/* Computes the rows of n successive nodes, all of one run. *worst is raised to the largest error that a profile
- * states. Takes some milliseconds a row. */
+/* Computes the rows of n successive nodes, all with the same hole and inclination. *worst becomes the largest error
+ * estimate of these profiles, if that is larger than before. Takes some milliseconds a row. */
 enum kd_status kd_table_rows(const struct kd_table *table, size_t first, size_t n, uint8_t *rows, double *worst,
                              struct kd_error *error);
 

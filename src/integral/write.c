@@ -19,7 +19,7 @@ static size_t count(const struct kd_integral_column *list, size_t most)
     return n;
 }
 
-/* Writes a NULL-terminated list and n more sentences. */
+/* Writes a NULL-terminated list, followed by n further sentences. */
 static void write_sentences(struct kd_json *json, const char *name, const char *const *sentences,
                             const char *const *more, size_t n)
 {

@@ -22,7 +22,7 @@ static bool is_auto(const struct kd_job_spec *spec, unsigned frame)
     return !kd_job_spec_scene(spec, frame, &scene, NULL) && takes_one(&scene);
 }
 
-/* Words are not interpolated between keyframes, so a frame is "auto" only if a keyframe is. */
+/* Words are not interpolated between keyframes. So a frame has "auto" only if a keyframe has it. */
 static bool any_auto(const struct kd_job_spec *spec)
 {
     for (size_t i = 0; i < spec->timeline.n_keys; i++)

@@ -16,9 +16,9 @@
 enum { KD_JOB_EXPOSURE_FRAMES = 9, KD_JOB_EXPOSURE_WIDTH = 160 };
 
 /* Chooses the frames to measure. Nine frames at equal intervals are considered, including the first and the last.
- * Those of them whose exposure is "auto" are chosen. If there are none among them, the first frame with "auto" is
- * chosen. Returns 0 if the exposure is known, if each frame has its own, or if no frame is "auto". Maps of numbers
- * have no exposure. */
+ * Those whose exposure is "auto" are chosen. If none of the nine has "auto", the first frame of the job that has it
+ * is chosen. Returns 0 if the exposure is known, if each frame has its own, or if no frame is "auto". Maps of
+ * numbers have no exposure. */
 unsigned kd_job_exposure_frames(const struct kd_job_spec *spec, unsigned out[KD_JOB_EXPOSURE_FRAMES]);
 
 /* Makes the scene of a frame, at most KD_JOB_EXPOSURE_WIDTH pixels wide and with one ray for each pixel, and its

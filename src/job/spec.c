@@ -220,8 +220,8 @@ static enum kd_status read_output(struct reader *r)
 
 static bool makes_pictures(const struct kd_job_spec *spec) { return spec->series->frame->carries & KD_CARRIES_PICTURE; }
 
-/* Parses "exposure". Frames of a film have no common exposure, because they are not known in advance. Scenes of a sweep
- * are independent. */
+/* Parses "exposure". The frames of a film of a playground have no common exposure, because they are not known in
+ * advance. Scenes of a sweep are independent. */
 static enum kd_status read_exposure(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;

@@ -10,8 +10,8 @@
  * The last one is a film. Its frame k shows a playground, in the format of kerrd playground, at the time k times
  * `every`, or earlier if the playground's budget of sub-steps does not reach that time. "scene" is merged over the
  * default view of the playground, and keyframes move the camera. Keyframes are described in scene/timeline.h; without a
- * keyframe at frame 0, "scene" is the scene there. Axes are described in scene/sweep.h. With "output": "light-curve"
- * each frame is measured instead of drawn (render/output/series.h).
+ * keyframe at frame 0, "scene" is the scene at frame 0. Axes are described in scene/sweep.h. With "output":
+ * "light-curve" each frame is measured instead of drawn (render/output/series.h).
  *
  * "motion_blur": {"samples": N, "shutter": S}: the light of frame k is the mean of the light of N pictures, at k, k +
  * S/N, ..., k + S (N - 1)/N. The default of S is 0.5. Only for pictures between keyframes.
@@ -35,18 +35,18 @@
 
 struct kd_job_spec {
     unsigned frames;
-    struct kd_timeline timeline; /* listed: a key for each frame; otherwise the keyframes */
+    struct kd_timeline timeline; /* listed: a key for each frame; otherwise the keyframes of the request */
     bool listed;
     struct kd_sweep *sweep;          /* NULL: the request has no axes */
     double every;                    /* time between two frames of a film, in M; 0: not a film */
     struct kd_dynamic_bodies *first; /* the bodies at the beginning of a film, for planning; NULL afterwards */
-    const struct kd_series *series;  /* the request's "output": what the job makes of its frames */
+    const struct kd_series *series;  /* the request's "output": the product that the job makes of its frames */
     bool one_exposure;               /* frames whose exposure is "auto" share one exposure */
     struct {
         unsigned samples;
         double shutter;
     } blur; /* samples 0: no blur */
-    /* The common exposure in stops. NAN: each frame has its own, or the common one is not measured yet
+    /* The common exposure in stops. NAN: each frame has its own exposure, or the common exposure is not measured yet
      * (job/exposure.h). */
     double exposure;
 };
@@ -54,18 +54,19 @@ struct kd_job_spec {
 /* The scene over which a request's scenes are merged, and values that replace parts of the request. */
 struct kd_job_base {
     const char *preset; /* name of a preset of scenes; NULL or "": none */
-    /* a scene instead of a preset; NULL: the defaults, or the default view of the playground */
+    /* a scene in place of a preset; NULL: the defaults, or the default view of the playground */
     const struct kd_scene *scene;
     unsigned samples; /* samples of motion blur, in place of the request's; 0: the request's */
     double shutter;   /* shutter as a fraction of a frame's time; 0: the request's */
-    /* Changes the scene of a sequence, or each scene of a list, before keyframes are merged over it. NULL: no
-     * change. */
+    /* Callback that changes the scene of a sequence, or each scene of a list, before keyframes are merged over it.
+     * NULL: no change. */
     enum kd_status (*change)(void *user, struct kd_scene *scene, struct kd_error *error);
     void *user;
 };
 
-/* Parses and validates a request. assets: those that scenes may use; NULL: hashes are not checked. Afterwards every
- * scene of a list and every keyframe is valid. KD_EINVAL with a pointer into the request, or to /preset. */
+/* Parses and validates a request. assets: the assets that scenes may use; NULL: hashes are not checked. After
+ * success every scene of a list and every keyframe is valid. KD_EINVAL with a pointer into the request, or to
+ * /preset. */
 enum kd_status kd_job_spec_parse(const char *text, size_t length, const struct kd_job_base *base,
                                  const struct kd_assets *assets, struct kd_job_spec *out, struct kd_error *error);
 void kd_job_spec_finish(struct kd_job_spec *spec);

@@ -58,7 +58,7 @@ static struct agreement agree(const struct search *s, double east, double north)
     return a;
 }
 
-/* Agreement at each cell of a grid. From cell to cell a phase turns by a constant factor. */
+/* Agreement at each cell of a grid of shifts. From cell to cell, a phase turns by a constant factor. */
 static void fill_cells(const struct search *s, double cell, int cells)
 {
     const int side = 2 * cells + 1;
@@ -98,7 +98,7 @@ static bool find_shift(const struct search *s, double *east, double *north)
     for (int i = 0; i < NEWTON_STEPS; i++) {
         const struct agreement a = agree(s, *east, *north);
         const double determinant = a.bend[0] * a.bend[2] - a.bend[1] * a.bend[1];
-        if (!(determinant > 0) || !(a.bend[0] < 0)) /* no maximum near here */
+        if (!(determinant > 0) || !(a.bend[0] < 0)) /* there is no maximum near this place */
             return false;
         const double x = (a.bend[2] * a.slope[0] - a.bend[1] * a.slope[1]) / determinant,
                      y = (a.bend[0] * a.slope[1] - a.bend[1] * a.slope[0]) / determinant;
@@ -225,7 +225,7 @@ static void refine_best(struct search *s, struct kd_align_vertex *grid, int n, c
         dimension[dimensions++] = 0;
     if (s->p->solve & KD_ALIGN_ANGLE)
         dimension[dimensions++] = 1;
-    if (kd_pause()) /* the search was given up, so the grid is incomplete */
+    if (kd_pause()) /* the grid is incomplete, because the search was given up */
         return;
     qsort(grid, (size_t)n, sizeof *grid, by_value);
     for (int i = 0; i < n && starts < STARTS; i++) {
@@ -261,7 +261,7 @@ void kd_align(const struct kd_comparison *c, const struct kd_align_params *param
                         .best = KD_ALIGNMENT_NONE,
                         .best_total = INFINITY };
     s.best.scale = s.given_scale;
-    memset(s.best.converged, 0, sizeof s.best.converged); /* this value is used if chi^2 is nowhere finite */
+    memset(s.best.converged, 0, sizeof s.best.converged); /* this result remains if chi^2 is nowhere finite */
     for (size_t i = 0; i < c->n; i++)
         s.longest = fmax(s.longest, fmax(fabs(c->at[i].u), fabs(c->at[i].v)));
     search_grid(&s, room->grid, sizes, angles, step);

@@ -2,9 +2,9 @@
  *
  * chi^2 is summed over all data of the comparison. Size and orientation are searched on a grid first, because closure
  * phases give chi^2 several minima. The best places of the grid are then refined by the simplex method of J. A. Nelder
- * & R. Mead 1965, Comput. J. 7, 308. At each of them the flux follows in closed form (kd_comparison_scale). The shift
- * follows from a grid and Newton's method, because it affects only the sum of Re(d* m exp(2 pi i (u x + v
- * y)))/sigma^2. */
+ * & R. Mead 1965, Comput. J. 7, 308. At each place the flux follows in closed form (kd_comparison_scale). The shift is
+ * found by a grid and Newton's method. These are cheap, because the shift affects only the sum of Re(d* m exp(2 pi i (u
+ * x + v y)))/sigma^2. */
 #ifndef KD_OBSERVE_ALIGN_H
 #define KD_OBSERVE_ALIGN_H
 
@@ -46,8 +46,8 @@ struct kd_align_room {
 
 /* Number of evaluations of the model that a search needs at most. */
 unsigned kd_align_evaluations(unsigned solve);
-/* Searches. On entry *out has the scale to be used if the flux is not solved for; on return it has the result. model[i]
- * is then the model's visibility at *out with its shift, without the scale. */
+/* Runs the search. On entry *out has the scale that is used if the flux is not solved for. On return *out has the
+ * result, and model[i] is the model's visibility for this result, with its shift and without its scale. */
 void kd_align(const struct kd_comparison *comparison, const struct kd_align_params *params, struct kd_align_room *room,
               double (*model)[2], struct kd_alignment *out);
 /* Shifts a model to the east and to the north, by radians. */

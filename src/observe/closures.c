@@ -8,7 +8,7 @@
 
 #define DEG (180 / M_PI)
 
-/* Table that finds the visibility of two stations at one time. */
+/* Table that gives the visibility of two stations at one time. */
 struct table { uint32_t at[KD_OBSERVATION_STATIONS][KD_OBSERVATION_STATIONS]; /* index plus 1; 0: none */ };
 
 static bool find(const struct table *t, struct kd_comparison_row *row, int k, uint8_t first, uint8_t second)

@@ -67,8 +67,8 @@ static enum kd_status add_amplitude(struct kd_comparison *c, const struct kd_com
     return amplitude / m->sigma >= p->snr_cut ? kd_comparison_add(c, &row, error) : KD_OK;
 }
 
-/* Adds both parts of a visibility. The error is that of each part. The cut and systematic.amplitude use the amplitude
- * as add_amplitude does. */
+/* Adds two rows, for the real and the imaginary part of a visibility. The error is that of each part. The cut and
+ * systematic.amplitude use the same amplitude as in add_amplitude. */
 static enum kd_status add_visibility(struct kd_comparison *c, const struct kd_comparison_params *p, size_t i,
                                      struct kd_error *error)
 {

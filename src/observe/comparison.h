@@ -21,17 +21,17 @@ enum kd_product {
 extern const char *const kd_product_names[KD_PRODUCTS];
 
 struct kd_comparison_params {
-    unsigned products; /* one bit for each enum kd_product */
-    /* These are applied in this order. average_s: visibilities are averaged in bins of this length, counted from
-     * 1960-01-01; 0: no averaging. uv_min_gl: shorter baselines are left out. systematic_visibility: this fraction of
-     * the amplitude is added to the error in quadrature. */
+    unsigned products; /* bit mask: one bit for each enum kd_product */
+    /* The next three steps are applied in this order. average_s: visibilities are averaged in bins of this length,
+     * counted from 1960-01-01; 0: no averaging. uv_min_gl: shorter baselines are left out. systematic_visibility:
+     * this fraction of the amplitude is added to the error in quadrature. */
     double average_s, uv_min_gl, systematic_visibility;
     /* fractional error of each station: sqrt 2 times this fraction is added to an amplitude's error */
     double systematic_amplitude;
     double systematic_closure_phase_deg; /* added to a closure phase's error */
     double snr_cut;                      /* data with a smaller signal-to-noise ratio are left out */
-    /* amplitudes are used as measured; otherwise they are debiased to sqrt(|V|^2 - sigma^2), and closures are debiased
-     * too */
+    /* true: amplitudes are used as measured; false: they are debiased to sqrt(|V|^2 - sigma^2), and closures are
+     * debiased too */
     bool measured;
     /* all triangles and quadrangles are used; otherwise a minimal set, which contains the first station */
     bool maximal;
@@ -43,11 +43,11 @@ struct kd_comparison_row {
     enum kd_product product;
     bool imaginary;
     double hour;
-    /* 2, 3 or 4 stations. With 2 stations the datum uses V of the baseline 12; with 3, of 12, 23 and 31; with 4, of 12,
-     * 34, 14 and 23 */
+    /* 2, 3 or 4 stations. With 2 stations the datum uses V of the baseline 12. With 3 stations it uses the baselines
+     * 12, 23 and 31; with 4 stations, 12, 34, 14 and 23 */
     uint8_t station[4];
     uint32_t at[4];    /* indices of the visibilities in `at` of struct kd_comparison */
-    bool conjugate[4]; /* this visibility is stored for the reverse baseline */
+    bool conjugate[4]; /* this visibility is stored for the opposite direction of its baseline */
     double data, error, model;
 };
 unsigned kd_product_stations(enum kd_product product);
@@ -66,18 +66,19 @@ enum kd_status kd_comparison_make(const struct kd_observation *observation, cons
                                   struct kd_comparison *out, struct kd_error *error);
 void kd_comparison_finish(struct kd_comparison *comparison);
 
-/* Factor by which the model must be multiplied to minimise the chi^2 of amplitudes and visibilities: the sum of d m /
- * sigma^2 divided by the sum of m^2 / sigma^2, where d is the data and m the model. NaN if there are no such data, if
- * the model has no light, or if no factor above 0 is best. */
+/* Factor by which the model must be multiplied to minimise the chi^2 of amplitudes and visibilities: the sum of d m
+ * / sigma^2 divided by the sum of m^2 / sigma^2, where d is the data and m the model. NaN if there are no such data,
+ * if the model has no light, or if the best factor is not above 0. */
 double kd_comparison_scale(const struct kd_comparison *comparison, const double (*model)[2]);
 /* Fills `model` of each row and computes chi^2 divided by the number of data; NaN for a product without data. */
 void kd_comparison_judge(struct kd_comparison *comparison, const double (*model)[2], double chi2[KD_PRODUCTS]);
-/* Sum of chi^2 over all data, for the model times `scale`. Leaves the rows as they are. */
+/* Sum of chi^2 over all data, for the model times `scale`. Does not change the rows. */
 double kd_comparison_total(const struct kd_comparison *comparison, const double (*model)[2], double scale);
-/* (data - model) / error. The difference of two phases is reduced to within 180 degrees. */
+/* (data - model) / error. The difference of two phases is first reduced to the range -180 to 180 degrees. */
 double kd_comparison_residual(const struct kd_comparison_row *row);
 
-/* Fourier transform of a pixel's shape at a baseline. The baseline is given in turns for each pixel along each axis. */
+/* Fourier transform of a pixel's shape at a baseline. For each axis, the baseline is given in turns of the phase
+ * across one pixel. */
 enum kd_pixel_shape { KD_PULSE_TRIANGLE, KD_PULSE_RECTANGLE, KD_PULSE_POINT };
 double kd_pulse_at(enum kd_pixel_shape pulse, double u_pixel, double v_pixel);
 

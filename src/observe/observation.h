@@ -26,7 +26,7 @@ struct kd_measured {
     double u, v;          /* baseline in wavelengths */
     double re, im, sigma; /* visibility and its error in Jy */
     uint8_t station[2];   /* indices of the two stations; the first is lower than the second */
-    bool turned;          /* the file has the reverse baseline */
+    bool turned;          /* in the file the baseline has the opposite direction */
     uint32_t source;      /* number of the file's group, from 0 */
 };
 
@@ -34,13 +34,13 @@ struct kd_observation {
     char source[40];
     double mjd; /* modified Julian date of the observation, at 0 h UTC */
     double frequency_hz;
-    /* names, in the order in which a minimal set of closures takes the stations (observe/comparison.h) */
+    /* names, in the order in which a minimal set of closures uses the stations (observe/comparison.h) */
     char station[KD_OBSERVATION_STATIONS][KD_STATION_NAME];
     uint32_t stations;
     struct kd_measured *at; /* malloc'd; sorted by time, then by stations; each time and baseline occurs once */
     size_t n;
     uint32_t flagged;   /* number of visibilities left out because their weight is not positive */
-    uint32_t duplicate; /* number of visibilities left out because their time and baseline had occurred before */
+    uint32_t duplicate; /* number of visibilities left out as repetitions of the same time and baseline */
 };
 
 enum kd_observation_kind { KD_OBSERVATION_NONE, KD_OBSERVATION_CSV, KD_OBSERVATION_UVFITS };

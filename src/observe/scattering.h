@@ -17,7 +17,7 @@ enum { KD_SCATTERING_POINTS = 192 };
 struct kd_scattering { double weight[KD_SCATTERING_POINTS], strength, wavelength_cm; };
 
 void kd_scattering_sgra(struct kd_scattering *out, double frequency_hz);
-/* Factor at a baseline, in wavelengths to the east and to the north. Takes some 0.03 ms. */
+/* Factor for a baseline, which is given in wavelengths to the east and to the north. Takes some 0.03 ms. */
 double kd_scattering_at(const struct kd_scattering *scattering, double u, double v);
 
 #endif

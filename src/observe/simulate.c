@@ -39,7 +39,7 @@ static void put(uint8_t *at, bool is_double, double value)
         at[n] = (uint8_t)word;
 }
 
-/* Replaces the numbers of one group. model NULL: the group is not part of the observation. */
+/* Replaces the data of one group. model NULL: the group is not part of the observation. */
 static void fill_group(const struct kd_simulation *s, const struct groups *g, size_t group, uint8_t *data,
                        const double model[2])
 {

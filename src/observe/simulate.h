@@ -1,7 +1,8 @@
 /* Visibilities of a model as an array would have measured them, with its noise. Any thread.
  *
  * The noise is Gaussian and independent between visibilities, with the error of the observation for each of the real
- * and the imaginary part. It depends on the seed and on a visibility's number in the file alone. */
+ * and the imaginary part. The noise of a visibility depends only on the seed and on the visibility's number in the
+ * file. */
 #ifndef KD_OBSERVE_SIMULATE_H
 #define KD_OBSERVE_SIMULATE_H
 
@@ -16,7 +17,7 @@ struct kd_simulation {
      * visibilities into them. Weights and flagged data stay unchanged. */
     uint8_t *file;
     size_t size;
-    uint8_t *marks; /* if there is a file: KD_SIMULATION_MARKS bytes, all 0 */
+    uint8_t *marks; /* if there is a file: KD_SIMULATION_MARKS bytes, initially 0 */
     bool noise;
     uint64_t seed;
 };

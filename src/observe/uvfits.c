@@ -163,7 +163,7 @@ static enum kd_status read_stations(const struct file *f, const struct hdu *hdu,
     enum kd_status status;
     KD_TRY(read_whole(f, hdu, "NAXIS1", 1, 1 << 16, &row));
     KD_TRY(read_whole(f, hdu, "NAXIS2", 2, KD_OBSERVATION_STATIONS, &rows));
-    if (row * rows > f->size - hdu->begin) /* the table's length follows from NAXIS and BITPIX, which may be wrong */
+    if (row * rows > f->size - hdu->begin) /* NAXIS and BITPIX determine the table's length, and they may be wrong */
         return kd_error_set(f->error, KD_EINVAL,
                             "the table AIPS AN has %zu rows of %zu bytes; the uvfits must hold them all, but ends %zu "
                             "bytes after the table's header",
@@ -358,8 +358,8 @@ static double mean_of(const struct groups *g, const uint8_t *data, size_t hand, 
     return weight;
 }
 
-/* Error for a weight. It is computed in single precision, in which weights are stored, as in ehtim. Where an amplitude
- * is about as large as its error, sqrt(|V|^2 - sigma^2) depends on the precision of the error. */
+/* Error that belongs to a weight. As in ehtim, it is computed in single precision, in which weights are stored.
+ * Where an amplitude is about as large as its error, sqrt(|V|^2 - sigma^2) depends on the precision of the error. */
 static double error_of(double weight) { return (double)(1 / sqrtf((float)weight)); }
 
 /* Reads Stokes I and its error. Returns false if no weight is positive. */

@@ -6,7 +6,7 @@
 
 struct hdu {
     const char *cards;
-    size_t n_cards, begin, size; /* begin, size: of the HDU's data, without padding */
+    size_t n_cards, begin, size; /* begin, size: position and size of the HDU's data, without padding */
 };
 
 struct file {

@@ -1,4 +1,4 @@
-/* A request for orbits as plain values: one orbit, and the parameters of all. Any thread. */
+/* A request for orbits as plain values: one orbit, and the parameters that all orbits share. Any thread. */
 #ifndef KD_ORBIT_ASKED_H
 #define KD_ORBIT_ASKED_H
 
@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define KD_ORBIT_SAMPLES_MAX 200000u /* limit for one orbit, and for the sum over many orbits */
+#define KD_ORBIT_SAMPLES_MAX 200000u /* limit of samples of one orbit, and of the sum over many orbits */
 
 enum kd_orbit_form { KD_ORBIT_SHAPE, KD_ORBIT_CONSTANTS, KD_ORBIT_STATE, KD_ORBIT_CASE, KD_ORBIT_FORMS };
 
@@ -22,7 +22,7 @@ const char *kd_orbit_way_name(enum kd_orbit_way way); /* "yoshida6", "rkn6", "cl
 struct kd_orbit_spec {
     enum kd_orbit_form form;
     /* NAN: as in the request. If the request does not give the parameter either, the spin is that of the named case,
-     * and all others are 0 */
+     * and all other parameters are 0 */
     KD_HOLE_MEMBERS
     double p, e, inclination_deg;
     double energy, momentum, carter, r; /* r: NAN if not given */
@@ -34,12 +34,13 @@ struct kd_orbit_spec {
 };
 
 struct kd_orbit_params {
-    KD_HOLE_MEMBERS /* NAN: not given. The parameter is then 0, but the spin is that of the named case, if there is
-                      one */
-        double periods,
+    /* NAN: not given. The parameter is then 0; a spin that is not given is that of the named case, if there is one */
+    KD_HOLE_MEMBERS
+    double periods,
         /* Duration: radial periods (turns, if r is constant), or t in M. At most one is given, the other is NAN. */
         time;
-    bool or_end;  /* follow a plunging or escaping orbit, which has no periods, to its end instead of refusing it */
+    /* follow a plunging or escaping orbit to its end; otherwise such orbits, which have no periods, are errors */
+    bool or_end;
     double r_max; /* radius at which an escaping orbit ends; 100 by default */
     /* Relative error allowed in a radial period, 1e-12 by default. It determines the step if `steps` is 0. */
     double tolerance;

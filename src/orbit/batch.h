@@ -7,12 +7,13 @@
 #include <stdatomic.h>
 
 struct kd_orbit_batch {
-    /* results, to be read once the batch is done */
+    /* results; read them only when the batch is done */
     const struct kd_orbit_request *request;
     struct kd_orbit_run *runs;
     struct kd_orbit_sample *samples; /* NULL without series */
     size_t n;
-    bool (*stop)(void *user); /* polled by the worker threads unless NULL; true abandons the batch */
+    /* polled by the worker threads, unless it is NULL; if it returns true, the batch is abandoned */
+    bool (*stop)(void *user);
     void *user;
     /* private */
     _Atomic size_t next, finished;
@@ -28,7 +29,7 @@ size_t kd_orbit_batch_bytes(const struct kd_orbit_request *request);
 
 /* Follows the next few orbits to their ends; false if none are left to begin. Any thread, several at once. */
 bool kd_orbit_batch_turn(struct kd_orbit_batch *batch);
-/* true when nothing is running and nothing will be started */
+/* true when nothing is running and nothing more will be started */
 bool kd_orbit_batch_done(const struct kd_orbit_batch *batch);
 
 #endif

@@ -27,7 +27,7 @@ struct kd_orbit_spec kd_orbit_case_spec(enum kd_orbit_case which, struct kd_hole
         return mercury(given);
     struct kd_orbit_spec spec = { .form = KD_ORBIT_SHAPE, KD_HOLE_FROM(&given) };
     const struct kd_hole hole = kd_hole_from(given);
-    if (!kd_hole_exists(&hole)) /* such a hole is refused later */
+    if (!kd_hole_exists(&hole)) /* a hole that does not exist is refused later */
         return spec;
     switch (which) {
     case KD_CASE_ZOOM_WHIRL: /* p exceeds the separatrix by 1e-4 of its value: several turns of whirl for each radial

@@ -1,5 +1,5 @@
-/* A feed: produces the bytes of an answer from a request in pieces of some 30 ms. POST /v1/orbits and `kerrd orbit`
- * share it. */
+/* A feed: produces the bytes of an answer from a request in pieces of some 30 ms. Both POST /v1/orbits and `kerrd
+ * orbit` use a feed. */
 #ifndef KD_ORBIT_FEED_H
 #define KD_ORBIT_FEED_H
 
@@ -19,14 +19,14 @@ struct kd_orbit_feed {
     struct kd_orbit_sample samples[KD_ORBIT_FEED_SAMPLES];
 };
 
-/* The request must have been checked, and must outlive the feed. This solves every orbit, and fails with KD_EINVAL like
- * kd_orbit_run_init. NDJSON is for one orbit only. */
+/* The request must have been checked, and must outlive the feed. The function solves every orbit, and fails with
+ * KD_EINVAL as kd_orbit_run_init does. NDJSON is for one orbit only. */
 enum kd_status kd_orbit_feed_init(struct kd_orbit_feed *feed, const struct kd_orbit_request *request,
                                   enum kd_orbit_format format, struct kd_error *error);
 void kd_orbit_feed_finish(struct kd_orbit_feed *feed);
 
-/* Appends the next piece to `out`; for many orbits it appends nothing until all are done. Fails with KD_EINVAL like
- * kd_orbit_run_prepare, before anything is written. */
+/* Appends the next piece to `out`; for many orbits it appends nothing until all are done. Like kd_orbit_run_prepare,
+ * it may fail with KD_EINVAL before anything is written. */
 enum kd_status kd_orbit_feed_more(struct kd_orbit_feed *feed, struct kd_buffer *out, struct kd_error *error);
 bool kd_orbit_feed_done(const struct kd_orbit_feed *feed);
 double kd_orbit_feed_fraction(const struct kd_orbit_feed *feed);

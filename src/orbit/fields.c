@@ -273,7 +273,8 @@ static const struct kd_row fields[] = {
 #undef AT
 };
 
-/* A duration is given by one member; or_end belongs to durations without periods. An observer needs a place. */
+/* A duration has exactly one of its members; or_end is only for durations other than periods. An observer needs a
+ * position. */
 static const struct kd_document_not nots[] = {
     { "duration", "{\"anyOf\":[{\"required\":[\"periods\",\"time\"]},{\"required\":[\"or_end\"],\"properties\":{\"or_"
                   "end\":{\"const\":true}},\"not\":{\"required\":[\"periods\"]}}]}" },

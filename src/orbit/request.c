@@ -233,7 +233,7 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
 static double rounding_of(const struct kd_orbit_spec *s, const struct kd_orbit *orbit,
                           const struct kd_orbit_state *start)
 {
-    /* p and e give the turning points exactly */
+    /* for an orbit given by p and e, the turning points are known exactly */
     bool given = s->form == KD_ORBIT_CONSTANTS || s->form == KD_ORBIT_STATE;
     return given ? 4 * DBL_EPSILON * kd_orbit_whirl(orbit, start, NULL) : 0;
 }
@@ -278,7 +278,7 @@ static enum kd_status solve(const struct kd_orbit_spec *s, const struct kd_orbit
     return status ? status : check_whirl(s, orbit, start, rounding, error);
 }
 
-/* Sets the parameters of the hole that the orbit does not have. The spin stays open where a named case may have its
+/* Sets the parameters of the hole that the orbit does not give. The spin stays open where a named case may have its
  * own. */
 static void inherit(struct kd_orbit_spec *spec, const struct kd_orbit_params *params)
 {

@@ -30,7 +30,7 @@
 /* Maximum number of samples with an observer. Each takes some 2 ms; a stream ends when its client disconnects. */
 #define KD_ORBIT_SEEN_MAX 20000u
 #define KD_ORBIT_ROUNDING_MAX 1e-3
-#define KD_ORBIT_STEPS_MAX 1000000000. /* maximum number of steps of one orbit; so many steps take five minutes */
+#define KD_ORBIT_STEPS_MAX 1000000000. /* maximum number of steps of one orbit, which take five minutes */
 
 struct kd_orbit_request {
     struct kd_orbit_params params;
@@ -47,16 +47,16 @@ void kd_orbit_request_finish(struct kd_orbit_request *request);
 enum kd_status kd_orbit_request_json(struct kd_orbit_request *request, const char *text, size_t length,
                                      struct kd_error *error);
 
-/* Sets one parameter, or one field of the orbit (request->specs[0], which is created by its first field), by the
- * last part of its name. */
+/* Sets one parameter, or one field of the orbit, by the last part of its name. The orbit is request->specs[0], which
+ * the first of its fields creates. */
 enum kd_status kd_orbit_request_set(struct kd_orbit_request *request, const char *name, const char *text,
                                     struct kd_error *error);
 /* Call after the last kd_orbit_request_set: checks that there is a complete orbit. */
 enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, struct kd_error *error);
 
 /* Solves for the motion that a spec describes. KD_EINVAL has the pointer within the request, such as "/orbits/17/p".
- * The result does not include the initial azimuth. *rounding: for a whirl, which is close to an unstable circular
- * orbit, the error that rounding of the constants causes, relative to the whole path. If it exceeds
+ * The result does not include the initial azimuth. *rounding is for a whirl, which is close to an unstable circular
+ * orbit. It is the error caused by rounding of the constants of motion, relative to the whole path. If it exceeds
  * KD_ORBIT_ROUNDING_MAX, the orbit is refused. */
 enum kd_status kd_orbit_request_solve(const struct kd_orbit_request *request, size_t index, struct kd_orbit *orbit,
                                       struct kd_orbit_state *start, double *rounding, struct kd_error *error);

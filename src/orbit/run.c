@@ -10,11 +10,11 @@
 
 #define LONGEST_TURNS 1000 /* maximum turns of an orbit followed to its end: a whirl next to an unstable circle */
 #define DEFAULT_PERIODS 10
-/* after this many samples in a row without an image, only one sample in SEARCH_EVERY gets a full search */
+/* after this many samples in a row without an image, only one sample in SEARCH_EVERY gets a full search for an image */
 #define SEARCHES 3
 #define SEARCH_EVERY 64
-/* The search for an orbit's end halves the step this often. Each halving reduces the error by a factor of 64, from
- * about 1e-10 down to rounding. */
+/* The search for an orbit's end halves the step up to this many times. Each halving reduces the error by a factor of
+ * 64, from about 1e-10 down to rounding. */
 #define HALVINGS 6
 
 const char *kd_orbit_end_name(enum kd_orbit_end end)
@@ -75,7 +75,7 @@ enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run)
     return run->params->way == KD_WAY_RKN6 ? KD_ORBIT_RKN6 : KD_ORBIT_YOSHIDA6;
 }
 
-/* Solves t(Mino time) = time; t is monotonic. */
+/* Solves t(Mino time) = time by bisection; t is monotonic. */
 static double mino_at(const struct kd_orbit_run *run, double time)
 {
     double low = 0, high = time / run->frequencies.mino_t + 2 * run->period;
@@ -91,18 +91,18 @@ static double mino_at(const struct kd_orbit_run *run, double time)
     return high;
 }
 
-/* True if a step went where the constants of motion forbid: through a turning point, or back without one. Close to a
- * whirl a step that is too long does this. */
+/* True if a step went where the constants of motion forbid: past a turning point, or back without reaching one.
+ * Close to a whirl, a step that is too long does this. */
 static bool strays(const struct kd_orbit *o, const struct kd_orbit_path *before, const struct kd_orbit_path *path)
 {
-    bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* also true for NAN */
+    bool fallen = !(path->place[KD_PATH_W].value < 1 / o->hole.outer); /* true for NAN as well */
     if (o->fate == KD_ORBIT_ESCAPE)
         return fallen;
     return !o->circular && !fallen && before->rate[KD_PATH_W].value > 0 && !(path->rate[KD_PATH_W].value > 0);
 }
 
-/* the search for the end is given up only after this many steps, which take about a second: far out, steps may be too
- * short for the path ever to arrive */
+/* the search for the end is given up only after this many steps, which take about a second. Far out, the steps may
+ * be so short that the path would never arrive */
 #define SEARCH_STEPS 5e6
 
 /* Finds the end of an unbound path by following it once in steps of h. The end is at the horizon, far away, or at the
@@ -131,7 +131,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
             return false;
         double w = path.place[KD_PATH_W].value, rate = path.rate[KD_PATH_W].value;
         bool falls = o->fate == KD_ORBIT_PLUNGE && w >= horizon;
-        /* the path turned within the step; for E = 1 it comes from infinity */
+        /* the path turned within the step; with E = 1 it comes from infinity */
         bool back = before.rate[KD_PATH_W].value < 0 && rate >= 0;
         bool leaves = o->fate == KD_ORBIT_ESCAPE && ((w <= far && rate < 0) || back);
         if (falls || leaves) {
@@ -151,7 +151,7 @@ static bool find_end(struct kd_orbit_run *run, double h)
     run->mino_end = path.mino.value;
     return !isnan(run->aim) || o->circular ||
            path.place[KD_PATH_W].value ==
-               run->start.w; /* the path ends at its start if the body starts on an unstable circle */
+               run->start.w; /* if the body starts on an unstable circle, the path ends at its start */
 }
 
 static enum kd_status no_end(const struct kd_orbit_run *run, struct kd_error *error)
@@ -181,7 +181,8 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     for (int i = 0; i < HALVINGS; i++, h *= 0.5) {
         if (!find_end(run, h))
             continue;
-        /* Close enough for a whirl: steps are tried up to this end, and infinity lies beyond it */
+        /* For a whirl, an end that changes by less than 1e-9 is accurate enough. Steps are then tried up to this
+         * end, and infinity lies beyond it */
         found = true;
         if (!(run->rounding > 1e-12) || fabs(run->mino_end - before) < 1e-9 * run->mino_end)
             return KD_OK;
@@ -246,14 +247,14 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
     enum kd_status status = cut(run, error);
     if (!status && !run->closed && !isnan(run->aim))
         status = find_end_again(run, error);
-    if (run->rounding > 1e-12) /* below this the error is negligible */
+    if (run->rounding > 1e-12) /* smaller errors are negligible */
         run->error_estimate = fmax(run->error_estimate, run->rounding);
     if (run->start.w_rate == 0 && kd_orbit_radial_slope(&run->orbit, run->start.w) < 0 && !run->orbit.circular) {
         run->periastra = 1;
         run->first_phi = run->last_phi = 0;
     }
     double pace = sqrt(
-        fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: one step across w cannot resolve it */
+        fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2, which one step across w cannot resolve */
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
         return kd_error_field(
             error, "/r_max",
@@ -310,7 +311,7 @@ static void take_worst(struct kd_orbit_drift *worst, struct kd_orbit_drift now)
 {
     worst->energy = fmax(worst->energy, fabs(now.energy));
     worst->carter = fmax(worst->carter, fabs(now.carter));
-    worst->mass = fmax(worst->mass, fabs(now.mass)); /* fmax ignores a NAN */
+    worst->mass = fmax(worst->mass, fabs(now.mass)); /* fmax ignores NAN */
     worst->binet = isnan(now.binet) ? NAN : fmax(worst->binet, fabs(now.binet));
 }
 

@@ -18,8 +18,9 @@ enum kd_status kd_orbit_run_init(struct kd_orbit_run *run, const struct kd_orbit
 
 enum kd_orbit_method kd_orbit_run_method(const struct kd_orbit_run *run);
 
-/* Finds the end, and a step that meets the tolerance. Takes up to a second for one run; several runs are tried side by
- * side. Returns KD_EINVAL with the pointer "/duration" or "/method" if there is no such end or step. */
+/* Finds the end, and a step that meets the tolerance. Takes up to a second for one run. Several runs are tried
+ * together in SIMD lanes. Returns KD_EINVAL with the pointer "/duration" or "/method" if there is no such end or
+ * step. */
 enum kd_status kd_orbit_run_prepare(struct kd_orbit_run *const *runs, size_t n, struct kd_error *error);
 
 /* Advances by up to `steps` steps and `room` samples; returns the number of samples written. */

@@ -21,16 +21,16 @@ struct kd_orbit_run {
                   * and `period` are not set */
     struct kd_orbit_bound bound;
     struct kd_orbit_frequencies frequencies;
-    double period; /* Mino time of a radial period; of a turn in phi if r is constant */
+    double period; /* Mino time of a radial period; if r is constant, of a turn in phi */
     /* set by kd_orbit_run_prepare */
     enum kd_orbit_end end;
     double mino_end, h;
-    double aim; /* for an unbound path: 1/r or t of its last place; NAN if the path ends when its time is over */
+    double aim; /* for an unbound path: 1/r or t at its end; NAN if the path ends because its duration is over */
     uint64_t steps, done;
     uint32_t samples, sampled;
-    /* Relative error of the place after a period (or at the end of the whole path). It is estimated from a run with
-     * half the number of steps, or is `rounding` if that is larger. NAN if neither is known: `steps` was given, or the
-     * closed form is used, and there is no whirl. */
+    /* Relative error of the place after a period (or at the end of the whole path). The estimate is from a run with
+     * half the number of steps. If `rounding` is larger, the estimate is `rounding`. NAN if neither is known:
+     * `steps` was given, or the closed form is used, and there is no whirl. */
     double error_estimate;
     /* updated by kd_orbit_run_advance */
     struct kd_orbit_path path;
@@ -39,7 +39,7 @@ struct kd_orbit_run {
     double first_phi, last_phi;  /* azimuth at the first and the last periastron */
     struct kd_place_view view;   /* view of the observer */
     struct kd_place_image image; /* the last image found */
-    unsigned missed;             /* number of samples since that image */
+    unsigned missed;             /* number of samples since that image was found */
 };
 
 #endif

@@ -31,8 +31,8 @@ static struct trial begin(const struct kd_orbit_run *run)
     struct trial t = { .last = INFINITY };
     /* t is infinite at the horizon, so the trial stops a little before it. */
     t.span = run->closed ? fmin(run->period, run->mino_end) : (run->end == KD_END_HORIZON ? 0.999 : 1) * run->mino_end;
-    /* On an unbound path the step has an upper limit: the end of a fall is fast, which the start of the span does not
-     * show, and a whirl magnifies errors that are not due to the step. */
+    /* On an unbound path the step has an upper limit, for two reasons. The motion becomes fast at the end of a fall,
+     * which the start of the span does not show. And a whirl magnifies errors that are not due to the step. */
     t.longest = run->closed ? t.span : 2 * M_PI / kd_orbit_pace(&run->orbit) / 256;
     t.n = (uint32_t)fmin(fmax(16, ceil(t.span * kd_orbit_pace(&run->orbit) * 4)), STEPS_MAX / 4);
     return t;
@@ -46,7 +46,7 @@ static double distance(const struct kd_orbit_place *a, const struct kd_orbit_pla
 }
 
 /* For a method of order 6, the error that remains is 1/63 of the change of the result when the step is halved. The
- * search stops when rounding, or a whirl that magnifies it, prevents further gain. */
+ * search stops when rounding, or a whirl that magnifies rounding, prevents further gain. */
 static void judge(struct kd_orbit_run *run, struct trial *t)
 {
     double error = distance(&t->coarse, &t->fine) / 63, tolerance = fmax(run->params->tolerance, 0.1 * run->rounding);

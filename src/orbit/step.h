@@ -7,8 +7,8 @@
 /* Rough maximum phase velocity of the motion per Mino time, to choose a first step by. */
 double kd_orbit_pace(const struct kd_orbit *orbit);
 
-/* Sets run->h from run->params->tolerance, and run->error_estimate, for one run or for up to KD_ORBIT_LANES that
- * kd_orbit_lanes_take. */
+/* Sets run->h and run->error_estimate so that the run meets run->params->tolerance. For one run, or for up to
+ * KD_ORBIT_LANES runs that kd_orbit_lanes_take. */
 void kd_orbit_choose_steps(struct kd_orbit_run *const *runs, int n);
 
 #endif

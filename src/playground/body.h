@@ -4,9 +4,9 @@
  * c. Positions are x, y, z with the hole at the origin and its axis along z.
  *
  * Pictures use r, theta, phi of x, y, z as Boyer-Lindquist coordinates (kd_playground_spherical). That is exact with
- * gravity "kerr", which moves bodies in these coordinates. The potential of Paczynski and Wiita has no metric; its
- * horizon is at 2 and its last stable orbit at 6, as in Schwarzschild's, so its r is used as Schwarzschild's. The
- * approximations say so. */
+ * gravity "kerr", which moves bodies in these coordinates. The potential of Paczynski and Wiita has no metric. Its
+ * horizon is at 2 and its last stable orbit at 6, as in Schwarzschild's metric, so its r is used as the r of
+ * Schwarzschild's metric. The list of approximations mentions this. */
 #ifndef KD_PLAYGROUND_BODY_H
 #define KD_PLAYGROUND_BODY_H
 
@@ -23,12 +23,12 @@ struct kd_playground_body {
     char name[KD_PLAYGROUND_NAME];
     double mass, radius, temperature_k;
     double x[3], v[3];
-    /* Tidal pass: mass and radius before it, the largest r_t/r so far, the fraction of the mass that is lost, and the
-     * fraction already reported by events (tide.h). whole_mass is 0 outside a pass. */
+    /* State of a tidal pass (tide.h): mass and radius of the body before the pass, the largest r_t/r so far, the
+     * fraction of the mass that is lost, and the fraction that events have reported. whole_mass is 0 outside a pass. */
     double whole_mass, whole_radius, depth, shed, told;
-    uint32_t source;    /* number of the source of its debris, valid during a pass */
+    uint32_t source;    /* number of the source of this body's debris, valid during a pass */
     double radiated;    /* orbital energy lost to gravitational waves */
-    bool told_inspiral; /* an event has reported that it is inside 6 M */
+    bool told_inspiral; /* an event has reported that the body is inside 6 M */
 };
 
 /* Spherical coordinates of a position, phi from -pi to pi, and velocity components along these directions. On the

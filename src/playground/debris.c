@@ -86,7 +86,7 @@ static void directions(const double x[3], const double v[3], double e[3][3])
     for (int k = 0; k < 3; k++)
         across[k] = v[k] - out * e[0][k];
     length = kd_playground_radius(across);
-    if (!(length > 1e-9)) { /* radial motion: any tangential direction will do */
+    if (!(length > 1e-9)) { /* for radial motion any tangential direction will do */
         const int k = fabs(e[0][2]) < 0.9 ? 2 : 0;
         for (int i = 0; i < 3; i++)
             across[i] = (i == k) - e[0][k] * e[0][i];
@@ -256,8 +256,8 @@ struct kd_debris_rate kd_debris_rate(const struct kd_debris_source *source, int 
     };
 }
 
-/* False if a bin is only partly covered in time. That is the bin that contains the present, and the first bin in which
- * a piece came back. The last bin is unbounded. */
+/* False if a bin is only partly covered in time. This is true of the bin that contains the present, and of the first
+ * bin in which a piece came back. The last bin is unbounded. */
 static bool is_whole(const struct kd_playground_debris *debris, const struct kd_debris_source *source, int bin)
 {
     const double age = debris->t - source->t;

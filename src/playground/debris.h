@@ -1,8 +1,9 @@
 /* Debris torn off bodies by tides: massless pieces that move in the hole's potential alone and do not interact.
  *
- * Pieces are kept in a ring buffer: a new one replaces the oldest. Between two common times each piece is moved with
- * sub-steps of its own length, C (r - 2). Coordinates are double, because far out the distance moved in a stride is
- * below the resolution of a float. A piece belongs to a source, which is the tidal pass in which it was torn off.
+ * Pieces are kept in a ring buffer: a new one replaces the oldest. Between two common times each piece is moved in
+ * sub-steps; their length is C (r - 2) for the piece's own r. Coordinates are double, because far out the distance
+ * moved in a stride is below the resolution of a float. A piece belongs to a source, which is the tidal pass in which
+ * it was torn off.
  *
  * A source counts the pieces that come back. A piece has come back when it is at the pericentre after its first
  * apocentre (or when the hole captures it after that). The counts are a histogram over the time since the source's
@@ -20,7 +21,8 @@
 
 enum { KD_DEBRIS_SOURCES = 256, KD_DEBRIS_BINS = 128, KD_DEBRIS_PER_DECADE = 16 };
 
-/* LEAVES: before its first apocentre; RETURNS: falling back; BACK: back; FREE: the slot is empty. */
+/* LEAVES: the piece is before its first apocentre. RETURNS: it falls back. BACK: it has come back. FREE: the slot is
+ * empty. */
 enum kd_debris_stage { KD_DEBRIS_FREE, KD_DEBRIS_LEAVES, KD_DEBRIS_RETURNS, KD_DEBRIS_BACK };
 
 struct kd_debris_piece {
@@ -29,14 +31,14 @@ struct kd_debris_piece {
 };
 
 struct kd_debris_source {
-    uint32_t number; /* number of the source, from 1; 0: the place is free */
+    uint32_t number; /* number of the source, from 1; 0: this slot is free */
     char name[KD_PLAYGROUND_NAME];
-    double t;                /* time of the source's first piece */
+    double t;                /* time at which the source's first piece was torn off */
     double piece_mass;       /* mass of one of its pieces */
     double worth;            /* weight of a piece for pictures, as a fraction of a whole body */
     double spread;           /* half width of the pieces' energies, R/r_t^2 */
-    uint32_t pieces;         /* torn off so far */
-    uint32_t captured, lost; /* captured by the hole; replaced by newer pieces */
+    uint32_t pieces;         /* number of pieces torn off so far */
+    uint32_t captured, lost; /* number of pieces captured by the hole; number replaced by newer pieces */
     uint32_t back[KD_DEBRIS_BINS], all_back;
 };
 
@@ -45,8 +47,9 @@ struct kd_playground_debris {
     uint32_t capacity, used, next; /* used: number of slots ever used; next: slot of the next piece */
     uint32_t last_source;          /* number of the newest source; its index is number % KD_DEBRIS_SOURCES */
     uint32_t alive;
-    double haste; /* sum of 1/(r - 2) over the pieces at t: C times the number of their sub-steps in 1 M */
-    double t;     /* common time of all pieces */
+    /* sum of 1/(r - 2) over the pieces at t; this is C times the number of sub-steps that all pieces need for 1 M */
+    double haste;
+    double t; /* common time of all pieces */
     struct kd_debris_source sources[KD_DEBRIS_SOURCES];
 };
 
@@ -73,15 +76,15 @@ struct kd_debris_shed {
 void kd_debris_shed(struct kd_playground_debris *debris, struct kd_debris_source *source,
                     const struct kd_debris_shed *shed);
 
-/* Moves all pieces to time t. With `feeds`, a piece that comes back is counted and removed, because it joins the
- * disk. */
+/* Moves all pieces to time t. With `feeds`, a piece that comes back is counted and then removed, because it joins
+ * the disk. */
 void kd_debris_advance(struct kd_playground_debris *debris, double t, double safety, bool feeds);
 /* Longest stride for which the sub-steps of all pieces together take a fraction of a second. INFINITY if there are no
  * pieces. */
 double kd_debris_stride(const struct kd_playground_debris *debris, double safety);
 
-/* For a bin: its central time and width, and the rate at which mass came back. line: the rate of Rees for a flat
- * distribution of energies, (m/(2 spread)) (2 pi)^(2/3)/3 t^(-5/3), m being the mass of all pieces of the source. */
+/* For each bin: its central time and width, and the rate at which mass came back. line: the rate of Rees for a flat
+ * distribution of energies, (m/(2 spread)) (2 pi)^(2/3)/3 t^(-5/3), where m is the mass of all pieces of the source. */
 struct kd_debris_rate {
     double t, width, rate, line;
     uint32_t pieces;

@@ -31,10 +31,12 @@ struct kd_playground_event {
     enum kd_playground_event_kind kind;
     uint32_t body, other; /* ids of the bodies; other is 0 if there is only one */
     char name[KD_PLAYGROUND_NAME], other_name[KD_PLAYGROUND_NAME];
-    /* Merger: the masses of the two bodies before it. Shedding and disruption: the mass lost, and the mass left. */
+    /* Merger: the masses of the two bodies before the merger. Shedding and disruption: the lost mass, and the mass
+     * that is left. */
     double mass, other_mass;
     double r, energy;
-    double tidal_radius, spread; /* r_t and half width of the debris' energies; NAN for other events */
+    /* Shedding and disruption: tidal radius r_t, and half width of the debris' energies. NAN for other events. */
+    double tidal_radius, spread;
 };
 
 struct kd_playground_events {

@@ -6,7 +6,7 @@
 
 #include <cjson/cJSON.h>
 
-/* Fails with "there is no field X here" and its pointer. */
+/* Fails with the message "there is no field X here", and with the field's pointer. */
 enum kd_status kd_playground_unknown(const char *pointer, const char *name, struct kd_error *error);
 /* Reads an array of n finite numbers of magnitude up to `most`. */
 enum kd_status kd_playground_numbers(double *to, int n, double most, const cJSON *item, const char *pointer,

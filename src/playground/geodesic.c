@@ -11,8 +11,8 @@
     256 /* steps in a radian of the fastest phase: an error of 1e-8 in position after a hundred orbits \
            (tests/unit/playground_kerr.c) */
 
-/* The fastest phase velocity of the motion per Mino time: from the slopes of both forces, and the rate of w on
- * unbound motion. */
+/* The fastest phase velocity of the motion per Mino time. It follows from the slopes of both forces and, on unbound
+ * motion, from the rate of w. */
 static double pace(const struct kd_orbit *o)
 {
     const double w[3] = { o->w_low, 0.5 * (o->w_low + o->w_high), o->w_high };
@@ -84,7 +84,7 @@ bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *
         kd_orbit_path_step(&next, g->h);
         const double then = kd_orbit_path_place(&next).t;
         if (isnan(then) || !(next.place[KD_PATH_W].value > 0) ||
-            g->from_t + then > t) /* the step would pass the horizon, infinity, or t */
+            g->from_t + then > t) /* the step would pass the horizon, infinity or t */
             return true;
         if (!*steps)
             return false;

@@ -4,7 +4,7 @@
  * It is integrated in Mino time with a fixed step, like physics/orbit/orbit_path.h. The place at a coordinate time is
  * found between two steps. Positions are x = r sin(theta) cos(phi), y = r sin(theta) sin(phi), z = r cos(theta) of the
  * Boyer-Lindquist coordinates. A velocity is measured by the local observer of zero angular momentum along e_r,
- * e_theta, e_phi; its components are combined as if these were directions in flat space. */
+ * e_theta, e_phi; its components are combined as if e_r, e_theta and e_phi were directions in flat space. */
 #ifndef KD_PLAYGROUND_GEODESIC_H
 #define KD_PLAYGROUND_GEODESIC_H
 
@@ -13,14 +13,14 @@
 
 #define KD_GEODESIC_FAR 1e6 /* M; a body farther out is removed */
 #define KD_GEODESIC_NEAR \
-    1.05 /* a body is captured within this multiple of the horizon's radius, because by the time of distant observers \
-          * it never reaches the horizon */
+    1.05 /* a body closer than this multiple of the horizon's radius counts as captured, because in the time of \
+          * distant observers it never reaches the horizon */
 
 struct kd_playground_geodesic {
     double from_x[3], from_v[3], from_t; /* initial conditions, which give the constants of motion */
     double phi;                          /* initial azimuth */
     double h;                            /* step in Mino time */
-    struct kd_orbit_path path;           /* state, which is not beyond the time that was last approached */
+    struct kd_orbit_path path;           /* state before or at the time of the last kd_geodesic_approach */
     struct kd_orbit_path begun;          /* state at the last time reached; kd_geodesic_back returns to it */
 };
 
@@ -28,9 +28,9 @@ struct kd_playground_geodesic {
 enum kd_status kd_geodesic_begin(struct kd_playground_geodesic *g, const struct kd_hole *hole, const double x[3],
                                  const double v[3], double t, struct kd_error *error);
 
-/* Advances up to the step that would pass time t, or until the body is captured or far away. t must not decrease from
- * call to call. *steps is the limit of steps; they are subtracted from it. Returns false if no steps are left; the next
- * call then continues. */
+/* Advances up to the step that would pass time t, or until the body is captured or far away. t must not decrease
+ * from call to call. *steps: the number of steps that may be taken; the steps taken are subtracted from it. Returns
+ * false if no steps are left; the next call then continues. */
 bool kd_geodesic_approach(struct kd_playground_geodesic *g, double t, uint32_t *steps);
 enum kd_geodesic_fate { KD_GEODESIC_GOES, KD_GEODESIC_CAPTURED, KD_GEODESIC_AWAY };
 void kd_geodesic_back(struct kd_playground_geodesic *g);

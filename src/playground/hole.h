@@ -2,8 +2,9 @@
  * 1.
  *
  * Phi = -1/(r - 2) (B. Paczynski & P. Wiita 1980, A&A 88, 23). With Newton's kinetic energy v^2/2 it has exactly
- * Schwarzschild's last stable orbit, 6, and marginally bound orbit, 4. It does not limit speeds: a body that falls
- * from rest far away reaches c at r = 4. The integrator caps speeds at 1 and accounts for the energy removed. */
+ * Schwarzschild's last stable orbit, 6, and marginally bound orbit, 4. The potential does not limit speeds: a body that
+ * falls from rest far away reaches c at r = 4. The integrator caps speeds at 1, and counts the energy that the cap
+ * removes. */
 #ifndef KD_PLAYGROUND_HOLE_H
 #define KD_PLAYGROUND_HOLE_H
 
@@ -16,7 +17,7 @@ static inline double kd_playground_radius(const double x[3]) { return sqrt(x[0] 
 
 static inline double kd_playground_potential(double r) { return -1 / (r - KD_PLAYGROUND_HORIZON); }
 
-/* The acceleration at x is this factor times x. */
+/* The acceleration at the position x is this factor times x. */
 static inline double kd_playground_pull(double r)
 {
     return -1 / (r * (r - KD_PLAYGROUND_HORIZON) * (r - KD_PLAYGROUND_HORIZON));

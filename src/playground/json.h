@@ -25,21 +25,21 @@
 enum kd_status kd_playground_read(const char *text, size_t length, struct kd_playground **out, struct kd_error *error);
 /* Replaces *p; on an error *p is unchanged. */
 enum kd_status kd_playground_patch(struct kd_playground **p, const char *text, size_t length, struct kd_error *error);
-/* Creates a playground in two steps, for a caller with members of its own, such as "rate", which it removes from the
- * tree in between. Free *tree with cJSON_Delete. */
+/* Creates a playground in two steps. Between them the caller may remove members of its own, such as "rate", from the
+ * tree. Free *tree with cJSON_Delete. */
 enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error);
 enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground **out, struct kd_error *error);
 enum kd_status kd_playground_patch_tree(struct kd_playground **p, const cJSON *tree, struct kd_error *error);
-/* The preset that a document names; NULL if it names none that exists. */
+/* The preset that a document names; NULL if the document names none, or none that exists. */
 const struct kd_playground_preset *kd_playground_preset_in(const cJSON *tree);
 /* Sets a setting by name from text, as on a command line. */
 enum kd_status kd_playground_params_set(struct kd_playground_params *params, const char *name, const char *text,
                                         struct kd_error *error);
 
-/* Writes {settings, "bodies"}, and with `snapshot` also "state". KD_ENOMEM. */
+/* Writes {settings, "bodies"}. With `snapshot`, also writes "state". KD_ENOMEM. */
 enum kd_status kd_playground_write(struct kd_playground *p, bool snapshot, struct kd_buffer *out);
-/* Writes {"t", "settings", "bodies" with ids, "totals", "debris", "approximations"}: the present state, without what
- * only snapshots need. */
+/* Writes the present state: {"t", "settings", "bodies" with ids, "totals", "debris", "approximations"}. Leaves out
+ * members that only snapshots need. */
 void kd_playground_status_json(struct kd_playground *p, struct kd_json *json);
 
 #endif

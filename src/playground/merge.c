@@ -69,7 +69,7 @@ void kd_playground_merge(struct kd_playground *p, double h)
 {
     double before = 0;
     size_t joined = 0;
-    /* marks bodies whose position before this step is no longer meaningful */
+    /* marks bodies that have merged in this step, whose earlier position has no meaning any more */
     bool grown[KD_PLAYGROUND_BODIES_MAX] = { false };
     for (size_t i = 0; i < p->n; i++) {
         bool again = p->mutual.near[i] > 0 && p->bodies[i].id;
@@ -80,7 +80,7 @@ void kd_playground_merge(struct kd_playground *p, double h)
                 if (j != i && p->bodies[j].id && touched(&p->bodies[i], &p->bodies[j], grown[i] || grown[j] ? 0 : h)) {
                     before = joined++ ? before : kd_playground_totals(p).energy;
                     join(p, &p->bodies[i], &p->bodies[j]);
-                    grown[i] = again = true; /* the larger body may touch others */
+                    grown[i] = again = true; /* the merged body is larger, so it may touch others */
                 }
         }
     }

@@ -43,8 +43,9 @@ void kd_playground_mutual_finish(struct kd_playground_mutual *mutual)
     *mutual = (struct kd_playground_mutual) { 0 };
 }
 
-/* The acceleration by all n bodies of LANES of them, from `first` on. The lanes run in parallel, in vectors if
- * available. Each lane sums over the other bodies in order, so that the result does not depend on the vector width. */
+/* Computes the acceleration of LANES bodies, from index `first` on, by all n bodies. The lanes run in parallel, in
+ * vectors if available. Each lane sums over the other bodies in order, so that the result does not depend on the
+ * vector width. */
 WIDE static void pull(const struct kd_playground_mutual *p, size_t first, size_t n, double softening2, double margin)
 {
     double x[LANES], y[LANES], z[LANES], mass[LANES], radius[LANES], self[LANES], sum[SUMS][LANES] = { 0 };
@@ -74,7 +75,7 @@ WIDE static void pull(const struct kd_playground_mutual *p, size_t first, size_t
     double *const out[SUMS] = { p->ax, p->ay, p->az, p->potential, p->rate, p->near };
     for (size_t s = 0; s < SUMS; s++)
         for (size_t l = 0; l < LANES; l++)
-            out[s][first + l] = sum[s][l] - (s == NEAR); /* a body does not count itself */
+            out[s][first + l] = sum[s][l] - (s == NEAR); /* the count of near bodies excludes the body itself */
 }
 
 void kd_playground_mutual_fill(struct kd_playground_mutual *mutual, const struct kd_playground_body *bodies, size_t n,

@@ -1,4 +1,5 @@
-/* Mutual gravity of bodies: all pairs, softened, in double precision. One thread a kd_playground_mutual.
+/* Mutual gravity of bodies: all pairs, softened, in double precision. One thread at a time uses a struct
+ * kd_playground_mutual.
  *
  * Plummer's softening: the pull of a mass m at distance d is m d/(d^2 + e^2)^(3/2), its potential -m/(d^2 +
  * e^2)^(1/2) (H. Plummer 1911, MNRAS 71, 460). */
@@ -18,9 +19,10 @@ struct kd_playground_mutual {
     double *x, *y, *z, *mass, *radius;
     double *ax, *ay, *az;
     double *potential; /* per unit mass */
-    double *rate;      /* sum of (m_i + m_j)/s^3 over its pairs: the square of a rate that is at least the rate of the
-                        * fastest pair */
-    double *near;      /* number of bodies within R_i + R_j + margin */
+    /* for each body: sum of (m_i + m_j)/s^3 over its pairs. This is the square of a rate that is at least the rate
+     * of the fastest pair */
+    double *rate;
+    double *near; /* number of bodies within R_i + R_j + margin */
     void *block;
 };
 

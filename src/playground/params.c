@@ -11,7 +11,7 @@
       .least = low, \
       .most = high, \
       .help = h, \
-      .fixed = AT(n) >= AT(spin) && AT(n) < AT(spin) + sizeof(struct kd_hole_given) }, /* the hole's are adjacent */
+      .fixed = AT(n) >= AT(spin) && AT(n) < AT(spin) + sizeof(struct kd_hole_given) }, /* hole rows are adjacent */
 #define INT(n, value, low, high, h) \
     { .name = #n, .kind = KD_KIND_INT, .offset = AT(n), .initial = value, .least = low, .most = high, .help = h },
 #define BOOL(n, value, h) { .name = #n, .kind = KD_KIND_BOOL, .offset = AT(n), .initial = value, .help = h },

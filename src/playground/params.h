@@ -57,8 +57,9 @@ struct kd_playground_params {
 #undef KD_WORD_
 };
 
-extern const struct kd_document kd_playground_settings;    /* of struct kd_playground_params */
-extern const struct kd_document kd_playground_body_fields; /* numbers of struct kd_playground_body */
+extern const struct kd_document kd_playground_settings; /* of struct kd_playground_params */
+/* the fields of struct kd_playground_body that are numbers */
+extern const struct kd_document kd_playground_body_fields;
 
 struct kd_playground_params kd_playground_defaults(void);
 /* The hole of gravity "kerr", for use as an argument. The value lives until the end of the enclosing block. */

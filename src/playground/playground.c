@@ -217,7 +217,7 @@ enum kd_status kd_playground_set(struct kd_playground *p, const struct kd_playgr
         return kd_error_field(error, "/" #name, "%s cannot change after a playground is made", #name);
     KD_HOLE_MORE(MORE, )
 #undef MORE
-    struct kd_playground_params looks = *params; /* only appearance may differ */
+    struct kd_playground_params looks = *params; /* only settings of the appearance may differ */
     looks.debris_temperature_k = p->params.debris_temperature_k;
     looks.debris_depth = p->params.debris_depth;
     looks.albedo = p->params.albedo;

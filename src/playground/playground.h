@@ -17,12 +17,12 @@
  * allows at the positions x; then 1/h_n + 1/h_(n-1) = 2 R(x_n) (T. Holder, B. Leimkuhler & S. Reich 2001, Appl. Numer.
  * Math. 39, 367). The method is time-symmetric and so has no drift of energy. Steps are never stretched or cut to meet
  * a requested time: dividing the time into calls differently gives the same bits. Speeds are capped at 1, which only
- * removes energy; `spent` accounts for it.
+ * removes energy; `spent` counts the removed energy.
  *
  * Gravity "kerr": bodies follow geodesics (geodesic.h) without mutual gravity, tides or waves. The positions of all
  * bodies are updated together, once every h_max, or more often if the budget is short. If the budget of an advance is
- * spent in between, no body has moved, and the next advance continues the computation. Such unfinished work is not in a
- * snapshot.
+ * spent between two updates, no body has moved yet, and the next advance continues the computation. Such unfinished
+ * work is not in a snapshot.
  *
  * Results depend on the state alone, including the seed. They are the same on other machines with IEEE arithmetic,
  * provided that the C library's sqrt, cbrt and pow are. */
@@ -44,10 +44,10 @@
  * momentum balance. */
 struct kd_playground_spent {
     double captured_mass, captured_energy, captured_momentum[3]; /* angular momentum */
-    double merged;                                               /* energy that became heat in mergers */
-    double capped;                                               /* energy removed by capping speeds at c */
+    double merged;                                               /* energy that became heat in mergers of bodies */
+    double capped;                                               /* energy removed because speeds are capped at c */
     double capped_momentum[3];     /* momentum removed by capping, where the pull of other bodies dominated */
-    double radiated;               /* energy of gravitational waves */
+    double radiated;               /* energy lost to gravitational waves */
     double torn_mass, torn_energy; /* converted to debris */
     /* Energy added or removed from outside: by adding, removing or changing bodies, and by recomputing the mutual
      * potential. */
@@ -58,10 +58,10 @@ struct kd_playground {
     struct kd_playground_params params;
     double t;
     uint64_t steps;
-    struct kd_playground_body *bodies; /* n of them, in order of creation */
+    struct kd_playground_body *bodies; /* n bodies, in order of creation */
     size_t n, room;
     uint32_t last_id;
-    double rate;     /* 1/h of the previous step; 0: the next step does not depend on it */
+    double rate;     /* 1/h of the previous step; 0: the next step is chosen without regard to a previous one */
     uint64_t random; /* number of random numbers drawn */
     bool held;       /* the loss to waves was limited to a tenth of the attraction at least once */
     struct kd_playground_spent spent;
@@ -69,13 +69,13 @@ struct kd_playground {
     struct kd_playground_debris debris;
     struct kd_playground_series series;
     struct kd_playground_geodesic *geodesics; /* gravity "kerr": one for each body */
-    /* Derived from the above: */
+    /* The members from here on are derived from those above. */
     struct kd_playground_mutual mutual;
     bool disturbed;
-    double before; /* bodies were changed from outside since the last step: the energy before the change */
+    double before; /* energy before the first change of bodies from outside since the last step */
     double aim;
-    /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. Bodies
-     * move when all have reached it. */
+    /* Gravity "kerr": the time that the geodesics approach, and the number of geodesics that have reached it. When
+     * all have reached this time, the bodies move. */
     size_t approached;
     bool forced;                  /* true if `mutual` is up to date */
     double margin;                /* margin that `mutual` was computed with */
@@ -110,9 +110,9 @@ struct kd_playground_progress {
 /* Advances by `time` > 0, or less if the budget of sub-steps is spent before. */
 void kd_playground_advance(struct kd_playground *p, double time, struct kd_playground_progress *progress);
 
-/* Advances in pieces, to interleave other work: call begin, then go_on until it returns false. The result is bit for
- * bit that of kd_playground_advance. A piece is a sub-step, or 256 steps of geodesics with gravity "kerr". A sub-step
- * with a million pieces of debris takes tens of milliseconds. */
+/* Advances in pieces, to interleave other work: call begin, then go_on until it returns false. The result is
+ * identical to that of kd_playground_advance. A piece is a sub-step, or 256 steps of geodesics with gravity "kerr".
+ * A sub-step with a million pieces of debris takes tens of milliseconds. */
 struct kd_playground_run {
     double begin, end;
     double stride; /* gravity "kerr": time between updates of the bodies */
@@ -120,7 +120,7 @@ struct kd_playground_run {
     /* Remaining sub-steps, or steps of geodesics with gravity "kerr". The caller may lower it after
      * kd_playground_begin. */
     uint32_t left;
-    bool stuck; /* the sub-step is below the resolution of t */
+    bool stuck; /* the sub-step is below the resolution of t, so time cannot advance */
 };
 void kd_playground_begin(struct kd_playground *p, double time, struct kd_playground_run *run);
 bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run,
@@ -128,8 +128,8 @@ bool kd_playground_go_on(struct kd_playground *p, struct kd_playground_run *run,
 struct kd_playground_progress kd_playground_progress(const struct kd_playground *p,
                                                      const struct kd_playground_run *run);
 
-/* True if mutual gravity has driven speeds above c: capping them removed momentum that no other body received.
- * Bodies that touch at a distance below 2 (m1 + m2) reach c when they fall from rest. */
+/* True if mutual gravity has driven speeds above c. Capping them removed momentum that no other body received. This
+ * happens if bodies fall from rest and touch at a distance below 2 (m1 + m2). */
 bool kd_playground_lost_momentum(const struct kd_playground *p);
 
 /* Sums over the bodies at present. */
@@ -149,18 +149,18 @@ void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N]);
 /* Restarts the series at the present time. span: its length in M; 0, the default: open-ended (series.h). */
 void kd_playground_series_begin(struct kd_playground *p, double span);
 
-/* Writes the approximations in force, as an array of strings. */
+/* Writes the approximations that are in use, as an array of strings. */
 void kd_playground_approximations(const struct kd_playground *p, struct kd_json *json, const char *name);
 
 /* Private to src/playground from here on. */
 
 /* Updates `mutual` if it is out of date. */
 void kd_playground_force(struct kd_playground *p);
-/* Accounts for changes from outside. */
+/* Adds the changes from outside to the sums. */
 void kd_playground_settle(struct kd_playground *p);
 /* Removes body i from the list. */
 void kd_playground_drop(struct kd_playground *p, size_t i);
-/* Captures, mergers and tides after a step of length h. */
+/* Handles captures, mergers and tides after a step of length h. */
 void kd_playground_capture(struct kd_playground *p);
 void kd_playground_merge(struct kd_playground *p, double h);
 void kd_playground_tides(struct kd_playground *p);

@@ -41,7 +41,7 @@ static struct kd_playground_body passing(double mass, double radius, double temp
 /* The Sun and a hole of a million solar masses: the tidal radius is 47 M. */
 static void disruption_settings(struct kd_playground_params *s)
 {
-    s->h_max = 5; /* a step that gives twenty pictures a second at 100 M a second */
+    s->h_max = 5; /* at this step there are twenty pictures a second if time runs at 100 M a second */
     s->debris_per_body = 50000;
 }
 

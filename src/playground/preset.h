@@ -7,9 +7,9 @@
 struct kd_playground_preset {
     const char *name, *title;
     double rate;             /* suggested speed in M a second */
-    double centre[3], reach; /* M: centre of a suggested view, and half its width */
+    double centre[3], reach; /* centre of a suggested view, and half the view's width, in M */
     void (*settings)(struct kd_playground_params *params);
-    /* Adds its bodies to an empty playground, with its own or other settings. */
+    /* Adds the preset's bodies to an empty playground, and sets the preset's settings or other ones. */
     enum kd_status (*fill)(struct kd_playground *p, struct kd_error *error);
     const char *scene; /* JSON of a suitable scene, as a difference from the default one */
 };

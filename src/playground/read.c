@@ -26,8 +26,9 @@ static enum kd_status read_name(struct kd_playground_body *body, const cJSON *it
     return KD_OK;
 }
 
-/* Reads the given fields; the others keep their values. id: set to the member "id"; NULL if a body may not have one.
- * grown: factor on the limits of mass and radius of a new body, because merged bodies may be larger. */
+/* Reads the given fields; all other fields keep their values. id: receives the member "id"; NULL if the body may not
+ * have this member. grown: factor by which mass and radius may exceed the limits of a new body, because merged
+ * bodies may be larger. */
 static enum kd_status read_body(struct kd_playground_body *body, const cJSON *item, const char *pointer, uint32_t *id,
                                 double grown, struct kd_error *error)
 {
@@ -60,7 +61,7 @@ done:
     return status;
 }
 
-/* Errors of a body get the pointer of its place in the list. */
+/* The pointer of an error about a body is that of its place in the list. */
 static enum kd_status in_list(enum kd_status status, const char *pointer, struct kd_error *error)
 {
     if (status && error && strncmp(error->pointer, pointer, strlen(pointer)))
@@ -124,7 +125,7 @@ static enum kd_status do_list(struct kd_playground *p, enum list what, const cJS
     if (list && !cJSON_IsArray(list))
         return kd_error_field(error, pointer, "%s is not an array", name);
     if (list && what != ADD &&
-        cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* for ADD the error names the first body too many */
+        cJSON_GetArraySize(list) > (int)KD_PLAYGROUND_BODIES_MAX) /* ADD: names the first body beyond the limit */
         return kd_error_field(error, pointer, "%s has %d elements; it must have at most %u", name,
                               cJSON_GetArraySize(list), KD_PLAYGROUND_BODIES_MAX);
     for (const cJSON *one = list ? list->child : NULL; one; one = one->next) {
@@ -138,7 +139,7 @@ done:
     return status;
 }
 
-/* Reads the given settings; members other than these and `others` are errors. */
+/* Reads the given settings. Members are errors unless they are settings or listed in `others`. */
 static enum kd_status read_settings(struct kd_playground_params *params, const cJSON *tree, const char *others,
                                     struct kd_error *error)
 {
@@ -220,7 +221,7 @@ enum kd_status kd_playground_read_tree(const cJSON *tree, struct kd_playground *
     if (preset)
         KD_TRY(preset->fill(p, error));
     KD_TRY(state ? take_bodies(p, bodies, error) : do_list(p, ADD, bodies, "bodies", error));
-    p->disturbed = false; /* cleared, because the energy balance starts here */
+    p->disturbed = false; /* cleared, because the energy balance starts at this time */
     if (state)
         KD_TRY(kd_state_read(p, state, error));
 done:
@@ -257,7 +258,7 @@ static enum kd_status copy(const struct kd_playground *from, struct kd_playgroun
         kd_playground_destroy(p);
         return kd_error_set(error, KD_ENOMEM, "no memory for a copy of the playground");
     }
-    if (from->n) /* an empty list has no array */
+    if (from->n) /* the array of an empty list is NULL */
         memcpy(p->bodies, from->bodies, from->n * sizeof *p->bodies);
     if (from->geodesics)
         memcpy(p->geodesics, from->geodesics, from->n * sizeof *p->geodesics);

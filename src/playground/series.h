@@ -1,6 +1,6 @@
 /* Time series of a playground's numbers. Row k is at `begin` + k `interval`, interpolated linearly between
  * sub-steps. When the series is full, every second row is dropped and the interval doubled, so that the rows cover
- * all of the time. If the span is known beforehand, the last row falls on its end. One thread at a time. */
+ * all of the time. If the span is known beforehand, the last row is at the end of the span. One thread at a time. */
 #ifndef KD_PLAYGROUND_SERIES_H
 #define KD_PLAYGROUND_SERIES_H
 
@@ -37,12 +37,12 @@ enum { KD_SERIES_COLUMNS(KD_SERIES_COLUMN_) KD_SERIES_N };
 struct kd_playground_series {
     double begin, interval; /* M */
     double span;            /* M; 0: open-ended */
-    size_t n;               /* number of rows; 0: not begun */
+    size_t n;               /* number of rows; 0: the series has not begun */
     double rows[KD_SERIES_ROWS][KD_SERIES_N];
 };
 
-/* Begins with the row `now`. span > 0: KD_SERIES_ROWS rows over this time in M, and none later. span 0: open-ended,
- * initially with this `interval` > 0. */
+/* Begins with the row `now`. span > 0: the series has KD_SERIES_ROWS rows over this time in M, and none later. span
+ * 0: the series is open-ended, and starts with this `interval` > 0. */
 void kd_series_begin(struct kd_playground_series *series, const double now[KD_SERIES_N], double span, double interval);
 double kd_series_next(const struct kd_playground_series *series); /* time of the next row; INFINITY if there is none */
 /* Adds the rows between two sub-steps, excluding `before`. */
@@ -52,8 +52,8 @@ void kd_series_add(struct kd_playground_series *series, const double before[KD_S
 bool kd_series_lacks(const struct kd_playground_series *series, const double now[KD_SERIES_N]);
 const char *kd_series_column(int i);
 
-/* All rows, and `now` if it is later: as text/csv with a line of names, or as an NPY array of records; at most
- * KD_SERIES_ROWS. KD_ENOMEM. */
+/* Appends all rows, and `now` if it is later than the last row. The form is text/csv with a line of names, or an NPY
+ * array of records. There are at most KD_SERIES_ROWS rows. KD_ENOMEM. */
 enum kd_status kd_series_csv(const struct kd_playground_series *series, const double now[KD_SERIES_N],
                              struct kd_buffer *out);
 enum kd_status kd_series_npy(const struct kd_playground_series *series, const double now[KD_SERIES_N],

@@ -67,7 +67,7 @@ enum {
     COARSER = KD_SHOW_TURN_MOST / KD_SHOW_TURN_LEAST,
     LOW = -1024,
     HIGH = 3072
-}; /* range of its rows, for any r that can occur */
+}; /* range of the rows that can occur, for any valid r */
 
 static bool take(const struct kd_show_place *places, size_t n, struct taken *out)
 {
@@ -107,9 +107,10 @@ static void beside_gap(const bool column[KD_SHOW_TURN_LEAST], uint32_t *first, u
     *count = KD_SHOW_TURN_LEAST - widest;
 }
 
-/* Chooses the smallest cells that leave enough pieces in each occupied cell. Their number is estimated from the
- * coarsest grid. A stream of debris is narrower than the cells of that grid, so it occupies a smaller fraction of small
- * cells. A grid that does not go all round has one more column of nodes at its end. */
+/* Chooses the smallest cells that leave enough pieces in each occupied cell. The number of occupied cells is
+ * estimated from the coarsest grid. A stream of debris is narrower than the cells of that grid, so the stream
+ * occupies a smaller fraction of smaller cells. A grid that does not go all round has one more column of nodes at
+ * its end. */
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynamic_bodies_debris *out)
 {
     struct taken taken;

@@ -1,11 +1,11 @@
 /* Makes the bodies (scene/dynamic_bodies.h) that show a playground's present state in a picture of a scene. Call on the
  * thread that owns the playground.
  *
- * A body's r, theta, phi are used as Boyer-Lindquist coordinates (body.h). With gravity "kerr" they are, and velocities
- * are relative to the observer of zero angular momentum. The potential of Paczynski and Wiita has a Newtonian velocity
- * u of any size up to c. Since its kinetic energy is u^2/2, u is taken for gamma v, so that v = u/sqrt(1 + u^2)
- * relative to that observer. For comparison, circular orbits have (gamma v)^2 = 1/(r - 3) in Schwarzschild's metric,
- * and u^2 = r/(r - 2)^2 here.
+ * A body's r, theta, phi are used as Boyer-Lindquist coordinates (body.h). With gravity "kerr" this is exact, and
+ * velocities are relative to the observer of zero angular momentum. In the potential of Paczynski and Wiita a body has
+ * a Newtonian velocity u of any size up to c, with kinetic energy u^2/2. This u is used as gamma v, so v = u/sqrt(1 +
+ * u^2) relative to the same observer. For comparison, circular orbits have (gamma v)^2 = 1/(r - 3) in Schwarzschild's
+ * metric, and u^2 = r/(r - 2)^2 here.
  *
  * Debris is projected onto the plane of the disk at its r and phi, as a density (kd_dynamic_bodies_debris). A piece has
  * the weight of its share of its body's mass. The share follows from the number of pieces into which the body split
@@ -22,16 +22,16 @@
 enum kd_status kd_playground_show(const struct kd_playground *p, struct kd_dynamic_bodies **out,
                                   struct kd_error *error);
 
-/* Like the function above, with the hash of the state, which files of pictures contain. */
+/* Like kd_playground_show, and stores the hash of the playground's state, which files of pictures contain. */
 enum kd_status kd_playground_show_named(struct kd_playground *p, struct kd_dynamic_bodies **out,
                                         struct kd_error *error);
 
-/* KD_EINVAL if the scene cannot show this playground. With gravity "kerr" the holes must be the same; without it the
- * parameters besides the spin must be 0. */
+/* KD_EINVAL if the scene cannot show this playground. With gravity "kerr" the scene must have the same hole as the
+ * playground. Without it, the hole's parameters other than the spin must be 0. */
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene,
                                       struct kd_error *error);
 
-/* Widens a scene at infinity until it shows all bodies and nine pieces of debris in ten. */
+/* Widens the field of view of a scene at infinity until it shows all bodies, and nine in ten pieces of debris. */
 enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scene *scene, struct kd_error *error);
 
 /* Makes a suitable scene of 640 x 360: the scene of the preset or, if preset is NULL, one that is wide enough for the
@@ -39,12 +39,13 @@ enum kd_status kd_playground_widen(const struct kd_playground *p, struct kd_scen
 enum kd_status kd_playground_usual_scene(const struct kd_playground_preset *preset, const struct kd_playground *p,
                                          struct kd_scene *out, struct kd_error *error);
 
-/* Private to src/playground, and for tests: the places of pieces in (ln r, azimuth), the choice of the grid, at most
- * KD_SHOW_NODES, and the deposition on its nodes. worth: of a piece of each source, in bodies. */
+/* Private to src/playground, and for tests. These functions compute the places of pieces in (ln r, azimuth), choose
+ * the grid (at most KD_SHOW_NODES nodes), and distribute the pieces over the nodes. worth: weight of a piece of each
+ * source, in bodies. */
 enum { KD_SHOW_NODES = 1 << 20, KD_SHOW_TURN_LEAST = 512, KD_SHOW_TURN_MOST = 8192 };
 struct kd_show_place {
     float row, column;
-}; /* in cells of KD_SHOW_TURN_MOST a turn, column from 0; NAN: not in the picture */
+}; /* in cells of KD_SHOW_TURN_MOST a turn; column is counted from 0; NAN: the piece is not in the picture */
 void kd_show_places(const struct kd_debris_piece *pieces, size_t n, struct kd_show_place *out);
 void kd_show_grid(const struct kd_show_place *places, size_t n, struct kd_dynamic_bodies_debris *out);
 void kd_show_share_out(const struct kd_debris_piece *pieces, const struct kd_show_place *places, size_t n,

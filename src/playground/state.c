@@ -284,7 +284,7 @@ enum kd_status kd_state_read(struct kd_playground *p, const cJSON *state, struct
     KD_TRY(kd_playground_numbers(p->spent.captured_momentum, 3, MOST,
                                  cJSON_GetObjectItemCaseSensitive(gone, "captured_momentum"), "/state/spent", error));
     const cJSON *capped = cJSON_GetObjectItemCaseSensitive(gone, "capped_momentum");
-    if (capped) /* missing in older snapshots */
+    if (capped) /* snapshots of older versions lack it */
         KD_TRY(kd_playground_numbers(p->spent.capped_momentum, 3, MOST, capped, "/state/spent", error));
     if (!cJSON_IsArray(bodies) || (size_t)cJSON_GetArraySize(bodies) != p->n || p->rate < 0)
         KD_TRY(bad("/state", "bodies", "and bodies differ in length", error));

@@ -1,4 +1,4 @@
-/* The "state" of a snapshot: everything that the motion depends on besides settings and bodies. Private to
+/* The "state" of a snapshot: all data that determine the motion, except settings and bodies. Private to
  * src/playground. */
 #ifndef KD_PLAYGROUND_STATE_H
 #define KD_PLAYGROUND_STATE_H

@@ -24,7 +24,8 @@ static double demanded(const struct kd_playground *p)
 {
     const struct kd_playground_params *s = &p->params;
     double rate = 1 / s->h_max;
-    rate = fmax(rate, 1 / kd_debris_stride(&p->debris, s->safety)); /* debris must keep up */
+    /* the step must not exceed the longest stride of the debris */
+    rate = fmax(rate, 1 / kd_debris_stride(&p->debris, s->safety));
     for (size_t i = 0; i < p->n; i++) {
         const double r = kd_playground_radius(p->bodies[i].x);
         rate = fmax(rate, 1 / (s->safety * (r - KD_PLAYGROUND_HORIZON)));
@@ -33,8 +34,8 @@ static double demanded(const struct kd_playground *p)
     return rate;
 }
 
-/* Caps the speed at 1. others: the attraction of other bodies exceeds that of the hole. If the hole caused the speed,
- * capping it changes no balance of momentum, because the hole's momentum is not counted. */
+/* Caps the speed at 1. others: the attraction of other bodies exceeds that of the hole. If the hole has caused the
+ * speed, the cap does not affect the balance of momentum, because the hole's momentum is not counted. */
 static void hold(struct kd_playground *p, struct kd_playground_body *body, bool others)
 {
     const double v = kd_playground_radius(body->v);
@@ -105,8 +106,8 @@ static void kick(struct kd_playground *p, double time)
     }
 }
 
-/* Moves all bodies on straight lines. The hole does not attract those that pass its capture radius; they are
- * captured after the step. */
+/* Moves all bodies on straight lines. Bodies that pass the hole's capture radius are not attracted by the hole any
+ * more; they are captured after the step. */
 static void drift(struct kd_playground *p, double time)
 {
     for (size_t i = 0; i < p->n; i++)
@@ -126,7 +127,7 @@ static double step(struct kd_playground *p)
     p->rate = rate;
     kick(p, 0.5 * h);
     drift(p, h);
-    p->margin = fmin(2 * h, 1e6); /* two bodies may have touched within the step and be apart again */
+    p->margin = fmin(2 * h, 1e6); /* margin for bodies that touch within the step and are apart again at its end */
     kd_playground_force(p);
     kick(p, 0.5 * h);
     p->t += h;
@@ -234,7 +235,7 @@ static void advance_debris(struct kd_playground *p)
  * allows. Returns false if h is below the resolution of t. */
 static bool go(struct kd_playground *p)
 {
-    record_before(p, p->params.h_max); /* no step is longer */
+    record_before(p, p->params.h_max); /* no step is longer than h_max */
     if (p->n) {
         const double h = step(p);
         if (!(h > 0))
@@ -266,8 +267,8 @@ void kd_playground_begin(struct kd_playground *p, double time, struct kd_playgro
         kd_playground_series_begin(p, 0);
     if (p->params.gravity != KD_GRAVITY_KERR || !(p->aim > run->end))
         return;
-    for (size_t i = 0; i < p->n; i++) /* the current stride leads beyond the end of this run, so the bodies return to
-                                       * its start */
+    /* the current stride leads beyond the end of this run, so the bodies return to the stride's start */
+    for (size_t i = 0; i < p->n; i++)
         kd_geodesic_back(&p->geodesics[i]);
     p->aim = p->t;
 }
@@ -294,7 +295,7 @@ static void follow_on(struct kd_playground *p, struct kd_playground_run *run)
     if (!(p->aim > p->t)) {
         p->aim = fmin(p->t + fmin(run->stride, affordable(p, run->left)), run->end);
         p->approached = 0;
-        run->stuck = !(p->aim > p->t); /* true if the step is below the resolution of t */
+        run->stuck = !(p->aim > p->t); /* true: the step is below the resolution of t */
     }
     const uint32_t piece = run->left < PIECE ? run->left : PIECE;
     uint32_t left = piece;

@@ -71,7 +71,7 @@ static bool shed(struct kd_playground *p, struct kd_playground_body *body)
                    torn = (uint32_t)floor(share * all);
     const uint32_t due = body->whole_mass * (1 - (double)torn / all) < KD_PLAYGROUND_LEAST
                              ? all
-                             : torn; /* sheds everything if the rest would be below a body's minimum mass */
+                             : torn; /* the star sheds everything if the rest would be below a body's minimum mass */
     if (due <= source->pieces)
         return false;
     kd_debris_advance(&p->debris, p->t, p->params.safety, p->params.feeds);

@@ -73,8 +73,8 @@ void kd_wave_partners(const struct kd_playground_body *bodies, size_t n, double 
             }
         }
     }
-    /* A pair keeps its partners if it is bound; all other bodies have none. A chain (i to j, j to k) ends in a pair,
-     * which is checked like the others */
+    /* A pair stays partners only if it is bound. All other bodies end without a partner. A chain (i to j, j to k)
+     * ends in a mutual pair, which is checked in the same way */
     for (size_t i = 0; i < n; i++) {
         const size_t j = partners[i];
         if (j < n && i < j && partners[j] == i && !bound(&bodies[i], &bodies[j], softening2))

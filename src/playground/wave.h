@@ -16,17 +16,18 @@
 
 struct kd_playground_body;
 
-/* *a: the acceleration times `amplification`, limited to a tenth of m/r^2; true if it was limited. */
+/* Sets *a to the acceleration times `amplification`, limited to a tenth of m/r^2. Returns true if the limit applied. */
 bool kd_wave_reaction(double m1, double m2, const double x[3], const double v[3], double amplification, double a[3]);
 
-/* The same for a body of mass m at x that orbits the fixed hole. In the hole's potential (hole.h) a circular orbit has
- * v^2 = r/(r - 2)^2 instead of 1/r. Speeds and the force are scaled by (r - 2)/r. A circular orbit then radiates the
- * power that Peters gives for radius r and masses 1 and m. Such an orbit shrinks faster than Peters' orbit, by the
- * factor (r - 2)^3/(r^2 (r - 6)), 1.3 at r = 10: its energy (4 - r)/(2 (r - 2)^2) depends less on r than -1/(2 r). */
+/* The same for a body of mass m at x that orbits the fixed hole. In the hole's potential (hole.h) a circular orbit
+ * has v^2 = r/(r - 2)^2 instead of 1/r. Therefore speeds and the force are scaled by (r - 2)/r. A circular orbit
+ * then radiates the power that Peters gives for radius r and masses 1 and m. Such an orbit shrinks faster than
+ * Peters' orbit by the factor (r - 2)^3/(r^2 (r - 6)), which is 1.3 at r = 10. The reason is that its energy, (4 -
+ * r)/(2 (r - 2)^2), depends less on r than -1/(2 r) does. */
 bool kd_wave_reaction_hole(double m, const double x[3], const double v[3], double amplification, double a[3]);
 
-/* For each of n bodies: the index of the body that attracts it most, if the attraction is mutual in this sense and the
- * two are bound to each other; otherwise n. */
+/* For each of n bodies: the index of its partner, the body that attracts it most. The result is n if that body is
+ * attracted more by a third one, or if the two are not bound to each other. */
 void kd_wave_partners(const struct kd_playground_body *bodies, size_t n, double softening, size_t *partners);
 
 #endif

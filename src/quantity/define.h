@@ -54,7 +54,7 @@
 #define KD_PARAMETER_HOLE_MORE(P) KD_HOLE_MORE(KD_DEFINE_MORE, P)
 /* The hole given by these parameters, for use as an argument: kd_kerr_isco(KD_QUANTITY_HOLE(p)). */
 #define KD_QUANTITY_HOLE(p) ((const struct kd_hole[]) { kd_hole_in(p) })
-/* Results right, up and inwards: where an observer at a finite radius sees light. */
+/* Outputs right, up and inwards: the direction from which light reaches an observer at a finite radius. */
 #define KD_RESULTS_DIRECTION(O) \
     O(right, .unit = "1", \
       .help = "unit vector of the viewing direction at a finite radius: component towards +phi; null at infinity") \
@@ -93,12 +93,13 @@
         .fall_energy = (p)->infall_energy, .fall_momentum = (p)->infall_momentum, \
     }
 
-/* Returns KD_EINVAL at "/name". The message is "r is 1.2, " and the reason, which should end with what is allowed. */
+/* Returns KD_EINVAL at "/name". The message is "r is 1.2, " followed by the reason. The reason should end with the
+ * allowed values. */
 enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, double value, const char *reason, ...)
     __attribute__((format(printf, 4, 5)));
 /* Checks that r is at or outside the hole's horizon; otherwise returns the error of kd_quantity_outside. */
 enum kd_status kd_quantity_outside_horizon(const struct kd_hole *hole, double r, struct kd_error *error);
-/* Checks that the observer exists; otherwise returns an error at /observer_r or at the invalid number. */
+/* Checks that the observer exists. Otherwise returns an error whose pointer is /observer_r or the invalid number. */
 enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,
                                            struct kd_error *error);
 

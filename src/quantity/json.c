@@ -80,7 +80,8 @@ static void write_units(struct kd_writer *w, const struct kd_quantity *quantity)
         kd_write(w, "%s\"%s\":\"%s\"", separator, quantity->outputs[i].name, quantity->outputs[i].unit);
 }
 
-/* The value of a parameter: of a range, one that is not 0. 0 if the quantity does not have the parameter. */
+/* The value of a parameter; for a range, one of its values that is not 0. Returns 0 if the quantity does not have
+ * the parameter. */
 static double value_of(const struct kd_quantity_request *request, const char *name)
 {
     for (size_t i = 0; i < request->quantity->n_parameters; i++) {

@@ -3,9 +3,9 @@
  * options, OpenAPI and the reference page are generated from the table. To add a quantity, write a file like kerr.c,
  * and add a line to table.c.
  *
- * A parameter may be a range first:last:count of evenly spaced values including both ends. The answer then has a
- * point for each value. With several ranges it has a point for each combination; the last parameter of the table
- * varies fastest.
+ * A parameter may be a range first:last:count of evenly spaced values including both ends. The answer then has a point
+ * for each value. With several ranges the answer has a point for each combination of values; the last parameter of the
+ * table varies fastest.
  *
  *     struct kd_quantity_request request;
  *     struct kd_quantity_answer answer = { 0 };
@@ -33,31 +33,32 @@ enum {
     KD_QUANTITY_POINTS = KD_RANGE_MOST, /* maximum for one answer */
 };
 
-/* A parameter is a row whose value is a number or a word. A number may be limited to whole numbers. It may have a word,
- * for which the function gets INFINITY. For a parameter with words the function gets the index. The default is
- * `typed`. */
+/* A parameter is a row whose value is a number or a word. A number may be limited to whole numbers. A number may
+ * also have a word as an alternative, for which the function gets INFINITY. For a parameter with words the function
+ * gets the index of the word. The default is `typed`. */
 
-/* An output is NaN where it is undefined (help says when): null in JSON, an empty field in CSV. */
+/* An output is NaN where the quantity is undefined (`help` says where). NaN is null in JSON, and an empty field in
+ * CSV. */
 struct kd_output {
     const char *name, *unit, *help;
-    bool fixed; /* independent of the quantity's parameters `along` a curve */
+    bool fixed; /* does not depend on the quantity's last `along` parameters */
 };
 
 struct kd_quantity {
     const char *name, *summary;
-    /* The last `along` parameters vary along a curve: outputs that are `fixed` do not depend on them. */
+    /* The last `along` parameters vary along a curve: outputs that are `fixed` do not depend on these parameters. */
     const struct kd_row *parameters;
     size_t n_parameters, along;
     const struct kd_output *outputs;
     size_t n_outputs;
     const char *const *sources, *const *approximations; /* NULL-terminated lists of sentences */
     /* Evaluates one point. out[] and memory (memory_size bytes, initially zero) keep their contents from the last
-     * call. fresh: a parameter that is not `along` has changed since then. KD_EINVAL with the parameter's pointer if
-     * a value is outside the domain. */
+     * call. fresh: since then, a parameter other than the last `along` ones has changed. KD_EINVAL with the
+     * parameter's pointer if a value is outside the domain. */
     enum kd_status (*evaluate)(const double *in, double *out, void *memory, bool fresh, struct kd_error *error);
     size_t memory_size;
-    /* Maximum time on a core of 2020, in microseconds, including the text of the answer: for each point, and
-     * additionally for each fresh point. */
+    /* Maximum times on a core of 2020, in microseconds, including the text of the answer: point_us for each point,
+     * fresh_us additionally for each fresh point. */
     double point_us, fresh_us;
     bool sound; /* one point can be played as sound: quantity/sound.h */
 };
@@ -72,7 +73,7 @@ void kd_quantity_names(char *out, size_t size);
 /* True if parameter i is one of the parameters along a curve. */
 bool kd_quantity_is_along(const struct kd_quantity *quantity, size_t i);
 
-extern const struct kd_row kd_quantity_digits; /* the parameter `digits` of all quantities */
+extern const struct kd_row kd_quantity_digits; /* value of the parameter `digits`, which all quantities have */
 struct kd_quantity_request {
     const struct kd_quantity *quantity;
     struct kd_range axes[KD_QUANTITY_PARAMETERS]; /* in the order of the parameters */
@@ -80,12 +81,12 @@ struct kd_quantity_request {
 };
 
 void kd_quantity_request_init(struct kd_quantity_request *request, const struct kd_quantity *quantity);
-/* Sets a parameter, or the digits if name is "digits". KD_EINVAL with "/name" for an unknown name or an invalid
- * value. */
+/* Sets the parameter with this name, or the digits if the name is "digits". KD_EINVAL with "/name" for an unknown
+ * name or an invalid value. */
 enum kd_status kd_quantity_request_set(struct kd_quantity_request *request, const char *name, const char *text,
                                        struct kd_error *error);
 size_t kd_quantity_points(const struct kd_quantity_request *request);  /* saturates at KD_QUANTITY_POINTS + 1 */
-double kd_quantity_cost_ms(const struct kd_quantity_request *request); /* an estimate from the table alone */
+double kd_quantity_cost_ms(const struct kd_quantity_request *request); /* an estimate from the quantity's table alone */
 
 struct kd_quantity_answer {
     struct kd_quantity_request request;
@@ -115,14 +116,15 @@ enum kd_status kd_quantity_run_begin(struct kd_quantity_run *run, const struct k
 enum kd_status kd_quantity_run_next(struct kd_quantity_run *run, struct kd_error *error);
 void kd_quantity_run_finish(struct kd_quantity_run *run);
 
-/* Writes {"quantity", "parameters", "values", "units", "sources", "approximations"}. A parameter with a range is an
- * array of its values. Values are then arrays with one number a point, except outputs that no range changes. With
- * several ranges the arrays are flat, in row-major order, described by "ranges" and "shape". */
+/* Writes {"quantity", "parameters", "values", "units", "sources", "approximations"}. A parameter with a range is
+ * written as an array of its values. Each output is then an array with one number for each point, except outputs
+ * that no range changes. With several ranges the arrays are flat, in row-major order, described by "ranges" and
+ * "shape". */
 enum kd_status kd_quantity_json(const struct kd_quantity_answer *answer, struct kd_buffer *out);
-/* Writes a line of names, then one line a point: all parameters, all outputs. */
+/* Writes a line of names, then one line for each point: all parameters, then all outputs. */
 enum kd_status kd_quantity_csv(const struct kd_quantity_answer *answer, struct kd_buffer *out);
 
-/* Both write all quantities with their parameters and outputs: the first as JSON, the second as the document
+/* Both write all quantities with their parameters and outputs. The first writes JSON, the second the document
  * docs/physics-quantities.md. */
 enum kd_status kd_quantity_list_json(struct kd_buffer *out);
 enum kd_status kd_quantity_reference(struct kd_buffer *out);

@@ -52,7 +52,7 @@ static enum kd_status make(const struct parameters *p, double r, struct memory *
     const double i = p->inclination_deg;
     const struct kd_vantage at = { kd_hole_in(p), p->observer_r, kd_cos_deg(i), kd_sin_deg(i) };
     const struct kd_observer_motion motion = KD_QUANTITY_MOTION(p);
-    if (isinf(at.r)) { /* from below the plane the ring looks the same except for beta */
+    if (isinf(at.r)) { /* from below the plane the ring looks the same, except that beta differs */
         m->far = kd_ring_image_plain(KD_QUANTITY_HOLE(p), (i > 90 ? 180 - i : i) * (M_PI / 180), r, (int)p->order);
         return KD_OK;
     }

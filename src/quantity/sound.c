@@ -45,7 +45,7 @@ enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request
     return KD_OK;
 }
 
-/* Rounds bounds inwards to four digits, so that a value named in the message is itself accepted. */
+/* Rounds bounds inwards to four digits, so that a bound that a message names is itself accepted. */
 static double four_digits(double x, bool up)
 {
     double unit = pow(10, floor(log10(x)) - 3);

@@ -1,8 +1,8 @@
-/* Turns a quasi-normal mode into sound: e^(-t/tau) cos(2 pi f t), for the mass of the hole. The result is a WAV file of
- * 16 bits, 48 kHz, one channel. It begins at full scale, lasts until less than half a step is left, and is padded with
- * silence to at least a quarter of a second. shift_octaves s makes the whole sound 2^s times as fast; `stretch` then
- * makes the decay that many times slower, at the same pitch. A comment in the file gives both, with frequencies and
- * times before and after. Any thread. */
+/* Turns a quasi-normal mode into sound: e^(-t/tau) cos(2 pi f t), for the mass of the hole. The result is a WAV file
+ * of 16 bits, 48 kHz, one channel. It begins at full scale, lasts until less than half a step is left, and is padded
+ * with silence to at least a quarter of a second. shift_octaves = s makes the whole sound 2^s times as fast.
+ * `stretch` = k then makes the decay k times slower, at the same pitch. A comment in the file states both numbers,
+ * with frequencies and times before and after the changes. Any thread. */
 #ifndef KD_QUANTITY_SOUND_H
 #define KD_QUANTITY_SOUND_H
 
@@ -10,14 +10,14 @@
 
 #define KD_SOUND_HZ_MIN 20.0
 #define KD_SOUND_HZ_MAX 20000.0
-#define KD_SOUND_DAMPING_S 5.0           /* maximum decay time by a factor e, s */
+#define KD_SOUND_DAMPING_S 5.0           /* maximum time in which the sound decays by a factor e, in s */
 #define KD_SOUND_BYTES ((size_t)6 << 20) /* maximum size: a minute */
 
 /* Call before evaluation. KD_EINVAL if the quantity has no sound, or the request has more than one point or names a
  * time. */
 enum kd_status kd_quantity_sound_check(const struct kd_quantity_request *request, struct kd_error *error);
-/* KD_EINVAL at /mass_msun, with the frequency and the masses and shifts that are audible; or at /stretch, with the
- * maximum. */
+/* KD_EINVAL at /mass_msun has a message with the frequency, and with the masses and shifts for which the sound is
+ * audible. KD_EINVAL at /stretch has a message with the maximum. */
 enum kd_status kd_quantity_sound(const struct kd_quantity_answer *answer, struct kd_buffer *out,
                                  struct kd_error *error);
 

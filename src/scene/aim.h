@@ -1,5 +1,5 @@
-/* The direction of a moving camera: to the hole, to a place, or a given one. The aberration by the observer's motion is
- * included, the bending of light is not. Double precision, pure, any thread. */
+/* The direction of a moving camera: to the hole, to a place, or given by yaw and pitch. The aberration by the
+ * observer's motion is included; the bending of light is ignored. Double precision, pure, any thread. */
 #ifndef KD_SCENE_AIM_H
 #define KD_SCENE_AIM_H
 
@@ -12,9 +12,9 @@
  * PLACE: along the straight line in flat space from the camera to (r, theta, phi). Both points are read as spherical
  * coordinates, and phi is measured like camera.azimuth_deg. With r = INFINITY the camera looks in the direction (theta,
  * phi). The camera sees light that arrives along this line in the frame of zero angular momentum. For an infalling
- * observer it is the rain frame instead, whose space is flat if there is no spin. */
+ * observer the rain frame is used instead, whose space is flat if there is no spin. */
 struct kd_aim {
-    enum kd_aim_kind { KD_AIM_FREE, KD_AIM_HOLE, KD_AIM_PLACE } kind; /* FREE: yaw and pitch decide */
+    enum kd_aim_kind { KD_AIM_FREE, KD_AIM_HOLE, KD_AIM_PLACE } kind; /* FREE: the direction is that of yaw and pitch */
     double r, theta_deg, phi_deg;
 };
 

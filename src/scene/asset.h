@@ -1,7 +1,7 @@
 /* Assets are files of bytes that a scene refers to but does not contain. A document names an asset by the SHA-256 of
- * its bytes, or by a name that the reader of the document knows. Before a scene is used, each name is replaced by the
- * hash. The identity of a scene, and of its picture, therefore depends on the content only. Names never cause a
- * download. Any thread. */
+ * its bytes, or by a name that has a meaning only where the document is read. Before a scene is used, each name is
+ * replaced by the hash. The identity of a scene, and of its picture, therefore depends on the content only. Names
+ * never cause a download. Any thread. */
 #ifndef KD_SCENE_ASSET_H
 #define KD_SCENE_ASSET_H
 
@@ -26,7 +26,7 @@ struct kd_asset_found {
     uint32_t width, height; /* size of a picture; 0: the asset is not a picture */
     struct kd_asset_grid grid;
 };
-/* Bytes of an asset. They stay unchanged until they are given back. */
+/* Bytes of an asset. They stay unchanged until they are released. */
 struct kd_asset_bytes {
     const uint8_t *data;
     size_t size;
@@ -44,10 +44,10 @@ struct kd_assets {
     void *user;
 };
 
-/* kd_scene_resolve replaces each name by the hash, checks that each hash exists, and sets the scene's `matter`. If an
- * asset is missing or of the wrong kind it returns KD_EINVAL with the field's pointer, and *scene stays unchanged.
- * sky.image must be a picture that is twice as wide as high and has KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows.
- * volume.grid must be a grid of matter around a hole of the scene's parameters. */
+/* kd_scene_resolve replaces each name by the hash, checks that an asset with each hash exists, and sets the scene's
+ * `matter`. If an asset is missing or of the wrong kind, the function returns KD_EINVAL with the field's pointer,
+ * and *scene stays unchanged. sky.image must be a picture that is twice as wide as high and has KD_PANORAMA_LEAST to
+ * KD_PANORAMA_MOST rows. volume.grid must be a grid of matter around a hole of the scene's parameters. */
 enum { KD_PANORAMA_LEAST = 16, KD_PANORAMA_MOST = 4096 };
 static inline bool kd_asset_is_panorama(uint32_t width, uint32_t height)
 {

@@ -67,8 +67,8 @@ static enum kd_status tell(struct telling *t, const struct kd_row *field, size_t
     return status ? status : kd_buffer_printf(t->out, "%s=%s", path, value);
 }
 
-/* Writes the fields of a section or list element that differ. If the base lacks the element, the first field is written
- * even if it has its default, because it creates the element. */
+/* Writes the fields of a section or list element that differ. If the base lacks the element, the first field is
+ * written even if it has its default, because writing a field creates the element. */
 static enum kd_status tell_fields(struct telling *t, const struct kd_section *section, size_t index)
 {
     enum kd_status status = KD_OK;

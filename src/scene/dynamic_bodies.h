@@ -3,8 +3,8 @@
  * (playground/show.h).
  *
  * A set is immutable once it is made. Any thread may read it. It is reference-counted; its maker holds one reference.
- * kd_scene_show makes a scene show it but takes no reference: the caller must hold one until all use of that scene and
- * its copies is over. A set is part of neither the scene's JSON nor its hash. Lengths are in M, angles in radians. */
+ * kd_scene_show adds a set to a scene but takes no reference. The caller must hold a reference as long as that scene or
+ * a copy of it is used. A set is part of neither the scene's JSON nor its hash. Lengths are in M, angles in radians. */
 #ifndef KD_SCENE_DYNAMIC_BODIES_H
 #define KD_SCENE_DYNAMIC_BODIES_H
 
@@ -28,25 +28,25 @@ struct kd_seen_body {
     double velocity[3];
     double radius;  /* radius in the body's own frame; 0 or less: the body is not drawn */
     uint32_t which; /* index in the maker's list; it is reported for a pixel that shows the body */
-    /* same meaning as for the bodies of a scene; a body of temperature 0 is dark, and hides what is behind it */
+    /* same meaning as for the bodies of a scene; a body of temperature 0 is dark and hides everything behind it */
     double temperature_k, brightness, limb_darkening;
-    double albedo; /* fraction of the disk's light that it reflects, isotropically; 0: reflection is not computed */
+    /* fraction of the disk's light that the body reflects, isotropically; 0: reflection is not computed */
+    double albedo;
 };
 
 /* Debris is a density on a grid of nodes. The spacing in azimuth and in ln r is 2 pi/turn, where turn is a power of
  * two. There are `rows` rows of `columns` nodes each. The first node is at ln r = first_row 2 pi/turn and azimuth
- * first_column 2 pi/turn. If columns == turn the grid covers all azimuths, otherwise only those with debris. Each piece
- * of debris is distributed bilinearly over its four nearest nodes, so that the sum over the nodes equals the sum over
- * the pieces. */
+ * first_column 2 pi/turn. If columns == turn the grid covers all azimuths, otherwise only those with debris. Each
+ * piece of debris is distributed bilinearly over its four nearest nodes, which keeps the sum over all pieces. */
 struct kd_dynamic_bodies_debris {
     uint32_t turn, rows, columns, first_column; /* rows 0: there is no debris */
     int32_t first_row;
-    /* KD_CROWD_NODE numbers for each node: the amount of debris, in units of one body, and this amount times the
-     * velocity along e_r and along e_phi, in the frame of kd_seen_body. */
+    /* KD_CROWD_NODE numbers for each node. They are the amount of debris, in units of one body, and this amount
+     * times the velocity along e_r and along e_phi, in the frame of kd_seen_body. */
     float *nodes;
     uint32_t pieces; /* number of pieces of debris that are on the nodes */
     uint32_t hidden; /* number of pieces of debris left out because they have no valid position */
-    double thick;    /* mean of |z|/r over the pieces of debris, before they are projected onto the plane */
+    double thick;    /* mean of |z|/r over the pieces of debris, before the pieces are projected onto the plane */
     /* temperature_k: temperature of the debris, which shines as a black body. depth: optical depth of debris of one
      * body that is spread over 1000 M^2. */
     double temperature_k, depth;
@@ -55,11 +55,11 @@ struct kd_dynamic_bodies_debris {
 
 struct kd_dynamic_bodies {
     atomic_uint holders;
-    uint64_t generation; /* unique in the process */
+    uint64_t generation; /* number that is unique in the process */
     double time;         /* coordinate time of the contents, in M */
-    char snapshot[65];   /* SHA-256 of the state from which it was made, for files of pictures; "": unknown */
-    /* The bodies move in a potential, not in the metric. Their r and velocity are used as if they were those of the
-     * metric. */
+    char snapshot[65];   /* SHA-256 of the playground's state that the set shows, for files of pictures; "": unknown */
+    /* The bodies move in a potential instead of the metric. Their r and velocity are used as if they were those of
+     * the metric. */
     bool approximate;
     size_t n;
     struct kd_seen_body *bodies;
@@ -74,7 +74,7 @@ void kd_dynamic_bodies_keep(struct kd_dynamic_bodies *dynamic); /* takes a refer
 void kd_dynamic_bodies_release(
     struct kd_dynamic_bodies *dynamic); /* drops a reference; the last one frees the set; accepts NULL */
 
-/* Makes the scene, and copies that are made of it later, show these bodies; NULL: none. */
+/* Makes the scene show these bodies; copies that are made of the scene later show them too. NULL: none. */
 void kd_scene_show(struct kd_scene *scene, const struct kd_dynamic_bodies *dynamic);
 
 #endif

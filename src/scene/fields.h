@@ -16,7 +16,7 @@
  *     WORDS(section, name, nature, place, help, words)
  *          a set of words of "a|b_N|c", in any order; b_N stands for b, b_0, b_1, ...; default: the first word
  *
- * The nature tells what a reader may conclude from a picture in which the field was changed. It is mandatory.
+ * The nature says what a change of the field in a picture means. Every row must have one.
  *     PHYSICS  an exact consequence of general relativity or radiative transfer, or its numerical accuracy
  *     MODEL    chooses a model of matter or of a source, or a parameter of the model
  *     LOOK     a choice of presentation, which changes the picture but not the physics
@@ -493,7 +493,7 @@
          "rate of the observer's proper time: the observer moves along its path, a fall to the last possible " \
          "position or an orbit; coordinate time follows")
 
-/* Words that requests for rays share. */
+/* Words that requests for rays have in common with scenes. */
 #define KD_PROFILE_WORDS "draft|interactive|balanced|high|reference"
 #define KD_ENGINE_WORDS "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6"
 #define KD_PRECISION_WORDS "auto|f32|f64"
@@ -545,9 +545,10 @@
 /* Sections that are nested in another section of the document: PART(s, name, section). s is passed through. */
 #define KD_SCENE_PARTS(PART, s) PART(s, gas, disk) PART(s, tile, image)
 
-/* Styles. A document that names one in style.name sets these fields, except those that it sets itself (scene/style.h).
- * ROW(section, name, values) has one value for each word of style.name except "none". Values have the form that
- * kd_field_put accepts. The fields belong to sections that are not lists. NAN: the style leaves the field unchanged.
+/* Styles. A document that names a style in style.name gets the style's values for these fields, except for fields that
+ * the document sets itself (scene/style.h). ROW(section, name, values) has one value for each word of style.name except
+ * "none". Values have the form that kd_field_put accepts. The fields belong to sections that are not lists. NAN: the
+ * style leaves the field unchanged.
  *
  * film: a bright scene, seen by the eye through a lens. raw: light without post-processing. dngr: as in Interstellar,
  * without the frequency shifts of the disk's gas, with lens flare (O. James et al. 2015, section 4.3). eht: as the
@@ -696,7 +697,7 @@
     SPAN("time", -1000, 1000) VARIES("time", "moves_with_time|dims_with_time")
 /* clang-format on */
 
-/* Obsolete names of list elements: OLD(name, list, index). They are still read, but never written. */
+/* Obsolete names of list elements: OLD(name, list, index). Such names are still read, but never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 
 enum kd_projection {

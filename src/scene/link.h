@@ -10,7 +10,7 @@
  * scene names an asset. The only other error is KD_ENOMEM. */
 enum kd_status kd_scene_link(const struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error);
 
-/* Checks that a scene names no asset. Another server that reads the link may not have it. */
+/* Checks that a scene names no asset, because a server that reads the link may not have the asset. */
 enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error *error);
 
 /* Describes n changed fields of a link for people, as in "camera inclination 60°, camera r 30 M and 3 more". */
@@ -18,8 +18,8 @@ struct kd_scene_changed { const char *path, *value; };
 enum kd_status kd_scene_link_tell(const struct kd_scene_changed *changed, size_t n, struct kd_buffer *out);
 
 /* Turns the scene of a link into that of its preview: one eye, no tile, 8 bits for each channel, and 2 x 2 rays for
- * each pixel, or, if a volume or jets shine, 1 ray by the profile "draft". width and height are in pixels; width /
- * height must be at least 16 / 9, the aspect of the presets. */
+ * each pixel. If a volume or jets shine, it has 1 ray for each pixel and the profile "draft". width and height are
+ * in pixels; width / height must be at least 16 / 9, the aspect of the presets. */
 void kd_scene_link_preview(struct kd_scene *scene, int32_t width, int32_t height);
 
 #endif

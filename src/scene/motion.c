@@ -135,15 +135,15 @@ struct kd_observer_motion kd_body_motion(const struct kd_body *body)
     return motion;
 }
 
-/* m counts around the hole's own axis. If the spin a is negative the disk turns against the hole, and the hole rings as
- * for |a|. */
+/* m counts around the hole's own axis. If the spin a is negative, the disk turns against the hole. The hole itself
+ * rings as for |a|. */
 bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
 {
     double t = scene->top.time - scene->style.ringdown_time;
     struct kd_qnm mode;
     if (!(scene->style.ringdown > 0) || t < 0)
         return false;
-    /* succeeds: the spin of a valid scene is within the range of the modes */
+    /* cannot fail, because the spin of a valid scene is within the range of the modes */
     kd_qnm_find(2, 2, 0, kd_hole(fabs(scene->spacetime.spin)), &mode);
     *wave = kd_ringdown_wave(mode.omega, t);
     return true;

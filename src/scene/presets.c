@@ -285,8 +285,8 @@ static enum kd_status unknown(const char *name, struct kd_error *error)
 
 void kd_scene_smooth(struct kd_scene *scene)
 {
-    /* These lines repeat SMOOTH; a test compares the two. Parsing SMOOTH could fail for lack of memory, and the callers
-     * of this function rely on its success. */
+    /* These lines repeat SMOOTH; a test compares the two. SMOOTH is not parsed here, because parsing could fail for
+     * lack of memory and the callers of this function rely on its success. */
     kd_scene_defaults(scene);
     scene->disk.emission_opacity = 0;
     scene->disk.peak_temperature_k = 5600;

@@ -39,7 +39,7 @@ static struct hole_shown show_hole(const struct kd_scene *scene)
     return s;
 }
 
-/* Rounds a computed bound up to a number that is short enough to type, and that is accepted when it is typed. */
+/* Rounds a computed bound up to a number with few digits that is itself accepted. */
 static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1e9); }
 
 #define WORD_OF_NEAR(projection) \
@@ -69,7 +69,7 @@ static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *e
                           scene->image.bit_depth);
 }
 
-/* Like the largest spin, the largest charge keeps the horizons apart by 1e-6 at least. */
+/* Like the largest spin, the largest charge is such that the horizons differ by at least 1e-6. */
 static enum kd_status charge(const struct kd_scene *scene, struct kd_error *error)
 {
     const double least = 1e-12, a = scene->spacetime.spin;
@@ -311,7 +311,7 @@ static enum kd_status disk_frequency(const struct kd_scene *scene, struct kd_err
                           show(floor(kd_scene_disk_most_ghz(scene) * 1e9) * 1e-9).text, KD_DISK_QUANTA);
 }
 
-/* The light of a thick disk is integrated along rays: it has no surface. */
+/* The light of a thick disk is integrated along rays, because such a disk has no surface. */
 static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *error)
 {
     if (!scene->disk.atmosphere || scene->disk.height == 0)
@@ -323,8 +323,8 @@ static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *
                           show(scene->disk.height).text);
 }
 
-/* Limits of the spin if light returns to the disk. Beyond FASTEST_RETURNS the energy balance of the flux is wrong by
- * more than 1e-3. Beyond FASTEST_REFLECTS light that is reflected again and again would gain energy without bound. */
+/* Limits of the spin if light returns to the disk. Beyond FASTEST_RETURNS the error of the energy balance exceeds
+ * 1e-3. Beyond FASTEST_REFLECTS, light that is reflected repeatedly would gain energy without bound. */
 #define FASTEST_RETURNS 0.999999
 #define FASTEST_REFLECTS 0.998
 
@@ -404,7 +404,7 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
                           show(v->outer).text, show_bound(least).text);
 }
 
-/* limit of the growth of a jet's brightness between its edges, in octaves; more overflows single precision */
+/* limit of the growth of a jet's brightness between its edges, in octaves; more growth overflows single precision */
 #define JETS_GROWTH 60
 static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -441,7 +441,7 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
     return KD_OK;
 }
 
-/* least time between flashes, in durations of a flash: half-way between two flashes, exp(-18) of the peak is left */
+/* least time between two flashes, in durations of a flash: half-way between them exp(-18) of the peak is left */
 #define FLASH_APART 12
 #define BODIES_CLEAR 1.05 /* a body's smallest radius as a multiple of the horizon's */
 
@@ -547,7 +547,8 @@ static enum kd_status field_uas(const struct kd_scene *scene, struct kd_error *e
 static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
 {
     const double width = kd_scene_width_uas(scene), most = BEAM_WIDTHS * width;
-    if (scene->style.beam_uas == 0 || scene->style.beam_uas <= most) /* the comparisons are false for NAN */
+    /* for a width of NAN the comparisons are false, so the beam is refused */
+    if (scene->style.beam_uas == 0 || scene->style.beam_uas <= most)
         return KD_OK;
     if (isnan(width))
         return kd_error_field(error, "/style/beam_uas",
@@ -610,8 +611,8 @@ static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Polarised transfer needs a magnetic field. It permits no other source of light, because the others have no
- * polarisation. */
+/* Polarised transfer needs a magnetic field. No other source of light is permitted with it, because the polarisation
+ * of the other sources is not modelled. */
 static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->polarization.model != KD_POLARIZATION_TRANSFER)

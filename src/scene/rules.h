@@ -7,8 +7,8 @@
 struct kd_rule {
     const char *text;
     enum kd_status (*check)(const struct kd_scene *scene, struct kd_error *error);
-    /* For rules that a JSON Schema can express: an integer is a multiple of `multiple`, or a number is 0 or at least
-     * `above_0`. Otherwise NULL, NULL, 0, 0. */
+    /* For rules that a JSON Schema can express. Either an integer must be a multiple of `multiple`, or a number must
+     * be 0 or at least `above_0`. For all other rules the members are NULL, NULL, 0, 0. */
     const char *section, *name;
     int32_t multiple;
     double above_0;

@@ -32,18 +32,18 @@
         struct kd_##element { KD_M_ROWS(ROWS) } at[most]; \
     } name;
 
-/* One member for each section: struct kd_camera camera, and so on. Members of the document itself are in `top`. A list
- * is, for example, struct kd_spots { size_t count; struct kd_spot at[KD_SPOTS]; } spots. Its elements from count on
- * have their defaults, so that equal scenes have equal bytes. */
+/* One member for each section: struct kd_camera camera, and so on. Members of the document itself are in `top`. A
+ * list is, for example, struct kd_spots { size_t count; struct kd_spot at[KD_SPOTS]; } spots. The unused elements,
+ * from index count on, have their defaults, so that equal scenes have equal bytes. */
 struct kd_dynamic_bodies;
-/* A grid of matter. It has no padding, because scenes are compared by their bytes. */
+/* A grid of matter. The struct has no padding, because scenes are compared by their bytes. */
 struct kd_scene_matter {
     /* nodes: number of nodes of all frames together; frames: number of frames in time, 1 for a grid of one moment */
     uint64_t nodes, frames;
     /* 1: `first` and `last` are times of ingoing Kerr-Schild coordinates; 0: of Boyer-Lindquist coordinates */
     uint64_t late;
     double first, last; /* times of the first and the last frame, M */
-    double outer;       /* r of its last row, M */
+    double outer;       /* r of the grid's last row, M */
 };
 struct kd_scene {
     KD_SCENE_SECTIONS(KD_M_SECTION, KD_M_LIST)
@@ -51,21 +51,20 @@ struct kd_scene {
         const struct kd_dynamic_bodies *at;
         uint64_t generation;
     } dynamic; /* moving content shown in addition to the fields (scene/dynamic_bodies.h); NULL and 0: none */
-    struct kd_scene_matter matter; /* what is known about volume.grid, set by kd_scene_resolve; 0: nothing */
+    struct kd_scene_matter matter; /* description of the grid volume.grid, set by kd_scene_resolve; 0: no description */
 };
 
 /* Sets every field to its default, which is the scene of an empty document. */
 void kd_scene_defaults(struct kd_scene *scene);
 
-/* Sets the scene to a preset, by name. If there is none of this name it returns KD_EINVAL with a list of all
- * presets. */
+/* Sets the scene to a preset, by name. If no preset has this name, returns KD_EINVAL with a list of all presets. */
 enum kd_status kd_scene_preset(struct kd_scene *scene, const char *name, struct kd_error *error);
 
 /* Returns the present name of a preset that had another name in older versions. Any other name is returned
  * unchanged. */
 const char *kd_scene_preset_name_now(const char *name);
-/* Sets the preset "smooth": the defaults without turbulence and lens effects, for measuring a disk instead of showing
- * it. Documents of older versions, which had neither, mean this scene as well. */
+/* Sets the preset "smooth": the defaults without turbulence and lens effects, for measuring a disk instead of
+ * showing it. Older versions had neither turbulence nor lens effects, so their documents also mean this scene. */
 void kd_scene_smooth(struct kd_scene *scene);
 size_t kd_scene_preset_count(void);
 const char *kd_scene_preset_name(size_t index);
@@ -73,8 +72,8 @@ const char *kd_scene_preset_title(size_t index);
 
 /* Merges a JSON document into *scene. Fields that it does not name keep their values, so start from the defaults or a
  * preset. An array replaces a whole list. An object {"0": {...}} changes elements of a list by index, and the next free
- * index appends an element. A document that names a style sets the fields of that style, except those that it sets
- * itself (scene/style.h).
+ * index appends an element. If a document names a style, the fields of that style get the style's values, except for
+ * fields that the document sets itself (scene/style.h).
  *
  * These are errors, with a JSON pointer and what is allowed: text after the document, duplicate keys, unknown fields,
  * wrong types, NaN and numbers that overflow, depth over 32, text over KD_SCENE_JSON_MAX bytes, a version other than 1.
@@ -83,65 +82,65 @@ const char *kd_scene_preset_title(size_t index);
 #define KD_SCENE_JSON_MAX (1u << 20)
 enum kd_status kd_scene_from_json(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error);
 
-/* Merges a patch (RFC 7396). It works like kd_scene_from_json, but null resets a field, or all fields of a section or
- * element, to the default; for a list, null removes all elements. */
+/* Merges a patch (RFC 7396). It works like kd_scene_from_json, except that null has a meaning. null resets a field,
+ * or all fields of a section or element, to the default; for a list, null removes all elements. */
 enum kd_status kd_scene_patch(struct kd_scene *scene, const char *text, size_t length, struct kd_error *error);
 
-/* Sets one scalar field from text, by its dotted path ("camera.inclination_deg", "spots.0.r"). The next free index of a
- * list appends an element. Setting a style sets all of its fields. */
+/* Sets one scalar field from text, by its dotted path ("camera.inclination_deg", "spots.0.r"). The next free index
+ * of a list appends an element. Setting style.name sets all fields of that style. */
 enum kd_status kd_scene_set(struct kd_scene *scene, const char *path, const char *value, struct kd_error *error);
 
-/* True if both paths name the same field. Either may use an old name. */
+/* True if both paths name the same field. A path may use a former name. */
 bool kd_scene_same_path(const char *a, const char *b);
 
 /* Checks all ranges, and the rules about several fields: a static observer is outside the ergosphere, a pinhole at a
  * finite radius, disk edges in order and outside the ISCO, the bit depth 8 or 16, ... */
 enum kd_status kd_scene_validate(const struct kd_scene *scene, struct kd_error *error);
 
-/* For live sessions. kd_scene_advance moves azimuth, time and the observer by their rates for `seconds`. Three further
- * functions return whether time advances, whether azimuth advances, and whether the observer falls. The emitters decide
- * whether that changes the picture (render/emit/emitter.h). */
+/* For live sessions. kd_scene_advance moves azimuth, time and the observer by their rates for `seconds`. Three
+ * further functions return whether time advances, whether azimuth advances, and whether the observer falls. Whether
+ * such a movement changes the picture is decided by the emitters (render/emit/emitter.h). */
 void kd_scene_advance(struct kd_scene *scene, double seconds);
-/* Adds `time`, in M, to the scene's time, which stops at the ends of its range. */
+/* Adds `time`, in M, to the scene's time. The result is limited to the range of the scene's time. */
 void kd_scene_pass(struct kd_scene *scene, double time);
 bool kd_scene_time_goes_on(const struct kd_scene *scene);
 bool kd_scene_azimuth_goes_on(const struct kd_scene *scene);
 bool kd_scene_falls(const struct kd_scene *scene);
 
 /* Moves the observer along its own path by a proper time of 0 or more. This changes camera.r, camera.azimuth_deg and
- * time. The scene must be valid, and its observer must have such a path (physics/spacetime/worldline.h). With slow
- * light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing Kerr-Schild
- * coordinates. */
+ * time. The scene must be valid, and its observer must follow a path of its own (physics/spacetime/worldline.h).
+ * With slow light, and outside the horizon, `time` advances in Boyer-Lindquist coordinates, otherwise in ingoing
+ * Kerr-Schild coordinates. */
 void kd_scene_go_on(struct kd_scene *scene, double proper_time);
 
-/* kd_scene_is_slow_volume: whether matter on a grid is shown at the time when its light left. kd_scene_is_slow: whether
- * this holds, or disk.slow_light does. */
+/* kd_scene_is_slow_volume: whether matter on a grid is shown as it was when its light left. kd_scene_is_slow: the
+ * same, or disk.slow_light does this for the disk. */
 bool kd_scene_is_slow_volume(const struct kd_scene *scene);
 bool kd_scene_is_slow(const struct kd_scene *scene);
-/* In slow light, the scene's time is that of the observer, and this returns the observer's r in M: light from the
- * hole's vicinity left about this long before the scene's time. Otherwise, and at infinity, it returns 0. */
+/* With slow light, the scene's time is that of the observer. This returns the observer's r in M: light from the
+ * hole's vicinity left about this long before the scene's time. Without slow light, and at infinity, it returns 0. */
 double kd_scene_lead(const struct kd_scene *scene);
 
-/* Clock of a falling observer. to_horizon, to_end: proper times, in M, until it reaches the outer horizon (NAN inside
- * it) and the end of the model. second: 1 M in seconds. kd_scene_clock returns false if the observer does not fall, or
- * if its latitude changes. It takes some 20 us. */
+/* Clock of a falling observer. to_horizon, to_end: proper times, in M, until the observer reaches the outer horizon
+ * (NAN inside it) and the end of the model. second: 1 M in seconds. kd_scene_clock returns false if the observer
+ * does not fall, or if its latitude changes. Takes some 20 us. */
 struct kd_fall_clock { double to_horizon, to_end, second; };
 bool kd_scene_clock(const struct kd_scene *scene, struct kd_fall_clock *out);
 
-/* True if the picture shows areas to scale, as the plane and pinhole projections do. */
+/* True if the picture shows areas to scale. This holds for the plane and pinhole projections. */
 bool kd_scene_is_flat(const struct kd_scene *scene);
 
-/* Makes the scene of one eye: -1 is the left one, 1 the right one. The scene must be valid, at a finite radius, and its
- * camera.stereo must be "pair". The eye is the camera of the same observer at the same time, moved sideways by half of
- * camera.eye_distance. The shift is along a leg of the observer's local frame, to first order. Its axis and its up
- * direction stay parallel as in flat space. The result has camera.stereo "none". */
+/* Makes the scene of one eye: -1 is the left one, 1 the right one. The scene must be valid, at a finite radius, and
+ * its camera.stereo must be "pair". The eye is the camera of the same observer at the same time, moved sideways by
+ * half of camera.eye_distance. The shift is along an axis of the observer's tetrad, to first order. The camera's
+ * viewing axis and up direction stay parallel as in flat space. The result has camera.stereo "none". */
 struct kd_scene kd_scene_eye(const struct kd_scene *scene, int side);
 
 /* The pixels that are rendered: those of image.tile, or the whole picture. */
 struct kd_window { uint32_t left, top, width, height; };
 bool kd_scene_has_tile(const struct kd_scene *scene);
 struct kd_window kd_scene_window(const struct kd_scene *scene);
-/* kd_scene_tile returns the scene with this window as its tile, kd_scene_whole the scene without a tile. */
+/* kd_scene_tile returns the scene with this window as its tile. kd_scene_whole returns the scene without a tile. */
 struct kd_scene kd_scene_tile(const struct kd_scene *scene, struct kd_window window);
 struct kd_scene kd_scene_whole(const struct kd_scene *scene);
 
@@ -149,8 +148,8 @@ struct kd_scene kd_scene_whole(const struct kd_scene *scene);
 struct kd_vantage kd_scene_vantage(const struct kd_scene *scene);
 struct kd_observer_motion kd_scene_observer(const struct kd_scene *scene);
 
-/* kd_scene_side: number of rays along each side of a pixel, which every pixel has. kd_scene_adapts: whether some pixels
- * may get more. */
+/* kd_scene_side: number of rays along each side of a pixel, for every pixel. kd_scene_adapts: whether some pixels
+ * may get more rays. */
 int32_t kd_scene_side(const struct kd_scene *scene);
 bool kd_scene_adapts(const struct kd_scene *scene);
 
@@ -164,8 +163,8 @@ double kd_scene_sky_brightness(const struct kd_scene *scene);
 
 /* Upper limit of style.exposure "auto", in stops. It keeps empty sky from becoming grey if nothing brighter is in
  * front: 21 magnitudes a square arcsecond become at most a quarter of white. INFINITY if there are no stars and no
- * Milky Way, or in false colour. INFINITY also if sky.brightness is given and something else shines, because then the
- * given ratio counts. */
+ * Milky Way, or in false colour. Also INFINITY if sky.brightness is given and something other than the sky shines,
+ * because the given ratio of brightness is then kept. */
 double kd_scene_exposure_most(const struct kd_scene *scene);
 
 /* kd_scene_volume_inner: inner edge of the scene's volume in M. kd_scene_is_radio: whether the volume is seen at one
@@ -177,19 +176,20 @@ bool kd_scene_is_magnetic(const struct kd_scene *scene);
 /* True if all light is of one frequency, so that the picture's flux is physical: only a volume at a radio frequency is
  * visible, or only a disk with disk.band "frequency". */
 bool kd_scene_is_radio_alone(const struct kd_scene *scene);
-/* The frequency of such light in GHz, and the path of the field that contains it. Undefined for all other scenes. */
+/* Frequency of the light in GHz, and path of the field that contains it, for a scene for which
+ * kd_scene_is_radio_alone is true. Undefined for all other scenes. */
 double kd_scene_frequency_ghz(const struct kd_scene *scene);
 const char *kd_scene_frequency_path(const struct kd_scene *scene);
 void kd_scene_set_frequency(struct kd_scene *scene, double ghz);
-/* True if there is a disk, and it is seen at one frequency. */
+/* True if there is a disk that is seen at one frequency. */
 bool kd_scene_has_disk_frequency(const struct kd_scene *scene);
 /* The highest frequency that disk.frequency_ghz may be: KD_DISK_QUANTA k T/h with the disk's largest colour
- * temperature. Light that returns to the disk may raise that temperature, but is not counted here. */
+ * temperature. Light that returns to the disk may raise that temperature; that increase is ignored here. */
 #define KD_DISK_QUANTA 64
 double kd_scene_disk_most_ghz(const struct kd_scene *scene);
 
-/* kd_scene_spots lists the spots whose brightness is not zero, kd_scene_bodies the bodies whose radius is not zero,
- * both in order. They return the number. */
+/* kd_scene_spots lists the spots whose brightness is not zero. kd_scene_bodies lists the bodies whose radius is not
+ * zero. Both keep the order of the scene, and return the number of entries. */
 size_t kd_scene_spots(const struct kd_scene *scene, const struct kd_spot *on[KD_SPOTS]);
 size_t kd_scene_bodies(const struct kd_scene *scene, const struct kd_body *on[KD_SCENE_BODIES]);
 

@@ -183,7 +183,7 @@ static void add_natures_and_groups(struct kd_json *json)
     kd_json_end(json);
 }
 
-/* An old name excludes the list. */
+/* A document with the old name must not contain the list. */
 static void add_exclusions(struct kd_json *json)
 {
     kd_json_object(json, "dependentSchemas");
@@ -221,7 +221,7 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
         if (!*kd_sections[i].name)
             add_fields(json, &kd_sections[i]);
-        else if (!strchr(kd_sections[i].name, '.')) /* a nested section is written with its parent */
+        else if (!strchr(kd_sections[i].name, '.')) /* a nested section is written as part of its parent */
             add_section(json, &kd_sections[i]);
     }
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)

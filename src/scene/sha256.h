@@ -7,7 +7,7 @@
 
 /* Writes 64 hexadecimal digits and a NUL. data may be NULL if size is 0. Takes some 3 ms for each MiB. */
 void kd_sha256(const void *data, size_t size, char out[65]);
-/* Writes a digest whose computation was spread over several calls of nettle. */
+/* Writes a digest that several calls of nettle have computed. */
 void kd_sha256_text(const uint8_t digest[32], char out[65]);
 
 #endif

@@ -1,6 +1,7 @@
-/* Styles: presets of fields, selected by style.name, from the table KD_SCENE_STYLES of scene/fields.h. A document that
- * names a style sets these fields to the style's values, except those that it sets itself. The canonical form contains
- * the resulting fields, and nothing else reads the style's name. Constant data and pure functions, any thread. */
+/* Styles: presets of fields, selected by style.name, from the table KD_SCENE_STYLES of scene/fields.h. If a document
+ * names a style, these fields get the style's values, except for fields that the document sets itself. The canonical
+ * form contains the resulting fields; the style's name has no other effect. Constant data and pure functions, any
+ * thread. */
 #ifndef KD_SCENE_STYLE_H
 #define KD_SCENE_STYLE_H
 

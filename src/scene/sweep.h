@@ -31,10 +31,11 @@ struct kd_sweep_axis {
     bool even;        /* the values are evenly spaced, to 1e-12 of the larger end */
     size_t n;
     struct kd_sweep_value {
-        /* text of the value in the form that kd_scene_set accepts; for an asset, its hash once the name is resolved */
+        /* text of the value in the form that kd_scene_set accepts; for an asset, its hash instead of its name once
+         * the name is resolved */
         char *text;
         double number; /* NAN if the value is not a number */
-        /* what is known about a volume.grid whose name is resolved; 0 for any other value */
+        /* description of the grid if the value is a volume.grid whose name is resolved; 0 for any other value */
         struct kd_scene_matter matter;
     } *values;
 };
@@ -46,9 +47,9 @@ struct kd_sweep {
     unsigned scenes;
 };
 
-/* Reads an object of axes over a valid scene. Each value is checked against its field; whether a combination is valid
- * is checked by kd_sweep_scene. assets: where names are looked up; NULL: hashes are not looked up. Returns KD_EINVAL
- * with the pointer /axes/FIELD/NUMBER, or KD_ENOMEM. Free *out with kd_sweep_free. */
+/* Reads an object of axes over a valid scene. Each value is checked against its field. Combinations of values are
+ * checked later, by kd_sweep_scene. assets: where names are looked up; NULL: hashes are not looked up. Returns
+ * KD_EINVAL with the pointer /axes/FIELD/NUMBER, or KD_ENOMEM. Free *out with kd_sweep_free. */
 enum kd_status kd_sweep_read(const cJSON *axes, const struct kd_scene *base, const struct kd_assets *assets,
                              struct kd_sweep **out, struct kd_error *error);
 
@@ -65,7 +66,7 @@ enum kd_status kd_sweep_scene(const struct kd_sweep *sweep, unsigned scene, stru
 
 /* Writes a value as JSON. Fails with KD_ENOMEM only. */
 enum kd_status kd_sweep_value_json(const struct kd_sweep_value *value, struct kd_buffer *out);
-/* Writes a member with the axes in the form that kd_sweep_read accepts, each as a list. */
+/* Writes the axes as a member, in the form that kd_sweep_read accepts. Each axis is a list of values. */
 void kd_sweep_axes_json(const struct kd_sweep *sweep, struct kd_json *json, const char *name);
 /* Writes the name of a scene's file without its extension, such as "000012 spin=0.9 inclination_deg=40". Characters
  * that are unsuitable for file names become "_". A name that is too long is cut. */

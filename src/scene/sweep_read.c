@@ -10,14 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HITS 1e-9 /* a range has reached its end if it comes this close to it, as a fraction of a step */
+#define HITS 1e-9 /* a range is complete if its last value comes this close to the end, as a fraction of a step */
 #define EVEN 1e-12
 
 struct reader {
     struct kd_sweep *sweep;
     const struct kd_assets *assets;
     struct kd_error *error;
-    /* The axis that is being read. It is the last one of the sweep. */
+    /* The axis that is being read; always the last axis of the sweep so far. */
     const struct kd_row *field;
     size_t index; /* index of the list element that has the field */
     char pointer[100];
@@ -59,7 +59,7 @@ static enum kd_status begin(struct reader *r, const char *path)
     return KD_OK;
 }
 
-/* Text of a value in the form in which the scene stores it; an asset is named by its hash. */
+/* Text of a value in the form in which the scene stores it: an asset is named by its hash. */
 static const char *resolved(const struct reader *r, const struct kd_scene *scene, const char *text)
 {
     return r->field->kind == KD_KIND_ASSET ? kd_field_asset(scene, r->field, r->index) : text;
@@ -106,7 +106,7 @@ static enum kd_status add_number(struct reader *r, double value, const char *at)
     return add(r, text, at);
 }
 
-/* A parsed range. by: ':' if it has a step, '/' if it has a count, 0 if the text has neither form. */
+/* A parsed range. by: ':' if the range has a step, '/' if it has a count, 0 if the text is not a range. */
 struct range {
     double from, to, step;
     char by;

@@ -8,7 +8,7 @@
 #define SECTION_NAME(s) \
     (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
-/* For each section, the type of its rows and their offset in the scene. */
+/* For each section, the type of its rows, and the offset of its struct in the scene. */
 #define PLACE(name, ROWS, group, help) \
     struct rows_of_##name { KD_M_ROWS(ROWS) }; \
     enum { BASE_##name = offsetof(struct kd_scene, name) };
@@ -198,7 +198,7 @@ void kd_field_pointer(const struct kd_row *field, size_t index, char out[KD_PATH
     spell(field, index, "/", path);
     snprintf(out, KD_PATH_SIZE, "/%.*s", KD_PATH_SIZE - 2, path);
     for (char *c = out; *c; c++)
-        *c = *c == '.' ? '/' : *c; /* the separator of nested sections */
+        *c = *c == '.' ? '/' : *c; /* nested sections are separated by a dot */
 }
 
 void kd_scene_defaults(struct kd_scene *scene)

@@ -20,7 +20,8 @@ struct kd_field_page {
 struct kd_nature { const char *word, *help; };
 
 struct kd_section {
-    const char *name; /* "" for the document itself, which is the last section; "disk.gas" for a nested section */
+    /* "" for the document itself, which is the last section; "disk.gas" for a section nested in another */
+    const char *name;
     const char *help;
     enum kd_section_group group;
     size_t first, count; /* the section's rows in kd_fields */
@@ -37,8 +38,8 @@ enum {
     KD_FIELD_WORDS = (KD_FIELD_COUNT + 63) / 64, /* words of the bit mask of the fields that a document has */
 };
 
-/* The rows of a list exist once, so functions on fields also take the index of the element. For other sections it is
- * 0. */
+/* The rows of a list exist only once, for all of its elements. So functions on fields also take the index of the
+ * element. For sections that are not lists the index is 0. */
 extern const struct kd_nature kd_natures[KD_NATURE_COUNT];
 extern const char *const kd_groups[KD_GROUP_COUNT]; /* "look", "gas", ... */
 /* Rows of struct kd_scene; for a list, of its first element. `object` is the section's name. */
@@ -46,9 +47,9 @@ extern const struct kd_row kd_fields[KD_FIELD_COUNT];
 extern const struct kd_field_page kd_field_pages[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
 extern const struct kd_former kd_old_names[KD_OLD_NAME_COUNT];
-extern const struct kd_document kd_scene_document; /* the rows as a document, which fills struct kd_scene */
+extern const struct kd_document kd_scene_document; /* the rows as a document, whose target is struct kd_scene */
 
-/* Both find an entry by name; NULL if there is none. The section "" is the document itself. Names are
+/* Both functions find an entry by its name; NULL if there is none. The section "" is the document itself. Names are
  * case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
 /* kd_section_is_part tells whether `section` is nested in `whole`. kd_section_member returns its name within the
@@ -58,12 +59,13 @@ bool kd_section_is_part(const struct kd_section *section, const struct kd_sectio
 const char *kd_section_member(const struct kd_section *section);
 const struct kd_row *kd_field_find(const char *section, const char *name);
 
-/* kd_section_size: number of elements of a list; 1 for other sections. kd_section_resize resets the elements that it
+/* kd_section_size: number of elements of a list; 1 for other sections. kd_section_resize sets all elements that it
  * removes or adds to their defaults. */
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
 
-/* The struct that has the field: the scene, moved to an element of a list. Functions of rows take this pointer. */
+/* The address at which a row's offset counts: the scene, moved to the given element of a list. Functions of rows
+ * take this pointer. */
 const void *kd_field_in(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 /* True if a document has the field (kd_document_read). */
 static inline bool kd_field_is_given(const uint64_t *given, const struct kd_row *field)
@@ -78,17 +80,17 @@ void kd_field_put(struct kd_scene *scene, const struct kd_row *field, size_t ind
  * then unchanged. */
 enum kd_status kd_field_store(struct kd_scene *scene, const struct kd_row *field, size_t index,
                               const struct kd_value *value, struct kd_error *error);
-/* True if the row allows the scene's value, and an asset is named by its hash. */
+/* True if the row allows the scene's value. For an asset, the value must be a hash. */
 bool kd_field_is_sound(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 /* The text of an ASSET; "": none. */
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_row *field, size_t index);
-/* Begins a JSON text with numbers in the form of the canonical document: 1e-5, not 0.00001. */
+/* Begins a JSON text whose numbers have the form of the canonical document: 1e-5, not 0.00001. */
 struct kd_json kd_scene_json(struct kd_buffer *out);
 /* Checks the member "version", which must be 1. */
 enum kd_status kd_scene_version(const struct kd_value *value, struct kd_error *error);
 
-/* Finds a field by its dotted path, like kd_scene_set, and the index of its element, which need not exist yet. Returns
- * KD_EINVAL with a pointer. */
+/* Finds a field and the index of its list element, by a dotted path like that of kd_scene_set. The element need not
+ * exist yet. Returns KD_EINVAL with a pointer. */
 enum kd_status kd_field_at(const char *path, const struct kd_row **out, size_t *index, struct kd_error *error);
 
 /* Write a field's path and its JSON pointer: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and

@@ -23,7 +23,7 @@ struct column {
     const struct kd_timeline *timeline;
     const struct kd_row *field;
     size_t index;
-    size_t from; /* the key at which t is 0; at other keys whole turns are counted from this one */
+    size_t from; /* the key at which t is 0; at other keys whole turns are counted relative to this key */
     bool ratios; /* the member is interpolated logarithmically */
     bool turns;  /* the member is an angle, which takes the shorter way from key to key */
     enum kd_interpolation by;
@@ -60,9 +60,9 @@ static double secant(const struct column *c, size_t key)
     return isfinite(rise) ? rise / apart(c, key) : NAN;
 }
 
-/* Monotone slope at a key: the weighted harmonic mean of the secants, or 0 at a turning point (Fritsch & Butland, SIAM
- * J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie, as in SLATEC's PCHIM). At both ends of the timeline
- * it is 0. */
+/* Monotone slope at a key: the weighted harmonic mean of the secants, or 0 at a turning point (Fritsch & Butland,
+ * SIAM J. Sci. Stat. Comput. 5 (1984) 300, with the weights of Brodlie, as in SLATEC's PCHIM). At both ends of the
+ * timeline the slope is 0. */
 static double monotone_slope(const struct column *c, size_t key, double before, double after)
 {
     if (!(before * after > 0))
@@ -71,8 +71,8 @@ static double monotone_slope(const struct column *c, size_t key, double before, 
     return (w0 + w1) / (w0 / before + w1 / after);
 }
 
-/* Slope of the parabola through a key and its two neighbours. If there is only one neighbour, slope of the straight
- * line to it. */
+/* Slope of the parabola through a key and its two neighbours. If a key has only one neighbour, the slope of the
+ * straight line to this neighbour. */
 static double parabola_slope(const struct column *c, size_t key, double before, double after)
 {
     if (isnan(before) || isnan(after))
@@ -119,8 +119,8 @@ static bool is_turn(const struct kd_row *field)
     return !strcmp(field->unit, "degrees") && field->most - field->least >= 360;
 }
 
-/* True if a field keeps its value between two keys. Catmull and Rom's cubic may change it even if both keys have the
- * same value. */
+/* True if a field keeps its value between two keys. With Catmull and Rom's cubic a field may change even if both
+ * keys have the same value. */
 static bool stays(const struct kd_timeline *timeline, size_t key, const struct kd_row *field, size_t index)
 {
     const struct kd_scene *from = &timeline->keys[key].scene, *to = &timeline->keys[key + 1].scene;
@@ -128,8 +128,8 @@ static bool stays(const struct kd_timeline *timeline, size_t key, const struct k
            kd_field_get(from, field, index) == kd_field_get(to, field, index);
 }
 
-/* Interpolates a section. If only one of the two keyframes has an element of a list, the other is taken to have this
- * element with all defaults. */
+/* Interpolates a section. If only one of the two keyframes has an element of a list, the element of the other
+ * keyframe is taken to have all defaults. */
 static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section,
                             struct kd_scene *out)
 {
@@ -183,7 +183,7 @@ static bool same_aim(const struct kd_aim *a, const struct kd_aim *b)
            (a->kind != KD_AIM_PLACE || (a->r == b->r && a->theta_deg == b->theta_deg && a->phi_deg == b->phi_deg));
 }
 
-/* Turns the camera to where the keyframes aim it. to: the next keyframe, or NULL. */
+/* Turns the camera in the direction that the keyframes set. to: the next keyframe, or NULL. */
 static enum kd_status aim(struct kd_scene *scene, const struct kd_timeline_key *from, const struct kd_timeline_key *to,
                           double t, struct kd_error *error)
 {
@@ -232,7 +232,7 @@ enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, 
         t = eased(to->ease, (at - from->at) / (to->at - from->at));
         for (size_t i = 0; i < KD_SECTION_COUNT; i++)
             section_between(timeline, key, t, &kd_sections[i], out);
-        if (isinf(to->scene.camera.field_uas)) /* the two keys use different units, so the interpolation is in M */
+        if (isinf(to->scene.camera.field_uas)) /* the two keys use different units, so the interpolation is made in M */
             out->camera.field_uas = INFINITY;
         kd_scene_settle(out, NULL);
         proper_time = between(&clock, key, t);

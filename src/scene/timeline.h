@@ -8,15 +8,15 @@
  * keyframes; everything else keeps the value of the keyframe before. After the last keyframe nothing changes.
  *
  * "smooth" is a monotone cubic: it is at rest at both ends and at turning points, and never exceeds the given values.
- * "catmull-rom" passes through the keyframes without stopping, and may exceed the given values. It is Hermite's cubic.
- * Its slope at a key is that of the parabola through the key and its two neighbours; at either end it is that of the
- * straight line to the neighbour (E. Catmull & R. Rom 1974, in Computer Aided Geometric Design, 317; P. Barry & R.
- * Goldman 1988, SIGGRAPH Comput. Graph. 22, 199, with the keys' places as knots). For evenly spaced keys it is the
- * uniform Catmull-Rom spline.
+ * "catmull-rom" passes through the keyframes without stopping, and may exceed the given values. It is a cubic Hermite
+ * spline. The slope at a key is that of the parabola through the key and its two neighbours. The slope at either end is
+ * that of the straight line to the neighbour (E. Catmull & R. Rom 1974, in Computer Aided Geometric Design, 317; P.
+ * Barry & R. Goldman 1988, SIGGRAPH Comput. Graph. 22, 199, with the keys' places as knots). For evenly spaced keys it
+ * is the uniform Catmull-Rom spline.
  *
  * "ease" replaces the fraction t of [0, 1] by t^2 ("in"), 1 - (1 - t)^2 ("out") or 3 t^2 - 2 t^3 ("in-out"). The ease
- * of a keyframe applies to the interval that ends at the keyframe. The ease of the timeline applies to the whole: a
- * keyframe is reached when the eased clock is at the keyframe's place.
+ * of a keyframe applies to the interval that ends at the keyframe. The ease of the timeline applies to the clock of the
+ * whole timeline.
  *
  * With "angles": "shorter", an angle whose field covers a full turn takes the shorter way from key to key: from 350 to
  * 10 through 0.
@@ -25,11 +25,11 @@
  * pitch decide. A keyframe without "look_at" inherits that of the keyframe before; the first keyframe inherits that of
  * the timeline. Between two different aims the camera turns along a great circle.
  *
- * "proper_time" moves the observer along its own path (physics/spacetime/worldline.h), from its place in the scene. It
- * is the proper time since the beginning, in M. For a falling observer it may also be "horizon" or "end": the time at
- * which the observer reaches the outer horizon, or the last place that a camera can have. A keyframe without
- * "proper_time" inherits that of the keyframe before; the first has 0. It is interpolated like other numbers, but with
- * "catmull-rom" by the monotone cubic; the resulting place is exact.
+ * "proper_time" moves the observer along its own path (physics/spacetime/worldline.h), from its place in the scene. Its
+ * value is the proper time since the beginning, in M. For a falling observer it may also be "horizon" or "end": the
+ * proper time at which the observer reaches the outer horizon, or the last place that a camera can have. A keyframe
+ * without "proper_time" inherits that of the keyframe before; the first has 0. It is interpolated like other numbers,
+ * but with "catmull-rom" by the monotone cubic; the resulting place is exact.
  *
  * With "distances": "geometric", camera.r, camera.field_m and camera.field_uas are interpolated logarithmically. */
 #ifndef KD_SCENE_TIMELINE_H
@@ -43,8 +43,8 @@
 
 #define KD_TIMELINE_KEYS_MAX 1000
 
-/* Words of requests, in the order of the enumerators: W(word), with C between them. KD_WORD_OF and KD_COMMA make an
- * array of them. */
+/* Words of requests, in the order of the enumerators: each is W(word), with C between two words. With KD_WORD_OF as
+ * W and KD_COMMA as C the list becomes an array. */
 #define KD_INTERPOLATIONS(W, C) W("linear") C W("smooth") C W("catmull-rom")
 enum kd_interpolation { KD_LINEAR, KD_SMOOTH, KD_CATMULL_ROM };
 #define KD_EASES(W, C) W("none") C W("in") C W("out") C W("in-out")
@@ -55,7 +55,7 @@ enum kd_ease { KD_EASE_NONE, KD_EASE_IN, KD_EASE_OUT, KD_EASE_IN_OUT };
 #define KD_WORD_OF(word) word
 #define KD_COMMA ,
 
-/* Largest r of a place to look at, in M. */
+/* Largest r, in M, of a place that the camera can look at. */
 #define KD_LOOK_AT_FAR 1e12
 
 struct kd_timeline_key {
@@ -67,7 +67,7 @@ struct kd_timeline_key {
 };
 
 struct kd_timeline {
-    /* keys in ascending order of `at`, which is 0 for the first; n_keys 0: there is no timeline */
+    /* keys in ascending order of `at`; the first has `at` = 0; n_keys 0: there is no timeline */
     struct kd_timeline_key *keys;
     size_t n_keys;
     enum kd_interpolation interpolation;
@@ -76,7 +76,7 @@ struct kd_timeline {
 };
 void kd_timeline_finish(struct kd_timeline *timeline);
 
-/* The name of the places of keyframes in a request, and the range of these places. */
+/* The name of a keyframe's place in a request, and the range of places. */
 struct kd_timeline_form {
     const char *place; /* name of the member, such as "frame" */
     double most;
@@ -85,7 +85,7 @@ struct kd_timeline_form {
 
 /* The members of a request that make up a timeline; NULL: the member is missing. */
 struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *angles, *ease, *look_at; };
-/* Rows of these members, in a struct of this type that has them as `items`. */
+/* Rows of these members, for a struct of this type whose member `items` holds them. */
 #define KD_TIMELINE_ROW_(type, items, member) \
     { .name = #member, \
       .kind = KD_KIND_JSON, \
@@ -95,13 +95,13 @@ struct kd_timeline_items { const cJSON *keyframes, *interpolation, *distances, *
         KD_TIMELINE_ROW_(type, items, distances), KD_TIMELINE_ROW_(type, items, angles), \
         KD_TIMELINE_ROW_(type, items, ease), KD_TIMELINE_ROW_(type, items, look_at)
 
-/* Returns the name of the first of these members, other than "keyframes", that the request contains; NULL if it
+/* Returns the name of the first of these members that the request contains, not counting "keyframes". NULL if it
  * contains none. */
 const char *kd_timeline_manner(const struct kd_timeline_items *items);
 
-/* Reads a timeline. Its first key is *first, which must be a valid scene; then each key of *out is valid. assets: where
- * names are looked up; NULL: hashes are not looked up. Returns KD_EINVAL with the pointer into the request. Free *out
- * with kd_timeline_finish. */
+/* Reads a timeline. The first key is *first, which must be a valid scene. On success, every key of *out is valid.
+ * assets: where names are looked up; NULL: hashes are not looked up. Returns KD_EINVAL with the pointer into the
+ * request. Free *out with kd_timeline_finish. */
 enum kd_status kd_timeline_read(const struct kd_timeline_items *items, const struct kd_timeline_form *form,
                                 const struct kd_assets *assets, const struct kd_scene *first, struct kd_timeline *out,
                                 struct kd_error *error);

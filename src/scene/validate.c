@@ -20,7 +20,7 @@ static enum kd_status asset(const struct kd_scene *scene, const struct kd_row *f
                           name);
 }
 
-/* Checks a field's range. The parser checks it too, but a scene that a caller has filled in has passed no parser. */
+/* Checks a field's range. The parser checks it too, but a scene that a caller has filled in was never parsed. */
 static enum kd_status range(const struct kd_scene *scene, const struct kd_row *field, size_t index,
                             struct kd_error *error)
 {

@@ -23,7 +23,7 @@
 
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "too many bytes of your request bodies are being received at once (limit for one client)"
-/* largest body that can arrive within the basic deadline at 32 kB/s; the default deadline is 30 s */
+/* largest body that can arrive at 32 kB/s within the default deadline of 30 s */
 #define PACE ((size_t)960000)
 
 static int socket_of(struct MHD_Connection *mhd)
@@ -48,7 +48,7 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
         if (kd_connection_is_health(*socket_context))
-            kd_sched_short_slices(); /* called here, because this is the first code of ours on a daemon's thread */
+            kd_sched_short_slices(); /* this is the first of our functions that runs on a daemon's thread */
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;
@@ -84,7 +84,7 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->server = server;
     request->mhd = mhd;
     request->connection = connection_of(mhd);
-    /* A connection is used for one request to the health routes, because its next request may belong to the other
+    /* A connection to the health routes serves only one request, because the next request may belong to the other
      * daemon. */
     request->close = kd_connection_is_health(request->connection);
     kd_client_of(mhd, request->client);
@@ -232,8 +232,8 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem, s
     return found;
 }
 
-/* True if the request creates an object whose address is not known yet, so that If-Match cannot hold. If the object
- * already has an address, its handler evaluates If-Match. */
+/* True if the request creates an object whose address is not known yet, so that If-Match cannot be fulfilled. If the
+ * object already has an address, the handler evaluates If-Match. */
 static bool makes_something(const struct kd_request *request)
 {
     return !request->route->question && !strchr(request->route->path, '{') &&
@@ -242,7 +242,7 @@ static bool makes_something(const struct kd_request *request)
 
 static bool is_options(const struct kd_request *request) { return !strcmp(request->method, "OPTIONS"); }
 
-/* True if OPTIONS concerns the whole server: its target is "*", or an address without a path (RFC 9112 3.2.4). */
+/* True if OPTIONS concerns the whole server. Its target is then "*", or an address without a path (RFC 9112 3.2.4). */
 static bool asks_of_all(const struct kd_request *request)
 {
     return is_options(request) && !request->body_announced &&
@@ -278,7 +278,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) {
             .type = KD_PROBLEM_CROWDED, .retry_after = 1, .close = true, .detail = "too many connections are open"
         };
-    else if (kd_cors_is_preflight(request)) { /* browsers send preflights without a token */
+    else if (kd_cors_is_preflight(request)) { /* browsers send preflights without an access token */
         *result = kd_cors_preflight(request);
         return false;
     } else if (asks_of_all(request)) {
@@ -323,8 +323,8 @@ static void read_trace(struct kd_request *request)
     kd_buffer_finish(&value);
 }
 
-/* Handles the complete header. If the announced body must be refused, it is refused here, and libmicrohttpd then
- * closes the connection. A request without a body is answered in the next call, which keeps the connection. */
+/* Handles the complete header. If the announced body must be refused, this happens here, and libmicrohttpd then
+ * closes the connection. A request without a body is answered in the next call, so that the connection stays open. */
 static enum MHD_Result begin(struct kd_request *request, const char *version)
 {
     struct kd_server *server = request->server;
@@ -382,7 +382,7 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
     }
     kd_once_take(request, data, *size);
     *size = 0;
-    if (all - request->body_mark >= PACE) { /* the body arrives fast enough, so its next part gets the same time */
+    if (all - request->body_mark >= PACE) { /* the body arrives fast enough, so its next part gets as much time again */
         request->body_mark = all;
         stage(request, KD_STAGE_BODY);
     }

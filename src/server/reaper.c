@@ -112,7 +112,7 @@ static bool step_down(struct kd_server *server, double *since)
         enter(server, KD_CLOSING, since);
         return false;
     default:
-        kd_thumbnails_cancel(server->thumbnails); /* requests that arrived since the phase began */
+        kd_thumbnails_cancel(server->thumbnails); /* includes requests that arrived since the phase began */
         kd_connections_cut_stalled(server->connections);
         return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
     }
@@ -132,7 +132,7 @@ void *kd_reaper_main(void *user)
         kd_jobs_sweep(server->jobs);
         kd_lessons_sweep(server->lessons);
     } while (!step_down(server, &since));
-    if (!hangs(server)) { /* no connection is suspended, because the queues are empty and closed */
+    if (!hangs(server)) { /* the queues are empty and closed, so no connection is suspended */
         stop_listening(server);
         MHD_stop_daemon(server->daemon);
         MHD_stop_daemon(server->health_daemon);

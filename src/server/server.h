@@ -1,4 +1,5 @@
-/* The HTTP service: routes, limits, and a bounded queue in front of the render thread. It uses no Vulkan type. */
+/* The HTTP service: routes, limits, and a bounded queue in front of the render thread. This header uses no Vulkan
+ * type. */
 #ifndef KD_SERVER_SERVER_H
 #define KD_SERVER_SERVER_H
 
@@ -10,11 +11,12 @@
 struct kd_server;
 
 struct kd_server_params {
-    const char *listen;       /* numeric address, default "127.0.0.1" */
-    uint16_t port;            /* 0: any free port */
-    const char *base_path;    /* prefix of every path, set by a proxy: "/some/prefix"; NULL or "": none */
-    const char *public_url;   /* public address of the page (http/public_url.h); NULL: taken from the request's Host */
-    const char *const *hosts; /* Host names to accept besides those of loopback, without port; NULL-terminated */
+    const char *listen;     /* numeric address, default "127.0.0.1" */
+    uint16_t port;          /* 0: any free port */
+    const char *base_path;  /* prefix of every path, set by a proxy: "/some/prefix"; NULL or "": none */
+    const char *public_url; /* public address of the page (http/public_url.h); NULL: taken from the request's Host */
+    /* Host names that are accepted besides those of loopback, without port; NULL-terminated */
+    const char *const *hosts;
     unsigned queue;           /* limit of waiting renders, default 16 */
     unsigned sessions;        /* limit of live sessions, default 16 */
     unsigned session_ms;      /* a session without viewers ends after this time, default 60 000 */
@@ -24,7 +26,7 @@ struct kd_server_params {
     /* percentage of the limits of connections, waiting renders, sessions and jobs that one client may use, default
      * 75 */
     unsigned client_share;
-    unsigned client_jobs;     /* limit of unfinished jobs of one client; 0: it follows from client_share */
+    unsigned client_jobs;     /* limit of unfinished jobs of one client; 0: the limit follows from client_share */
     unsigned client_device_s; /* seconds of device time that a client may use in a minute; 0: no limit */
     /* origins whose pages may use the server and read its answers (http/cors.h), NULL-terminated; NULL: only the
      * server's own origin */
@@ -54,11 +56,11 @@ struct kd_server_params {
     struct kd_renderer_params renderer;
 };
 
-/* Opens the device, starts the render thread and listens. params and its strings may be freed after the call. Zero
- * selects the default; drain_ms UINT_MAX means no drain. */
+/* Opens the device, starts the render thread and listens. params and its strings may be freed after the call. A
+ * parameter of 0 means the default. drain_ms UINT_MAX means no drain. */
 enum kd_status kd_server_create(const struct kd_server_params *params, struct kd_server **out, struct kd_error *error);
 uint16_t kd_server_port(const struct kd_server *server);
-/* The machine's addresses and name if the server listens on a wildcard address, NULL-terminated; else NULL. */
+/* If the server listens on a wildcard address, the machine's addresses and name, NULL-terminated; otherwise NULL. */
 const char *const *kd_server_own_names(const struct kd_server *server);
 /* Begins to stop: /readyz fails at once; running and queued renders finish. Async-signal-safe. */
 void kd_server_stop(struct kd_server *server);

@@ -30,19 +30,19 @@ def table(results):
     lines = [
         "# Faults of Vulkan",
         "",
-        f"{sum(total.values()) - total['not reached']} calls of Vulkan were made to fail, each in a server of its own: "
+        f"{sum(total.values()) - total['not reached']} Vulkan calls were made to fail, each in a separate server: "
         + ", ".join(f"{total[k]} {k}" for k in KINDS if total[k] and k != "not reached")
         + ".",
         "",
-        f"Each call of an entry point may fail with each of the codes that the specification lets it return: {possible} faults, in the column Of. All of them were tried in these scenarios: "
-        f"{', '.join(whole) or 'none'}. In the others each call failed with one of its codes in rotation. Of the calls that only name an object, every eighth failed. `tests/faults/vulkan.py --full` makes this "
+        f"Each call of an entry point may fail with each code that the specification allows it to return: {possible} faults, in the column Of. All of them were tried in these scenarios: "
+        f"{', '.join(whole) or 'none'}. In the other scenarios each call failed with one of its codes, in rotation. Of the calls that only name an object, one in eight was tried. `tests/faults/vulkan.py --full` makes this "
         "table, `--whole` selects the scenarios in which all faults are tried.",
         "",
-        "- `same`: the bytes are the same as without the fault. The call was repeated, or the picture does not need its result.",
+        "- `same`: the bytes are the same as without the fault, because the call was repeated, or because the picture does not need its result.",
         "- `recovered`: the bytes are the same, after the device was closed and opened again.",
         "- `error`: the answer (503 `out-of-memory`), or the failed start, names the call that failed. The next request had the same bytes as without the fault.",
-        "- `exit 3`: the process ended with exit code 3, so that its supervisor starts it again. This is allowed only if the device is lost.",
-        "- `not reached`: the run had no such call, for example because it had one slice less. Jobs have no `error`: when memory ran out they tried again.",
+        "- `exit 3`: the process ended with exit code 3, so that its supervisor restarts it. This is allowed only if the device is lost.",
+        "- `not reached`: the run had no such call, for example because it had one slice less. Jobs have no `error`, because they retried when memory ran out.",
         "",
         "In all other outcomes the process destroyed each Vulkan object that it had made.",
         "",

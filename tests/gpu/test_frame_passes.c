@@ -171,12 +171,14 @@ static void test_classes_are_learned(void **state)
                              *const larger = "{\"image\": {\"width\": 128, \"height\": 128}, \"volume\": {\"model\": "
                                              "\"torus\"}, \"camera\": {\"azimuth_deg\": 50}}";
     struct kd_plan plan;
-    double took = 0;
+    double least = INFINITY, most = 0;
     for (int k = 0; k < 3; k++)
         for (int other = 0; other < 2; other++) {
             renderer->frames = k == 0; /* all but the first update the estimates, since it compiles kernels */
             struct kd_frame frame = drawn(other ? other_volume : volume, &plan);
-            took = other ? took : timing_of(&frame, "march") * 1e6 / (double)(64 * 64);
+            const double took = timing_of(&frame, "march") * 1e6 / (double)(64 * 64);
+            if (!other && k > 0)
+                least = fmin(least, took), most = fmax(most, took);
             kd_frame_finish(&frame);
         }
     struct kd_capacity learned;
@@ -184,8 +186,10 @@ static void test_classes_are_learned(void **state)
     struct kd_frame frame = drawn(larger, &plan);
     kd_frame_finish(&frame);
     const double known = kd_cost_known(&learned, plan.cost.class, KD_PASS_MARCH);
-    print_message("a ray took %.0f ns, and is known to take %.0f\n", took, known);
-    assert_true(known > took / 100 && known < 4 * took); /* the time of other processes is excluded */
+    print_message("a ray took %.0f to %.0f ns, and is known to take %.0f\n", least, most, known);
+    /* The two measured frames may differ several times, if other processes had the cores during one of them. Their time
+     * is excluded from the estimate. */
+    assert_true(known > least / 100 && known < 1.01 * most);
     assert_true(fabs(estimated(&plan, "march") - known * 1e-6 * (double)kd_plan_rays(&plan.lens)) < 1e-6 * known);
 }
 

@@ -1,5 +1,6 @@
-/* Writes shell completions. The file for a shell consists of tables, which these functions write, and of the functions
- * in completion.bash, completion.zsh or completion.fish, which read the tables. One thread. */
+/* Writes shell completions. The completion file of a shell consists of tables and of functions that read the tables.
+ * The tables are written by the functions below. The functions of the shell are in completion.bash, completion.zsh
+ * or completion.fish. One thread. */
 #ifndef KD_CLI_REFERENCE_COMPLETIONS_H
 #define KD_CLI_REFERENCE_COMPLETIONS_H
 

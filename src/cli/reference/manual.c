@@ -160,7 +160,8 @@ static void write_examples(struct kd_writer *w, const char *command)
         if (command && strcmp(kd_examples[i].command, command))
             continue;
         if (!command && i && !strcmp(kd_examples[i].command, kd_examples[i - 1].command))
-            continue; /* only the first example of a command has a heading, so the others end here */
+            /* only the first example of a command has a heading, so the output for further examples ends here */
+            continue;
         kd_write(w, any ? ".PP\n" : ".SH EXAMPLES\n");
         write_text(w, kd_examples[i].says);
         kd_write(w, "\n.PP\n.RS 4\n.EX\n");
@@ -193,7 +194,7 @@ static bool names(const struct kd_context *context, const char *name)
     return false;
 }
 
-/* Writes SEE ALSO. The program's page names all commands, a command's page the commands that it mentions. */
+/* Writes SEE ALSO. The program's page names all commands. The page of a command names the commands that it mentions. */
 static void write_see_also(struct kd_writer *w, const struct kd_context *context)
 {
     const char *gap = context ? ",\n" : "";
@@ -218,7 +219,7 @@ static bool has(const struct kd_options *options, const struct kd_option *option
     return false;
 }
 
-/* Writes all options except the ones in `told`. */
+/* Writes all options except those in `told`. */
 static void write_options(struct kd_writer *w, const struct kd_options *options, const struct kd_options *told)
 {
     for (size_t i = 0; i < options->n; i++)

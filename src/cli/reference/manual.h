@@ -15,8 +15,8 @@ bool kd_manual_page(struct kd_writer *w, const char *command);
 /* Examples and environment variables, which pages contain besides the option tables. tests/cli/manual.py runs the
  * examples in this order, in a folder that is empty at first. */
 struct kd_example {
-    const char *command; /* command whose page has the example */
-    const char *line;    /* command line; the test skips lines that begin with # */
+    const char *command; /* the command whose page shows the example */
+    const char *line;    /* command lines; the test skips lines that begin with # */
     const char *says;
 };
 extern const struct kd_example kd_examples[];

@@ -19,8 +19,8 @@ static const struct argp_option built_in[] = {
 static bool is_end(const struct argp_option *o) { return !o->name && !o->key && !o->doc && !o->group; }
 static char letter_of(const struct argp_option *o) { return o->key > ' ' && o->key <= '~' ? (char)o->key : 0; }
 
-/* If two options have the same letter, it belongs to the first one. That is the parent's option, which argp also
- * finds first. */
+/* If two options have the same letter, the letter belongs to the option that argp finds first, which is the
+ * parent's. */
 static char free_letter(const struct kd_options *out, const struct argp_option *o)
 {
     for (size_t i = 0; i < out->n; i++)

@@ -29,23 +29,24 @@ struct kd_options {
     size_t n;
 };
 
-/* Reads all visible options in the order of --help: by group; within a group the parent's before the children's, each
- * in the order of its table; argp's own options last. Returns false if there are more than KD_OPTIONS_MOST. */
+/* Reads all visible options in the order of --help: by group; within a group the options of the parent before those
+ * of the children, in the order of their tables; argp's own options last. Returns false if there are more than
+ * KD_OPTIONS_MOST. */
 bool kd_options_read(const struct argp *argp, struct kd_options *out);
 
-/* Entry i of the list of what may follow "kerrd": each subcommand, then "physics NAME" for each quantity. Returns false
- * beyond the end. The result for a quantity is valid until the next call. */
+/* Entry i of the list of words that may follow "kerrd": each subcommand, then "physics NAME" for each quantity.
+ * Returns false beyond the end. The result for a quantity is valid until the next call. */
 struct kd_context {
     char name[64];
     const char *help; /* one line */
     const struct argp *argp;
     struct kd_options options;
-    bool complete; /* `options` has all options; there were not too many */
+    bool complete; /* true: `options` has all options; false: there were more than KD_OPTIONS_MOST */
 };
 bool kd_context_at(size_t i, struct kd_context *out);
 
-/* Calls `one` for the texts of --help. In argp.doc these are the parts before and after \v; `after` selects the parts
- * that follow the options. It includes the texts of the argp's children. */
+/* Calls `one` for the texts of --help. In argp.doc these are the parts before and after \v; `after` selects the
+ * parts that follow the options. Texts of the argp's children are included. */
 void kd_options_texts(const struct argp *argp, bool after,
                       void (*one)(struct kd_writer *w, const char *text, size_t length), struct kd_writer *w);
 

@@ -43,7 +43,8 @@ static bool is_placeholder(const char *text, size_t length)
     return capital;
 }
 
-/* True if the text is like FILE, FILE.csv or SCENE.json: capitals and an extension, which only FILE may lack. */
+/* True if the text is like FILE, FILE.csv or SCENE.json: capitals followed by an extension. Only FILE may have no
+ * extension. */
 static bool is_file(const char *text, size_t length)
 {
     const char *dot = memchr(text, '.', length);
@@ -107,8 +108,8 @@ void kd_argument_words(enum kd_argument takes, const char *argument, struct kd_w
     }
 }
 
-/* Writes the words of a field as "a|b|c". If a word stands for words with a number, such as name_N, it is written
- * without the number. */
+/* Writes the words of a field as "a|b|c". A word that stands for words with a number, such as name_N, is written
+ * without "_N". */
 static void words_of(const struct kd_row *field, char *out, size_t size)
 {
     *out = 0;

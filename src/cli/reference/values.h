@@ -13,7 +13,7 @@ enum kd_argument {
     KD_ARGUMENT_FILE,       /* FILE, FILE.csv, SCENE.json */
     KD_ARGUMENT_FOLDER,     /* DIR */
     KD_ARGUMENT_NAMED_FILE, /* NAME=FILE */
-    KD_ARGUMENT_WORDS,      /* one of a|b|c; an alternative in capitals, as in X|infinity, stands for any text */
+    KD_ARGUMENT_WORDS,      /* one of a|b|c. A word in capitals, as in X|infinity, stands for any text */
     KD_ARGUMENT_LIST,       /* COLUMN,...: words separated by commas */
     KD_ARGUMENT_DEVICE,
     KD_ARGUMENT_PRESET,     /* preset of scenes */

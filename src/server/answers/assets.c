@@ -92,7 +92,7 @@ static void finish(struct kd_task *task)
     struct putting *p = (struct putting *)task;
     const struct kd_server *server = task->request->server;
     kd_asset_put_finish(&p->put);
-    /* the answer was not sent, so the client does not know the new asset */
+    /* the answer could not be sent, so the client does not know the new asset */
     if (p->put.created && task->request->status != MHD_HTTP_CREATED)
         kd_asset_store_remove_later(server->assets, p->put.asset, server->scheduler);
     if (p->put.asset)
@@ -151,8 +151,8 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 static const struct kd_task_kind KIND = { "assets", sizeof(struct putting), work, finish };
 
-/* True if Content-Type contradicts the first bytes. If so, `text` holds the message. Bytes of an unknown kind are
- * refused later, when they are parsed. */
+/* True if Content-Type contradicts the first bytes. In that case `text` holds the message. Bytes of an unknown kind
+ * are refused later, when they are parsed. */
 static bool wrong_type(const struct kd_request *request, char text[200])
 {
     static const struct {
@@ -194,8 +194,8 @@ static enum MHD_Result put(struct kd_request *request)
     return p ? kd_task_submit(&p->task) : refused;
 }
 
-/* Writes the hash of the operator's photograph of the sky, or null if there is none. It is also gone if a client
- * uploaded the same file before the server started, and has deleted it since. */
+/* Writes the hash of the operator's photograph of the sky, or null if there is none. The photograph is also missing
+ * if a client had uploaded the same file before the server started, and has deleted it since. */
 static void write_sky(struct kd_json *json, const struct kd_server *server)
 {
     const char *hash = server->sky ? kd_asset_about(server->sky)->hash : NULL;
@@ -208,8 +208,8 @@ static void write_sky(struct kd_json *json, const struct kd_server *server)
         kd_asset_release(server->assets, sky);
 }
 
-/* Answers with the number and size of assets and the limits. It lists no hash of a client's asset, because everybody
- * who knows a hash may download the asset. */
+/* Answers with the number and size of assets and the limits. The answer contains no hash of a client's asset,
+ * because anybody who has a hash may download the asset. */
 enum MHD_Result kd_handle_assets(struct kd_request *request)
 {
     if (!strcmp(request->method, "PUT"))

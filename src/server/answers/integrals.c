@@ -31,7 +31,7 @@ struct job {
     bool malformed;
     enum { NEW, RENDERS, SUMS } stage;
     struct kd_integral_run run;
-    struct kd_render_job picture; /* the job is in the render queue while its stage is RENDERS */
+    struct kd_render_job picture; /* while its stage is RENDERS, the job is in the render queue */
     struct kd_buffer text;
     double planned_ms; /* planned time of the pictures up to the present one */
     /* the first picture of each size, as begin() has planned it */
@@ -99,7 +99,7 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->scheduled.client, bytes, &task->held, &task->quota, error));
     /* An integral without pictures is computed in one slice, which pauses when other work waits (base/pause.h). Most
-     * take some hundredths of a second; lines and echoes of a corona off the axis take up to some seconds. */
+     * integrals take some hundredths of a second. Lines and echoes of a corona off the axis take up to some seconds. */
     KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
 done:
     return status;
@@ -120,8 +120,8 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     struct kd_render_queue *renders = request->server->renders;
     const unsigned at = job->run.picture;
     struct kd_capacity capacity;
-    /* Only the first picture needs admission. The later ones take its place, so that a request is never refused
-     * halfway. */
+    /* Only the first picture needs admission. Later pictures take the place of the one before, so that a request is
+     * never refused halfway. */
     enum kd_status status = at ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
         return status;
@@ -141,7 +141,7 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     else
         KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
     job->planned_ms += job->picture.plan.cost.estimate_ms;
-    /* begin() estimated the pictures of all sets by the first one, but a set may change the cost of its pictures. */
+    /* begin() estimated the cost of all sets from the first picture, but a set may change the cost of its pictures. */
     if (job->request.what == KD_INTEGRAL_SETS && job->planned_ms > request->server->longest_s * 1e3)
         KD_TRY(
             kd_error_set(error, KD_ETOOBIG,

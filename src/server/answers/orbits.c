@@ -270,7 +270,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->error, job->malformed, job->quota);
     if (job->format == KD_ORBIT_NDJSON) {
         response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 32u << 10, produce, job, NULL);
-        /* sets the deadline of the answer to that of the integration */
+        /* the answer's deadline becomes that of the integration */
         request->reply_bytes = (unsigned long)job->server->longest_s << 24;
         if (response)
             MHD_add_response_header(response, "Content-Type", types[job->format]);
@@ -311,7 +311,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     pthread_mutex_init(&job->lock, NULL);
     kd_orbit_request_init(&job->request);
     request->orbits = job;
-    /* suspended first, because the job may be done before push returns */
+    /* the request is suspended first, because the job may be done before push returns */
     MHD_suspend_connection(request->mhd);
     kd_scheduler_push(server->scheduler, &job->scheduled);
     return MHD_YES;

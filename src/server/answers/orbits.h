@@ -4,8 +4,8 @@
 
 struct kd_orbits_job;
 
-/* Called when the job's request closes: drops the request's reference, after which the job ends at its next slice.
- * HTTP thread; accepts NULL. */
+/* Called when the job's request closes. Drops the request's reference; the job then ends at its next slice. HTTP
+ * thread; accepts NULL. */
 void kd_orbits_job_abandon(struct kd_orbits_job *job);
 
 #endif

@@ -22,8 +22,8 @@ static bool document(const struct kd_served *file)
            strncmp(file->type, "text/css", strlen("text/css"));
 }
 
-/* Redirects from the base path without a slash at its end to the base path with one. Otherwise a browser would resolve
- * the addresses of the page's files one folder too high. */
+/* Redirects from the base path without a slash at its end to the base path with one. Otherwise a browser would look
+ * for the page's files one folder too high. */
 static enum MHD_Result moved(struct kd_request *request)
 {
     const char *token = kd_access_query(request);
@@ -36,9 +36,9 @@ static enum MHD_Result moved(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_PERMANENT_REDIRECT, response);
 }
 
-/* Turns a token in a page's address into a cookie and redirects to the address without the token; the browser keeps the
- * fragment. The cookie has no Path, so browsers use the folder of the address. Behind a proxy only the browser knows
- * that folder. All pages lie in the same one. */
+/* Turns a token in a page's address into a cookie and redirects to the address without the token; the browser keeps
+ * the fragment. The cookie has no Path, so browsers use the folder of the address. Behind a proxy only the browser
+ * can tell which folder that is. All pages are in the same folder. */
 static enum MHD_Result signed_in(struct kd_request *request, const char *token)
 {
     char cookie[KD_ACCESS_TOKEN_MAX + 80];
@@ -53,8 +53,8 @@ static enum MHD_Result signed_in(struct kd_request *request, const char *token)
     return kd_reply_send(request, MHD_HTTP_SEE_OTHER, response);
 }
 
-/* blob: lets a script show pictures and films that it has fetched itself. It fetches a picture to read its headers,
- * and a film so that the <video> can seek in it. */
+/* blob: in the policy lets a script show pictures and films that it has fetched itself. The script fetches a picture
+ * to read its headers, and a film so that the <video> can seek in it. */
 static const char *const guarded[] = {
     "Content-Security-Policy",
     "default-src 'self'; img-src 'self' blob:; media-src 'self' blob:; base-uri 'none'; "

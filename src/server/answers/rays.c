@@ -57,7 +57,7 @@ static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_for
     return NULL;
 }
 
-/* Adds the headers that both forms of the answer have. These headers repeat the first members of the JSON form. */
+/* Adds the headers that both forms of the answer have. The headers repeat the first members of the JSON form. */
 static void describe(struct MHD_Response *response, const struct kd_rays_job *job, const struct kd_rays_answer *answer)
 {
     struct kd_buffer text = { 0 };

@@ -49,7 +49,7 @@ static enum kd_status trace_on_device(struct kd_render_job *device, struct kd_re
     enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta + 2 * first, n,
                                           answer->crossings + first * answer->params.orders, answer->ends + first,
                                           progress, progress_user, &device->error);
-    job->traced += status ? 0 : n; /* if the device is reopened, only the remaining rays are traced */
+    job->traced += status ? 0 : n; /* if the device was reopened, the rays that are done are not traced again */
     job->turn = (size_t)fmax(1, (double)n * fmin(8, TURN_MS / fmax(kd_clock_ms() - begun, 1e-3)));
     device->more = job->traced < answer->n;
     /* On a device without double precision, rays that need it fail. The device itself has not failed. */

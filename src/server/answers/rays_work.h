@@ -11,9 +11,9 @@
 
 struct kd_rays_job {
     struct kd_task task;            /* must be the first member */
-    struct kd_rays_request request; /* initialised by the job; a JSON body is merged into it */
+    struct kd_rays_request request; /* initialised when the job is made; a JSON body is merged into it */
     bool npy;                       /* the body is an array in NPY */
-    /* results beside those of the task */
+    /* results in addition to those of the task */
     bool malformed; /* KD_EINVAL because the body is not JSON */
     struct kd_rays_answer answer;
     double read_ms, trace_ms;
@@ -22,7 +22,7 @@ struct kd_rays_job {
     double traced_from_ms;
     _Atomic size_t begun; /* number of rays that workers have begun */
     struct kd_render_job device;
-    size_t traced, turn; /* numbers of rays on the device: finished, and in the next call */
+    size_t traced, turn; /* numbers of rays on the device: rays that are finished, and rays of the next call */
 };
 
 /* Makes a job. Set `request` and `npy`, then submit it. If the job is not admitted, sets *refused and returns NULL. */

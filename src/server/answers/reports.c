@@ -53,6 +53,6 @@ enum MHD_Result kd_handle_cached_document(struct kd_request *request)
     struct kd_error error = { 0 };
     if (document)
         return kd_reply_served(request, document, NULL);
-    kd_scene_preset(&scene, request->rest, &error); /* called only for its error, whose message lists the presets */
+    kd_scene_preset(&scene, request->rest, &error); /* only its error is used, whose message lists the presets */
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
 }

@@ -69,7 +69,7 @@ done:
     return status;
 }
 
-/* Writes each field with the prefix of the right picture. fields: as of kd_scene_difference. */
+/* Writes each field with the prefix of the right picture. fields: a text that kd_scene_difference has written. */
 static enum kd_status add_prefix(const char *fields, struct kd_buffer *out)
 {
     enum kd_status status = kd_buffer_printf(out, "%s", "");
@@ -199,8 +199,8 @@ enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buff
     return kd_buffer_printf(out, "%s%s%s%s%s", plain, *plain && *text ? "&" : "", text, *pair ? "&" : "", pair);
 }
 
-/* Adds an address of this server. It is absolute if the public address is known, else relative to the request's
- * address, as in Location. */
+/* Adds an address of this server. The address is absolute if the public address is known. Otherwise it is relative
+ * to the request's address, as in Location. */
 static enum kd_status add_address(const struct kd_request *request, struct kd_json *json, const char *name,
                                   const char *path, const char *rest)
 {
@@ -233,8 +233,8 @@ done:
 }
 
 /* Adds the address to share. Also adds the address for frames, if there are origins that may embed it. If the server
- * has access tokens but no key for shared scenes, the address to share is the page's address, because the page asks for
- * a token. */
+ * has access tokens but no key for shared scenes, the address to share is that of the page itself, which asks the
+ * visitor for a token. */
 static enum kd_status add_addresses(const struct kd_request *request, const struct kd_shared *shared,
                                     struct kd_json *json)
 {

@@ -14,8 +14,8 @@
  * address as the value of a parameter. OTHER: the path of the right picture of a pair, signed, or "". */
 enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, STYLE, ICON, SEEN, OTHER, OTHER_PICTURE, TEXTS };
 
-/* Writes the elements that are useful only to visitors with access, or on a server that requires none: the link to
- * oEmbed, which other sites read, and the script that opens the page with the live view. */
+/* Writes the elements that are of use only if the visitor has access or the server requires no access token. They
+ * are the link to oEmbed, which other sites read, and the script that opens the page with the live view. */
 static enum kd_status write_live(const char *const t[TEXTS], struct kd_buffer *page)
 {
     return kd_buffer_printf(
@@ -136,8 +136,8 @@ static enum MHD_Result reply(struct kd_request *request, const struct kd_shared 
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Makes the page that other sites embed in a frame, from the link that the code decodes to. The page contains the
- * code of this link, not the code as received. */
+/* Makes the page that other sites embed in a frame, from the link that the code decodes to. The page contains a new
+ * code that is made of this link, instead of the received code. */
 static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffer *page)
 {
     struct kd_buffer texts[3] = { 0 };

@@ -16,9 +16,9 @@ struct kd_asset {
     struct kd_asset_about about;
     char client[KD_CLIENT];
     double used_ms;
-    unsigned references; /* counted references, including the store's own */
+    unsigned references; /* number of references, including the store's own */
     enum kd_asset_state state;
-    struct kd_scheduler_job removal; /* job that removes the asset's files (kd_asset_store_remove_later) */
+    struct kd_scheduler_job removal; /* scheduler job that removes the asset's files (kd_asset_store_remove_later) */
     struct kd_asset_store *store;
     struct kd_asset *next;
     uint8_t bytes[];
@@ -30,8 +30,8 @@ struct kd_asset_store {
     pthread_mutex_t lock; /* protects all members below; never held while a file is written or removed */
     int folder;           /* descriptor; -1: no folder */
     struct kd_asset *first;
-    uint64_t checking;      /* memory in bytes that checks under way use */
-    _Atomic unsigned count; /* count and bytes are written with the lock and read without */
+    uint64_t checking;      /* memory in bytes used by checks under way */
+    _Atomic unsigned count; /* count and bytes are changed with the lock held, and read without it */
     _Atomic uint64_t bytes;
 };
 

@@ -134,7 +134,7 @@ static const char *read_bytes(int folder, struct kd_asset_about *about, struct k
     return NULL;
 }
 
-/* True if an asset has a record, whatever the record contains. */
+/* True if an asset has a record. The record's contents are not checked. */
 static bool has_record(int folder, const char *hash)
 {
     char name[FILE_NAME];

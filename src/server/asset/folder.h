@@ -20,7 +20,8 @@ enum kd_status kd_asset_folder_load(int folder,
 enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *about, struct kd_error *error);
 void kd_asset_folder_remove(int folder, const char *hash);
 
-/* Fills in what the bytes contain. Returns KD_EINVAL if they are not a supported picture, grid or observation. */
+/* Fills in the description of the bytes. Returns KD_EINVAL if the bytes are not a supported picture, grid or
+ * observation. */
 enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_about *out, struct kd_error *error);
 
 #endif

@@ -1,7 +1,7 @@
 /* Stores an asset in steps, one in each slice: hash the bytes, look for the same bytes, check them, reserve room,
- * write them. No bytes are checked twice. While a grid is checked, its unpacked bytes count towards the limit. When
- * only one check runs, it may exceed the limit, because no asset is evicted for bytes that may turn out not to be a
- * grid. */
+ * write them. No bytes are checked twice. While a grid is checked, its unpacked bytes count towards the limit. A
+ * check that runs alone may exceed the limit. No asset is evicted for a check, because the bytes may turn out not to
+ * be a grid. */
 #include "server/asset/asset_internal.h"
 
 #include "base/clock.h"
@@ -31,7 +31,7 @@ struct kd_asset_putting {
                            struct kd_error *error);
 };
 
-/* Finds the least recently used asset. Returns NULL if it may not be evicted. Called with the lock. */
+/* Finds the least recently used asset. Returns NULL if this asset may not be evicted. Called with the lock. */
 static struct kd_asset *oldest(const struct kd_asset_store *store, bool any_age)
 {
     struct kd_asset *best = NULL;

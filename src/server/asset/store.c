@@ -127,7 +127,7 @@ void kd_asset_store_close(struct kd_asset_store *store)
     if (!store)
         return;
     while (store->first) {
-        /* the server ended before it removed the asset */
+        /* the server ended during the removal of the asset */
         if (store->first->state == KD_ASSET_LEAVING && store->folder >= 0)
             kd_asset_folder_remove(store->folder, store->first->about.hash);
         kd_asset_take_out(store, store->first);
@@ -186,7 +186,7 @@ static enum kd_slice_result removal_turn(struct kd_scheduler_job *job)
     return KD_SLICE_LAST;
 }
 
-/* Called after the removal. The call may free the asset, which contains the job. */
+/* Called after the removal. The call may free the asset, and with it the job, which is a member of the asset. */
 static void removal_done(struct kd_scheduler_job *job)
 {
     struct kd_asset *asset = (struct kd_asset *)((char *)job - offsetof(struct kd_asset, removal));

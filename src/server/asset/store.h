@@ -1,6 +1,6 @@
-/* Asset store: files that clients upload, and that scenes name by their SHA-256. They are kept in memory. If the server
- * has a state folder they are also kept on disk, as DIRECTORY/assets/HASH.png, .npz, .uvfits or .csv, and HASH.json,
- * which is written last. Each file is written atomically. Any thread.
+/* Asset store: files that clients upload, and that scenes name by their SHA-256. Assets are kept in memory. If the
+ * server has a state folder, they are also kept on disk, as DIRECTORY/assets/HASH.png, .npz, .uvfits or .csv, and
+ * HASH.json. HASH.json is written last. Each file is written atomically. Any thread.
  *
  * Errors contain no path, because clients see them. */
 #ifndef KD_SERVER_ASSET_STORE_H
@@ -27,7 +27,7 @@ struct kd_asset_limits {
         /* bytes: largest total size of all assets, including the unpacked bytes of grids that are being checked;
          * client_bytes: the same for one client */
         client_bytes;
-    double keep_s; /* an asset unused for this long may be evicted for a new one */
+    double keep_s; /* an asset that is unused for this long may be evicted for a new one */
 };
 /* Makes an empty store. */
 enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struct kd_asset_store **out,
@@ -35,7 +35,7 @@ enum kd_status kd_asset_store_create(const struct kd_asset_limits *limits, struc
 /* Loads the assets of the server's state folder. Assets that are added later are stored there. This process holds the
  * folder's lock (job/store.h). Unreadable assets are logged and left alone. Call it once, before any asset is added. */
 enum kd_status kd_asset_store_open(struct kd_asset_store *store, const char *state, struct kd_error *error);
-/* The store in the form in which scenes and renderers use it: assets by hash. */
+/* The store in the form that scenes and renderers use: assets by hash. */
 const struct kd_assets *kd_asset_store_assets(const struct kd_asset_store *store);
 /* Call it when no references are left. Accepts NULL. */
 void kd_asset_store_close(struct kd_asset_store *store);
@@ -53,12 +53,14 @@ const struct kd_asset_limits *kd_asset_store_limits(const struct kd_asset_store 
 struct kd_asset_put {
     struct kd_asset *asset;
     bool created, quota, full;
-    bool any_age; /* set by the caller after kd_asset_put_begin: an asset may be evicted even if it was used recently */
+    /* set by the caller after kd_asset_put_begin: to make room, another asset may be evicted even if it was used
+     * recently */
+    bool any_age;
     struct kd_asset_putting *own; /* internal state; freed by kd_asset_put_finish */
 };
 enum kd_asset_progress {
     KD_ASSET_MORE, /* call again */
-    KD_ASSET_WAIT, /* another thread works on the same bytes or makes room: call again a little later */
+    KD_ASSET_WAIT, /* another thread is storing the same bytes or is making room: call again a little later */
     KD_ASSET_OVER,
 };
 enum kd_status kd_asset_put_begin(struct kd_asset_put *put, struct kd_asset_store *store, const void *data, size_t size,
@@ -73,7 +75,7 @@ struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *h
  * workers only, because it waits for the disk. The memory is freed with the last reference. Returns false if another
  * thread has removed the asset. */
 bool kd_asset_store_remove(struct kd_asset_store *store, struct kd_asset *asset);
-/* Like kd_asset_store_remove, but a worker does it; for callers that must not wait. */
+/* Like kd_asset_store_remove, but a worker removes the asset; for callers that must not wait. */
 void kd_asset_store_remove_later(struct kd_asset_store *store, struct kd_asset *asset, struct kd_scheduler *workers);
 void kd_asset_release(struct kd_asset_store *store, struct kd_asset *asset);
 /* Counts the assets that can be found, and their bytes. Assets whose files are being written or removed are left

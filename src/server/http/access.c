@@ -207,7 +207,7 @@ struct brought {
     /* alone: the token in the page's address or in Kerrd-Access; if it is not NULL, it is the only token checked.
      * bearer: the token in Authorization. Each may be NULL. */
     const char *alone, *bearer;
-    const char *cookies[COOKIES]; /* checked after bearer if alone is NULL */
+    const char *cookies[COOKIES]; /* checked after `bearer`, if `alone` is NULL */
     size_t n_cookies;
 };
 
@@ -230,9 +230,9 @@ static struct brought brought_by(struct kd_request *request)
     return brought;
 }
 
-/* Returns the visitor of a request, or NULL. A token in the page's address or in our own header is the only one
- * checked. Authorization may instead hold the token of a session, so the cookies are checked if Authorization holds no
- * access token. */
+/* Returns the visitor of a request, or NULL. If there is a token in the page's address or in Kerrd-Access, only that
+ * token is checked. Authorization may hold the token of a session instead of an access token; in that case the
+ * cookies are checked too. */
 static const struct kd_visitor *visitor_of(struct kd_request *request, const struct brought *brought)
 {
     const struct kd_access *access = request->server->access;
@@ -245,8 +245,8 @@ static const struct kd_visitor *visitor_of(struct kd_request *request, const str
     return visitor;
 }
 
-/* True if a bearer token may be a session's token, which has 32 hexadecimal digits. An access token of that form
- * cannot be found by guessing. */
+/* True if a bearer token may be a session's token, which has 32 hexadecimal digits. An access token of that form has
+ * too many digits to be guessed, so it need not be counted as a guess. */
 static bool may_be_sessions(const char *bearer)
 {
     return strlen(bearer) == 32 && strspn(bearer, "0123456789abcdef") == 32;
@@ -258,7 +258,8 @@ static unsigned guesses_wait_s(const struct kd_request *request, const struct br
 {
     struct kd_auth_throttle *auth_throttle = request->server->auth_throttle;
     const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer };
-    uint64_t hash = KD_HASH_BEGIN; /* set now, so that a token has the same hash in every part of a request */
+    /* always the same start, so that a token has the same hash in an address, a header and a cookie */
+    uint64_t hash = KD_HASH_BEGIN;
     /* A valid cookie alone may identify the visitor. A wrong token in Authorization then counts as a guess, unless
      * it may be a session's token. */
     if (request->visitor) {

@@ -10,11 +10,13 @@
 
 #define KD_ACCESS_HEADER "Kerrd-Access"
 #define KD_ACCESS_COOKIE "kerrd_access"
-#define KD_ACCESS_QUERY "access" /* query parameter of pages (route.h); the server answers it by setting the cookie */
-#define KD_ACCESS_TOKEN_MIN 16   /* characters */
+/* query parameter of pages (route.h); the server answers it by setting the cookie of the same token */
+#define KD_ACCESS_QUERY "access"
+#define KD_ACCESS_TOKEN_MIN 16 /* characters */
 #define KD_ACCESS_TOKEN_MAX 256
 #define KD_ACCESS_NAME_MAX 32
-/* minimum characters of a key; everybody who has a link can test guesses of its key, so a key must be long */
+/* minimum characters of a key. A key must be long, because anybody who has a link can test guesses of its key
+ * offline */
 #define KD_ACCESS_KEY_MIN 32
 #define KD_ACCESS_SIGNATURE 32 /* bytes of a signature, HMAC-SHA256 */
 
@@ -23,7 +25,8 @@ struct kd_request;
 struct kd_route;
 
 /* Roles. view: requests that store nothing on the server except a pupil's answer. render: all requests. link: the
- * entry is not a token but a key that signs addresses (link.h). Everybody who has a signed address may GET it. */
+ * entry is not a token but a key that signs addresses (link.h). A signed address may be fetched by everybody who has
+ * it. */
 #define KD_ROLES(X) X(VIEW, "view") X(RENDER, "render") X(LINK, "link")
 enum kd_role {
 #define KD_ROLE_ENUM(name, word) KD_ROLE_##name,
@@ -39,14 +42,14 @@ struct kd_visitor {
     enum kd_role role;
 };
 
-/* Reads a token file: NAME ROLE TOKEN on each line; # begins a comment. Returns KD_EINVAL if the file cannot be read,
- * if its group may write it, if others may read or write it, or if a line is malformed. The message names the line and
- * never the token. */
+/* Reads a token file: NAME ROLE TOKEN on each line; # begins a comment. Returns KD_EINVAL if the file cannot be
+ * read, if its group may write to it, if others may read or write it, or if a line is malformed. The message names
+ * the line and never the token. */
 enum kd_status kd_access_read(const char *path, struct kd_access **out, struct kd_error *error);
 void kd_access_free(struct kd_access *access); /* accepts NULL */
 
-/* Returns the owner of a token, or NULL if no entry has it. A key for links does not count as a token. Takes as
- * long for a wrong token as for a right one, whichever entry matches. Any thread. */
+/* Returns the owner of a token, or NULL if no entry has it. A key for links does not count as a token. Takes
+ * constant time: the same for a wrong token and for a right one, and for every entry. Any thread. */
 const struct kd_visitor *kd_access_find(const struct kd_access *access, const char *token);
 
 /* Signs a text with the key of this name; *owner: the key's entry. Returns false if the file has no such key. Any

@@ -1,17 +1,18 @@
-/* Rate limit of device time: a token bucket for each client (--client-device-seconds). The bucket fills at a constant
- * rate and holds at most a minute's worth. Work that a client has done is charged to its bucket, which may go into
- * debt; the client then waits until the debt is paid. Pure: the caller supplies the time. One thread at a time. */
+/* Rate limit of device time: a token bucket for each client (--client-device-seconds). The bucket fills at a
+ * constant rate and holds at most a minute's worth. Device time that a client has used is subtracted from its
+ * bucket. The bucket may become negative; the client then waits until it is positive again. Pure: the caller
+ * supplies the time. One thread at a time. */
 #ifndef KD_SERVER_HTTP_ALLOWANCE_H
 #define KD_SERVER_HTTP_ALLOWANCE_H
 
 #include "server/http/shares.h"
 
-/* number of buckets that can be stored; a full bucket is not stored. If all places are taken, the fullest bucket is
+/* number of buckets that can be stored. Full buckets need no place. If all places are taken, the fullest bucket is
  * dropped */
 #define KD_ALLOWANCE_CLIENTS 256u
 
 struct kd_allowance {
-    /* time until the bucket holds 1 ms of device time */
+    /* time after which the bucket holds 1 ms of device time */
     unsigned seconds;
     struct kd_allowance_place {
         char client[KD_CLIENT];
@@ -19,19 +20,21 @@ struct kd_allowance {
     } places[KD_ALLOWANCE_CLIENTS];
 };
 
-/* Contents of the client's bucket in ms of device time; negative: debt. INFINITY without a limit, and for the client
- * "", which owns the jobs that continue after a restart. */
+/* Contents of the client's bucket in ms of device time; negative: debt. INFINITY if there is no limit. Also INFINITY
+ * for the client "", which owns the jobs that continue after a restart. */
 double kd_allowance_left_ms(const struct kd_allowance *all, const char *client, double now_ms);
-/* Subtracts device time that work of a client has used. */
+/* Subtracts device time that a client's work has used. */
 void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms, double now_ms);
-/* Milliseconds until the bucket holds at least 1 ms after a further owed_ms is subtracted; 0 if it already does. */
+/* Milliseconds until the bucket holds at least 1 ms after owed_ms has been subtracted as well; 0 if that is true
+ * now. */
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
-/* Quota for display and headers, in seconds: the device time that a client may use in a minute, how much of it is
- * left after owed_ms is subtracted, and the time until the bucket is full. Valid only if there is a limit. */
+/* Quota for display and headers, in seconds. It consists of the device time that a client may use in a minute, the
+ * part that is left after owed_ms is subtracted, and the time until the bucket is full. Valid only if there is a
+ * limit. */
 struct kd_quota { unsigned seconds, left_s, whole_in_s; };
 struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms);
-/* True if waiting work of a client may run. patient: the work is in the background and may use only the upper half
- * of the bucket; the lower half is reserved for the client's interactive requests. */
+/* True if waiting work of a client may run. patient: background work, which runs only while the bucket is more than
+ * half full. The lower half is reserved for the client's interactive requests. */
 bool kd_allowance_may(const struct kd_allowance *all, const char *client, bool patient, double now_ms);
 
 #endif

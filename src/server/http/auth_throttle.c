@@ -13,7 +13,7 @@ struct place {
     double tries, at_ms; /* tries left at the time at_ms; at_ms 0: the entry is unused */
     uint64_t wrong[REMEMBERED];
     const void *right[KD_GUESSES_NAMES];
-    unsigned n_wrong, n_right; /* number of tokens ever stored in each array; the arrays are ring buffers */
+    unsigned n_wrong, n_right; /* number of all tokens ever stored in each array, which is a ring buffer */
 };
 
 struct kd_auth_throttle {
@@ -42,7 +42,7 @@ static double tries_now(const struct place *p, double now_ms)
                         : KD_GUESSES_MOST;
 }
 
-/* True if p should be evicted before `than`. */
+/* True if p should be evicted before the entry `than`. */
 static bool gives_way(const struct place *p, const struct place *than, double now_ms)
 {
     const double a = tries_now(p, now_ms), b = tries_now(than, now_ms);

@@ -15,7 +15,7 @@ struct kd_bytes {
     struct kd_bytes_params params;
     pthread_mutex_t lock;
     _Atomic size_t bytes;
-    struct place places[]; /* params.clients places, and one for all other clients */
+    struct place places[]; /* params.clients places, and one place for all other clients */
 };
 
 struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params)
@@ -91,7 +91,7 @@ void kd_bytes_give(struct kd_bytes *b, const char *client, size_t n)
 {
     pthread_mutex_lock(&b->lock);
     struct place *place = find(b, client);
-    /* the client had no place of its own, so its bytes were counted for all other clients together */
+    /* the client had no place of its own, so its bytes were counted together with those of other clients */
     if (!place || place->bytes < n)
         place = &b->places[b->params.clients];
     place->bytes -= n < place->bytes ? n : place->bytes;

@@ -17,11 +17,11 @@
 
 #define IDLE_MS 60e3   /* longer than libmicrohttpd's idle timeout, so it ends only connections that trickle bytes */
 #define CROWDED_MS 2e3 /* time that a connection beyond the limit has to send its header */
-#define REPLY_MS 30e3  /* time that a client has to read an answer; the next constant adds to it */
-/* bytes of an answer for each further millisecond: 32 kB/s, the speed of a poor mobile line */
+#define REPLY_MS 30e3  /* time that a client has to read an answer; large answers get more time by the next constant */
+/* an answer gets one more millisecond for this many bytes: 32 kB/s, the speed of a poor mobile line */
 #define BYTES_PER_MS 32
 
-#define STALL_MS 2e3 /* a client that reads at all takes some bytes within this time, on nearly any line */
+#define STALL_MS 2e3 /* a client that reads at all takes some bytes within this time, even on a slow line */
 /* time in which a socket is drained: enough for several round trips and a few MiB; a client that sends more is reset */
 #define LINGER_MS 2e3
 #define LINGER_BYTES ((size_t)16 << 20)
@@ -111,7 +111,7 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     one->socket = socket;
     snprintf(one->client, sizeof one->client, "%s", client);
     pthread_mutex_lock(&all->lock);
-    /* The library closed this socket without a callback; otherwise its number could not be in use again. */
+    /* The library has closed this socket without a callback, because the socket's number is in use again. */
     struct kd_connection *stale = find(all, socket);
     if (stale) {
         unlink_one(all, stale);
@@ -144,8 +144,8 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-/* Counts the connections of the client of `one`, including `one` itself. handed_on: counts only those that have been
- * handed to a daemon. */
+/* Counts the connections of the client of `one`, including `one` itself. handed_on: counts only connections that
+ * have been handed to a daemon. */
 static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
 {
     unsigned n = 0;
@@ -263,7 +263,8 @@ bool kd_connections_crowded(struct kd_connections *all, const struct kd_connecti
     return crowded;
 }
 
-/* The daemon accepts more connections than are served, so that an excess connection gets an answer with the reason. */
+/* The daemon accepts more connections than are served, so that an excess connection gets an answer with the reason
+ * for the refusal. */
 unsigned kd_connections_most(unsigned limit) { return limit + limit / 4 + 16; }
 
 bool kd_connections_full(struct kd_connections *all)

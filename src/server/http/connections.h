@@ -1,8 +1,9 @@
-/* Deadlines of open connections. libmicrohttpd's timeout counts idle time only, so that one byte every few seconds
- * would hold a connection for ever. Here each stage of a request has its own deadline, and a sweep shuts down sockets
- * that missed it.
+/* Deadlines of open connections. libmicrohttpd's timeout counts idle time only, so a client could hold a connection for
+ * ever by sending one byte every few seconds. Here each stage of a request has its own deadline, and a sweep shuts down
+ * sockets that missed it.
  *
- * A socket stays open until its connection is removed, which takes the same lock as the sweep. Any thread. */
+ * A socket is not closed before its connection is removed. Removal takes the same lock as the sweep, so the sweep never
+ * uses a closed socket. Any thread. */
 #ifndef KD_SERVER_HTTP_CONNECTIONS_H
 #define KD_SERVER_HTTP_CONNECTIONS_H
 
@@ -11,19 +12,19 @@
 
 #include <stdbool.h>
 
-/* limit of open connections of the health routes' daemon; if there are more, the oldest is shut down */
+/* limit of open connections of the health routes' daemon; beyond it, the oldest connection is shut down */
 #define KD_HEALTH_CONNECTIONS 64u
 
 struct kd_connections;
 struct kd_connection;
 
 enum kd_stage {
-    KD_STAGE_OPEN,   /* accepted; no complete request line yet */
+    KD_STAGE_OPEN,   /* the connection is accepted; its request line is not complete */
     KD_STAGE_HEADER, /* the request line has arrived */
     KD_STAGE_BODY,
     KD_STAGE_WORK, /* the server computes the answer: no deadline */
     KD_STAGE_REPLY,
-    KD_STAGE_IDLE, /* kept alive between requests */
+    KD_STAGE_IDLE, /* the connection is kept alive between two requests */
 };
 
 /* limit: largest number of connections; share: largest number of one client's connections. share = limit disables
@@ -33,8 +34,8 @@ void kd_connections_destroy(struct kd_connections *all);
 
 /* Registers an accepted connection. Returns NULL when out of memory. */
 struct kd_connection *kd_connections_add(struct kd_connections *all, int socket, const char *client);
-/* Marks a connection as handed to a daemon of libmicrohttpd. health: it was handed to the daemon of the health routes.
- * It then no longer counts towards the limits; if too many such connections are open, the oldest is shut down. The
+/* Marks a connection as handed to a daemon of libmicrohttpd. health: the daemon of the health routes. A connection
+ * of that daemon does not count towards the limits; if too many of them are open, the oldest is shut down. The
  * caller must refuse the connection if the result is KD_OVER_LIMIT (the daemon's limit is reached) or KD_OVER_SHARE
  * (the client's share is reached). */
 enum kd_handed { KD_HANDED_ON, KD_OVER_LIMIT, KD_OVER_SHARE };
@@ -43,32 +44,32 @@ enum kd_handed kd_connections_hand_on(struct kd_connections *all, struct kd_conn
 struct kd_connection *kd_connections_find(struct kd_connections *all, int socket);
 bool kd_connection_is_health(const struct kd_connection *one);
 void kd_connections_remove(struct kd_connections *all, struct kd_connection *one);
-/* Call it when the client still sends a body that the server will not read. If the socket were closed at once, the
- * kernel would answer these bytes with a reset, and the client would lose the refusal before reading it. So after
- * removal the socket stays open and is drained for a while. */
+/* Call this when the client is still sending a body that the server will not read. After removal the socket then
+ * stays open and is drained for a while. If it were closed at once, the kernel would answer the remaining bytes with
+ * a reset, and the client could lose the refusal before reading it. */
 void kd_connection_linger(struct kd_connection *one);
 int kd_connection_socket(const struct kd_connection *one);
 
-/* Moves a connection to a stage and sets that stage's deadline. bytes: size of a large body or reply, which extends the
- * deadline; else 0. */
+/* Moves a connection to a stage and sets that stage's deadline. bytes: size of a large body or reply, which extends
+ * the deadline; otherwise 0. */
 void kd_connections_stage(struct kd_connections *all, struct kd_connection *one, enum kd_stage stage,
                           unsigned long bytes);
 
-/* Sends a problem document to the connection of this socket and shuts down its sending side. Has no effect unless the
- * request is still arriving. Only the thread that works on the connection may call this. */
+/* Sends a problem document to the connection of this socket, and then shuts down the socket for writing. Has no
+ * effect unless the request is still arriving. Only the thread that works on the connection may call this. */
 void kd_connections_refuse(struct kd_connections *all, int socket, enum kd_problem_type type, const char *detail);
 
 /* True if a new request of this connection must be refused because more connections are open than the limit. A
  * client with few connections (at most limit - share) is not refused. */
 bool kd_connections_crowded(struct kd_connections *all, const struct kd_connection *one);
-/* True if connections that have not sent anything yet must be closed to make room. */
+/* True if connections that have not sent anything yet must be closed, to make room for others. */
 bool kd_connections_full(struct kd_connections *all);
 /* Capacity of the main daemon for a limit. It is larger than the limit, so that an excess connection gets an answer
  * with the reason. */
 unsigned kd_connections_most(unsigned limit);
 
-/* Shuts down connections past their deadline, with a 408 if a request had begun, and drains lingering sockets. Call it
- * often, from one thread. */
+/* Shuts down connections past their deadline, after an answer 408 if a request had begun. Also drains lingering
+ * sockets. Call it often, from one thread. */
 void kd_connections_sweep(struct kd_connections *all);
 
 /* For shutdown: closes connections whose client has not read a byte of its answer for STALL_MS. Call it often, from one

@@ -1,5 +1,5 @@
-/* Cross-origin access (the Fetch standard's CORS protocol): answers preflight requests and sets the headers that let
- * pages of the origins of --cors-origin and --embed-origin use the server.
+/* Cross-origin access (the Fetch standard's CORS protocol): answers preflight requests and sets the CORS headers. These
+ * permit pages of the origins of --cors-origin and --embed-origin to use the server.
  *
  * A page sends its access token in Authorization or Kerrd-Access. No answer allows credentials, and the cookie of our
  * own page is ignored in cross-origin requests. */
@@ -19,10 +19,11 @@ enum kd_status kd_cors_create(const char *const *texts, const char *const *embed
                               struct kd_error *error);
 void kd_cors_destroy(struct kd_cors *cors); /* accepts NULL */
 
-/* Returns the listed origin that sent the request, or NULL if it is not listed or the request has no Origin. This and
- * all functions below: HTTP threads. */
+/* Returns the listed origin that sent the request. NULL if the origin is not listed, or if the request has no
+ * Origin. This and all functions below: HTTP threads. */
 const char *kd_cors_origin(const struct kd_request *request);
-/* True if the request comes from a listed origin other than the server's own. Its cookies are then ignored. */
+/* True if the request comes from a listed origin other than the server's own. The cookies of such a request are
+ * ignored. */
 bool kd_cors_foreign(const struct kd_request *request);
 /* Adds the CORS headers to an answer if the request's origin is listed. No effect on a server without a list. */
 void kd_cors_add(const struct kd_request *request, struct MHD_Response *response);

@@ -6,7 +6,7 @@
 
 struct kd_sessions_counts {
     unsigned sessions, viewers;
-    uint64_t frames, bytes; /* totals since the start; bytes: each frame's size counted once */
+    uint64_t frames, bytes; /* totals since the start; bytes: the size of each frame is counted once */
 };
 
 struct kd_playground_sessions_counts {

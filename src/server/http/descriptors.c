@@ -9,12 +9,12 @@
 #include <stdbool.h>
 #include <sys/resource.h>
 
-#define MOST 65536u /* upper bound, because each descriptor costs the kernel memory */
+#define MOST 65536u /* the limit is bounded, because each descriptor costs the kernel memory */
 /* Descriptors for other uses: the device, files being sent, lingering sockets, connections that have sent nothing
  * yet, health checks. */
 #define RESERVE 200u
 
-/* True if the limit suffices. Each connection needs two descriptors: its socket and a file to send. */
+/* True if the limit of descriptors suffices. Each connection needs two descriptors: its socket and a file to send. */
 static bool fit(unsigned connections, rlim_t limit) { return 2 * kd_connections_most(connections) + RESERVE <= limit; }
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

@@ -1,8 +1,8 @@
 """Write files as C arrays: embed.py MINIFIER OUTPUT FILE...
 
-Each file is written as it is, and also compressed by gzip unless it is a picture or a film. Files are named by their
-paths below the folder of the first one, others by their folder and name. MINIFIER is the program esbuild, which
-minifies scripts and styles. If it is "", they stay as they are written.
+Each file is written as it is, and also compressed by gzip unless it is a picture or a film. Files below the folder of
+the first file are named by their paths from that folder. Other files are named by their folder and name. MINIFIER is
+the program esbuild, which minifies scripts and styles. If MINIFIER is "", scripts and styles are not minified.
 """
 
 import gzip

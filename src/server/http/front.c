@@ -20,7 +20,7 @@
 #define FULL_MS 10 /* pause between two checks for a free descriptor */
 #define BATCH 64   /* events handled, and connections accepted, in one iteration */
 
-/* A connection that has not been handed to a daemon yet. It has the deadline of a header (connections.h). */
+/* A connection that has not been handed to a daemon yet. Its deadline is that of a header (connections.h). */
 struct guest {
     struct guest *previous, *next;
     struct kd_connection *connection;
@@ -47,8 +47,8 @@ static void unlink_guest(struct kd_front *front, struct guest *guest)
 static void send_away(struct kd_front *front, struct guest *guest)
 {
     unlink_guest(front, guest);
-    /* The socket may linger, open by another descriptor. If it were still watched, epoll would report events for a
-     * guest that is freed. */
+    /* While a socket lingers it stays open through another descriptor. If it were still watched, epoll would report
+     * events for a guest that is freed. */
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     kd_connections_remove(front->params.connections, guest->connection);
     close(guest->socket);
@@ -78,15 +78,16 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
         return;
     }
     unlink_guest(front, guest);
-    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL); /* fails harmlessly if the socket is not watched yet */
+    /* this has no effect if the socket is not watched yet */
+    epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     /* If this fails, the library has closed the socket. */
     if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)
         kd_connections_remove(front->params.connections, guest->connection);
     free(guest);
 }
 
-/* Hands a new connection to its daemon once its first bytes show which daemon this is. gone: no more bytes will
- * come. Returns true if the connection is not handed over yet. */
+/* Hands a new connection to a daemon, as soon as the connection's first bytes show which daemon must serve it. gone:
+ * no more bytes will come. Returns true if the connection is not handed over yet. */
 static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
 {
     char begin[KD_BEGINS_BYTES];
@@ -122,8 +123,8 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     return guest;
 }
 
-/* Watches a guest's socket. The events are edge-triggered, because bytes that are only peeked at would keep a
- * level-triggered event set. */
+/* Watches a guest's socket. The events are edge-triggered. Level-triggered events would repeat for ever, because the
+ * bytes are only peeked at and stay in the socket. */
 static void watch(struct kd_front *front, struct guest *guest)
 {
     struct epoll_event event = { .events = EPOLLIN | EPOLLRDHUP | EPOLLET, .data.ptr = guest };
@@ -133,8 +134,8 @@ static void watch(struct kd_front *front, struct guest *guest)
 
 static int keep_reserve(void) { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
-/* Frees a descriptor when all are in use: closes the guest that has waited longest. If there is none, releases the
- * reserve; if that is released already, waits FULL_MS. */
+/* Frees a descriptor when all are in use. Closes the guest that has waited longest. If there is no guest, releases
+ * the reserve. If the reserve is already released, waits for FULL_MS. */
 static void make_room(struct kd_front *front)
 {
     struct pollfd waiting = { .fd = front->params.listener, .events = POLLIN };
@@ -158,11 +159,11 @@ static bool accept_one(struct kd_front *front)
     int socket = accept4(front->params.listener, (struct sockaddr *)&address, &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0 && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
         make_room(front);
-        return false; /* the waiting connection will be reported again */
+        return false; /* the event for the waiting connection will come again */
     }
     if (socket < 0)
         return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL &&
-               errno != EBADF; /* other errors concern a connection that is gone already */
+               errno != EBADF; /* all other errors concern a connection that is already gone */
     if (front->reserve < 0)
         front->reserve = keep_reserve();
     struct guest *guest = admit(front, socket, &address, size);
@@ -171,7 +172,7 @@ static bool accept_one(struct kd_front *front)
     guest->spare = front->reserve < 0;
     while (front->last != guest && kd_connections_full(front->params.connections))
         send_away(front, front->last);
-    /* most requests arrive together with their connection, which then need not be watched */
+    /* most requests arrive together with their connection; such a connection need not be watched */
     if (look_at(front, guest, false))
         watch(front, guest);
     return true;
@@ -193,7 +194,7 @@ static void *run(void *user)
             else
                 look_at(front, events[i].data.ptr, events[i].events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR));
         }
-        /* accepts after the events, because accepting may close guests that have events */
+        /* connections are accepted after the events are handled, because accepting may close guests that have events */
         for (int i = 0; more && i < BATCH; i++)
             more = accept_one(front);
     }

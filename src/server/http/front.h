@@ -1,7 +1,7 @@
 /* Accepts connections on the listening socket, on a thread of its own. It peeks at the first bytes of each and hands
- * it to one of two libmicrohttpd daemons: one for the health routes, one for everything else. So neither a busy HTTP
- * thread nor an exhausted connection limit delays /healthz, /readyz and /metrics, although all routes share one
- * port. */
+ * it to one of two libmicrohttpd daemons: one for the health routes, one for everything else. All routes share one
+ * port. Nevertheless, neither a busy HTTP thread nor an exhausted connection limit delays /healthz, /readyz and
+ * /metrics. */
 #ifndef KD_SERVER_HTTP_FRONT_H
 #define KD_SERVER_HTTP_FRONT_H
 

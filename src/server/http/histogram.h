@@ -9,9 +9,9 @@
 
 enum { KD_HISTOGRAM_BOUNDS = 15 };
 
-struct kd_histogram {                                 /* initialise to 0 */
-    _Atomic uint64_t counts[KD_HISTOGRAM_BOUNDS + 1]; /* number of durations between the previous bound and this one;
-                                                         the last counts those above all bounds */
+struct kd_histogram { /* initialise to 0 */
+    /* number of durations between the previous bound and this one; the last number counts durations above all bounds */
+    _Atomic uint64_t counts[KD_HISTOGRAM_BOUNDS + 1];
     _Atomic uint64_t sum_us;
 };
 

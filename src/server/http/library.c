@@ -14,9 +14,9 @@ static _Thread_local int current = -1;
 
 void kd_library_works_on(int socket) { current = socket; }
 
-/* Replaces the C library's recv in the whole program, shared libraries included. Nothing else reveals which
- * connection's bytes a thread of libmicrohttpd is parsing. The function is declared by its symbol, because headers
- * may define recv as an inline function. */
+/* Replaces the C library's recv in the whole program, shared libraries included. There is no other way to find out
+ * which connection's bytes a thread of libmicrohttpd is parsing. The function is declared by its symbol, because
+ * headers may define recv as an inline function. */
 ssize_t kd_recv(int socket, void *data, size_t size, int flags) __asm__("recv");
 ssize_t kd_recv(int socket, void *data, size_t size, int flags)
 {

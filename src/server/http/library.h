@@ -1,9 +1,9 @@
 /* Replaces libmicrohttpd's own error pages by problem documents. The library itself answers input that it cannot
- * parse as HTTP, before it calls a handler or in the middle of a body. It has no hook that names the connection; it
- * only logs a line. Its thread works on one connection at a time. So the connection at fault is the one from which
- * the library read last, or for which it last called one of our callbacks. That connection is sent a problem
- * document. Its socket then takes no more bytes, so that the library's page is dropped.
- * docs/decisions/0006-answers-of-the-library.md has the reasons. */
+ * parse as HTTP, before it calls a handler or in the middle of a body. The library has no hook that identifies the
+ * connection; it only logs a line. Each of its threads works on one connection at a time. Therefore the connection
+ * at fault is the one from which the library read last, or for which it last called one of our callbacks. A problem
+ * document is sent to that connection. Its socket is then shut down for writing, so the library's own page is
+ * dropped. docs/decisions/0006-answers-of-the-library.md has the reasons. */
 #ifndef KD_SERVER_HTTP_LIBRARY_H
 #define KD_SERVER_HTTP_LIBRARY_H
 

@@ -1,10 +1,10 @@
 /* Signed links: addresses that need no access token until they expire. `kerrd sign` makes them with a key of the token
  * file, and the server makes them for shared scenes (--share-key).
  *
- * The query of a link ends with signer=NAME&expires=SECONDS&budget_ms=MS&signature=HEX; budget_ms may be missing.
- * The signature is HMAC-SHA256 (RFC 2104) of the link's text: the path below the base path, then a line NAME=VALUE
- * for each parameter except the signature, in the query's order. Paths, names and values are percent-encoded in the
- * text (base/percent.h), whatever the request's encoding was. */
+ * The query of a link ends with signer=NAME&expires=SECONDS&budget_ms=MS&signature=HEX; budget_ms may be missing. The
+ * signature is HMAC-SHA256 (RFC 2104) of the link's text: the path below the base path, then a line NAME=VALUE for each
+ * parameter except the signature, in the query's order. Paths, names and values are percent-encoded in the text by
+ * base/percent.h, independent of the request's own encoding. */
 #ifndef KD_SERVER_HTTP_LINK_H
 #define KD_SERVER_HTTP_LINK_H
 
@@ -13,15 +13,15 @@
 
 #include <stdint.h>
 
-#define KD_LINK_LEEWAY_S 60u          /* seconds that a link still works after it has expired, because clocks differ */
+#define KD_LINK_LEEWAY_S 60u          /* seconds for which an expired link still works, because clocks differ */
 #define KD_LINK_LATEST_S 253402300799 /* last second of the year 9999 */
 #define KD_LINK_BUDGET_MS 86400000u   /* largest budget */
-#define KD_SHARED_DAYS 30             /* days for which the link of a shared scene works */
+#define KD_SHARED_DAYS 30             /* number of days for which the link of a shared scene works */
 
-/* The end of a link, and its limit. */
+/* The terms of a link: when it expires, and how much device time its pictures may use. */
 struct kd_link_terms {
     uint64_t expires_s; /* Unix time */
-    uint64_t budget_ms; /* limit of the device time of all the link's pictures together; 0: no limit */
+    uint64_t budget_ms; /* limit of the device time that all pictures of the link may use together; 0: no limit */
 };
 
 /* The link of a request. */
@@ -41,8 +41,8 @@ enum kd_status kd_link_sign(const struct kd_access *access, const char *name, co
 
 /* True if the query has a signature. */
 bool kd_link_is(const struct kd_target *target);
-/* Checks the request's link: path and parameters as for kd_link_sign. Returns the key's owner, and removes the link's
- * parameters from the target; or returns NULL with *error. Any thread. */
+/* Checks the signature of the request's link. path and target are those of kd_link_sign. On success it removes the
+ * link's parameters from the target and returns the key's owner. Otherwise it returns NULL with *error. Any thread. */
 const struct kd_visitor *kd_link_check(const struct kd_access *access, const char *path, struct kd_target *target,
                                        uint64_t now_s, struct kd_link *out, struct kd_error *error);
 

@@ -55,7 +55,7 @@ static bool is_sound(const struct place *p)
     return p->expires_s <= KD_LINK_LATEST_S && p->ms >= 0 && isfinite(p->ms);
 }
 
-/* Reads the places, or writes the head of a new file. Returns false with errno, which is EILSEQ if the file is not a
+/* Reads the places, or writes the head of a new file. On failure returns false with errno. EILSEQ: the file is not a
  * file of link budgets. */
 static bool read_places(struct kd_link_budgets *all)
 {
@@ -104,8 +104,8 @@ enum kd_status kd_link_budgets_open(struct kd_link_budgets *all, const char *sta
                         KD_LINK_BUDGETS_FILE, why == EILSEQ ? "; remove it, or use another folder" : strerror(why));
 }
 
-/* Returns the link's place. If it has none, returns an unused place, or the place of an expired link; NULL if there is
- * neither. */
+/* Returns the link's place. If the link has none, returns an unused place or the place of an expired link. NULL if
+ * there is no such place. */
 static struct place *place_of(struct kd_link_budgets *all, const struct kd_link *link, uint64_t now_s)
 {
     struct place *unused = NULL;

@@ -1,19 +1,19 @@
 /* Stores how much device time each signed link with a budget has used, until the link expires. With a state folder,
- * a file there keeps the figures over a restart. Any thread. */
+ * the amounts are kept in a file there, and survive a restart. Any thread. */
 #ifndef KD_SERVER_HTTP_LINK_BUDGETS_H
 #define KD_SERVER_HTTP_LINK_BUDGETS_H
 
 #include "server/http/link.h"
 
-#define KD_LINK_BUDGETS 16384u /* largest number of links with a budget whose use is remembered */
+#define KD_LINK_BUDGETS 16384u /* largest number of links with a budget whose use is stored */
 #define KD_LINK_BUDGETS_FILE "link-budgets"
 
 struct kd_link_budgets;
 
 struct kd_link_budgets *kd_link_budgets_create(void);      /* returns NULL when out of memory */
 void kd_link_budgets_destroy(struct kd_link_budgets *all); /* accepts NULL */
-/* Reads the file in the folder `state`, and keeps it up to date from now on. Creates the file if there is none.
- * Returns KD_EINVAL if the file cannot be read or is not a file of link budgets. Call before the first request. */
+/* Reads the file in the folder `state`, and writes all later changes to it. Creates the file if there is none.
+ * Returns KD_EINVAL if the file cannot be read or is not a file of link budgets. Call this before the first request. */
 enum kd_status kd_link_budgets_open(struct kd_link_budgets *all, const char *state, struct kd_error *error);
 
 enum kd_link_left { KD_LINK_LEFT, KD_LINK_SPENT, KD_LINK_CROWDED };

@@ -1,5 +1,5 @@
-/* Durations of requests for /metrics, by route and first digit of the status. The number of series is bounded by the
- * number of routes, whatever clients ask for. Any thread. */
+/* Durations of requests for /metrics, by route and first digit of the status. The number of series depends only on
+ * the number of routes, so clients cannot increase it. Any thread. */
 #ifndef KD_SERVER_HTTP_MEASURES_H
 #define KD_SERVER_HTTP_MEASURES_H
 

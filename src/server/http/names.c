@@ -25,8 +25,8 @@ void kd_names_free(char **names)
     free(names);
 }
 
-/* Writes an address as it is written in URLs; "" for other families and for addresses that are valid on one interface
- * only. */
+/* Writes an address in the form that it has in URLs. Writes "" for addresses of other families, and for addresses
+ * that are valid on one interface only. */
 static void text_of(const struct sockaddr *address, int family, char out[80])
 {
     char text[INET6_ADDRSTRLEN] = "";

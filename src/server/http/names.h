@@ -7,9 +7,9 @@
 /* True if listen is a wildcard address: 0.0.0.0, :: or [::]. */
 bool kd_names_any(const char *listen);
 
-/* Returns the machine's own addresses of that family as they are written in URLs ("192.168.1.7", "[2001:db8::7]"), and
- * its host name if that resolves to one of them. The list ends with NULL; list and names are malloc'd. NULL when out of
- * memory. May query the resolver. */
+/* Returns the machine's own addresses of the family of `listen`, as they are written in URLs ("192.168.1.7",
+ * "[2001:db8::7]"). The host name is included if it resolves to one of them. The list ends with NULL; list and names
+ * are malloc'd. NULL when out of memory. May query the resolver. */
 char **kd_names_own(const char *listen);
 void kd_names_free(char **names); /* accepts NULL */
 

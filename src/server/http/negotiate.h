@@ -7,10 +7,11 @@
 #include <stddef.h>
 
 /* Chooses the media type that an Accept value (RFC 9110 12.5.1) prefers among n types, named by type(i, list). Among
- * equals the first is chosen. The most specific range that matches a type gives the type's weight. Malformed entries
- * match nothing; NULL or a blank value accepts all. Returns n if none is acceptable. */
+ * equally preferred types the first is chosen. The most specific range that matches a type gives the type's weight.
+ * Malformed entries match nothing; NULL or a blank value accepts all. Returns n if none is acceptable. */
 size_t kd_accept_best(const char *accept, size_t n, const char *(*type)(size_t i, const void *list), const void *list);
-const char *kd_accept_string(size_t i, const void *list); /* `type` for a list that is an array of const char * */
+/* the function `type` for a list that is an array of const char * */
+const char *kd_accept_string(size_t i, const void *list);
 
 /* True if an Accept-Encoding value (RFC 9110 12.5.3) has the coding, or "*", with a weight above zero. False for
  * NULL. */

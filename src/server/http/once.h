@@ -1,9 +1,9 @@
 /* Idempotency-Key (draft-ietf-httpapi-idempotency-key-header-07): a repeated POST with the same key creates nothing
  * new. The key is kept with the object that it created, for as long as the object exists; the key of a job also
- * survives restarts. If the same client repeats the same request, it is answered with that object. HTTP thread only.
+ * survives restarts. If the same client repeats the same request, the answer is that object. HTTP thread only.
  *
- * A handler of a route that is marked `once` first looks for an object that holds the request's key. It calls
- * kd_once_begin with that object's struct kd_once before it creates anything, and copies request->once into what it
+ * A handler of a route that is marked `once` first looks for an object that holds the request's key. Before it creates
+ * anything, it calls kd_once_begin with that object's struct kd_once. It copies request->once into the object that it
  * creates. */
 #ifndef KD_SERVER_HTTP_ONCE_H
 #define KD_SERVER_HTTP_ONCE_H
@@ -18,7 +18,7 @@ enum { KD_ONCE_TEXT = 300 };
 
 struct kd_request;
 
-/* Two hashes by SHA-256, in hexadecimal; "" if the request has no key. */
+/* Two SHA-256 hashes in hexadecimal; "" if the request has no key. */
 struct kd_once {
     char key[65];     /* hash of the client, the route and the key */
     char request[65]; /* hash of the target and the body */
@@ -32,10 +32,10 @@ void kd_once_take(struct kd_request *request, const void *data, size_t size);
 
 /* Decides about a request. earlier: the key of an object made before; NULL if there is none. KD_ONCE_FIRST: the
  * caller creates the object. KD_ONCE_AGAIN: the caller answers with the earlier object. KD_ONCE_REFUSED: the caller
- * returns *refused, which is 409 while a request with the same key is under way, and 422 if the earlier request was
- * a different one. */
+ * returns *refused, whose status is 409 while a request with the same key is under way, and 422 if the earlier
+ * request was a different one. */
 enum kd_once_verdict { KD_ONCE_FIRST, KD_ONCE_AGAIN, KD_ONCE_REFUSED };
 enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier, enum MHD_Result *refused);
-void kd_once_end(struct kd_request *request); /* call it when the request has been answered */
+void kd_once_end(struct kd_request *request); /* must be called when the request has been answered */
 
 #endif

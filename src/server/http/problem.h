@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* X(name, HTTP status, word in the type's URI, title) */
+/* X(name, HTTP status, word in the URI of the type, title) */
 #define KD_PROBLEMS(X) \
     X(BAD_REQUEST, 400, "bad-request", "The request is not valid HTTP") \
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object") \
@@ -65,7 +65,7 @@ struct kd_problem {
     const char *pointer;       /* RFC 6901 pointer into the scene; NULL or "" for none */
     const char *offered;       /* 406, 415: the media types that are accepted */
     const char *allow;         /* 405: the methods that the route accepts */
-    const char *content_range; /* 416: the value of Content-Range, which has the length */
+    const char *content_range; /* 416: value of Content-Range, which states the length of the file */
     const char *request_id;    /* NULL or "" for none */
     unsigned retry_after;      /* Retry-After in seconds; 0: no such header */
     /* close the connection, because the rest of the request is not read or cannot be parsed safely */
@@ -75,8 +75,9 @@ struct kd_problem {
 /* Makes the problem of a status. pointer and detail point into *error. */
 struct kd_problem kd_problem_from(const struct kd_error *error);
 
-/* Completes a result of kd_problem_from that may be due to a limit. quota: it is a limit of one client, so the status
- * is 429. Retry-After is the number of seconds in the error for KD_EBUSY, else otherwise_s. */
+/* Completes a result of kd_problem_from that may be due to a limit. quota: the limit is that of one client, so the
+ * status becomes 429. Retry-After is the number of seconds in the error if the error is KD_EBUSY, otherwise
+ * otherwise_s. */
 void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s);
 
 unsigned kd_problem_status(enum kd_problem_type type);

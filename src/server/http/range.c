@@ -7,7 +7,8 @@
 #define BLANKS " \t"
 #define DIGITS "0123456789"
 
-/* Reads a number of at least one digit and moves *at behind it. Numbers beyond 64 bits become the largest. */
+/* Reads a number of at least one digit and moves *at behind it. Numbers that exceed 64 bits become the largest
+ * number of 64 bits. */
 static bool number(const char **at, uint64_t *out)
 {
     const size_t n = strspn(*at, DIGITS);
@@ -48,8 +49,7 @@ enum kd_byte_range kd_range_read(const char *value, uint64_t size, uint64_t *fir
     struct spec spec;
     if (!value || strncasecmp(value, unit, strlen(unit)) || !read_spec(value + strlen(unit), &spec))
         return KD_RANGE_WHOLE;
-    if (spec.suffix && spec.last && !size) /* RFC 9110 has no Content-Range that could describe this failure for an
-                                            * empty file */
+    if (spec.suffix && spec.last && !size) /* RFC 9110 has no Content-Range for this failure if the file is empty */
         return KD_RANGE_WHOLE;
     if (spec.suffix ? !spec.last : spec.first >= size)
         return KD_RANGE_BEYOND;

@@ -45,7 +45,7 @@ struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *
     union {
         const void *in;
         void *out;
-    } bytes = { data }; /* libmicrohttpd only reads the bytes */
+    } bytes = { data }; /* libmicrohttpd does not write to these bytes */
     struct MHD_Response *response = MHD_create_response_from_buffer(size, bytes.out, MHD_RESPMEM_PERSISTENT);
     if (response && type)
         MHD_add_response_header(response, "Content-Type", type);
@@ -62,8 +62,8 @@ struct MHD_Response *kd_reply_empty(const char *type)
 {
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
     /* Without this option libmicrohttpd announces chunks and sends the final chunk "0", although there is no body. A
-     * client that keeps the connection would take this chunk for the beginning of the next answer. With the option the
-     * library closes the connection. */
+     * client that keeps the connection would read this chunk as the beginning of the next answer. With the option
+     * the library closes the connection. */
     if (response)
         MHD_set_response_options(response, MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
     if (response && type)
@@ -137,7 +137,8 @@ static void add_quota(const struct kd_request *request, struct MHD_Response *res
 {
     char text[80];
     const char *caching = MHD_get_response_header(response, "Cache-Control");
-    if (caching && !strncmp(caching, "public", 6)) /* a shared cache would send one client's quota to all */
+    /* a shared cache would send the quota of one client to all clients */
+    if (caching && !strncmp(caching, "public", 6))
         return;
     if (!request->server->quota || !request->route || strncmp(request->route->path, "/v1/", 4))
         return;

@@ -14,9 +14,10 @@
 struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type);
 /* Like kd_reply_take, for text. It is compressed by gzip if the client accepts that and the text is long enough. */
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type);
-/* Makes a response of bytes that stay valid as long as the response. type NULL: no content, so no Content-Type. */
+/* Makes a response from bytes that must stay valid as long as the response. type NULL: no content, so no
+ * Content-Type. */
 struct MHD_Response *kd_reply_static(const void *data, size_t size, const char *type);
-/* Makes a response without a body for HEAD and 304 where the length of GET's answer is unknown. Closes the
+/* Makes a response without a body, for HEAD and 304 where the length of the body of GET is unknown. Closes the
  * connection. */
 struct MHD_Response *kd_reply_empty(const char *type);
 
@@ -25,8 +26,9 @@ enum kd_disposition { KD_INLINE, KD_ATTACHMENT };
 void kd_reply_file(struct kd_request *request, enum kd_disposition disposition, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Adds Location, the address of the object that this request has made. It is relative to the request's address, such as
- * "sessions/ID" for /v1/sessions, so that it is valid behind a proxy that changes the prefix. response may be NULL. */
+/* Adds Location, the address of the object that this request has made. The address is relative to that of the
+ * request, such as "sessions/ID" for /v1/sessions. So it is valid behind a proxy that changes the prefix. response
+ * may be NULL. */
 void kd_reply_location(const struct kd_request *request, struct MHD_Response *response, const char *id);
 
 /* Queues the response and drops the reference. response NULL: sends kd_reply_no_memory. */
@@ -37,23 +39,24 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
 enum MHD_Result kd_reply_bare(struct MHD_Connection *mhd);
 enum MHD_Result kd_reply_no_memory(struct kd_request *request);
 enum MHD_Result kd_reply_problem(struct kd_request *request, const struct kd_problem *problem);
-/* Sends the problem's status and headers with another body. */
+/* Sends an answer with the problem's status and headers, but with another body. */
 enum MHD_Result kd_reply_refuse(struct kd_request *request, const struct kd_problem *problem,
                                 struct MHD_Response *response);
 /* Evaluates If-Match against the ETag of the resource (RFC 9110 13.1.1); etag NULL: the resource has none. Returns
- * true if there is no If-Match. Handlers that change something call it before the change; for all others
- * kd_reply_send checks it. */
+ * true if there is no If-Match. Handlers that change something call this function before the change. For all other
+ * handlers kd_reply_send evaluates If-Match. */
 bool kd_reply_matches(struct kd_request *request, const char *etag);
 enum MHD_Result kd_reply_unmatched(struct kd_request *request);
-/* Answers OPTIONS with 204 and these methods as Allow. */
+/* Answers OPTIONS with 204; Allow contains these methods. */
 enum MHD_Result kd_reply_options(struct kd_request *request, const char *allow);
 /* Sends the problem that kd_problem_from makes of the error. */
 enum MHD_Result kd_reply_error(struct kd_request *request, const struct kd_error *error);
-/* Ends a request whose work was cancelled (KD_ECANCELLED): sends 503 if the server is stopping; else the client has
- * disconnected, and nothing is sent. */
+/* Ends a request whose work was cancelled (KD_ECANCELLED). Sends 503 if the server is stopping. Otherwise the client
+ * has disconnected, and nothing is sent. */
 enum MHD_Result kd_reply_cancelled(struct kd_request *request);
 
-/* Joins all values of a list-valued request header by commas; empty when it is absent or memory ran out. */
+/* Joins all values of a list-valued request header by commas. The result is empty when the header is absent or
+ * memory ran out. */
 struct kd_buffer kd_reply_header_list(struct kd_request *request, const char *name);
 /* Calls kd_accept_best with the request's Accept. */
 size_t kd_reply_accepted(struct kd_request *request, size_t n, const char *(*type)(size_t i, const void *list),

@@ -84,16 +84,16 @@ static bool names(struct kd_request *request, const char *header, const char *et
     return yes;
 }
 
-/* True if If-Range holds for the ETag, by strong comparison. A date never holds, because the server sends no
- * Last-Modified (RFC 9110 13.1.5). */
+/* True if If-Range holds for the ETag, by strong comparison. If-Range with a date never holds, because the server
+ * sends no Last-Modified (RFC 9110 13.1.5). */
 static bool is_of(struct kd_request *request, const char *etag)
 {
     const char *tag = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "If-Range");
     return !tag || !strcmp(tag, etag);
 }
 
-/* Evaluates preconditions in the order of RFC 9110 13.2.2. If-Match is not evaluated here: kd_reply_send refuses the
- * request if it fails (reply.c). */
+/* Evaluates preconditions in the order of RFC 9110 13.2.2. If-Match is not evaluated here, because kd_reply_send
+ * evaluates it (reply.c). */
 static struct part choose(struct kd_request *request, const struct kd_representation *r)
 {
     struct part part = { MHD_HTTP_OK, 0, r->size };

@@ -1,5 +1,5 @@
-/* Sends bytes of a known length that have an ETag. Depending on the request's preconditions and its Range, the answer
- * has all bytes, some of the bytes, or the status 304 or 416 (RFC 9110 13.2.2). No other part of the server handles
+/* Sends bytes of a known length that have an ETag. The answer depends on the request's preconditions and its Range:
+ * all bytes, some of the bytes, or the status 304 or 416 (RFC 9110 13.2.2). No other part of the server handles
  * ranges. HTTP thread only. */
 #ifndef KD_SERVER_HTTP_REPRESENTATION_H
 #define KD_SERVER_HTTP_REPRESENTATION_H
@@ -9,20 +9,20 @@
 
 struct kd_representation {
     const char *type;
-    const char *etag; /* strong, with its quotes: changes whenever the bytes change */
-    /* the ETag without its quotes is the SHA-256 of the bytes, which is also sent as a digest */
+    const char *etag; /* strong ETag, with its quotes: changes whenever the bytes change */
+    /* the ETag without its quotes is the SHA-256 of the bytes, so that it is also sent as a digest */
     bool hashed;
     const char *cache_control; /* NULL: "private, no-cache", so that caches revalidate each time */
     const char *coding;        /* Content-Encoding; NULL: none */
     bool negotiated;           /* Accept-Encoding selected the coding, so Vary is sent */
     const char *const *fields; /* further headers: name, value, name, ..., NULL; NULL: none */
     uint64_t size;
-    /* Source of the bytes: the first of `fd`, `data` and `read` that is set. It stays valid and unchanged until
-     * `release`. */
+    /* Source of the bytes: the first of `fd`, `data` and `read` that is set. The source must stay valid and
+     * unchanged until `release` is called. */
     int fd;                         /* a file, closed at the end; -1: none */
     const void *data;               /* bytes in memory; NULL: none */
-    MHD_ContentReaderCallback read; /* returns bytes from a position; positions only increase */
-    void (*release)(void *cls);     /* called at the end, also on failure */
+    MHD_ContentReaderCallback read; /* returns the bytes from a position on; the positions only increase */
+    void (*release)(void *cls);     /* called at the end in every case */
     void *cls;                      /* argument of read and release */
 };
 

@@ -32,19 +32,21 @@ struct kd_request {
     const struct kd_route *matched;
     const struct kd_visitor *visitor; /* owner of the access token; NULL: the request needed none */
     struct kd_link link;              /* the signed link by which the request came */
-    bool spent;                       /* Authorization holds the access token, so it cannot also hold a session's
-                                       * token */
-    const char *method, *rest;        /* rest: the segment of the path that the route has in braces */
+    /* Authorization holds the access token, so it cannot also hold the token of a session */
+    bool spent;
+    const char *method, *rest; /* rest: the segment of the path that the route has in braces */
     bool head, begun, body_announced, close;
     struct kd_once once;          /* hashes of the request's Idempotency-Key and content */
     struct sha256_ctx taken;      /* running hash of target and body, if the request has a key */
     struct kd_request *once_next; /* next request under way that has a key */
     struct kd_buffer body;
-    size_t body_mark;                              /* size of body when its deadline was last extended */
-    unsigned quality;                              /* quality of a lossy format; 0: the format's default */
-    const struct kd_format *format;                /* requested format of the picture; NULL: any, or no picture */
-    const struct kd_format *accepts[16];           /* all formats that Accept takes, the preferred first; `format` is
-                                                    * the first that can hold the scene, or accepts[0] */
+    size_t body_mark; /* size of body when its deadline was last extended */
+    unsigned quality; /* requested quality of a lossy format; 0: the format's default */
+    /* requested format of the picture; NULL: any format, or not a picture */
+    const struct kd_format *format;
+    /* all formats that Accept allows, the preferred one first; `format` is the first of them that can hold the
+     * scene, or accepts[0] if none can */
+    const struct kd_format *accepts[16];
     struct kd_render_job *job;                     /* the render under way for this request; owned */
     struct kd_request *also_waiting;               /* next request waiting for the same thumbnail */
     bool waited;                                   /* the request has waited for a thumbnail */
@@ -61,7 +63,7 @@ struct kd_request {
     unsigned status;     /* status of the reply, for the log */
 };
 
-/* Token in Authorization; NULL if there is none. Defined in reply.c. */
+/* Token in the header Authorization; NULL if there is none. Defined in reply.c. */
 const char *kd_bearer_of(struct kd_request *request);
 /* Token of a session, playground, job or asset, from Authorization or the query; NULL if there is none. Defined in
  * reply.c. */

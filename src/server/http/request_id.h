@@ -1,4 +1,5 @@
-/* Request IDs: the log, the answer and the records of proxies and clients carry the same ID. Any thread. */
+/* Request IDs. The log, the answer and the records of proxies and clients contain the same ID for a request. Any
+ * thread. */
 #ifndef KD_SERVER_HTTP_REQUEST_ID_H
 #define KD_SERVER_HTTP_REQUEST_ID_H
 
@@ -9,8 +10,8 @@
 
 /* True if a client's ID is accepted: 1 to KD_REQUEST_ID_MAX letters, digits and -._+/=. False for NULL. */
 bool kd_request_id_is_sane(const char *given);
-/* Copies the client's ID if it is accepted; else makes one of 32 hexadecimal digits, or "" if there are no random
- * numbers. */
+/* Copies the client's ID if it is accepted; otherwise makes an ID of 32 hexadecimal digits. The result is "" if no
+ * random numbers are available. */
 void kd_request_id_choose(const char *given, char out[KD_REQUEST_ID_MAX + 1]);
 
 #endif

@@ -12,9 +12,9 @@
 
 struct kd_request;
 
-enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* HEAD is served wherever GET is */
+enum { KD_GET = 1, KD_POST = 2, KD_PATCH = 4, KD_DELETE = 8, KD_PUT = 16 }; /* every route with GET also has HEAD */
 
-/* All methods, for iteration. */
+/* List of all methods. */
 struct kd_method {
     const char *name, *lower; /* "GET", "get" */
     unsigned bit;
@@ -48,14 +48,14 @@ struct kd_json;
 struct cJSON;
 struct kd_route;
 struct kd_taken {
-    const char *about, *what;     /* about: the request in a few words; what: name of its body */
-    size_t most;                  /* largest size of the body in bytes; 0: KD_BODY_MAX */
+    const char *about, *what;     /* about: the request in a few words; what: a name for the request's body */
+    size_t most;                  /* largest size of the body in bytes; 0: the default KD_BODY_MAX */
     const char *types;            /* media types of the body, "a/b c/d"; NULL: application/json. A PATCH may also
                                    * send a merge patch */
     const char *schema, *changes; /* schema: JSON Schema of a body, as text; changes: the same for PATCH */
     bool may_lack;                /* the body may be missing */
-    /* body writes the member "requestBody", instead of `schema`; parameters writes entries of "parameters". May be
-     * NULL. */
+    /* body writes the member "requestBody" in place of `schema`; parameters writes entries of "parameters". Either
+     * may be NULL. */
     void (*body)(struct kd_json *json, const struct kd_route *route);
     void (*parameters)(struct kd_json *json, unsigned method, const struct cJSON *scene_schema);
 };
@@ -70,33 +70,33 @@ enum kd_gives {
 };
 
 /* In the structs below, methods 0 means all methods of the route. */
-struct kd_query {                     /* a query parameter that is not a field of a scene */
+struct kd_query {                     /* a query parameter that is not a field of the scene */
     const char *name, *schema, *help; /* schema: JSON Schema as text; NULL: the names of the formats of jobs */
     unsigned methods;
     bool required;
     const char *was; /* the parameter's former name, which is deprecated; NULL: none */
 };
 struct kd_route {
-    const char *path; /* at most one segment is in braces; it matches any text, which becomes request->rest */
+    const char *path; /* at most one segment is in braces; it matches any text, which is stored in request->rest */
     unsigned methods;
     const char *answer, *summary; /* answer: media type (NULL: see `gives`); summary: a sentence for openapi.json */
     enum kd_takes takes;
     enum kd_gives gives;
     const char *also; /* further media types of answers, "a/b c/d"; NULL: none */
-    bool question; /* the role view may send this POST, because it leaves nothing on the server except a pupil's answer
-                      (access.h) */
+    /* the role view may send this POST, because it changes nothing on the server except a pupil's answer (access.h) */
+    bool question;
     bool open;     /* needs no access token */
     bool signable; /* GET may come by a signed link instead of an access token (link.h) */
-    /* a page for browsers: takes the access token in its address, and asks for the token if the address has none
-     * (access.h) */
+    /* a page for browsers: the access token may be in the page's address; if there is none, the page asks for the
+     * token (access.h) */
     bool page;
     bool once;          /* POST takes Idempotency-Key (once.h) */
     bool parts;         /* GET may answer with a range, 206 (representation.h) */
     bool folders;       /* the parameter at the end of the path may contain slashes */
-    bool owner;         /* POST needs the token of the object, as PATCH and DELETE always do */
-    bool brief;         /* PATCH takes Prefer: return=minimal */
+    bool owner;         /* POST needs the token of the object; PATCH and DELETE always do */
+    bool brief;         /* PATCH accepts the header Prefer: return=minimal */
     bool changes;       /* some answers have no ETag, because unfinished objects change */
-    unsigned status[2]; /* success statuses; { 0 }: 200. DELETE answers 204 */
+    unsigned status[2]; /* statuses of success; { 0 }: 200. The status of DELETE is 204 */
     /* The handler. Called when the body is complete, and again when the work that it started is done. */
     enum MHD_Result (*handle)(struct kd_request *request);
     const struct kd_query *queries; /* ends with a NULL name; NULL: none */
@@ -108,7 +108,7 @@ struct kd_route {
         unsigned methods, status;
         const char *headers;
     } tells[3];                                  /* names of the answers' headers, "A B" */
-    struct { unsigned methods, status; } may[2]; /* problems that the other members do not imply */
+    struct { unsigned methods, status; } may[2]; /* problems of the route that its other members do not imply */
 };
 
 /* All routes, in server/routes.c. */
@@ -121,22 +121,22 @@ static inline bool kd_route_for(unsigned methods, unsigned method) { return !met
 bool kd_route_has_query(const struct kd_route *route, const char *name);
 
 /* Value of the route's own query parameter. NULL if the query does not have it, or if the route has no such
- * parameter. *given: the name in the query, which may be the former one. Returns KD_EINVAL if the query has both
- * names. */
+ * parameter. *given: the name that the query uses, which may be the former name. Returns KD_EINVAL if the query has
+ * both names. */
 enum kd_status kd_route_query(const struct kd_request *request, const char *name, const char **given,
                               const char **value, struct kd_error *error);
-/* Returns KD_OK if the query has only parameters of the route and method, each at most once, and "token"; else
- * KD_EINVAL. Three kinds of queries are not checked: fields of a scene, parameters of a quantity (both are read by
- * the handler), and queries of pages. */
+/* Returns KD_OK if the query has only parameters of the route and method, each at most once, and "token". Otherwise
+ * returns KD_EINVAL. Three kinds of queries are not checked: fields of a scene, parameters of a quantity (both are
+ * read by the handler), and queries of pages. */
 enum kd_status kd_route_only(const struct kd_request *request, struct kd_error *error);
 bool kd_route_checks_query(const struct kd_route *route);
 /* True if the query has a former name of a parameter. */
 bool kd_route_is_dated(const struct kd_request *request);
 
-/* Appends the path of the route with this rest, below the base path. */
+/* Appends the path of the route, below the base path. `rest` replaces the segment in braces. */
 enum kd_status kd_route_path(const struct kd_route *route, const char *rest, struct kd_buffer *out);
-/* Returns the route that a decoded path leads to, or NULL. *rest is cut out of the path, which is modified. Ignores the
- * base path. */
+/* Returns the route that a decoded path leads to, or NULL. Modifies the path: *rest points into it and is terminated
+ * there. Ignores the base path. */
 const struct kd_route *kd_route_of(char *path, const char **rest);
 
 /* Finds the route of the request's path. Sets request->route, ->matched and ->rest. `rest` points into the target's
@@ -150,7 +150,8 @@ const char *kd_route_allow(const struct kd_route *route);
 const char *kd_route_methods(const struct kd_route *route);
 /* Bit of a method's name, such as KD_GET; 0: unknown. */
 unsigned kd_route_method(const char *method);
-/* True if a raw target is /healthz, /readyz or /metrics, with or without the base path. These are always answered. */
+/* True if a raw target is /healthz, /readyz or /metrics, with or without the base path. These routes are always
+ * answered. */
 bool kd_route_is_health(const struct kd_base_path *base, const char *raw);
 /* Like kd_route_is_health, decided by the first n bytes of a connection. KD_BEGINS_UNCLEAR: more bytes are needed.
  * KD_BEGINS_BYTES bytes always suffice. */

@@ -9,7 +9,7 @@
 #define SLICE_NS 100000 /* the shortest slice that the kernel accepts */
 
 /* struct sched_attr of linux/sched/types.h, version 0. It is defined here, because older C libraries lack it and
- * newer ones declare it themselves. */
+ * newer ones have a declaration of their own. */
 struct attributes {
     uint32_t size, policy;
     uint64_t flags;
@@ -27,5 +27,5 @@ void kd_sched_short_slices(void)
     struct attributes a = {
         .size = sizeof a, .policy = SCHED_OTHER, .nice = getpriority(PRIO_PROCESS, 0), .runtime = SLICE_NS
     };
-    syscall(SYS_sched_setattr, 0, &a, 0); /* failure is ignored, because this is only an optimisation */
+    syscall(SYS_sched_setattr, 0, &a, 0); /* a failure is ignored, because this is only an optimisation */
 }

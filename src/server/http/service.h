@@ -22,7 +22,7 @@
 
 #define KD_BODY_MAX KD_SCENE_JSON_MAX     /* bytes of one body, except KD_RAYS_BODY_MAX and KD_ORBIT_BODY_MAX */
 #define KD_BODIES_MAX ((size_t)192 << 20) /* limit of bytes of all bodies being received */
-/* one client's limit of these bytes; the rest suffices for the largest body of another client */
+/* one client's limit of these bytes; the rest is enough for the largest body of another client */
 #define KD_BODIES_SHARE ((size_t)96 << 20)
 #define KD_BODIES_SMALL ((size_t)16 << 20) /* reserve beyond KD_BODIES_MAX for bodies of at most KD_BODY_MAX bytes */
 /* limit of bytes of all answers not yet sent; a single answer may exceed it */
@@ -47,8 +47,8 @@
 enum kd_phase {
     KD_SERVING,
     KD_DRAINING, /* /readyz fails; everything else is served */
-    KD_REFUSING, /* new renders are refused; accepted renders finish */
-    KD_CLOSING,  /* the server does not listen any more; answers under way are sent */
+    KD_REFUSING, /* new renders are refused; accepted renders are finished */
+    KD_CLOSING,  /* the server no longer listens; answers that have begun are sent */
     KD_STOPPED,
 };
 
@@ -68,14 +68,15 @@ struct kd_sessions;
 struct kd_thumbnails;
 
 struct kd_server {
-    struct MHD_Daemon *daemon, *health_daemon; /* main daemon, and that of the health routes (front.h) */
+    /* daemon for all routes except the health routes; daemon of the health routes (front.h) */
+    struct MHD_Daemon *daemon, *health_daemon;
     struct kd_front *front;
     uint16_t port;
     struct kd_base_path base;
     /* address of the page without a slash at its end (public_url.h); NULL: taken from the request's Host */
     char *public_url;
     const char **hosts; /* accepted Host names, NULL-terminated; each malloc'd */
-    char **own;         /* kd_names_own if the server listens on a wildcard address; else NULL */
+    char **own;         /* result of kd_names_own if the server listens on a wildcard address; otherwise NULL */
     unsigned drain_ms, drain_s, longest_s;
     struct kd_connections *connections;
     struct kd_render_queue *renders;
@@ -86,7 +87,7 @@ struct kd_server {
     struct kd_lessons *lessons;
     struct kd_playground_sessions *playgrounds;
     struct kd_jobs *jobs;
-    struct kd_job_whole *cubes; /* cubes being downloaded (job/archive.c); HTTP thread only */
+    struct kd_job_whole *cubes; /* cubes that are being downloaded (job/archive.c); HTTP thread only */
     struct kd_request *once;    /* requests under way that have an Idempotency-Key; HTTP thread only */
     struct kd_asset_store *assets;
     struct kd_asset *sky; /* the operator's photograph of the sky; NULL: none */
@@ -101,8 +102,8 @@ struct kd_server {
     struct kd_link_budgets *links;          /* device time that signed links have used; used with access */
     const char *share_key;                  /* name of the key that signs shared scenes, in access; NULL: none */
     struct kd_auth_throttle *auth_throttle; /* throttle of wrong tokens, used with access */
-    struct kd_cors *cors;                   /* origins permitted besides our own; NULL: none */
-    /* true if pages of other sites may send requests, although they cannot read the answers */
+    struct kd_cors *cors;                   /* origins that are permitted besides the server's own; NULL: none */
+    /* true if requests that pages of other sites make are accepted; such pages cannot read the answers */
     bool cross_site;
     struct kd_measures *measures; /* durations of requests */
     /* Numbers of answers by the first digit of the status; 0: the connection was cut before a status. */
@@ -111,11 +112,11 @@ struct kd_server {
     int stop_fd; /* eventfd that wakes the reaper */
     pthread_t reaper;
     bool reaper_runs;
-    _Atomic bool abandon; /* the server is destroyed without having been stopped, so it must not wait */
-    /* set drain_s after a stop request: remaining work is cancelled, and its clients are answered */
+    _Atomic bool abandon; /* the server is destroyed although it was never stopped, so it must not wait */
+    /* set drain_s after a stop request; remaining work is then cancelled, and its clients get an answer */
     _Atomic bool ended;
     pthread_mutex_t lock;                      /* protects all members below */
-    struct kd_sessions_counts sessions_counts; /* the counts that were last read */
+    struct kd_sessions_counts sessions_counts; /* counts as they were last read, for use while a lock is not free */
     struct kd_jobs_counts jobs_counts;
     struct kd_playground_sessions_counts playgrounds_counts;
     pthread_cond_t changed;

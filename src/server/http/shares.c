@@ -22,8 +22,8 @@ static unsigned hash(const char *name)
     return h;
 }
 
-/* Finds the client's own place; else the idle place with the least virtual time. If there is neither, several
- * clients share a place, selected by hash. */
+/* Finds the client's own place. If it has none, returns the idle place with the least virtual time. If there is no
+ * idle place either, several clients share a place, selected by hash. */
 static struct kd_share_client *place_of(struct kd_shares *shares, const char *name)
 {
     struct kd_share_client *free = NULL;
@@ -70,8 +70,8 @@ void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim)
     claim->owner->claims--;
 }
 
-/* Virtual time of a client or flow. If it lags more than CREDIT_MS behind the one that was served last, it is raised
- * to that limit. */
+/* Virtual time of a client or flow. If it is more than CREDIT_MS behind the virtual time of the client or flow that
+ * was served last, it is raised to that limit. */
 static double standing(double paid, double now, double weight) { return fmax(paid, now - CREDIT_MS / weight); }
 
 static struct kd_claim *next_of_flow(const struct kd_share_flow *flow, bool (*may)(const struct kd_claim *, void *),

@@ -2,14 +2,16 @@
  * Pure: no clock, no thread, no allocation. One thread at a time.
  *
  * The device's time is shared equally among clients. Each client's time is shared among its classes of work by weight.
- * Both divisions use start-time fair queueing (Goyal, Vin & Cheng 1996). Work that ran is charged its time, divided by
- * its weight. The client that was charged least runs next, and within it the class that was charged least. A client or
- * class that was idle is treated as if it had been charged as much as the one that is running: idle time is neither
- * saved up nor punished. So a client with little to do waits for the slice that is under way, and then at most for the
- * shares of the other clients, however much work they have.
+ * Both divisions use start-time fair queueing (Goyal, Vin & Cheng 1996). Each time that work has run, its client and
+ * class are charged the time, divided by the weight. The client that was charged least runs next, and within that
+ * client the class that was charged least. A client or class that was idle is treated as if it had been charged as much
+ * as the one that is running: idle time is neither saved up nor punished. So a client with little work waits for the
+ * slice that is under way, and then at most for one share of each other client, no matter how much work the others
+ * have.
  *
- * Among the works of one class of one client, the one that would end first if all ran side by side is next (Friedman
- * & Henderson 2003). So short work goes first, and the longest still ends no later than with equal parts.
+ * Among the works of one class of one client, the next is the one that would end first if all ran concurrently at equal
+ * speed (Friedman & Henderson 2003). So short work runs first, and the longest work still ends no later than it would
+ * at equal speeds.
  *
  *     kd_shares_add(&shares, &work->claim);
  *     while ((claim = kd_shares_next(&shares, may, user))) {
@@ -23,11 +25,11 @@
 #include <stdbool.h>
 
 #define KD_CLIENT 48         /* size of the name of a client */
-#define KD_SHARE_CLIENTS 64u /* limit of clients that are tracked at once; beyond it, clients share an entry */
+#define KD_SHARE_CLIENTS 64u /* limit of clients that are tracked at once; further clients share entries */
 
 /* Classes of work and their weights within a client. PIXEL runs as soon as it arrives, because a user points at the
- * picture and waits. While a user moves a view (LIVE), a job (JOB) gets a fifth of the time. Beside a job, which a
- * user requested, an animated view (IDLE) and REFINEMENT get a twentieth, so that they still visibly advance. */
+ * picture and waits. While a user moves a view (LIVE), a job (JOB) gets a fifth of the time. While a job runs, an
+ * animated view (IDLE) and REFINEMENT get a twentieth, so that they still visibly advance. */
 #define KD_CLASSES(X) X(PIXEL, 64) X(LIVE, 8) X(PICTURE, 4) X(RAYS, 4) X(JOB, 2) X(REFINEMENT, 0.1) X(IDLE, 0.1)
 enum kd_class {
 #define KD_CLASS_ENUM(name, weight) KD_CLASS_##name,
@@ -36,21 +38,22 @@ enum kd_class {
         KD_N_CLASSES
 };
 
-/* Work that waits or runs; embedded in its owner's struct. */
+/* Work that waits or runs. The struct is embedded in that of the work's owner. */
 struct kd_claim {
     /* set before kd_shares_add */
     char client[KD_CLIENT];
     enum kd_class class;
     double left_ms; /* estimated time left; kd_shares_charge subtracts the time used */
     /* private to the scheduler */
-    double paid; /* virtual time: the flow's `now` when the work was added, plus what the work was charged */
+    /* virtual time: the value of the flow's `now` when the work was added, plus all charges for the work */
+    double paid;
     struct kd_share_client *owner;
     struct kd_claim *next;
 };
 
 struct kd_share_flow { /* work of one class of one client */
     /* paid: virtual time charged to the flow. now: virtual time that each work of the flow would have received if
-     * all ran side by side */
+     * all ran concurrently */
     double paid, now;
     unsigned claims;
     struct kd_claim *first; /* the flow's work, in order of arrival */
@@ -69,8 +72,8 @@ struct kd_shares { /* initialise to 0 */
 void kd_shares_add(struct kd_shares *shares, struct kd_claim *claim);
 void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim);
 
-/* Returns the work to run next among the works for which `may` is true, or NULL. Changes nothing: repeated calls return
- * the same work until some is added, removed or charged. */
+/* Returns the work to run next among the works for which `may` is true, or NULL. Changes nothing: repeated calls
+ * return the same work until some work is added, removed or charged. */
 struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const struct kd_claim *claim, void *user),
                                 void *user);
 

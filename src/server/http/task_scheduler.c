@@ -14,8 +14,8 @@
 #define THREADS_MAX (4 * WORKERS_MAX) /* limit of threads, including threads that are suspended in a slice */
 #define PIECE_MS 15.                  /* time that a slice runs before other jobs go first */
 
-/* A suspended slice; the struct is on the stack of its thread. It is listed among the jobs, and is resumed when it
- * is the first in the list. */
+/* A suspended slice; the struct is on the stack of its thread. The slice is listed among the jobs, and is resumed
+ * when it is the first in the list. */
 struct paused {
     struct kd_scheduler_job place; /* must be the first member; its callback `turn` is NULL */
     pthread_cond_t resumed;
@@ -27,7 +27,7 @@ struct kd_scheduler {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool closing;
-    /* first: listed jobs, in the order in which they run; parked: jobs that wait */
+    /* first: listed jobs, in the order in which they run; parked: jobs that wait for an event */
     struct kd_scheduler_job *first, **end, *parked;
     struct kd_scheduler_job *accepted; /* all jobs that are not done */
     unsigned n_accepted, unfinished;
@@ -39,7 +39,7 @@ struct kd_scheduler {
 static _Thread_local struct kd_scheduler *mine;
 static _Thread_local struct kd_scheduler_job *under_way;
 static _Thread_local double piece_ms; /* time at which the current slice began or was last resumed */
-static _Thread_local bool stops;      /* nobody wants the result of the current slice's job */
+static _Thread_local bool stops;      /* true: nobody wants the result of the job whose slice is running */
 
 static void append(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
@@ -86,10 +86,10 @@ static void park(struct kd_scheduler *scheduler, struct kd_scheduler_job *job, b
     job->next = scheduler->parked;
     scheduler->parked = job;
     if (job->due_ms > 0)
-        pthread_cond_signal(&scheduler->changed); /* a sleeping worker must wake earlier */
+        pthread_cond_signal(&scheduler->changed); /* a sleeping worker must wake earlier than planned */
 }
 
-/* Resumes the jobs whose parking time has ended. Returns the time at which the next one ends, or INFINITY. */
+/* Resumes the jobs whose parking time has ended. Returns the time at which the next parking time ends, or INFINITY. */
 static double unpark_due(struct kd_scheduler *scheduler)
 {
     double next = INFINITY;
@@ -134,8 +134,8 @@ static void unref(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
     scheduler->n_accepted--;
 }
 
-/* Lists a job again, if it may have a further slice now. While a slice of a shared job is suspended no other slice of
- * it begins: each would occupy a thread. */
+/* Lists a job again, if it may have a further slice now. While a slice of a shared job is suspended, no other slice
+ * of that job begins, because each would occupy a thread. */
 static void list_again(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
     if (!job->paused && !job->over)
@@ -149,14 +149,14 @@ static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *j
     job->workers++;
     job->woken = false;
     if (job->shared)
-        list_again(scheduler, job); /* so that other workers can join */
+        list_again(scheduler, job); /* other workers can now join */
     pthread_mutex_unlock(&scheduler->lock);
     under_way = job;
     piece_ms = kd_clock_ms();
     kd_watch_turn_begins();
     enum kd_slice_result turn = job->turn(job);
     kd_watch_turn_ends();
-    under_way = NULL; /* `done` may free the job, and is never suspended */
+    under_way = NULL; /* `done` may free the job, and cannot be suspended */
     stops = false;
     pthread_mutex_lock(&scheduler->lock);
     job->workers--;
@@ -235,7 +235,7 @@ static void pause_turn(struct kd_scheduler *scheduler)
     pthread_cond_signal(&scheduler->changed);
     while (me.place.listed && !scheduler->closing)
         pthread_cond_wait(&me.resumed, &scheduler->lock);
-    if (me.place.listed) { /* at shutdown a suspended slice is still in the list, because no worker resumes it */
+    if (me.place.listed) { /* at shutdown no worker resumes suspended slices, so this one is still in the list */
         take_out(scheduler, &me.place);
         scheduler->busy++;
     }
@@ -243,7 +243,7 @@ static void pause_turn(struct kd_scheduler *scheduler)
 }
 
 /* Hook of base/pause.h: suspends this thread's slice until the other listed jobs have each had a slice. If no other
- * thread can run them, the slice continues. */
+ * thread can run the other jobs, the slice continues. */
 static bool let_others_go_first(void)
 {
     struct kd_scheduler *scheduler = mine;

@@ -1,7 +1,7 @@
 /* Cooperative task scheduler: a few workers run slices of long tasks in turn, so that a short task need not wait for
  * a long one. A slice returns after some 10 ms. A function that a slice calls may also be suspended in the middle
- * (base/pause.h). A suspended function occupies its thread; another thread then replaces that thread, so that the
- * number of running workers stays the same. */
+ * (base/pause.h). It then occupies its thread while it is suspended. Another thread replaces that thread as a
+ * worker, so the number of running workers stays the same. */
 #ifndef KD_SERVER_HTTP_TASK_SCHEDULER_H
 #define KD_SERVER_HTTP_TASK_SCHEDULER_H
 
@@ -14,16 +14,16 @@
 enum kd_slice_result {
     KD_SLICE_MORE, /* the job has more to do */
     KD_SLICE_PARK, /* wait for kd_scheduler_wake, kd_scheduler_cancel or the job's due_ms, then continue */
-    KD_SLICE_AWAY, /* wait for kd_scheduler_wake alone, because another thread uses the job meanwhile */
-    KD_SLICE_LAST, /* the job has no further slice */
+    KD_SLICE_AWAY, /* wait for kd_scheduler_wake only, because another thread uses the job meanwhile */
+    KD_SLICE_LAST, /* the job is finished and has no further slice */
 };
 
 struct kd_scheduler_job {
     enum kd_slice_result (*turn)(struct kd_scheduler_job *job); /* runs one slice; on a worker */
     void (*done)(
         struct kd_scheduler_job *job); /* called once on a worker when every slice has returned; may free the job */
-    /* true if nobody waits for the job's result any more; kd_pause is then true until the slice ends. Called by the
-     * slice's thread without a lock; NULL: never */
+    /* true if nobody waits for the job's result any more; kd_pause then returns true until the slice ends. The
+     * slice's thread calls it without a lock; NULL: never true */
     bool (*unwanted)(struct kd_scheduler_job *job);
     /* time on kd_clock_ms at which a parked job is resumed; 0: none */
     double due_ms;
@@ -33,7 +33,7 @@ struct kd_scheduler_job {
     /* private to the scheduler */
     struct kd_scheduler_job *next, *next_accepted, **accepted_at;
     bool listed, parked, away, woken, over;
-    unsigned workers, paused; /* slices under way, and those of them that are suspended */
+    unsigned workers, paused; /* number of slices under way, and the number of these that are suspended */
 };
 
 struct kd_scheduler;
@@ -48,13 +48,13 @@ void kd_scheduler_destroy(struct kd_scheduler *scheduler);
 enum kd_status kd_scheduler_admit(struct kd_scheduler *scheduler, const char *client, bool *quota,
                                   struct kd_error *error);
 void kd_scheduler_push(struct kd_scheduler *scheduler, struct kd_scheduler_job *job);
-/* Wakes a parked job, including one whose current slice is about to park it. The job must not have finished. Any
- * thread. */
+/* Wakes a parked job. If the job's current slice is about to park it, the job is not parked. The job must not have
+ * finished. Any thread. */
 void kd_scheduler_wake(struct kd_scheduler *scheduler, struct kd_scheduler_job *job);
 unsigned kd_scheduler_unfinished(struct kd_scheduler *scheduler);
 
-/* Makes kd_scheduler_cancelled return true. Jobs poll it in their slices. Resumes all parked jobs except those that
- * returned KD_SLICE_AWAY. Any thread. */
+/* Makes kd_scheduler_cancelled return true. Jobs call kd_scheduler_cancelled in their slices. Resumes all parked
+ * jobs except those that returned KD_SLICE_AWAY. Any thread. */
 void kd_scheduler_cancel(struct kd_scheduler *scheduler);
 bool kd_scheduler_cancelled(struct kd_scheduler *scheduler);
 

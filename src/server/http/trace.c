@@ -22,7 +22,8 @@ bool kd_trace_read(const char *value, struct kd_traceparent *out)
         is_zero(parent, PARENT))
         return false;
     const bool first_version = !strncmp(value, "00", VERSION);
-    if (flags[FLAGS] && (first_version || flags[FLAGS] != '-')) /* later versions may append fields after a hyphen */
+    /* later versions of the standard may append fields after a hyphen */
+    if (flags[FLAGS] && (first_version || flags[FLAGS] != '-'))
         return false;
     snprintf(out->trace_id, sizeof out->trace_id, "%.*s", TRACE, trace);
     snprintf(out->parent_id, sizeof out->parent_id, "%.*s", PARENT, parent);

@@ -14,9 +14,9 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Largest numbers of cubes and films that are made at once: CUBES of all clients together, CUBES_OF_ONE of one
- * client. Workers prepare much of each before it is sent. The memory for this counts towards the budget of answers;
- * a cube needs some 400 bytes a scene. */
+/* Largest numbers of cubes and films that are made at once. CUBES: of all clients together; CUBES_OF_ONE: of one
+ * client. Workers prepare a large part of each before it is sent. The memory for this counts towards the budget of
+ * answers. A cube needs some 400 bytes a scene. */
 enum { CUBES = 8, CUBES_OF_ONE = 3 };
 
 struct kd_job_whole {
@@ -164,7 +164,7 @@ struct looked {
     const struct kd_gather_format *format;
     uint64_t length; /* length of the archive, if it is known in advance */
     struct kd_job_film_writer writer;
-    struct kd_job_file film; /* fd is -1 before the film is opened */
+    struct kd_job_file film; /* fd is -1 until the film is opened */
 };
 
 static void finish(struct kd_task *task)
@@ -236,7 +236,7 @@ static bool open_film(struct looked *l)
     return kd_job_film_open(l->whole->job, l->format->name, l->whole->source.rate, &l->film);
 }
 
-/* If the film is cached, opens it. Else encodes it, or waits for the request that does so. */
+/* If the film is cached, opens it. Otherwise encodes it, or waits for the request that is encoding it. */
 static enum kd_slice_result encode(struct kd_task *task, double until_ms)
 {
     struct looked *l = (struct looked *)task;
@@ -373,7 +373,7 @@ enum MHD_Result kd_job_send_whole(struct kd_request *request, struct kd_job *job
                                        .rate = rate,
                                        .size = size_of,
                                        .read = read_frame };
-    /* for HEAD, workers compute the archive's length only if the format cannot give it */
+    /* for HEAD, workers compute the length if the format permits that (`counts`); otherwise the length is left out */
     const bool head = request->head && !format->counts;
     struct kd_job_file film;
     if (format->waits && kd_job_film_open(job, format->name, rate, &film)) {

@@ -1,8 +1,8 @@
 /* Films of playgrounds. While one frame is rendered, workers move the bodies on to the next frame.
  *
- * What a frame shows depends on all frames before it. So when a frame is rendered again, or a film is resumed after
- * a restart, the motion is computed again from its beginning; it is the same to the bit. One film is made at a time
- * while others wait, so that only one uses memory and slices of the workers. */
+ * What a frame shows depends on all frames before it. So when a frame is rendered again, or a film is resumed after a
+ * restart, the motion is computed again from its beginning. The result is identical to the bit. Only one film is made
+ * at a time while others wait, so that only one uses memory and slices of the workers. */
 #include "server/job/job_internal.h"
 
 #include "base/clock.h"
@@ -28,7 +28,7 @@ void kd_job_film_drop(struct kd_job *job)
     kd_dynamic_bodies_release(film->dynamic);
     film->dynamic = NULL;
     if (film->moving)
-        return; /* a worker owns it and frees it */
+        return; /* the worker that owns the playground frees it */
     kd_playground_destroy(film->p);
     film->p = NULL;
     if (job->all->filming == job)

@@ -1,8 +1,8 @@
 /* Films of a job's frames, cached in the job's folder. Each film is encoded once and deleted with the job. Its size
  * counts towards the limit of the frames. Any thread.
  *
- * A request opens the film. If it does not exist yet, one request claims the job, encodes the film and releases the
- * claim, even on failure. Other requests retry a little later. */
+ * A request opens the film. If the film does not exist yet, one request claims the job and encodes the film. It then
+ * releases the claim, even on failure. Other requests retry a little later. */
 #ifndef KD_SERVER_JOB_FILMS_H
 #define KD_SERVER_JOB_FILMS_H
 
@@ -40,7 +40,7 @@ enum kd_status kd_job_film_append(struct kd_job_film_writer *w, const void *data
 /* Publishes the film, so that it can be opened. Returns KD_EFULL if the files of all jobs would then exceed their
  * limit. */
 enum kd_status kd_job_film_keep(struct kd_job_film_writer *w, struct kd_error *error);
-/* Deletes an unpublished film and releases the claim, if they exist. */
+/* Deletes an unpublished film, and releases the claim. Either may not exist. */
 void kd_job_film_end(struct kd_job_film_writer *w);
 
 /* Finds films that were written before a restart. Call it before any other thread uses the job. */

@@ -30,12 +30,12 @@ void kd_job_folder_new_film(const char *format, unsigned rate, char name[KD_JOB_
 /* Opens a job's folder. Returns a descriptor, or -1 with errno; ELOOP or ENOTDIR if it is not a folder. */
 int kd_job_folder_open(int jobs, const char *name);
 
-/* Removes at most `most` of a job's files. job.json is the last of them, because it identifies the job. Then removes
- * the folder, unless it holds other files. Returns true when no removable file is left. */
+/* Removes at most `most` of a job's files. job.json is removed last, because it identifies the folder as that of a
+ * job. Then removes the folder, unless it holds other files. Returns true when no removable file is left. */
 bool kd_job_folder_remove(int jobs, const char *name, unsigned most);
 
-/* Removes a job's files that a killed server left half written. All other files stay, even if their names begin
- * alike. */
+/* Removes those of a job's files that a killed server left half written. All other files stay, even if their names
+ * begin in the same way. */
 void kd_job_folder_tidy(int folder);
 /* Removes all jobs in a folder, then its lock. */
 void kd_job_folder_empty(int jobs);

@@ -4,8 +4,8 @@
 
 const struct kd_job_format kd_job_as_stream = { "stream", KD_FRAMES_TYPE };
 
-/* Gets entry i of the formats of one series. The formats of a series of rows are its tables. Those of any other
- * series are its archives, then single frames and the stream. */
+/* Gets entry i of the formats of one series. The formats of a series of rows are its tables. The formats of any
+ * other series are its archives, then single frames, then the stream. */
 static bool of_series(const struct kd_series *series, size_t i, struct kd_job_format *out)
 {
     size_t wholes = 0;

@@ -24,19 +24,19 @@ struct kd_job_preview_hook {
 
 /* State of the playground of a film (film.c). */
 struct kd_job_film {
-    /* While `moving` is set, the worker owns the members up to spent_ms and uses them without the lock. Otherwise
-     * the lock protects them. */
+    /* While `moving` is set, the worker owns the members up to spent_ms and uses them without the lock. While it is
+     * not set, the lock protects these members. */
     struct kd_playground *p; /* NULL: not created yet */
     unsigned at;             /* frame that the playground has reached or is leaving */
     double begin;            /* the playground's time at frame 0 */
     double spent_ms;         /* computing time spent on moving the bodies */
-    /* the lock always protects the members from here on */
+    /* the lock protects the members from here on at all times */
     bool moving;
     unsigned to;                       /* target frame */
     struct kd_dynamic_bodies *dynamic; /* bodies at the target frame, a reference; NULL: not reached yet */
 };
 
-/* Common exposure of all frames. It is measured before the first frame is rendered (job/exposure.h). */
+/* Common exposure of all frames, which is measured before the first frame is rendered (job/exposure.h). */
 struct kd_job_exposure {
     unsigned n, done; /* n: number of pictures needed, 0 if the exposure is not measured; done: number of pictures
                        * measured */
@@ -55,7 +55,7 @@ struct kd_job {
     bool unordered; /* after a restart watch.c computes the order of frames again; no frame begins before that is
                      * done */
     const struct kd_series *series;
-    /* next: all frames before this place in the order of rendering are done or under way */
+    /* next: all frames before this index in the order of rendering are done or under way */
     unsigned frames, next, finished;
     unsigned char *have; /* one flag for each frame: its file exists */
     double fraction;     /* fraction of the present frame that is rendered */
@@ -64,24 +64,24 @@ struct kd_job {
     double due_ms;       /* no frame begins before this time on kd_clock_ms */
     double delay_ms;     /* length of the next delay after a shortage; 0: no shortage */
     double counted_ms;   /* time at which the number of lens maps was last written to the record */
-    /* time at which the job ended, on kd_clock_ms because that ignores changes of the system clock */
+    /* time at which the job ended, on kd_clock_ms, because that clock ignores changes of the system time */
     double ended_ms;
     char delayed[160]; /* the reason why the job waits until due_ms */
-    bool begun_here;   /* this server has begun a frame of the job, or moved its bodies */
+    bool begun_here;   /* this server has begun a frame of the job, or has moved the bodies of the job's film */
     bool struck;       /* this server has counted an attempt in the job's record */
     unsigned finished_here;
     struct kd_job_stored_film films[KD_JOB_FILMS]; /* oldest first */
     unsigned n_films;
     bool filming;           /* a film is being encoded (films.c) */
-    unsigned encoding;      /* frames rendered and not yet in files */
+    unsigned encoding;      /* number of frames that are rendered and not yet in files */
     uint64_t bytes;         /* total size of its frames and films */
-    unsigned revision;      /* incremented when its status changes */
+    unsigned revision;      /* incremented when the job's status changes */
     char client[KD_CLIENT]; /* client that requested the job; "": unknown, after a restart */
     bool listed;
     bool creating;  /* the job's files are being created, so no frame begins */
     bool unwritten; /* the record has changed since it was written to disk */
     bool keeping;   /* no frame begins before the record is on disk */
-    bool measured;  /* `keeping` was set because the exposure has been measured */
+    bool measured;  /* true: `keeping` was set because the exposure has been measured */
     bool forgotten; /* the job's request is deleted from disk */
     struct kd_job_preview_hook preview;
     struct kd_job_watcher *watchers;
@@ -92,12 +92,13 @@ struct kd_jobs {
     struct kd_jobs_params params;
     struct kd_job_store *store;
     bool temporary;          /* the store is created with the first job and deleted at the end */
-    pthread_mutex_t opening; /* held while that store is created */
+    pthread_mutex_t opening; /* held while the store is created */
     /* Protects all members below. Never held while a file is written or removed, because the HTTP thread takes this
      * lock. */
     pthread_mutex_t lock;
-    struct kd_scheduler_job writer;  /* scheduler job that writes records (records.c) */
-    bool writes, begun;              /* writes: the writer is running; begun: other threads use the jobs */
+    struct kd_scheduler_job writer; /* scheduler job that writes records (records.c) */
+    /* writes: the writer is running; begun: kd_jobs_begin was called, so other threads use the jobs */
+    bool writes, begun;
     struct kd_job *first;            /* oldest first */
     struct kd_job *gone;             /* jobs whose files are to be removed */
     struct kd_job_render *rendering; /* frame that is in the render queue, or being planned */
@@ -112,7 +113,7 @@ struct kd_jobs {
 
 double kd_job_now_s(void); /* system time in s since 1970 */
 
-/* True if a job is being rendered or waits to be. */
+/* True if a job is being rendered or waits to be rendered. */
 static inline bool kd_job_is_active(const struct kd_job *job)
 {
     return job->listed && job->record.state == KD_JOB_ACTIVE;
@@ -120,11 +121,12 @@ static inline bool kd_job_is_active(const struct kd_job *job)
 /* records.c: requests that a worker write the job's record. Failures are logged. */
 void kd_job_write(struct kd_job *job);
 void kd_jobs_begin_writing(struct kd_jobs *all); /* starts the writer if any record has changed */
-/* Like kd_job_write; in addition, no frame of the job begins before the record is on disk. */
+/* Like kd_job_write. In addition, no frame of the job begins before the record is on disk. */
 void kd_job_keep(struct kd_job *job);
 /* Writes all changed records. Call it when no other thread uses the jobs. */
 void kd_jobs_write_all(struct kd_jobs *all);
-/* Counts an attempt, because the work may crash the server. Each server counts at most one attempt for each job. */
+/* Counts an attempt at the job before it begins, because the work may crash the server. Each server counts at most
+ * one attempt for each job. */
 void kd_job_strike(struct kd_job *job);
 void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why);
 /* Delays a job after a shortage that may pass. Each delay is longer than the one before. */
@@ -137,9 +139,9 @@ void kd_job_wake(struct kd_job *job, double now); /* resumes watchers that have 
 /* Makes a job from a spec and empties the spec. The job is not in the list yet. Returns NULL when out of memory. Called
  * without the lock. */
 struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec);
-void kd_job_append(struct kd_jobs *all, struct kd_job *job); /* adds it to the list as the youngest */
-/* resume.c, callback of kd_job_store_load: resumes a stored job. user: the jobs. Call it before any other thread uses
- * them. */
+void kd_job_append(struct kd_jobs *all, struct kd_job *job); /* adds the job to the list, as the youngest */
+/* resume.c, callback of kd_job_store_load: resumes a stored job. user: the jobs. Call it before any other thread
+ * uses the jobs. */
 void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buffer *request);
 
 /* Removes at most `files` files of deleted jobs. Called without the lock, by one thread at a time. */
@@ -156,8 +158,8 @@ extern const struct kd_preview_hook kd_job_preview_hook;
  * ends. */
 void kd_job_give_up(struct kd_job *job, const struct kd_error *error);
 /* film.c: gets the bodies that a frame of a film shows; the job owns them. *out is NULL if the film has not reached
- * the frame yet, or if another film is being made; kd_jobs_pump is then called when the bodies exist. Returns KD_OK
- * or KD_ENOMEM. */
+ * the frame yet, or if another film is being made. In that case kd_jobs_pump is called as soon as the bodies exist.
+ * Returns KD_OK or KD_ENOMEM. */
 enum kd_status kd_job_film_at(struct kd_job *job, unsigned frame, struct kd_dynamic_bodies **out,
                               struct kd_error *error);
 /* Frees the playground unless a worker owns it, and lets another film begin. */

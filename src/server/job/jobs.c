@@ -195,7 +195,7 @@ void kd_jobs_destroy(struct kd_jobs *all)
     free(all);
 }
 
-/* True if another job is accepted. A finished job may be deleted to make room. Called with the lock. */
+/* True if another job can be accepted. For this, a finished job may be deleted to make room. Called with the lock. */
 static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned unfinished = 0, stored = 0, own = 0;
@@ -259,7 +259,7 @@ static void make_room(struct kd_jobs *all)
     unref(oldest);
 }
 
-/* Adds the job to the list before its files are created, because the lock must not be held while they are. */
+/* Adds the job to the list before its files are created, because the lock must not be held while files are created. */
 static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char *text, size_t length, bool *quota,
                             struct kd_error *error)
 {
@@ -466,7 +466,7 @@ bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
         out->done += job->record.state == KD_JOB_DONE;
         out->failed += job->record.state == KD_JOB_FAILED;
     }
-    out->running = out->waiting > 0; /* the oldest unfinished job is the one that runs */
+    out->running = out->waiting > 0; /* among the unfinished jobs, the oldest one runs */
     out->waiting -= out->running;
     pthread_mutex_unlock(&all->lock);
     return true;

@@ -7,7 +7,7 @@
 
 #define WANTED_MS 10000.0 /* time after a request during which previews are made */
 #define APART_MS 500.0    /* shortest interval between two previews; SHARE may lengthen it */
-/* the interval between two previews is at least this many times the time that one preview takes */
+/* an interval between two previews is at least this many times as long as making a preview takes */
 #define SHARE 20.0
 
 static bool wanted(void *user)

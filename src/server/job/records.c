@@ -21,8 +21,8 @@ static void written(struct kd_job *job, enum kd_status status, const struct kd_e
         job->revision++;
         return;
     }
-    job->record.exposure = NAN; /* a restart would otherwise find frames without an exposure, and render the missing
-                                 * frames with another one */
+    /* without this, a restart would find frames but no exposure, and render the missing frames with another exposure */
+    job->record.exposure = NAN;
     job->exposure.done = 0;
     if (kd_job_is_active(job))
         kd_job_delay(job, error->message);
@@ -72,7 +72,7 @@ static void done(struct kd_scheduler_job *writer)
 
 void kd_jobs_begin_writing(struct kd_jobs *all)
 {
-    /* kd_jobs_write_all writes the rest at shutdown */
+    /* at shutdown kd_jobs_write_all writes the remaining records */
     if (all->writes || !all->begun || all->closed || !first_unwritten(all))
         return;
     all->writes = true;

@@ -66,7 +66,7 @@ static bool open_next(struct frames *f)
     return true;
 }
 
-/* Produces more bytes; or sets f->over at the end; or sets *wait if the answer must be suspended. Returns false on
+/* Produces more bytes, or sets f->over at the end, or sets *wait if the answer must be suspended. Returns false on
  * failure. */
 static bool advance(struct frames *f, bool *wait)
 {
@@ -75,7 +75,7 @@ static bool advance(struct frames *f, bool *wait)
     switch (kd_job_await(&f->watcher)) {
     case KD_JOB_NEWS: return open_next(f) && f->left <= UINT32_MAX && head(f);
     case KD_JOB_LATER: *wait = true; return true;
-    case KD_JOB_LATE: return true; /* cannot happen, because there is no deadline */
+    case KD_JOB_LATE: return true; /* cannot happen, because a stream has no deadline */
     case KD_JOB_OVER: break;
     }
     struct kd_job_status status;

@@ -46,7 +46,8 @@ static void find_frames(struct kd_job *job)
     job->all->bytes += job->bytes;
 }
 
-/* Resumes a finished job that has lost frames. It is rendered again if this version can parse its request. */
+/* Resumes a finished job that has lost frames. The lost frames are rendered again if this version can parse the
+ * job's request. */
 static void reopen(struct kd_job *job)
 {
     if (job->record.state != KD_JOB_DONE || job->finished == job->frames)

@@ -62,7 +62,7 @@ static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s,
     kd_json_number(&json, "frames", s->frames);
     kd_json_number(&json, "finished", s->finished);
     kd_json_number(&json, "fraction", s->fraction);
-    kd_json_number(&json, "remaining_s", s->remaining_s); /* NAN is written as null */
+    kd_json_number(&json, "remaining_s", s->remaining_s); /* written as null if it is NAN */
     kd_json_number(&json, "bytes", (double)s->bytes);
     kd_json_number(&json, "lens_maps_traced", s->traced);
     if (!isnan(s->exposure))
@@ -150,7 +150,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     enum MHD_Result result = d->task.status == KD_ECANCELLED ? kd_reply_cancelled(request)
                              : d->task.status                ? refuse(request, &d->task.error, d->task.quota)
                                                              : answer(request, d->job, true);
-    /* the client does not know the job, and cannot request it again because it sent no key */
+    /* the job is deleted, because the client does not know it, and cannot request it again without a key */
     if (d->job && request->status != MHD_HTTP_ACCEPTED && !*request->once.key)
         kd_job_drop(d->job);
     return result;
@@ -292,7 +292,7 @@ static enum kd_status next_event(struct events *e, ssize_t *instead)
         *instead = MHD_CONTENT_READER_END_OF_STREAM;
         return KD_OK; /* the server is stopping, and the job may continue after a restart */
     case KD_JOB_LATER: *instead = 0; return KD_OK;
-    case KD_JOB_LATE: /* sends a heartbeat, whose failure also reveals clients that have vanished */
+    case KD_JOB_LATE: /* a heartbeat, which also reveals clients that have vanished */
         e->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         return kd_buffer_printf(&e->text, ":\n\n");
     }

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* limit of frames that are rendered and not yet in files; one can be rendered while another is encoded */
+/* limit of frames that are rendered and not yet in files: one frame can be rendered while another is encoded */
 #define BEHIND_MAX 2
 struct kd_job_render {
     struct kd_render_job render;       /* must be the first member: the queue stores a pointer to it */
@@ -63,8 +63,8 @@ static unsigned next_frame(struct kd_job *job)
 }
 
 /* Plans a frame on a worker, without the lock, because computing the critical curve of a camera alone takes
- * milliseconds. The members of the job that this function reads do not change meanwhile: the exposure is set only while
- * no frame is under way, the order only before the first frame. */
+ * milliseconds. The members of the job that this function reads do not change meanwhile. The exposure is set only
+ * while no frame is under way, and the order only before the first frame. */
 static enum kd_slice_result plan(struct kd_scheduler_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
@@ -229,8 +229,8 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
 
 #define COUNTED_MS 500.0 /* shortest interval between two writes of a sweep's number of lens maps to its record */
 
-/* Counts the lens map of a frame, if a map was traced. The record of a sweep is written from time to time, so that
- * the number survives a restart. */
+/* Counts the lens map of a frame, if a map was traced. For a sweep, the job's record is written from time to time,
+ * so that the number of lens maps survives a restart. */
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
     const unsigned traced =
@@ -307,7 +307,7 @@ static void rendered(struct kd_render_job *render)
     frame->job->encoding += !frame->measures;
     if (frame->measures)
         measured(frame->job, render->frame.exposure);
-    frame->job->fraction = 0; /* the next frame has made no progress yet */
+    frame->job->fraction = 0; /* the next frame has not made progress yet */
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
 }
@@ -321,7 +321,7 @@ static void done(struct kd_render_job *render)
     bool stored = !status && !frame->measures;
     if (stored)
         status = kd_job_store_put(all->store, job->record.id, frame->number, &render->file, &render->error);
-    /* Writing failed, for whatever cause. The frame can be rendered again later. */
+    /* The file could not be written, for whatever reason. The frame can be rendered again later. */
     if (stored && status)
         render->error.status = KD_EFULL;
     pthread_mutex_lock(&all->lock);
@@ -331,7 +331,7 @@ static void done(struct kd_render_job *render)
     } else
         all->rendering = NULL;
     if (frame->measures && frame->rendered)
-        status = KD_OK; /* the small picture's exposure is measured, and its file is not needed */
+        status = KD_OK; /* only the exposure of the small picture is used, so its file is not needed */
     else
         count_map(job, render);
     if (!status && !frame->measures)
@@ -359,7 +359,8 @@ static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draf
 {
     const struct kd_cost *cost = &draft->cost;
     const unsigned frames = draft->spec.frames;
-    /* Until all frames are checked, any lens map may turn out to be shared, so the time of tracing is not counted. */
+    /* Until all frames are checked, every lens map may still turn out to be shared with another frame. So the time
+     * of tracing is not counted. */
     const double not_spent = cost->frames < frames ? cost->trace_ms : cost->shared_ms;
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)

@@ -117,7 +117,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         rmdir(path);
         store->folder = -1;
         errno = cause;
-        /* otherwise another server has just removed the file, and this server tries again */
+        /* otherwise another server has just removed the new folder, because it looked left over; another attempt is
+         * made */
         if (cause != EWOULDBLOCK && cause != ENOENT)
             return kd_job_store_failed(error, "cannot create a folder for jobs");
     }
@@ -128,8 +129,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
     return KD_OK;
 }
 
-/* Locks the folder, because two servers with the same jobs would do all work twice. The path to the folder may
- * contain symbolic links; the folder itself must not be one. */
+/* Locks the folder, because two servers that share a folder would both do all of its jobs. The path to the folder
+ * may contain symbolic links; the folder itself must not be one. */
 static enum kd_status open_state(struct kd_job_store *store, const char *state, struct kd_error *error)
 {
     if (mkdir(state, 0700) && errno != EEXIST)
@@ -283,8 +284,8 @@ static bool parse_record(const struct kd_buffer *text, const char *id, struct kd
     return good;
 }
 
-/* Examines a job's folder. A job that cannot be read may be readable later, or by another version. Only a deleted
- * job is GONE. */
+/* Examines a job's folder. A job that cannot be read now may be readable later, or by another version of kerrd. Only
+ * a deleted job has the result GONE. */
 static enum fate look(int folder, const char *id, struct found *out, const char **why)
 {
     struct kd_buffer text = { 0 };
@@ -435,7 +436,8 @@ enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_j
     return status;
 }
 
-/* The folder has another name until both documents are written, so that a job is stored completely or not at all. */
+/* The folder has a temporary name until both documents are written, so that a job is stored completely or not at
+ * all. */
 enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request,
                                    size_t size, struct kd_error *error)
 {

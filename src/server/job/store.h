@@ -1,7 +1,7 @@
 /* Jobs on disk. DIRECTORY/ID/ holds request.json as it was received, job.json, and the frames: 000000.png and so on,
- * whatever their format. Each file is written atomically. A folder that has our job.json but no request.json belongs to
- * a deleted job. Other files and unreadable ones are left alone; links are never followed. Any thread, but only one at
- * a time for each job.
+ * whatever their format. Each file is written atomically. A folder with job.json but without request.json belongs to a
+ * deleted job. Files with other names and unreadable files are left alone. Links are never followed. Any thread, but
+ * only one at a time for each job.
  *
  * Errors contain no path, because clients see them. KD_EFULL and KD_ENOMEM (also if descriptors run out) may be
  * temporary. */
@@ -22,7 +22,7 @@ struct kd_job_record {
     char id[KD_SECRET_ID], token[KD_SECRET_TOKEN];
     enum kd_job_state state;
     double created, ended; /* seconds since 1970; ended: 0 while active */
-    /* number of servers that had begun work on the job and crashed, since the job's latest frame; an ordinary
+    /* number of servers that have begun work on the job and crashed since the job's latest frame; an ordinary
      * shutdown does not count */
     unsigned attempts;
     double exposure;                /* measured exposure of all frames in stops; NAN: none, or not yet */
@@ -37,16 +37,16 @@ struct kd_job_record {
 struct kd_job_store;
 enum { KD_JOB_MARK = 65 };
 
-/* Opens a store. If state is NULL it is a temporary folder in TMPDIR, which is deleted with the store. Else state is a
- * folder that no other server uses; it is created if needed. Returns KD_EIO with a message that contains the folder's
- * path. */
+/* Opens a store. If `state` is NULL, the store is a temporary folder in TMPDIR, which is deleted with the store.
+ * Otherwise `state` is a folder that no other server uses, and is created if needed. Returns KD_EIO with a message
+ * that contains the folder's path. */
 enum kd_status kd_job_store_open(const char *state, struct kd_job_store **out, struct kd_error *error);
 void kd_job_store_close(struct kd_job_store *store); /* accepts NULL */
 /* Removes the temporary folders that killed servers have left in TMPDIR. */
 void kd_job_store_tidy(void);
 
-/* Calls `found` for each job. Jobs with fewer attempts come first; among jobs with equally many, the oldest comes
- * first. Unreadable jobs are logged. The callback owns the request. */
+/* Calls `found` for each job. Jobs with fewer attempts come first. Jobs with the same number of attempts come in the
+ * order of their age, the oldest first. Unreadable jobs are logged. The callback owns the request. */
 enum kd_status kd_job_store_load(struct kd_job_store *store,
                                  void (*found)(void *user, const struct kd_job_record *record,
                                                struct kd_buffer *request),
@@ -60,7 +60,7 @@ enum kd_status kd_job_store_request(const struct kd_job_store *store, const char
 enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_job_record *record,
                                    struct kd_error *error);
 /* kd_job_store_forget removes a job's request, so that a restart does not find the job. kd_job_store_remove then
- * deletes at most `most` of its files, and returns true when all are gone. */
+ * deletes at most `most` of the job's files, and returns true when all are gone. */
 void kd_job_store_forget(struct kd_job_store *store, const char *id);
 bool kd_job_store_remove(struct kd_job_store *store, const char *id, unsigned most);
 
@@ -70,10 +70,10 @@ enum kd_status kd_job_store_put(struct kd_job_store *store, const char *id, unsi
 struct kd_job_file {
     int fd; /* the caller closes it */
     uint64_t size;
-    /* changes whenever the file's bytes change; the mark of a film is the SHA-256 of its bytes */
+    /* changes whenever the file's bytes change; for a film it is the SHA-256 of the bytes */
     char mark[KD_JOB_MARK];
 };
-/* Opens a finished frame. Returns false if it does not exist. */
+/* Opens the file of a finished frame. Returns false if the file does not exist. */
 bool kd_job_store_get(const struct kd_job_store *store, const char *id, unsigned frame, struct kd_job_file *out);
 
 /* Opens a job's folder for films.c. Returns a descriptor, or -1 with errno. */

@@ -3,8 +3,8 @@
 #include "base/clock.h"
 #include "server/job/job_internal.h"
 
-/* limit of files removed in one check of all jobs; the removal takes some milliseconds and must not delay the
- * thread's other work */
+/* limit of files removed in one check of all jobs. Removal takes some milliseconds and must not delay the thread's
+ * other work */
 #define FILES_A_SWEEP 200
 
 void kd_job_watch(struct kd_job_watcher *watcher)
@@ -50,8 +50,8 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *w)
     w->revision = w->job->revision;
     if (what == KD_JOB_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* suspended first, because the connection can be resumed as soon as the lock
-                                         * is released */
+        /* the connection is suspended first, because it can be resumed as soon as the lock is released */
+        MHD_suspend_connection(w->mhd);
     }
     pthread_mutex_unlock(&w->job->all->lock);
     return what;
@@ -80,7 +80,7 @@ static struct kd_job *take_old(struct kd_jobs *all)
     return NULL;
 }
 
-#define ORDER_MS 20.0 /* time spent in one check of all jobs */
+#define ORDER_MS 20.0 /* time limit of one check of all jobs */
 
 /* Continues to compute the order of a sweep's frames after a restart. Called without the lock. */
 static void put_in_order(struct kd_jobs *all)
@@ -122,8 +122,8 @@ void kd_jobs_sweep(struct kd_jobs *all)
     kd_jobs_bury(all, FILES_A_SWEEP);
 }
 
-/* At a shutdown by request, takes back the attempts that were counted for jobs under way: they have not crashed the
- * server. */
+/* At a shutdown by request, takes back the attempts that were counted for jobs under way, because these jobs have
+ * not crashed the server. */
 static void take_back_strikes(struct kd_jobs *all)
 {
     for (struct kd_job *job = all->first; job; job = job->link)

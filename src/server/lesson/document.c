@@ -21,7 +21,7 @@ struct member {
 };
 enum { MEMBERS = 8 }; /* largest number of members of an object */
 
-/* The name of a field in a sentence, such as question.choices.1 for /question/choices/1. */
+/* Converts a pointer to a name for sentences, such as /question/choices/1 to question.choices.1. */
 static void field_name(char *name, size_t size, const char *pointer)
 {
     snprintf(name, size, "%s", pointer + 1);
@@ -39,7 +39,8 @@ static enum kd_status refuse(const cJSON *item, const char *pointer, const char 
     return kd_error_field(error, pointer, "%s is %s; it must be %s", name, given, must);
 }
 
-/* Reads a text of 1 to `most` characters without control characters, or of 0 characters if `empty`. */
+/* Reads a text of 1 to `most` characters, none of which is a control character. With `empty`, the text may have 0
+ * characters. */
 static enum kd_status read_text(const cJSON *item, const char *pointer, size_t most, bool empty, const char **out,
                                 struct kd_error *error)
 {
@@ -123,7 +124,8 @@ static enum kd_status read_about(struct target *to, const cJSON *item, const cha
     return read_text(item, pointer, KD_LESSON_ABOUT, true, &to->change->about, error);
 }
 
-/* Reads a language tag as in BCP 47: parts of up to 8 letters and digits between hyphens, the first of letters. */
+/* Reads a language tag as in BCP 47. Its parts, between hyphens, have up to 8 letters and digits; the first part has
+ * letters only. */
 static enum kd_status read_lang(struct target *to, const cJSON *item, const char *pointer, struct kd_error *error)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";

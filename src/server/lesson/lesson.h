@@ -1,7 +1,7 @@
 /* A lesson: pupils follow the session of a teacher and answer the teacher's questions; the server counts pupils and
- * answers. A lesson holds the id of the session, and not the session itself, so that it continues when the teacher
- * opens another session. It is kept in memory only, and ends with the teacher's request or after a while without one. A
- * caller holds the lock of the table as long as it uses a lesson; kd_lessons_sweep takes it by itself. */
+ * answers. A lesson stores only the id of the session, so it continues when the teacher opens another session. It is
+ * kept in memory only. It ends when the teacher ends it, or after a while without a request of the teacher. A caller
+ * holds the lock of the table as long as it uses a lesson. kd_lessons_sweep takes that lock itself. */
 #ifndef KD_SERVER_LESSON_LESSON_H
 #define KD_SERVER_LESSON_LESSON_H
 
@@ -21,12 +21,12 @@
 #define KD_LESSON_CHOICE 200u
 #define KD_LESSON_NAME 80u
 #define KD_LESSON_LANG 35u                                /* largest length of a language tag */
-#define KD_LESSON_SIZE(characters) (4 * (characters) + 1) /* bytes of UTF-8, and NUL */
+#define KD_LESSON_SIZE(characters) (4 * (characters) + 1) /* bytes of UTF-8, including the NUL */
 
 struct kd_question {
-    unsigned number; /* counts the questions of this lesson; 0: no question has been asked */
+    unsigned number; /* number of this question within the lesson, from 1; 0: no question has been asked */
     bool shown;      /* false: the question was withdrawn */
-    bool open;       /* answers are accepted; when it closes, pupils see the tally and the right choice */
+    bool open;       /* answers are accepted; when this ends, pupils see the tally and the right choice */
     char text[KD_LESSON_SIZE(KD_LESSON_TEXT)];
     unsigned n_choices;
     char choices[KD_LESSON_CHOICES][KD_LESSON_SIZE(KD_LESSON_CHOICE)];
@@ -34,7 +34,7 @@ struct kd_question {
 };
 
 struct kd_pupil {
-    char key[KD_SECRET_ID]; /* made by the pupil's page; "": the place is free */
+    char key[KD_SECRET_ID]; /* key that the pupil's page has made; "": the place is free */
     char name[KD_LESSON_SIZE(KD_LESSON_NAME)];
     double seen_ms;
     unsigned answered; /* number of the question that `choice` answers; 0: none */
@@ -59,7 +59,8 @@ struct kd_lessons *kd_lessons_create(unsigned client_limit);
 void kd_lessons_destroy(struct kd_lessons *all); /* accepts NULL */
 void kd_lessons_lock(struct kd_lessons *all);
 void kd_lessons_unlock(struct kd_lessons *all);
-/* Ends the lessons that are idle. Called by the reaper, so that names of pupils are erased when their time is over. */
+/* Ends the lessons that are idle. The reaper calls this, so that names of pupils are erased when the lesson's time
+ * is over. */
 void kd_lessons_sweep(struct kd_lessons *all);
 
 /* Opens a lesson. Returns KD_EBUSY at a limit; *quota is true if that is the limit of one client. The lesson belongs to
@@ -71,8 +72,8 @@ struct kd_lesson *kd_lesson_find(struct kd_lessons *all, const char *id);
 void kd_lesson_end(struct kd_lessons *all, struct kd_lesson *one);
 
 /* Finds or adds the pupil of this key, and marks it as present. If all places are taken, a pupil that is away is
- * replaced: first one without an answer to the present question, and among these the one that has been away
- * longest. Returns NULL if all are present. */
+ * replaced. Pupils without an answer to the present question are replaced first, and among them the one that has
+ * been away longest. Returns NULL if all are present. */
 struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key);
 
 /* Writes the lesson as JSON. teacher: include each pupil's choice, and the tally even while the question is open.
@@ -87,13 +88,14 @@ enum kd_status kd_lesson_to_json(const struct kd_lesson *one, const struct kd_le
 /* A change of a lesson by its teacher. A member that is absent in the document is NULL or false. */
 struct kd_lesson_change {
     const char *session, *link, *about, *lang; /* point into the document */
-    bool asks, withdraws;                      /* asks: the document has "question"; withdraws: its value is null */
+    /* asks: the document has "question"; withdraws: the value of "question" is null */
+    bool asks, withdraws;
     struct kd_question question;
-    bool moves, open; /* moves: the document has "open"; open: its value */
+    bool moves, open; /* moves: the document has "open"; open: the value of "open" */
 };
 /* An answer of a pupil. */
 struct kd_hand {
-    const char *pupil, *name; /* name NULL: not given */
+    const char *pupil, *name; /* name NULL: the document has no name */
     bool answers;
     unsigned question, choice;
 };

@@ -115,8 +115,7 @@ static bool has_answered(const struct kd_lesson *one, const struct kd_pupil *pup
     return *pupil->key && pupil->answered && pupil->answered == one->question.number;
 }
 
-/* True if a new pupil gets the place of a rather than the place of b. Both places are free, or their pupils are absent.
- */
+/* True if a new pupil gets the place of a before the place of b. Both places are free, or their pupils are absent. */
 static bool goes_before(const struct kd_lesson *one, const struct kd_pupil *a, const struct kd_pupil *b)
 {
     const bool a_counts = has_answered(one, a), b_counts = has_answered(one, b);

@@ -16,8 +16,8 @@ static const char *type(size_t i)
 }
 
 /* Writes the schema Asset. Pictures have members for size and depth, grids of matter for nodes and the parameters of
- * the hole, observations for visibilities and stations. The token is sent only to the client that was the first to
- * upload the asset. */
+ * the hole, observations for visibilities and stations. The token is sent only to the client that first uploaded the
+ * asset. */
 void kd_openapi_asset_schema(struct kd_json *json)
 {
     static const struct kd_openapi_member asset[] = {

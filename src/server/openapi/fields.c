@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Writes what openapi.json needs for one field, given its path. */
+/* Writes the description of one field in openapi.json, given the field's path. */
 typedef void writer(struct kd_json *json, const char *path, const cJSON *property);
 
 static void each(struct kd_json *json, const cJSON *schema, const char *prefix, writer *write);

@@ -6,7 +6,7 @@
 
 #include <cjson/cJSON.h>
 
-/* Writes the query parameters of an operation: one for every scalar in the schema of a scene, without deprecated
+/* Writes the query parameters of an operation: one for every scalar in the schema of a scene, but not for deprecated
  * names. */
 void kd_openapi_field_parameters(struct kd_json *json, const cJSON *schema);
 /* Writes the member "schema" of a preset's name. */

@@ -9,7 +9,7 @@
 void kd_openapi_headers(struct kd_json *json, const struct kd_route *route, unsigned method, unsigned status);
 /* Writes the member "headers" of a problem. */
 void kd_openapi_problem_headers(struct kd_json *json, unsigned status);
-/* Writes the member "headers" of the components. The two functions above refer to it. */
+/* Writes the member "headers" of the components, to which the output of the two functions above refers. */
 void kd_openapi_header_components(struct kd_json *json);
 
 /* kd_openapi_asked_headers writes an operation's request headers into its list of parameters.

@@ -5,7 +5,7 @@
 #include "base/json.h"
 #include "server/http/route.h"
 
-/* kd_openapi_jobs_body and kd_openapi_plan_body write an operation's requestBody. */
+/* Both functions write the requestBody of an operation. */
 void kd_openapi_jobs_body(struct kd_json *json, const struct kd_route *route);
 void kd_openapi_plan_body(struct kd_json *json, const struct kd_route *route);
 /* Writes the schemas of a job's status and of the axes of a sweep. */

@@ -42,8 +42,7 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
     kd_json_end(json);
 }
 
-/* Writes the schema of the parameters in an answer. A parameter is a word, a number, or for a range a list of
- * numbers. */
+/* Writes the schema of the parameters in an answer. A parameter is a word or a number. A range is a list of numbers. */
 static void add_asked(struct kd_json *json, const struct kd_quantity *quantity)
 {
     const char *names[KD_QUANTITY_PARAMETERS];

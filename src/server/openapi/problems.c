@@ -12,7 +12,7 @@ static bool always(const struct kd_route *route, unsigned method) { return (void
 static bool never(const struct kd_route *route, unsigned method)
 {
     return (void)route, (void)method, false;
-} /* no operation lists 405, because 405 means that the address does not have the operation */
+} /* 405 is not listed, because it means that the address does not have the operation */
 static bool closed(const struct kd_route *route, unsigned method) { return (void)method, !route->open; }
 static bool has_body(const struct kd_route *route, unsigned method)
 {

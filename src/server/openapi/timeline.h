@@ -20,8 +20,8 @@
         "\"theta_deg\":" KD_OPENAPI_NUMBER_("0", "180") "," \
         "\"phi_deg\":" KD_OPENAPI_NUMBER_("-360", "360") "}}]}"
 
-/* Members of a request's object. place: name of the member that holds a keyframe's position, a string constant; schema:
- * its schema. */
+/* Members of a request's object. place: a string constant, the name of the member that holds a keyframe's position;
+ * schema: the schema of that member. */
 #define KD_OPENAPI_TIMELINE(place, schema) \
     "\"keyframes\":{\"type\":\"array\",\"minItems\":1," \
         "\"maxItems\":" KD_OPENAPI_TEXT_(KD_TIMELINE_KEYS_MAX) "," \

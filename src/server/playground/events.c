@@ -59,7 +59,7 @@ done:
 }
 
 /* Writes the next part of the stream into s->text. Returns false if there is no part yet, or if the stream has
- * ended; in the latter case *end is set. */
+ * ended. If it has ended, *end is set. */
 static bool fetch(struct stream *s, ssize_t *end)
 {
     struct kd_playground_session_tick *tick = NULL;
@@ -75,7 +75,7 @@ static bool fetch(struct stream *s, ssize_t *end)
         s->over = true;
         status = kd_buffer_printf(&s->text, "event: end\ndata: {\"why\":\"%s\"}\n\n", why);
         break;
-    case KD_PLAY_LATE: /* sends a heartbeat, whose failure also reveals clients that have vanished */
+    case KD_PLAY_LATE: /* a heartbeat, which also reveals clients that have vanished */
         s->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         status = kd_buffer_printf(&s->text, ":\n\n");
         break;

@@ -120,7 +120,7 @@ enum kd_status kd_playground_session_picture(struct kd_playground_session *play,
     *quota = false;
     pthread_mutex_lock(&play->all->lock);
     const bool there = play->picture && !kd_session_over(play->picture);
-    /* the lock may be released here, because only the HTTP thread opens a picture */
+    /* only the HTTP thread opens pictures, so the lock may be released here */
     pthread_mutex_unlock(&play->all->lock);
     if (!there)
         status = open_picture(play, quota, &fresh, error);

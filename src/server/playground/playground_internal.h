@@ -24,8 +24,8 @@ struct kd_playground_session {
     const char *why; /* the reason why the session has ended; NULL: it has not ended */
     struct kd_playground_session_pace pace;
     bool anew;                 /* the clock of the session's slices must be restarted */
-    double used_ms;            /* time at which the session last received a request or was watched */
-    double reached, slowed_ms; /* reached: achieved rate; slowed_ms: when simulated time was last skipped */
+    double used_ms;            /* time of the last request, or the last time at which a client watched the session */
+    double reached, slowed_ms; /* reached: achieved rate; slowed_ms: time at which simulated time was last skipped */
     uint64_t generation;
     struct kd_playground_session_tick *tick; /* the newest tick; NULL: none yet */
     uint32_t debris;
@@ -37,14 +37,14 @@ struct kd_playground_session {
     struct kd_scene scene; /* scene of the playground's picture */
     /* session that renders the picture, a counted reference; NULL: no client has requested a picture */
     struct kd_session *picture;
-    bool unshown;                                 /* the picture has no bodies yet */
+    bool unshown;                                 /* true: the picture has no bodies yet */
     double looked_at_ms;                          /* time at which a frame was last requested */
-    bool held;                                    /* a thread has taken the playground */
-    struct kd_playground_session_waiter *waiters; /* list of jobs that wait to take the playground */
+    bool held;                                    /* a thread has taken ownership of the playground */
+    struct kd_playground_session_waiter *waiters; /* jobs that wait until they can take the playground */
     /* only the job that has taken the playground (kd_playground_session_take) uses the members from here on */
     struct kd_playground_session_waiter waiter; /* entry of the session's own job in the list of waiters */
     struct kd_playground *p;
-    double looked_ms, goal, allowance; /* clock of the session's slices (run.c); looked_ms 0: the clock is stopped */
+    double looked_ms, goal, allowance; /* clock of the session's slices (run.c); looked_ms 0: the clock does not run */
     double ticked_ms, measured_ms, measured_t, shown_ms;
     uint64_t shown; /* generation of the bodies that the picture shows; 0: none */
 };
@@ -76,7 +76,7 @@ bool kd_playground_session_awaited(const struct kd_playground_session *play);
 
 bool kd_playground_session_looked_at(
     const struct kd_playground_session *play); /* true if a viewer waits for frames; in picture.c */
-/* Returns the picture as a counted reference if it has viewers, else NULL. In picture.c. */
+/* If the picture has viewers, returns it as a counted reference; otherwise returns NULL. In picture.c. */
 struct kd_session *kd_playground_session_shown(const struct kd_playground_session *play, double now);
 void kd_playground_session_hide(struct kd_playground_session *play); /* ends the picture; in picture.c */
 unsigned kd_playground_session_viewers(

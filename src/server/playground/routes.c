@@ -152,7 +152,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
             kd_playground_session_set_scene(t->play, &old, &(struct kd_error) { 0 });
         kd_playground_session_room(
             t->play, (*p)->params.debris_capacity, &quota,
-            &(struct kd_error) { 0 }); /* keeps the memory for the resulting capacity and releases the rest */
+            &(struct kd_error) { 0 }); /* keeps the memory for the resulting capacity, and releases all other memory */
         KD_TRY(status);
         kd_playground_session_moved(t->play);
     }

@@ -1,8 +1,8 @@
 /* Runs a playground session in slices.
  *
- * Its goal time advances with the clock, at the requested rate. The bodies follow in sub-steps until they have
- * passed the goal. They may lag behind it by LAG_S times the rate and catch up later; a larger lag is skipped. The
- * setting `budget` limits the sub-steps in each beat, a thirtieth of a second. */
+ * Its goal time advances with the clock, at the requested rate. The bodies follow in sub-steps until they have passed
+ * the goal. The bodies may lag behind the goal by LAG_S times the rate, and catch up later. A larger lag is skipped.
+ * The setting `budget` limits the sub-steps in each beat, a thirtieth of a second. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/playground_internal.h"
@@ -19,7 +19,7 @@
 #define FEW 64       /* number of bodies up to which a sub-step takes a microsecond or two */
 #define PIECES 16    /* sub-steps between two checks of the clock, with few bodies */
 
-/* Work of a slice, read at its start. */
+/* Data that a slice needs, read at its start. */
 struct order {
     bool over, goes, anew, awaited;
     double rate;
@@ -137,8 +137,8 @@ static bool has_debris(const struct kd_playground_session_tick *tick, uint32_t w
     return !wanted || (tick->has_debris && tick->most >= wanted);
 }
 
-/* Publishes a tick if a client waits for one and the tick is due. Returns the latest time of the next call; 0: no next
- * call is needed. */
+/* Publishes a tick if a client waits for one and the tick is due. Returns the time by which it must be called again;
+ * 0: no further call is needed. */
 static double publish(struct kd_playground_session *play, const struct order *order, double now)
 {
     const struct kd_playground_session_state state = kd_playground_session_state(play);
@@ -163,7 +163,8 @@ static double publish(struct kd_playground_session *play, const struct order *or
     return 0;
 }
 
-/* Passes the new bodies to the picture. Returns the latest time at which it must be called again; 0: no such time. */
+/* Passes the new bodies to the picture. Returns the time by which it must be called again; 0: no further call is
+ * needed. */
 static double show(struct kd_playground_session *play, const struct order *order, double now)
 {
     struct kd_dynamic_bodies *dynamic = NULL;
@@ -173,7 +174,7 @@ static double show(struct kd_playground_session *play, const struct order *order
     if (order->goes && play->shown && now - play->shown_ms < TICK_MS)
         return play->shown_ms + TICK_MS;
     if (play->shown && !kd_session_hungry(order->shown))
-        return now + TICK_MS; /* one set of bodies for each frame suffices, because further sets would never be shown */
+        return now + TICK_MS; /* one set of bodies for each frame suffices, because a frame shows only one */
     if (kd_playground_show(play->p, &dynamic, NULL))
         return now + MOST_MS; /* out of memory: try again later */
     play->shown = generation;
@@ -188,7 +189,7 @@ enum kd_slice_result kd_playground_session_turn(struct kd_scheduler_job *job)
 {
     struct kd_playground_session *play = (struct kd_playground_session *)job;
     bool behind = false;
-    /* taken first, because the job that owns it now may change what this slice has to do */
+    /* the playground is taken first, because the job that owns it now may change the work of this slice */
     if (!kd_playground_session_take(play, &play->waiter))
         return KD_SLICE_AWAY;
     double now = kd_clock_ms();

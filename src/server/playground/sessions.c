@@ -9,8 +9,8 @@
 
 #define COUNTS_MS 20.   /* time for which a reader of counts waits for the lock */
 #define SLOWED_MS 1000. /* for how long the state reports skipped time */
-/* Memory of a session with a given debris capacity. Changes work on a copy, so debris and all other state count
- * twice. */
+/* Memory of a session with a given debris capacity. A change is made on a copy of the playground, so the memory of
+ * debris and of all other state is counted twice. */
 #define BASE_BYTES ((size_t)6 << 20)
 #define BYTES(capacity) (BASE_BYTES + 2 * (size_t)(capacity) * sizeof(struct kd_debris_piece))
 

@@ -3,8 +3,8 @@
  *
  * It runs while a client watches or sends requests, and pauses KD_PLAY_REST_MS after the last request. After
  * params.idle_ms without any client it ends. Each session is one job of the scheduler (http/task_scheduler.h), with
- * slices of some 10 ms. A sub-step is never divided. It takes tens of milliseconds with 4096 bodies or a million pieces
- * of debris. If the processor cannot keep up, simulated time slows down, and the state reports it.
+ * slices of some 10 ms. A sub-step is never divided between slices. It takes tens of milliseconds with 4096 bodies or a
+ * million pieces of debris. If the processor cannot keep up, simulated time slows down, and the state reports it.
  *
  * A playground belongs to one thread at a time: the thread that has taken it, which is always a worker. The HTTP thread
  * reads the snapshot that the workers publish after each tick. Any thread; functions on watchers belong to the HTTP
@@ -32,7 +32,7 @@ struct kd_session;
 struct kd_sessions;
 
 struct kd_playground_sessions_params {
-    struct kd_sessions *sessions; /* sessions that render their pictures */
+    struct kd_sessions *sessions; /* the sessions that render the pictures of playgrounds */
     struct kd_render_queue *renders;
     unsigned limit, client_limit; /* limits of sessions: of all clients, and of one */
     unsigned idle_ms;
@@ -64,20 +64,20 @@ void kd_playground_session_release(struct kd_playground_session *play); /* accep
  * session by it. "" finds none. */
 void kd_playground_session_promise(struct kd_playground_session *play, const struct kd_once *once);
 struct kd_playground_session *kd_playground_sessions_find_once(struct kd_playground_sessions *all, const char *key);
-const struct kd_once *kd_playground_session_once(
-    const struct kd_playground_session *play); /* reads the key of a session that was found by its key; HTTP thread
-                                                * only */
+/* Reads the key of a session that kd_playground_sessions_find_once has found. HTTP thread only. */
+const struct kd_once *kd_playground_session_once(const struct kd_playground_session *play);
 const char *kd_playground_session_id(const struct kd_playground_session *play);
 const char *kd_playground_session_token(const struct kd_playground_session *play);
 bool kd_playground_session_owned(const struct kd_playground_session *play,
                                  const char *token); /* compares in constant time; token may be NULL */
-/* Ends the session and notifies its watchers. why: the word that they get as the reason. */
+/* Ends the session and notifies its watchers. why: a word that the watchers get as the reason. */
 void kd_playground_session_end(struct kd_playground_session *play, const char *why);
 
-/* Takes the playground. The caller owns it until it calls kd_playground_session_give with it, or with another
- * playground in its place. Returns NULL if another job has taken it. The waiter's job must then end its slice with
- * KD_SLICE_AWAY; it is woken when the playground is given back. A slice that has taken the playground may be
- * suspended (base/pause.h), because no thread blocks to wait for it. Call it on workers only. */
+/* Takes the playground out of the session. The caller owns the playground until it calls kd_playground_session_give
+ * with that playground, or with another one in its place. Returns NULL if another job has taken it. The calling job
+ * must then end its slice with KD_SLICE_AWAY, and is woken when the playground is given back. A slice that owns the
+ * playground may be suspended (base/pause.h), because no thread blocks to wait for the playground. Call it on
+ * workers only. */
 struct kd_playground_session_waiter {
     struct kd_scheduler *scheduler;
     struct kd_scheduler_job *job;
@@ -94,8 +94,8 @@ void kd_playground_session_give(struct kd_playground_session *play, struct kd_pl
 void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p);
 void kd_playground_session_moved(struct kd_playground_session *play);
 uint32_t kd_playground_session_pieces(const struct kd_playground *p);
-/* Reserves the memory for a new debris capacity in place of the present one. At a limit it returns KD_EBUSY and
- * changes nothing. */
+/* Reserves the memory for a new debris capacity, in place of the memory for the present capacity. At a limit it
+ * returns KD_EBUSY and changes nothing. */
 enum kd_status kd_playground_session_room(struct kd_playground_session *play, uint32_t capacity, bool *quota,
                                           struct kd_error *error);
 
@@ -111,8 +111,8 @@ void kd_playground_session_set_pace(struct kd_playground_session *play, const st
 /* Returns an error if a frame of the scene would take too long or cannot be made. */
 enum kd_status kd_playground_sessions_takes(struct kd_playground_sessions *all, const struct kd_scene *scene,
                                             struct kd_error *error);
-/* Gets the scene of the playground's picture. A session of server/session renders it, with the bodies and debris, once
- * a client requests frames. */
+/* Gets the scene of the playground's picture. The picture is rendered by a session of server/session, with the
+ * bodies and debris, once a client requests frames. */
 void kd_playground_session_scene(struct kd_playground_session *play, struct kd_scene *out);
 /* Replaces the scene of the playground's picture. The scene must be resolved and valid. */
 enum kd_status kd_playground_session_set_scene(struct kd_playground_session *play, const struct kd_scene *scene,
@@ -121,8 +121,8 @@ enum kd_status kd_playground_session_set_scene(struct kd_playground_session *pla
  * limit; *quota is true if that is the limit of one client. HTTP thread. */
 enum kd_status kd_playground_session_picture(struct kd_playground_session *play, bool *quota, struct kd_session **out,
                                              struct kd_error *error);
-/* Begins a step that a client has requested. Returns false unless the session is paused and no other step is under way.
- * Nothing else changes the playground until kd_playground_session_stepped. */
+/* Begins a step that a client has requested. Returns false unless the session is paused and no other step is under
+ * way. No other work changes the playground until kd_playground_session_stepped is called. */
 bool kd_playground_session_step(struct kd_playground_session *play);
 void kd_playground_session_stepped(struct kd_playground_session *play);
 
@@ -135,7 +135,7 @@ struct kd_playground_session_tick {
     struct kd_buffer bodies, debris; /* packed rows of KD_PLAY_BODY_WORDS and KD_PLAY_DEBRIS_WORDS words */
     size_t n_bodies, n_debris, all_debris;
     bool has_debris;
-    uint32_t most; /* capacity of `debris` in pieces of debris */
+    uint32_t most; /* number of pieces of debris for which `debris` has room */
 };
 enum { KD_PLAY_HEAD_WORDS = 8, KD_PLAY_BODY_WORDS = 10, KD_PLAY_DEBRIS_WORDS = 4 };
 void kd_playground_session_tick_release(struct kd_playground_session_tick *tick); /* accepts NULL */
@@ -153,12 +153,13 @@ struct kd_playground_session_watcher {
     bool waiting;       /* the watcher's connection is suspended */
     struct kd_playground_session_watcher *previous, *next;
 };
-/* Takes over the reference in watcher->play. after: generation of the client's newest tick; NULL: it has none. */
+/* Takes over the reference in watcher->play. after: generation of the newest tick that the client has; NULL: the
+ * client has none. */
 void kd_playground_session_watch(struct kd_playground_session_watcher *watcher, const uint64_t *after);
 void kd_playground_session_unwatch(struct kd_playground_session_watcher *watcher);
 enum kd_playground_session_news {
     KD_PLAY_TICK, /* there is a tick; *tick is a counted reference to it */
-    /* there is an event in *event; if its number is not the next one, the events between have been discarded */
+    /* there is an event in *event; if its number is not the next one, the events in between have been discarded */
     KD_PLAY_EVENT,
     KD_PLAY_OVER,  /* the session has ended; *why is a word */
     KD_PLAY_GONE,  /* the client has disconnected */

@@ -50,8 +50,8 @@ bool kd_playground_session_awaited(const struct kd_playground_session *play)
     return false;
 }
 
-/* Takes the first event in the log after the last one sent. Its number in *event shows how many events between were
- * discarded. */
+/* Takes the first event in the log after the last one sent. The number of this event, in *event, shows how many
+ * events in between were discarded. */
 static void take_event(struct kd_playground_session_watcher *w, struct kd_playground_event *event)
 {
     const struct kd_playground_event *found = NULL;
@@ -123,8 +123,8 @@ enum kd_playground_session_news kd_playground_session_await(struct kd_playground
         what = KD_PLAY_GONE;
     } else if (what == KD_PLAY_LATER) {
         w->waiting = true;
-        MHD_suspend_connection(w->mhd); /* suspended first, because the connection can be resumed as soon as the lock
-                                         * is released */
+        /* the connection is suspended first, because it can be resumed as soon as the lock is released */
+        MHD_suspend_connection(w->mhd);
         kd_playground_session_call(play);
     }
     pthread_mutex_unlock(&play->all->lock);

@@ -9,7 +9,9 @@
 #include <string.h>
 
 #define COMPILE_MS 2000.0 /* estimate before the first compilation: lavapipe compiles some kernels in this time */
-#define NICE 3 /* half the weight of live frames, so that compilations advance beside them with a smaller share */
+/* half the weight of live frames, so that compilations also advance while there are live frames, but with a smaller
+ * share */
+#define NICE 3
 
 /* limit of how often a job starts again for missing kernels; after that they are compiled while it owns the device */
 #define BEGINS_ANEW 8
@@ -59,7 +61,7 @@ void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilatio
 {
     if (!compilation)
         return;
-    if (queue->ahead) /* another thread has found kernels meanwhile */
+    if (queue->ahead) /* another thread has found missing kernels meanwhile */
         kd_compilation_drop(queue->ahead);
     queue->ahead = compilation;
     pthread_cond_broadcast(&queue->changed);
@@ -148,8 +150,8 @@ static bool is_any(const struct kd_claim *claim, void *user)
     return !atomic_load(&job_of((struct kd_claim *)claim)->drop);
 }
 
-/* Adds the time that the job has waited to kernels_ms. This time is not part of queue_ms, in which others owned the
- * device. */
+/* Adds the time that the job has waited to kernels_ms. This time is not part of queue_ms, the time during which
+ * others owned the device. */
 static void end_waiting(struct kd_render_job *job)
 {
     const double now = kd_clock_ms();

@@ -33,8 +33,8 @@ static bool fits(const struct kd_render_queue *queue, const struct kd_render_job
 
 static bool is_brief(const struct kd_render_job *job) { return job->plan.cost.estimate_ms <= BRIEF_MS; }
 
-/* Finds a lane for a long picture; NULL: none yet. A client has at most one lane for each class, not counting brief
- * pictures. */
+/* Finds a lane for a long picture. NULL: no lane is available yet. A client has at most one lane for each class, not
+ * counting brief pictures. */
 static struct kd_lane *lane_for(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_lane *found = NULL;
@@ -61,9 +61,9 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
 }
 
 /* True if the client has enough device time left for the work. Work that a client waits for was checked when it
- * arrived, and frames of jobs when they were pushed (kd_render_queue_may_push). Other work begins as soon as its
- * client has enough; kd_render_queue_sweep checks that ten times a second. Work that has begun always continues,
- * because others wait for its lane and memory. */
+ * arrived, and frames of jobs when they were pushed (kd_render_queue_may_push). All other work begins as soon as its
+ * client has enough time left; kd_render_queue_sweep checks that ten times a second. Work that has begun always
+ * continues, because others wait for its lane and memory. */
 static bool may_be_paid(const struct kd_render_queue *queue, const struct kd_claim *claim)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
@@ -83,7 +83,8 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
-    if (queue->failed) /* after a failure, only jobs that are inside the renderer run, so that they leave it */
+    /* after a failure, only jobs that are inside the renderer get turns, so that they can leave it */
+    if (queue->failed)
         return job->inside;
     if (job == &queue->rest && (queue->compiling || queue->inside)) /* freeing memory may close the device */
         return false;

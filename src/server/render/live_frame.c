@@ -13,8 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Number of rays along a side of a pixel at the critical curve, divided by the number along a side of any other
- * pixel. */
+/* ratio of the number of rays along a side of a pixel at the critical curve to that of any other pixel */
 static unsigned critical_side(const struct kd_plan_lens *lens)
 {
     return lens->critical ? (unsigned)lround(sqrt(lens->critical)) / lens->side : 1;

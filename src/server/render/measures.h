@@ -16,7 +16,8 @@ struct kd_render_measures { /* initialise to 0 */
     struct kd_histogram passes[KD_MEASURED_PASSES], waits[KD_N_CLASSES];
 };
 
-/* Record a rendered picture, an encoding, and how long finished work waited while others used the device. */
+/* Record the duration of a rendered picture, the duration of an encoding, and how long finished work waited while
+ * others used the device. */
 void kd_render_measures_frame(struct kd_render_measures *measures, const struct kd_frame *frame);
 void kd_render_measures_encoded(struct kd_render_measures *measures, double ms);
 void kd_render_measures_waited(struct kd_render_measures *measures, enum kd_class class, double ms);

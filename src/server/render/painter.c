@@ -208,7 +208,8 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
         return kd_error_set(error, KD_ENOMEM, "out of memory for the renderer of small pictures");
     }
     *painter = (struct kd_painter) { .params = *params, .device_name = device_name, .kept_at = kept_at };
-    painter->params.prove = NULL; /* no test: the render queue has already tested the device */
+    /* the painter's device is not tested, because the render queue has already tested it */
+    painter->params.prove = NULL;
     painter->params.asset_read = NULL;
     painter->params.passing = true;
     if (!params->memory_bytes || params->memory_bytes > KD_PAINTER_BYTES)

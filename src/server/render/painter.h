@@ -7,7 +7,7 @@
  * a while. If it fails, it is opened once more.
  *
  * Each picture is cached in a file of its own, in the folder where the driver caches its compiled kernels. So each
- * picture is rendered once for each version and device. */
+ * picture is rendered only once for each version of kerrd and each device. */
 #ifndef KD_SERVER_RENDER_PAINTER_H
 #define KD_SERVER_RENDER_PAINTER_H
 
@@ -22,7 +22,7 @@ struct kd_painter;
 struct kd_painting {
     struct kd_scene scene;
     const char *name; /* file name: letters, digits and - */
-    /* identifies the content: if the file's mark differs, the picture is rendered again */
+    /* mark of the content; if the mark of the file differs, the picture is rendered again */
     const char *mark;
     void (*done)(struct kd_painting *painting); /* called on the painter's thread */
     void *user;
@@ -35,8 +35,8 @@ struct kd_painting {
 };
 
 /* params: of the device, which is opened when it is needed. device_name: see kd_renderer_device_name; it must
- * outlive the painter. kept_at: prefix of the files' paths; NULL: no files. The painter frees kept_at, even if this
- * call fails. */
+ * outlive the painter. kept_at: prefix of the files' paths; NULL: no files. This function takes over kept_at, even
+ * if it fails. */
 enum kd_status kd_painter_create(const struct kd_renderer_params *params, const char *device_name, char *kept_at,
                                  struct kd_painter **out, struct kd_error *error);
 /* Requests that a picture is rendered; done() is called at the end. Any thread. */

@@ -9,7 +9,8 @@
 #include <stdlib.h>
 
 #define SMALL (64u << 10) /* a body of this size is parsed in 2 ms or less */
-/* Largest number of pixels whose plan takes 2 ms or less. Planning follows the critical curve from pixel to pixel. */
+/* Largest number of pixels for which a plan takes 2 ms or less. The planner follows the critical curve from pixel to
+ * pixel. */
 #define FEW_PIXELS (4u << 20)
 
 /* Copies the texts into the task, because the problem outlives the call. */
@@ -33,8 +34,8 @@ static bool read_scene(struct kd_planned *p)
     return read || fail(p, error.status, &error, problem);
 }
 
-/* Returns the first format that the request accepts and that can hold the scene; the first of all accepted formats
- * if none can. */
+/* Returns the first format that the request accepts and that can hold the scene. If none can, returns the first
+ * accepted format. */
 static const struct kd_format *format_of(const struct kd_request *request, const struct kd_scene *scene)
 {
     struct kd_error error;

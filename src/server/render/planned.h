@@ -1,5 +1,5 @@
-/* Plans the scene of a request. Workers make the plan if the body is large or the picture has many pixels, because
- * the HTTP thread serves every client. HTTP thread. */
+/* Plans the scene of a request. Large bodies and pictures with many pixels are planned by workers, because the HTTP
+ * thread serves every client. HTTP thread. */
 #ifndef KD_SERVER_RENDER_PLANNED_H
 #define KD_SERVER_RENDER_PLANNED_H
 
@@ -14,11 +14,11 @@ struct kd_planned {
     const struct kd_format *format; /* format of the answer, from request->accepts; NULL: no picture */
     char hash[65];                  /* hash of `scene`; set when the ETag is made */
     struct kd_plan plan;
-    struct kd_problem problem; /* points to texts in the task's error */
+    struct kd_problem problem; /* its texts point into the task's error */
 };
 
 /* Returns the plan, which the request owns. Returns NULL if the request is refused or if workers must make the plan
- * first. The handler must then return *result; in the second case it is called again. */
+ * first. The handler must then return *result. If workers make the plan, the handler is called again afterwards. */
 struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *result);
 
 #endif

@@ -256,8 +256,8 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
         n += waits;
         own += waits && !strcmp(job->claim.client, client);
     }
-    unsigned next = !queue->holder; /* number of jobs about to start: 1 if the device is idle; such a job does not
-                                     * count as waiting */
+    /* number of jobs that are about to start. It is 1 if the device is idle; such a job does not count as waiting */
+    unsigned next = !queue->holder;
     pthread_mutex_unlock(&queue->lock);
     if (n >= queue->limit + next)
         return kd_error_set(error, KD_EBUSY, "too many waiting renders (limit %u)", n);
@@ -269,8 +269,9 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
     return kd_error_set(error, KD_EBUSY, "you have too many waiting renders (limit %u for one client)", own);
 }
 
-/* True if a job runs in slices. The picture of a job of /v1/jobs always does, because nobody waits for it. A live
- * frame never does, because its governor predicts its time better than the plan does: the lens map may be cached. */
+/* True if a job runs in slices. The picture of a job of /v1/jobs always runs in slices, because nobody waits for it.
+ * A live frame never does: the governor predicts its time better than the plan, which cannot tell whether the lens
+ * map is cached. */
 static bool wants_lane(const struct kd_render_job *job)
 {
     switch (job->claim.class) {

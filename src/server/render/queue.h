@@ -4,24 +4,25 @@
  *     waiting (bounded) -> the device, by turns -> encoders (bounded by the bytes of their frames) -> done()
  *
  * http/shares.h chooses the next work, first by client, then by class. Short work owns the device until it is done. A
- * picture that is estimated to take longer than KD_MOMENT_MS, or that nobody waits for, runs in a lane: a thread with
- * its own buffers. It releases the device between slices of some 40 ms. The code that submits a list of rays divides it
- * into pieces (`more`). So a client waits for at most one slice, or one short work, of each client that has used the
- * device less.
+ * picture runs in a lane if its estimated time exceeds KD_MOMENT_MS, or if nobody waits for it. A lane is a thread with
+ * its own buffers, which releases the device between slices of some 40 ms. A list of rays is divided into pieces by the
+ * code that submits it (`more`). So a client waits for at most one slice, or one short work, of each client that has
+ * used the device less.
  *
  * Each client has one lane for each class, and two more for pictures that take a few seconds at most. So no client can
- * occupy all lanes. A long picture starts only when there is memory for its buffers beside those of the others.
+ * occupy all lanes. A long picture starts only when there is enough memory for its buffers in addition to those of the
+ * other lanes.
  *
  * A device that has failed is reopened (KD_EDEVICE; kd_renderer_reopen). All work that had begun starts again, except
  * work that owned the device in two failures: that work ends with the error. If reopening fails, or has happened too
  * often, the device is lost, and all waiting work ends with the error.
  *
  * Work that lacks kernels waits while a thread compiles them, for one job after another in fair order. Other work uses
- * the device meanwhile (compile.c). If a picture finds a kernel missing after it has begun, it waits in its lane or
- * starts again.
+ * the device meanwhile (compile.c). If a kernel turns out to be missing after a picture has begun, the picture waits in
+ * its lane or starts again.
  *
- * If the sky or the grid of a picture must be read first, the picture waits for that. Reading takes up to some seconds
- * and does not use the device.
+ * If the sky or the grid of a picture must be read first, the picture waits until it is read. Reading takes up to some
+ * seconds and does not use the device.
  *
  * One thread submits pictures, so that the answer of kd_render_queue_admit holds until kd_render_queue_push. Other
  * threads may submit other work; each may exceed the limit by one. */
@@ -42,12 +43,13 @@
 
 struct kd_render_queue;
 
-#define KD_ENCODERS 2      /* one of them takes only frames that encode quickly */
-#define KD_MOMENT_MS 100.0 /* work that takes the device no longer than this may make others wait, in milliseconds */
+#define KD_ENCODERS 2 /* number of encoders; one of them takes only frames that encode quickly */
+/* work that uses the device for at most this time runs without interruption; in milliseconds */
+#define KD_MOMENT_MS 100.0
 
 /* Stage of a job. A job in one of the last two stages has begun. */
 enum kd_render_stage {
-    KD_RENDER_WAITS,          /* the job waits for its first turn */
+    KD_RENDER_WAITS,          /* the job waits for its first turn, and needs no lane */
     KD_RENDER_WAITS_FOR_LANE, /* a long picture that waits for its first turn */
     KD_RENDER_WORKS,
     KD_RENDER_WORKS_IN_LANE,
@@ -56,7 +58,7 @@ enum kd_render_stage {
 enum kd_render_kernels { KD_KERNELS_UNKNOWN, KD_KERNELS_MISSING, KD_KERNELS_THERE };
 
 struct kd_render_job {
-    /* members set by the submitter */
+    /* the members from here on are set by the submitter */
     struct kd_claim claim; /* client and class for the scheduler; left_ms is set from the plan */
     struct kd_scene scene;
     struct kd_plan plan;
@@ -73,8 +75,8 @@ struct kd_render_job {
     /* requests the kernels of `run`, with the job as user; NULL: `run` needs no kernels that take long to compile */
     kd_kernels_ask_fn ask;
     bool more;
-    /* The scene of a view that nobody is moving: afterwards the kernels that explain its pixels are compiled. NULL: no
-     * such view */
+    /* The scene of a view that nobody is moving. When the job is done, the kernels that explain the view's pixels
+     * are compiled in advance. NULL: no such view */
     const struct kd_scene *settled;
     void (*progress)(struct kd_render_job *job, double fraction); /* may be NULL; called by the owner of the device */
     /* Preview of a picture that is rendered in slices; may be NULL. Its user is the job. Called by the owner of the
@@ -89,7 +91,7 @@ struct kd_render_job {
     enum kd_status status;
     struct kd_error error;
     struct kd_buffer file;
-    struct kd_frame frame; /* has its layers only if `keeps` is set */
+    struct kd_frame frame; /* the frame has its layers only if `keeps` is set */
     /* queue_ms: time during which others owned the device, before the job began and between its slices */
     double queue_ms, encode_ms;
     double used_ms; /* device time that the job has used */
@@ -103,18 +105,19 @@ struct kd_render_job {
     /* Kernels that were found missing after the job had begun. The job starts again when they are compiled. */
     struct kd_compilation *lacked;
     struct kd_compilation *ahead; /* kernels that explain the pixels of `settled` */
-    unsigned lacks;               /* number of times that the job has found kernels missing */
-    struct kd_claim missing;      /* the job's claim in the fair queueing of compilations, while it lacks kernels */
-    /* kernels_ms: how long the job has waited for kernels; missing_ms: when it began to wait */
+    unsigned lacks;               /* number of times that kernels were missing after the job had begun */
+    /* the job's claim in the fair queueing of compilations, valid while the job lacks kernels */
+    struct kd_claim missing;
+    /* kernels_ms: time for which the job has waited for kernels; missing_ms: time at which it began to wait */
     double kernels_ms, missing_ms;
-    bool reads;                            /* an asset of its scene was not read yet when the job was submitted */
+    bool reads;                            /* when the job was submitted, an asset of its scene was not read yet */
     bool inside;                           /* the job uses the renderer, or waits between two slices */
     bool repeated;                         /* the device has failed once while this job owned it */
-    double submitted_ms, turn_ms, away_ms; /* turn_ms: start of its present turn; away_ms: end of its last turn */
+    double submitted_ms, turn_ms, away_ms; /* turn_ms: start of the job's present turn; away_ms: end of its last turn */
 };
 
 #define KD_REOPENINGS 3       /* default number of times that a device may be reopened within KD_REOPENINGS_S */
-#define KD_REOPENINGS_S 600.0 /* window in which reopenings are counted */
+#define KD_REOPENINGS_S 600.0 /* time in which reopenings are counted */
 #define KD_REOPENINGS_NONE UINT_MAX
 
 /* Returns when the device is open, or with the error. client_limit: limit of waiting jobs of one client. client_s:
@@ -133,9 +136,9 @@ void kd_render_queue_capacity(struct kd_render_queue *queue, struct kd_capacity 
 const char *kd_render_queue_device_name(const struct kd_render_queue *queue);
 /* Calls kd_renderer_cache_file of the queue's renderer. */
 char *kd_render_queue_cache_file(const struct kd_render_queue *queue, const char *suffix);
-/* Appends the description of the device, as it was after the latest render. */
+/* Appends the description of the device, which is updated after each render. */
 enum kd_status kd_render_queue_device_json(struct kd_render_queue *queue, struct kd_buffer *out);
-/* Appends the record of accuracy that is on disk. Errors are those of kd_renderer_accuracy_json. */
+/* Appends the record of accuracy that is stored on disk. It fails with the errors of kd_renderer_accuracy_json. */
 enum kd_status kd_render_queue_accuracy_json(const struct kd_render_queue *queue, struct kd_buffer *out,
                                              struct kd_error *error);
 /* Starts to decode an asset that may become a sky, if its pixels fit in a quarter of the free memory. Any thread. */
@@ -147,13 +150,13 @@ bool kd_render_queue_lost(struct kd_render_queue *queue, struct kd_error *error)
  * requests. */
 bool kd_render_queue_may_push(struct kd_render_queue *queue, const char *client);
 /* Declares the device lost if its owner has not made progress for too long (pulse.h), for example in a driver call
- * that does not return. `another`: another device hangs, which has the same effect. Returns whether a device hangs;
- * if so, waiting jobs may never end. */
+ * that does not return. `another`: another device hangs, which has the same effect. Returns true if a device hangs;
+ * waiting jobs may then never end. */
 bool kd_render_queue_hangs(struct kd_render_queue *queue, bool another);
 unsigned kd_render_queue_reopened(struct kd_render_queue *queue); /* number of reopenings since the start */
 unsigned kd_render_queue_unfinished(struct kd_render_queue *queue);
-/* Estimates how long the kernels that a picture lacks take to compile, from earlier compilations. Returns 0 if none
- * are missing, or if that is unknown because the device is in use. Any thread. */
+/* Estimates how long the kernels that a picture lacks take to compile, from earlier compilations. Returns 0 if no
+ * kernels are missing, or if it is unknown whether any are because the device is in use. Any thread. */
 double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd_scene *scene,
                                   const struct kd_plan *plan);
 /* Estimated time of all work that clients wait for, excluding frames of sessions and jobs. */

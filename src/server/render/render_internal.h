@@ -9,15 +9,15 @@
 
 #include <pthread.h>
 
-#define KD_LONG_FRAME ((size_t)16 << 20) /* a frame of more bytes occupies an encoder for some tenths of a second */
+#define KD_LONG_FRAME ((size_t)16 << 20) /* an encoder needs some tenths of a second for a frame of more bytes */
 
 struct kd_render_list { struct kd_render_job *first, **end; };
 
 /* Lane: a thread that renders long pictures, one at a time. */
 struct kd_lane {
     struct kd_render_queue *queue;
-    struct kd_render_job *job; /* the job that it renders; NULL: the lane is free */
-    uint64_t bytes;            /* device memory that the job needs by its plan; 0: too little to count */
+    struct kd_render_job *job; /* the job that the lane renders; NULL: the lane is free */
+    uint64_t bytes;            /* device memory that the job needs by its plan; 0: negligible */
     pthread_t thread;
 };
 
@@ -45,30 +45,31 @@ struct kd_render_queue {
     unsigned limit, client_limit, unfinished;
     bool lost;
     struct kd_error lost_error;
-    bool hangs; /* a call into the driver hangs, so its thread cannot be joined */
+    bool hangs; /* true: a call into the driver hangs, so its thread cannot be joined */
     /* failed: the device has failed, and is reopened once `inside` is 0; reopening: it is being reopened */
     bool failed, reopening;
     struct kd_error failure;       /* the reason why the device failed */
     unsigned inside;               /* number of jobs that are using the renderer */
     unsigned reopenings, reopened; /* reopenings: limit within KD_REOPENINGS_S; reopened: number since the start */
-    unsigned spent;                /* number of reopenings in the period that began at spent_from_ms */
+    unsigned spent;                /* number of reopenings since spent_from_ms */
     double spent_from_ms;          /* time at which the present period of reopenings began */
-    bool compiles;                 /* the compiler thread runs */
+    bool compiles;                 /* the thread that compiles kernels is running */
     struct kd_shares missing;      /* fair queueing of compilations */
     /* compiling: kernels being compiled; compiled: kernels that are compiled but not yet passed to the renderer */
     struct kd_compilation *compiling, *compiled;
-    /* ahead: kernels that no job waits for; they are compiled while no other compilation waits. compiling_ahead: such
-     * kernels are being compiled now. */
+    /* ahead: kernels that no job waits for. They are compiled while no other compilation waits. compiling_ahead:
+     * kernels of this kind are being compiled now. */
     struct kd_compilation *ahead;
     bool compiling_ahead;
     double ahead_ms;                       /* time of the latest search for such kernels */
-    _Atomic bool uncompiled;               /* the kernels being compiled are not needed any more */
+    _Atomic bool uncompiled;               /* true: the kernels being compiled are not needed any more */
     double compile_ms;                     /* running mean of the time of a compilation; 0: none yet */
     struct kd_pulse pulse, compiler_pulse; /* watchdogs of the device's owner and of the compiler */
     _Atomic bool cancel;
     struct kd_render_measures measures;
     struct kd_render_job rest; /* job that frees memory after rest_ms without requests */
-    /* worked_ms: when the last request arrived or work last ended; trimmed_ms: when the heap was last trimmed */
+    /* worked_ms: time at which the last request arrived or work last ended; trimmed_ms: time at which the heap was
+     * last trimmed */
     double rest_ms, worked_ms, trimmed_ms;
     bool rested; /* memory has been freed since worked_ms */
 
@@ -87,7 +88,7 @@ static inline size_t kd_render_frame_bytes(const struct kd_render_job *job)
 
 static inline bool kd_render_has_begun(const struct kd_render_job *job) { return job->stage >= KD_RENDER_WORKS; }
 
-/* True if a client waits for the job, so that the job may be refused. */
+/* True if a client waits for the job; such a job may be refused. */
 static inline bool kd_render_is_awaited(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_PICTURE || job->claim.class == KD_CLASS_PIXEL ||
@@ -98,7 +99,7 @@ bool kd_render_unwanted(struct kd_render_queue *queue, struct kd_render_job *job
 /* Puts a job back in its initial waiting stage. */
 void kd_render_stand_in_line(struct kd_render_job *job);
 
-/* Like kd_render_queue_push, for a job that renders no scene. Called with the lock. */
+/* Like kd_render_queue_push, for a job that does not render a scene. Called with the lock. */
 void kd_render_queue_push_locked(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* rest.c: frees the renderer's unneeded memory when there is no work. Called with the lock. */
@@ -122,8 +123,8 @@ bool kd_render_lacks(void *queue, struct kd_compilation *compilation, bool backg
 bool kd_render_begins_with_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
 /* called when the job leaves the queue */
 void kd_render_forget_kernels(struct kd_render_queue *queue, struct kd_render_job *job);
-/* The kernels will be compiled as soon as no job waits for other kernels. They replace earlier ones. NULL changes
- * nothing. */
+/* The kernels will be compiled as soon as no job waits for other kernels. They replace earlier kernels of this kind.
+ * NULL changes nothing. */
 void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilation *compilation);
 /* Main function of the compiler thread; the argument is the queue. Returns when the queue is closing. */
 void *kd_render_compile_main(void *queue);
@@ -141,8 +142,8 @@ void kd_render_hung(struct kd_render_queue *queue, const struct kd_error *error)
 void kd_render_reopen(struct kd_render_queue *queue);
 /* Removes a job from the list of jobs that want the device. Called with the lock. */
 void kd_render_take_out(struct kd_render_queue *queue, struct kd_render_job *job);
-/* Calls done(), after which the job may be freed. The job's connection must stay open until `unfinished` has
- * decreased. */
+/* Calls done(), after which the job may be freed. The job's connection must stay open until `unfinished` has been
+ * decremented. */
 void kd_render_finish(struct kd_render_queue *queue, struct kd_render_job *job);
 
 /* device_scheduler.c: if nobody owns the device, chooses the next owner. Called with the lock. */
@@ -151,15 +152,15 @@ void kd_render_next(struct kd_render_queue *queue);
 void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job);
 /* Updates device_json. Called without the lock by the owner of the device. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue);
-/* Main functions of threads: kd_render_short_main runs short work, and its argument is the queue; kd_render_lane_main
- * runs a lane, which is its argument. They return when the queue is closing and empty. */
+/* Main functions of threads. kd_render_short_main runs short work; its argument is the queue. kd_render_lane_main
+ * runs a lane; its argument is the lane. They return when the queue is closing and empty. */
 void *kd_render_short_main(void *queue);
 void *kd_render_lane_main(void *lane);
 
 /* encode.c: main function of an encoder thread; the argument is the queue. Returns when the queue is closing and
  * nothing is unfinished. */
 void *kd_render_encode_main(void *queue);
-/* Queues a rendered frame for encoding. Called with the lock. */
+/* Adds a rendered frame to the queue for encoding. Called with the lock. */
 void kd_render_encode(struct kd_render_queue *queue, struct kd_render_job *job);
 
 #endif

@@ -21,8 +21,8 @@ static const char *type_of(size_t i, const void *formats)
     return ((const struct kd_format *const *)formats)[i]->media_type;
 }
 
-/* The formats in which a request may be answered. If the query has a quality, only formats with a quality are
- * offered. */
+/* The formats in which a request may be answered. If the query has the parameter quality, these are only formats
+ * with a quality. */
 struct offer {
     const struct kd_format *formats[KD_FORMATS_MAX];
     size_t n;
@@ -273,8 +273,9 @@ static enum MHD_Result deliver(struct kd_request *request)
 static void wake(struct kd_render_job *job)
 {
     struct kd_request *request = job->user;
-    if (request->link.on) /* charged before the client gets the picture and may request the next one, and also if the
-                           * client has disconnected */
+    /* the device time is charged before the client gets the picture and may request the next one, and also if the
+     * client has disconnected */
+    if (request->link.on)
         kd_link_charge(request->server->links, &request->link, job->used_ms, (uint64_t)time(NULL));
     MHD_resume_connection(request->mhd);
 }
@@ -373,7 +374,7 @@ static enum kd_status name_pixel(const struct kd_request *request, struct kd_pla
     return status || !trace ? status : kd_explain_trace(trace, plan, error);
 }
 
-/* Reduces the picture to that pixel, if possible. */
+/* Reduces the rendered picture to the requested pixel, if possible. */
 static enum kd_status narrow(const struct kd_request *request, struct kd_planned *planned, struct kd_error *error)
 {
     struct kd_capacity capacity;

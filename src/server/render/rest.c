@@ -1,4 +1,5 @@
-/* Frees the renderer's cached memory after some time without requests. Also trims the heap, even under load. */
+/* Frees the renderer's cached memory after some time without requests. Also trims the heap, which is done even under
+ * load. */
 #include "render/device/rest.h"
 
 #include "base/allocator.h"
@@ -38,9 +39,9 @@ void kd_render_rest_if_idle(struct kd_render_queue *queue)
     kd_render_queue_push_locked(queue, &queue->rest);
 }
 
-/* Under load the renderer keeps its caches, and only the heap is trimmed: drivers free much of the memory that they
- * used to compile kernels, but the heap does not return it to the system. After ten minutes this was a sixth of the
- * resident memory (bench/soak.py). */
+/* Under load the renderer keeps its caches, and only the heap is trimmed. Drivers free much of the memory that they
+ * used to compile kernels, but the heap keeps this memory instead of returning it to the system. After ten minutes
+ * it was a sixth of the resident memory (bench/soak.py). */
 void kd_render_trim_if_due(struct kd_render_queue *queue)
 {
     const double now = kd_clock_ms();

@@ -6,8 +6,8 @@
 #include "server/http/request.h"
 #include "scene/scene.h"
 
-/* Checks a query. Each name must occur only once. If `fields` is false, only preset and the route's own parameters
- * are accepted. route may be NULL. Returns KD_EINVAL with a pointer. */
+/* Checks a query. Each name may occur only once. If `fields` is false, the query may contain only preset and the
+ * route's own parameters. route may be NULL. Returns KD_EINVAL with a pointer. */
 enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields, const struct kd_route *route,
                                     struct kd_error *error);
 

@@ -1,5 +1,6 @@
-/* Scenes of shared links: /s/CODE, where CODE decodes to the text of a link (scene/link.h). A link of two pictures side
- * by side also has what differs on the right, "pair.spacetime.spin=0.998", as in the page's address. HTTP thread. */
+/* Scenes of shared links: /s/CODE, where CODE decodes to the text of a link (scene/link.h). A link of two pictures
+ * side by side also has the fields in which the right picture differs, such as "pair.spacetime.spin=0.998", in the
+ * same form as in the page's address. HTTP thread. */
 #ifndef KD_SERVER_RENDER_SHARED_H
 #define KD_SERVER_RENDER_SHARED_H
 
@@ -19,8 +20,8 @@ static inline int32_t kd_shared_height(int32_t width)
 #define KD_SHARED_DATA "data"
 
 struct kd_shared_scenes {
-    struct kd_scene left, right; /* right: the same as left, unless they are a pair */
-    bool measured;               /* the right side has the measurements of M87* instead of a picture (pair.data=1) */
+    struct kd_scene left, right; /* right: equal to left, unless the link is a pair */
+    bool measured;               /* the right side shows measurements of M87* in place of a picture (pair.data=1) */
 };
 
 /* Decodes and validates scenes. Returns false with *problem filled; its texts are in *error. The status is 404 if the
@@ -28,8 +29,8 @@ struct kd_shared_scenes {
 bool kd_shared_read(const char *code, struct kd_shared_scenes *scenes, struct kd_problem *problem,
                     struct kd_error *error);
 
-/* Builds the scenes from the request's scene and its parameter "pair", a query of the fields that differ on the right.
- * Otherwise as kd_shared_read. */
+/* Builds the scenes from the request's scene and its parameter "pair", a query of the fields that differ on the
+ * right. In all other respects it works like kd_shared_read. */
 bool kd_shared_of_request(const struct kd_request *request, struct kd_shared_scenes *scenes, struct kd_problem *problem,
                           struct kd_error *error);
 

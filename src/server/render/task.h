@@ -15,11 +15,11 @@
 struct kd_task;
 
 struct kd_task_kind {
-    const char *what; /* plural noun for messages: "the server ... takes no new <what>" */
+    const char *what; /* plural noun for messages, such as "quantities" in "the server ... takes no new quantities" */
     size_t size;      /* size of the struct whose first member is the task */
     enum kd_slice_result (*work)(struct kd_task *task, double until_ms); /* runs one slice on a worker */
     void (*finish)(struct kd_task *task);                                /* frees members of the struct; may be NULL */
-    void (*last)(struct kd_task *task); /* runs on a worker after the last slice; may be NULL */
+    void (*last)(struct kd_task *task); /* last call on a worker, after the last slice; may be NULL */
     /* Used by handlers with several kinds of tasks to answer the request; else NULL. Runs on the HTTP thread. */
     enum MHD_Result (*answer)(struct kd_request *request);
 };
@@ -49,13 +49,14 @@ void kd_task_destroy(struct kd_task *task); /* accepts NULL */
 /* Records an error of the task. Only the first error counts; KD_OK is ignored. Any thread. */
 void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_error *error);
 
-/* True if the queue admits another task. If not, *refused is the answer. what: see kd_task_kind. HTTP thread. */
+/* True if the queue admits another task. If it does not, *refused is the answer to the request. what: see
+ * kd_task_kind. HTTP thread. */
 bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const char *what, enum MHD_Result *refused);
-/* Starts an admitted task. HTTP thread. */
+/* Starts a task that the queue has admitted. HTTP thread. */
 enum MHD_Result kd_task_submit(struct kd_task *task);
 
-/* Returns the reason for which a task must end: the client is `gone`, the server is stopping, or the deadline has
- * passed. Returns KD_OK if there is none. Any thread. */
+/* Returns the reason why a task must end: the client is `gone`, the server is stopping, or the deadline has passed.
+ * Returns KD_OK if the task may continue. Any thread. */
 enum kd_status kd_task_over(struct kd_server *server, struct kd_scheduler *queue, bool gone, double deadline_ms,
                             struct kd_error *error);
 /* Reserves bytes of an answer in server->replies. The owner of *held releases them. Returns KD_EBUSY at a limit;

@@ -208,7 +208,7 @@ enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
     if (!t) {
         struct kd_scene scene;
         struct kd_error error = { 0 };
-        kd_scene_preset(&scene, request->rest, &error); /* called only for its error, whose message lists the presets */
+        kd_scene_preset(&scene, request->rest, &error); /* only its error is used, whose message lists the presets */
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
     }

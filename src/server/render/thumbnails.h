@@ -1,5 +1,6 @@
-/* Thumbnails of presets. Each is rendered when it is first requested (painter.h). Then it is kept in memory, and on
- * disk for later runs. Requests that arrive while it is being rendered wait for the same rendering. */
+/* Thumbnails of presets. Each is rendered when it is first requested (painter.h). After that the thumbnail is kept
+ * in memory, and on disk for later runs. Requests that arrive while a thumbnail is being rendered wait for the same
+ * rendering. */
 #ifndef KD_SERVER_RENDER_THUMBNAILS_H
 #define KD_SERVER_RENDER_THUMBNAILS_H
 
@@ -21,7 +22,7 @@ void kd_thumbnails_cancel(struct kd_thumbnails *thumbnails);
 bool kd_thumbnails_hang(struct kd_thumbnails *thumbnails);
 /* Accepts NULL. */
 void kd_thumbnails_destroy(struct kd_thumbnails *thumbnails);
-/* Number of thumbnails that were rendered and not read from files. Any thread. */
+/* Number of thumbnails that were rendered, as opposed to read from files. Any thread. */
 unsigned kd_thumbnails_rendered(struct kd_thumbnails *thumbnails);
 
 #endif

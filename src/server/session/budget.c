@@ -73,7 +73,7 @@ static void look(struct kd_budget *budget, double now)
     }
 }
 
-/* Demand that competes with the entry's: the demand of another client, or of another session of the same client. */
+/* A demand that competes with the entry's demand: that of another client, or of another session of the same client. */
 static double rival(const struct kd_budget_entry *entry, const struct kd_budget_entry *other, bool clients)
 {
     if (clients)

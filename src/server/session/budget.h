@@ -6,17 +6,17 @@
  * the share that it would use if it were alone: the device time of a frame, divided by the sum of that time and the
  * pause after the frame. The pause lasts until the next frame is requested. Neither term includes the time spent
  * waiting for others, so waiting does not change the demand. The demand is computed from the mean cost of the last
- * eight frames and the smallest of the last eight pauses. So a single slow frame or late request changes little, and
- * when a user begins another drag, the demand is known from the second frame on.
+ * eight frames and the smallest of the last eight pauses. So a single slow frame or late request changes the demand
+ * little. When a user begins another drag, the demand is known from the second frame on.
  *
- * A session that has not requested a frame for its hold time demands nothing. The hold time is 400 ms. After a longer
- * pause it becomes twice that pause, at most 2 s. Without a hold time the session's share would go to others, and come
- * back, whenever a user's hand rests within a drag. Sessions that are only watched or refined demand nothing.
+ * The demand of a session that has not requested a frame for its hold time is 0. The hold time is 400 ms. After a
+ * longer pause the hold time becomes twice that pause, at most 2 s. Without a hold time, a session would lose its share
+ * to others whenever the user's hand rests during a drag. The demand of sessions that are only watched or refined is 0.
  *
  * The time is divided as in shares.h, first among clients, then among the sessions of each. The division is max-min
- * fair (Bertsekas & Gallager, Data Networks, 1992, 6.5.2): those with a small demand get their demand, and the others
- * get equal parts of the rest. A session's own share is computed as if it demanded everything, so a session that is
- * alone has 1.
+ * fair (Bertsekas & Gallager, Data Networks, 1992, 6.5.2): whoever has a small demand gets that demand, and the others
+ * get equal parts of the rest. To compute a session's own share, its demand is taken to be 1. So a session that is
+ * alone has the share 1.
  *
  *     kd_budget_enter(&budget, &entry);
  *     kd_budget_ask(&entry, now);             a frame of a moving session is queued
@@ -34,7 +34,7 @@ enum { KD_BUDGET_FRAMES = 8 };
 
 /* One session's entry in the budget, embedded in the session. Set client, and initialise the other members to 0. */
 struct kd_budget_entry {
-    char client[KD_CLIENT]; /* the client named in the claims of its frames */
+    char client[KD_CLIENT]; /* the client that the claims of the session's frames name */
     /* private to the budget */
     double costs[KD_BUDGET_FRAMES], pauses[KD_BUDGET_FRAMES];
     unsigned n_costs, n_pauses;

@@ -23,8 +23,8 @@ static void set_kind(struct kd_render_job *job, unsigned lossy)
     job->lossy = lossy;
 }
 
-/* The last frame is always encoded without loss first, because viewers that come when its pixels are freed get this
- * file. */
+/* The last frame is always encoded without loss first. Viewers that come after its pixels are freed get this
+ * lossless file. */
 void kd_session_choose_kind(const struct kd_session *s, bool last, struct kd_render_job *job)
 {
     const struct kd_viewer *first = NULL;
@@ -44,8 +44,8 @@ static const struct kd_live_file *file_of(const struct kd_live_frame *frame, uns
         if (lossy && file->lossy && (!near || abs((int)(file->lossy - lossy)) < abs((int)(near->lossy - lossy))))
             near = file;
     }
-    /* The last slot is reserved for the lossless encoding. When the others are in use, the viewer gets the nearest
-     * quality, and the answer says which. */
+    /* The last slot is reserved for the lossless encoding. When all other slots are in use, the viewer gets the
+     * nearest quality, which the answer states. */
     unsigned lossy_ones = 0;
     for (unsigned i = 0; i < frame->n_files; i++)
         lossy_ones += frame->files[i].lossy > 0;
@@ -115,7 +115,7 @@ static void add(struct kd_session *s, unsigned lossy)
     added->job = (struct kd_render_job) {
         .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done
     };
-    added->job.frame = s->latest->picture; /* the frame still owns these pixels */
+    added->job.frame = s->latest->picture; /* the pixels still belong to the frame */
     added->job.plan.cost.host_bytes = (uint64_t)3 * added->job.frame.width * added->job.frame.height;
     set_kind(&added->job, lossy);
     s->adding = true;

@@ -61,7 +61,7 @@ static void describe_file(struct MHD_Response *response, const struct kd_live_fr
 }
 
 /* Adds headers about the request: the revision that the request made, and how long the request waited in the server.
- * From this time the client can compute the network's delay. */
+ * The client can subtract this time to find the delay of the network. */
 static void tell_request(struct MHD_Response *response, const struct kd_viewer *viewer)
 {
     char number[24];
@@ -266,7 +266,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     case KD_VIEWER_FRAME: frame_parts(s, frame); return (ssize_t)take(s, to, size);
     case KD_VIEWER_OVER: return MHD_CONTENT_READER_END_OF_STREAM;
     case KD_VIEWER_GONE: return MHD_CONTENT_READER_END_WITH_ERROR;
-    case KD_VIEWER_LATE: /* sends a heartbeat, whose failure also reveals clients that have vanished */
+    case KD_VIEWER_LATE: /* a heartbeat, which also reveals clients that have vanished */
         s->viewer.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         memcpy(to, ":\n\n", 3);
         return 3;

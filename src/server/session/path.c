@@ -91,7 +91,7 @@ static enum kd_status read_whole(struct path_task *p, struct kd_error *error)
     return status;
 }
 
-/* Checks the scene at one position of the path. A scene that is not valid between two such positions is found later,
+/* Checks the scene at one position of the path. A scene between two such positions that is not valid is found later,
  * because each frame is planned again. */
 static enum kd_status look(struct path_task *p, struct kd_error *error)
 {

@@ -88,7 +88,7 @@ static enum kd_status to_json(const struct kd_session *session, const struct kd_
         struct kd_json json = kd_json_begin(out);
         kd_json_object(&json, NULL);
         kd_json_number(&json, "fraction", state->progress.fraction);
-        kd_json_number(&json, "remaining_s", state->progress.left_s); /* NAN is written as null */
+        kd_json_number(&json, "remaining_s", state->progress.left_s); /* written as null if it is NAN */
         kd_json_end(&json);
         KD_TRY(kd_json_finish(&json));
     }
@@ -225,7 +225,7 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     kd_session_promise(session, &request->once);
     kd_session_state(session, &state);
     result = answer_created(request, session, &state);
-    /* the client does not know the session, and cannot request it again because it sent no key */
+    /* the session ends, because the client does not know it, and cannot request it again without a key */
     if (request->status != MHD_HTTP_CREATED && !*request->once.key)
         kd_session_end(session);
     kd_session_release(session);

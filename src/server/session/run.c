@@ -10,7 +10,7 @@
 
 /* time constant of auto exposure: the exposure follows 63 % of a change within this time */
 #define EXPOSURE_MS 2000.0
-#define IDLE_MS 5e3 /* after this time without a change by the user, the client's other work goes first */
+#define IDLE_MS 5e3 /* when the user has made no change for this time, other work of the client runs first */
 #define SURE 0.02   /* fraction of a picture that must be done before the remaining time is estimated */
 /* limit of a session's frames that are rendered but not encoded: one frame can be traced while another is encoded */
 #define ENCODING_MAX 2
@@ -111,12 +111,12 @@ void kd_session_pump(struct kd_session *s)
     }
     s->on_path = scene;
     const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
-    /* If the scene moved in the latest frame and is at rest now, the next frame differs as well. */
+    /* If the scene moved in the latest frame and is at rest now, the next frame will differ too. */
     if (moves || s->moved || s->dynamic_moved)
         kd_session_govern(s, now, &scene, flies || s->flew);
     const struct kd_frame_decision decision = kd_governor_decide(&s->governor, now);
     if (decision.wait_ms > 0)
-        return; /* the regular check of sessions calls this function again */
+        return; /* kd_sessions_sweep will call this function again */
     struct kd_session_frame *live = make_frame(s, &scene, &decision, now, &error);
     if (!live) {
         fail(s, &error);

@@ -20,31 +20,32 @@ struct kd_session {
     struct kd_once once;     /* hashes of the request that created the session */
     struct kd_scene scene;   /* the session's scene at the time since_ms */
     struct kd_timeline path; /* path that the session has followed since since_ms; without keyframes: no path */
-    struct kd_scene on_path; /* latest valid scene on the path */
+    struct kd_scene on_path; /* the latest scene on the path that was valid */
     struct kd_dynamic_bodies *dynamic; /* bodies of a playground that are shown in the scene; NULL: none, or none yet */
-    /* crowded: the session shows bodies of a playground; dynamic_moved: they differ from those in the latest frame */
+    /* crowded: the session shows bodies of a playground; dynamic_moved: the bodies differ from those in the latest
+     * frame */
     bool crowded, dynamic_moved;
     double since_ms, used_ms;
-    char lens_key[65]; /* key of the full scene, before its quality is reduced */
+    char lens_key[65]; /* key of the full scene, that is before its quality is reduced */
     struct kd_governor governor;
     struct kd_budget_entry demand; /* the session's entry in the budget, while the session is listed */
     unsigned revision;             /* revision of the scene */
-    double patched_ms;             /* time of the last patch; before the first patch, of the creation */
+    double patched_ms;             /* time of the last patch; if there was none, time of the creation */
     uint64_t order;                /* order of the latest patch that had an order */
     uint64_t begun;                /* number of frames begun */
-    bool moved;                    /* in the latest frame something in the scene moved by itself */
-    bool flew;                     /* in the latest frame also the camera moved by itself */
+    bool moved;                    /* in the latest frame some part of the scene moved by itself */
+    bool flew;                     /* in the latest frame the camera moved by itself as well */
     bool listed;
     struct kd_session_frame *rendering; /* frame that is not rendered yet */
     unsigned encoding;
-    bool adding; /* the latest frame is being encoded in a further format */
+    bool adding; /* true: the latest frame is being encoded in a further format */
     struct kd_live_frame *latest;
-    double exposed_ms, exposure; /* exposed_ms: time at which the latest frame was rendered; exposure: of that frame,
-                                  * in stops */
-    unsigned exposed_revision;   /* revision of the scene in that frame; 0: there is no such frame */
+    /* exposed_ms: time at which the latest frame was rendered; exposure: exposure of that frame, in stops */
+    double exposed_ms, exposure;
+    unsigned exposed_revision; /* revision of the scene in that frame; 0: there is no such frame */
     /* shown_ms: time at which the latest frame was published; interval_ms: smoothed interval between frames */
     double shown_ms, interval_ms;
-    enum kd_status failed; /* status of the latest render, with `error`; a patch clears it */
+    enum kd_status failed; /* status of the latest render, with `error` as its error; cleared by a patch */
     struct kd_error error;
     struct kd_viewer *viewers;
     struct kd_session *next;
@@ -73,7 +74,7 @@ bool kd_session_on_its_way(const struct kd_session *session, double now);
 
 /* Begins a frame if a viewer waits, the picture would differ, and the queue has room. In run.c. */
 void kd_session_pump(struct kd_session *session);
-/* Sets the expected cost of frames to that of the plan, until a frame has been measured. */
+/* Sets the expected cost of frames to the cost in the plan. This value is used until a frame has been measured. */
 void kd_session_expect(struct kd_session *session, const struct kd_plan_cost *cost);
 /* Passes a scene to the governor, with the bodies of a playground that are shown in it. Called with the lock. */
 void kd_session_govern(struct kd_session *session, double now, const struct kd_scene *scene, bool lens);
@@ -86,8 +87,8 @@ void kd_session_drop(struct kd_session *session); /* cancels the frame that is b
 bool kd_session_awaited(const struct kd_session *session);
 void kd_session_wake(struct kd_session *session); /* resumes viewers that have news */
 
-/* The functions below are in kinds.c and deal with encodings of a frame. This one chooses the first encoding of the
- * frame, from what the waiting viewers accept. */
+/* The functions below are in kinds.c and deal with encodings of a frame. The next function chooses the first
+ * encoding of the frame, from the encodings that the waiting viewers accept. */
 void kd_session_choose_kind(const struct kd_session *session, bool last, struct kd_render_job *job);
 /* Returns the frame's file in the encoding that the viewer wants; NULL: it is not encoded yet. */
 const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame);

@@ -101,8 +101,8 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
         return KD_VIEWER_LATE;
     }
     viewer->waiting = true;
-    MHD_suspend_connection(viewer->mhd); /* suspended first, because the connection can be resumed as soon as the
-                                          * lock is released */
+    /* the connection is suspended first, because it can be resumed as soon as the lock is released */
+    MHD_suspend_connection(viewer->mhd);
     kd_session_add_kinds(s);
     kd_session_pump(s);
     return KD_VIEWER_LATER;
