@@ -73,7 +73,7 @@ static enum kd_status fill_now(const struct parameters *p, const struct orbit *k
     if (!(a * (1 - e) > 6))
         return kd_quantity_outside(
             error, "period_s", p->period_s,
-            "for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; it must be longer", a);
+            ", for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; it must be longer", a);
     o->eta = eta;
     o->chirp_mass = kd_inspiral_chirp_mass(eta) * k->total;
     o->axis = a, o->axis_km = a * k->unit_m * 1e-3;

@@ -72,11 +72,11 @@
          "angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude " \
          "(observer: infall)") \
     ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO, \
-         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle " \
-         "round the critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all " \
-         "directions from a finite radius, longitude to the right and latitude upwards; fulldome: the angle from the " \
-         "middle as distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at infinity, " \
-         "otherwise pinhole", \
+         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: the " \
+         "angle round the critical curve across, the logarithm of the distance to it upwards, at infinity only; " \
+         "equirectangular: all directions from a finite radius, longitude to the right and latitude upwards; " \
+         "fulldome: the angle from the middle as distance, 90 degrees at the nearer edges, from a finite radius; " \
+         "auto: plane at infinity, otherwise pinhole", \
          "auto|plane|pinhole|ring|equirectangular|fulldome") \
     REAL(camera, field_m, LOOK, FRONT, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)") \
     WORD(camera, field_uas, LOOK, REST, INFINITY, 1e-12, 1e12, "microarcseconds", \
@@ -167,8 +167,8 @@
          "temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: " \
          "particles)") \
     REAL(disk, epicycles, MODEL, REST, 0.02, 0.0, 0.2, "1", \
-         "largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes " \
-         "at the ISCO, it is also the largest relative amplitude of oscillations in r (model: particles)") \
+         "largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the " \
+         "ISCO, also the largest relative amplitude of oscillations in r (model: particles)") \
     BOOL(disk, slow_light, PHYSICS, REST, false, \
          "show particles, gas, spots and a flash at the time when the light of each ray left them, instead of at one " \
          "coordinate time")
@@ -256,8 +256,8 @@
          "are powers of r; torus, a thick disk in equilibrium; grid, numbers from a file", \
          "none|uniform|gold|riaf|torus|grid") \
     WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", \
-         "inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a " \
-         "radio frequency; for a torus half of volume.torus_radius", \
+         "inner edge; horizon: 1 % outside the horizon, or 0.05 % for the models at a radio frequency; for a torus, " \
+         "half of volume.torus_radius", \
          "horizon") \
     REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge of the matter; larger than the inner edge") \
     REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", \
@@ -399,7 +399,8 @@
           "picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as " \
           "wide as high, with galactic longitude 0 in the middle and rising to the left, latitude rising upwards; " \
           "its white is 21 magnitudes per square arcsecond") \
-    REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "magnitude of the faintest stars") \
+    REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", \
+         "magnitude of the faintest stars that are shown") \
     INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", "seed of the random numbers of the generated sky") \
     ENUM( \
         sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC, \
@@ -420,8 +421,7 @@
         "differ from their neighbours", \
         "auto") \
     REAL(image, pixel_error, LOOK, REST, 0.003, 0.001, 0.5, "1", \
-         "apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays " \
-         "(samples: auto)") \
+         "apparent error, as a fraction of white, above which a pixel of one ray gets more rays (samples: auto)") \
     INT(image, critical_factor, LOOK, REST, 4, 1, 16, "1", \
         "factor on the number of rays along each side of pixels at the critical curve, where the photon ring is " \
         "thinner than a pixel; the product is at most 16") \
@@ -452,8 +452,8 @@
          "style, which sets all fields of the look except those that the document sets; none: no style", \
          "none|film|raw|dngr|eht|starless") \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops", \
-         "exponent of 2 of the exposure, relative to the disk's brightest surface brightness at g = 1; " \
-         "auto: by the light in the picture, with a limit for pictures of stars alone so that empty space is black", \
+         "exposure as an exponent of 2, relative to the disk's brightest surface brightness at g = 1; auto: by the " \
+         "light in the picture, with a limit for pictures of stars alone so that empty space is black", \
          "auto") \
     ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES, \
          "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours, and compresses light " \

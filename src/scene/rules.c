@@ -619,7 +619,7 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
     if (!kd_scene_is_magnetic(scene))
         return kd_error_field(error, "/polarization/model",
                               "polarization.model is \"transfer\", which needs a volume.model with electrons in a "
-                              "magnetic field: \"riaf\", \"torus\", \"grid\"");
+                              "magnetic field: \"riaf\", \"torus\" or \"grid\"");
     if (scene->volume.electrons == KD_VOLUME_KAPPA && !(scene->volume.kappa >= 3.5 && scene->volume.kappa <= 5))
         return kd_error_field(error, "/volume/kappa",
                               "volume.kappa is %s; with polarization.model \"transfer\" it must be 3.5 to 5, for which "

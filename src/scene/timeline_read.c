@@ -29,8 +29,9 @@ static enum kd_status read_place(struct reader *r, const cJSON *item, const char
     unsigned frame = 0;
     char allowed[80];
     if (!first && last(r)->at >= r->form->most)
-        return kd_error_field(r->error, pointer, "%s follows a keyframe at %.9g, which must be the last", pointer + 1,
-                              r->form->most);
+        return kd_error_field(r->error, pointer,
+                              "%s cannot be used, because the keyframe before it is at %.9g, the latest place",
+                              pointer + 1, r->form->most);
     if (r->form->whole) {
         enum kd_status status = kd_member_whole(item, pointer, first ? 0 : (unsigned)last(r)->at + 1,
                                                 (unsigned)r->form->most, &frame, r->error);

@@ -1019,7 +1019,7 @@ class Integrals(daemon.Case):
         for document, pointer, words in (
             ({"spin": 1}, "/spin", "spin is 1; it must be a number above -1 and below 1"),
             ({"inclination_deg": 181}, "/inclination_deg", "0 to 180"),
-            ({"inner": 3}, "/inner", "within the ISCO"),
+            ({"inner": 3}, "/inner", "the ISCO of this hole"),
             ({"inner": "horizon"}, "/inner", '"isco"'),
             ({"outer": 2}, "/outer", "larger than inner"),
             ({"emissivity": "lamppost", "height": 2}, "/height", "horizon"),
