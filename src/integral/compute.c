@@ -86,7 +86,7 @@ static const char *const visibility_sources[] = {
 static const char *const visibility_approximations[] = {
     "no light comes from beyond the map's border; edge_share shows how bright the border is",
     "each pixel is a point at its centre; baselines beyond nyquist_gl are aliased to shorter ones",
-    "an ideal instrument: no beam, no noise, no gaps, no averaging over time or bandwidth",
+    "the instrument is ideal: it has no beam, noise or gaps, and does not average over time or bandwidth",
     NULL,
 };
 static const char *const compare_sources[] = {

@@ -21,7 +21,8 @@
       .help = "mass of the hole, with any redshift: m (1 + z)") \
     P(t, .unit = "M", .typed = "0", .least = 0, .most = 1e6, .help = "time of the sample `wave`") \
     P(shift_octaves, .unit = "1", .typed = "0", .least = -40, .most = 40, \
-      .help = "octaves by which the sound is higher than the ringing; it also decays faster by the same factor") \
+      .help = \
+          "octaves by which the sound is higher than the ringing; the sound also decays faster by the same factor") \
     P(stretch, .unit = "1", .typed = "1", .least = 1, .most = 1e6, \
       .help = "factor by which the decay of the shifted sound is slowed down, at the same pitch")
 #define OUTPUTS(O) \
@@ -56,7 +57,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "first order in the perturbation; gravitational waves (spin weight -2) alone",
+    "the perturbation is of first order, and consists only of gravitational waves (spin weight -2)",
     "wave is a single mode with amplitude 1 and phase 0, not a signal",
     NULL,
 };

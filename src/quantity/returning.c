@@ -52,7 +52,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "a thin disk from the ISCO to infinity; between the ISCO and the hole nothing stops light",
+    "the disk is thin and reaches from the ISCO to infinity; between the ISCO and the hole nothing stops light",
     "the disk absorbs all returning light, and radiates it again from the same place with the law of its own light",
     NULL,
 };

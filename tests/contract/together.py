@@ -41,7 +41,7 @@ SCENE = (
     "camera.r is %s M; it must be more than %s M, the horizon of %s",
     *OBSERVER,
     'camera.%s is %s; it must be %s unless camera.observer is "%s" at a finite camera.r',
-    "motion.proper_time_rate is %s; it must be 0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+    "motion.proper_time_rate is %s; it must be 0 unless the observer stays at a finite camera.r, orbits there in the equatorial plane, or falls from there at constant latitude",
     "%s.slow_light is true; with motion.proper_time_rate %s of a falling observer it must be false, because the fall enters the ergosphere, where slow light is not computed",
     "motion.%s is %s; with motion.proper_time_rate %s it must be 0, because the observer's path determines time and azimuth",
     'camera.stereo is "pair"; it must be "none" unless camera.r is finite and the projection is pinhole',
@@ -145,14 +145,14 @@ PICTURE = (
 TIMELINE = (
     'look_at cannot be used with camera.r "infinity"; camera.r must be finite',
     "look_at is the position of the camera; it must be another position",
-    "proper_time is %.9g M; it must be 0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+    "proper_time is %.9g M; it must be 0 unless the observer stays at a finite camera.r, orbits there in the equatorial plane, or falls from there at constant latitude",
     "%s cannot be used, because the keyframe before it is at %.9g, the latest place",
     "%s cannot be used with motion.proper_time_rate",
     "keyframes/%zu/at is %s; it must be |a number %s %.9g to %.9g",  # each keyframe is later than the one before it
     "keyframes/%zu/frame is %s; it must be |a whole number from %u to %u",
     "frames is %s; it must be |a whole number from %u to %u",
-    'keyframes/%zu/proper_time is %s; it must be |0 to 1000000000000 M, or "horizon" or "end" of an observer that falls from further out without leaving its latitude',
-    "keyframes/%zu/proper_time is %s; it must be |0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+    'keyframes/%zu/proper_time is %s; it must be |0 to 1000000000000 M, or "horizon" or "end" for an observer that falls from further out at constant latitude',
+    "keyframes/%zu/proper_time is %s; it must be |0 unless the observer stays at a finite camera.r, orbits there in the equatorial plane, or falls from there at constant latitude",
 )
 RADII = (
     HOLE,
@@ -318,7 +318,7 @@ TOGETHER = [
             "solve has shift; products must have visibility, because amplitudes and closures do not depend on the position",
             "none of the %zu visibilities can be compared, and %zu of them have too short baselines: uv_min_gl or snr_cut must be lower",
             "there are %zu visibilities and %zu rows to compare; there must be at most %u of each; a larger average_s gives fewer",
-            "the observation has more than %d amplitudes and closures, the limit: average over longer times, or use a minimal set",
+            'the observation has more than %d amplitudes and closures; a larger average_s or closures "minimal" gives fewer',
             'visibilities need a flat map seen from infinity: camera.r must be "infinity", and camera.projection auto or plane',
             "the picture of %u x %u pixels is dark and has no visibilities",
         ),

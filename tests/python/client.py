@@ -485,7 +485,7 @@ class Saved(Case):
             )
             for missing, message in (
                 ("jy_per_pixel", "no layer"),
-                ("intensity", "ask for it"),
+                ("intensity", "request it"),
                 ("stokes_u", "together"),
             ):
                 less = dataclasses.replace(frame, layers={k: v for k, v in frame.layers.items() if k != missing})

@@ -59,10 +59,10 @@ const sentences = {
   'said.multipole': 'multipole',
   'said.azimuthal-number-l-to-l': 'azimuthal number, -l to l; m > 0 turns with a hole of positive spin',
   'said.mass-of-the-hole-with': 'mass of the hole, with any redshift: m (1 + z)',
-  'said.one-mass': 'one mass',
-  'said.the-other': 'the other',
+  'said.one-mass': 'mass of one body',
+  'said.the-other': 'mass of the other body',
   'said.mass-of-the-star': 'mass of the star',
-  'said.its-radius': 'its radius',
+  'said.its-radius': 'radius of the star',
   'playground.star': 'star',
   'playground.moon': 'moon',
   'playground.companion': 'companion',
@@ -277,7 +277,7 @@ const patterns = [
   ],
   [
     'refusal.is-it-must-be-0-unless-camera',
-    '{} is {}; it must be 0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
+    '{} is {}; it must be 0 unless the observer stays at a finite camera.r, orbits there in the equatorial plane, or falls from there at constant latitude',
   ],
   [
     'refusal.is-with-motion-proper-time-rate-it',
