@@ -63,8 +63,8 @@ static const char *const echo_approximations[] = {
 };
 static const char scattered_once[] =
     "a deep atmosphere of free electrons reflects the light that returns to it for the first time, without changing "
-    "its "
-    "energy in the gas's frame; light that returns again, and the work of its angular momentum, are ignored";
+    "its energy in the gas's frame; light that returns again is ignored, and so is the work of the stresses that its "
+    "angular momentum causes";
 static const char *const disk_approximations[] = {
     "the disk is thin and opaque and lies in the equatorial plane; its gas is on circular orbits, and there is none "
     "inside the inner edge",

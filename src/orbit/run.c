@@ -255,10 +255,10 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
     double pace = sqrt(
         fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2: one step across w cannot resolve it */
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
-        return kd_error_field(
-            error, "/r_max",
-            "r_max is %g; it must be smaller, because this path whirls near an unstable circle and needs short steps",
-            run->params->r_max);
+        return kd_error_field(error, "/r_max",
+                              "r_max is %g; it must be smaller, because this path whirls near an unstable circular "
+                              "orbit and needs short steps",
+                              run->params->r_max);
     return status;
 }
 

@@ -262,8 +262,9 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
                 "Bodies accelerated one another to the speed limit c; limiting their speeds removed momentum.");
         if (s->waves)
             kd_json_string(json, NULL,
-                           "The loss to gravitational waves is Peters' formula, of leading order: its power is 4 % too "
-                           "high at r = 10 M for a = 0 and 27 % for a = 0.9; the error is below 1 % only near 300 M.");
+                           "The loss to gravitational waves follows Peters' formula, which is of leading order: at r = "
+                           "10 M its power is 4 % too high for a = 0 and 27 % too high for a = 0.9; the error falls "
+                           "below 1 % only near 300 M.");
         if (s->waves && s->amplification != 1) {
             char text[120];
             snprintf(text, sizeof text, "The loss to gravitational waves is exaggerated %g times.", s->amplification);

@@ -361,9 +361,10 @@
 
 #define KD_POLARIZATION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(polarization, model, MODEL, FRONT, KD_POLARIZATION_NONE, \
-         "polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and " \
-         "the ray in the gas's frame; scattering, in a deep atmosphere of free electrons, perpendicular to the " \
-         "normal and the ray. transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays", \
+         "polarisation. none; synchrotron: of light from the disk's plane, perpendicular to polarization.field and " \
+         "the ray in the gas's frame; scattering: of light from the disk's plane, by a deep atmosphere of free " \
+         "electrons, perpendicular to the normal and the ray; transfer: of a volume at a radio frequency, Stokes I, " \
+         "Q, U and V along the rays", \
          "none|synchrotron|scattering|transfer") \
     ENUM(polarization, field, MODEL, REST, KD_FIELD_TOROIDAL, \
          "direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model: " \
@@ -388,9 +389,9 @@
          "the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars", \
          "none|grid|stars|catalogue|image") \
     WORD(sky, brightness, MODEL, FRONT, INFINITY, 0.0, 100.0, "1", \
-         "brightness, in units of the disk's brightest surface brightness at g = 1, of the grid, or of a sky of 21 " \
-         "magnitudes per square arcsecond; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for " \
-         "stars and the Milky Way behind other light", \
+         "brightness of the grid, or of a sky of 21 magnitudes per square arcsecond, in units of the disk's " \
+         "brightest surface brightness at g = 1; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 " \
+         "for stars and the Milky Way behind other light", \
          "auto") \
     REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid") \
     REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", \
@@ -427,7 +428,7 @@
         "thinner than a pixel; the product is at most 16") \
     INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16") \
     WORDS(image, layers, LOOK, REST, \
-          "contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the " \
+          "contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing of the " \
           "disk, or with the suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and " \
           "NPY have several as numbers", \
           "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|" \

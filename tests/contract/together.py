@@ -368,7 +368,7 @@ TOGETHER = [
             "periods cannot be used with an orbit that will %s, because it has none; give a time, or leave the duration out or add or_end to follow the orbit to its end",
             'method is "closed"; for an orbit that will %s it must be another, because "closed" follows only bound orbits',
             "the duration takes %.3g steps; it must take at most %.0f",
-            "r_max is %g; it must be smaller, because this path whirls near an unstable circle and needs short steps",
+            "r_max is %g; it must be smaller, because this path whirls near an unstable circular orbit and needs short steps",
             "r is %.16g; it must be above the horizon at %.9g",
             "r is %.16g, which no particle with these constants reaches",
             "energy is %.16g; it must be different, because no particle outside the horizon has these constants",

@@ -128,7 +128,7 @@ const sentences = {
   'playground.bodies-accelerated-one-another-beyond':
     'Bodies accelerated one another to the speed limit c; limiting their speeds removed momentum.',
   'playground.the-loss-to-gravitational-waves':
-    "The loss to gravitational waves is Peters' formula, of leading order: its power is 4 % too high at r = 10 M for a = 0 and 27 % for a = 0.9; the error is below 1 % only near 300 M.",
+    "The loss to gravitational waves follows Peters' formula, which is of leading order: at r = 10 M its power is 4 % too high for a = 0 and 27 % too high for a = 0.9; the error falls below 1 % only near 300 M.",
   'playground.the-exaggerated-loss-to-waves': 'The exaggerated loss to waves was limited to a tenth of the attraction.',
   'playground.there-are-too-many-bodies':
     'There are too many bodies to compute waves of all pairs: each body radiates only with the hole.',

@@ -124,7 +124,8 @@ static const struct sentence {
       cut },
     { "volume.normalised",
       "volume: the density is chosen so that a picture of 128 pixels has the flux volume.normalise_to_jy; small "
-      "pictures determine it, and the estimate does not include their time; answers give the factor as density_scale",
+      "pictures determine this density, and the estimated time does not include them; answers give the factor of the "
+      "density as density_scale",
       normalised },
     { "volume.held",
       "volume: while the view is dragged, the density is the last one found for this matter in another view; the flux "

@@ -107,9 +107,8 @@ static const struct {
 } approximations[] = {
     { { "rays.vacuum", "rays are null geodesics in vacuum: no plasma, no scattering, no absorption at a crossing" },
       NULL },
-    { { "rays.gas",
-        "g is that of gas on circular equatorial orbits outside the ISCO, and inside it of gas that falls with "
-        "the energy and angular momentum of the ISCO; pressure is ignored" },
+    { { "rays.gas", "g is for gas on circular equatorial orbits outside the ISCO; inside the ISCO it is for gas that "
+                    "falls with the energy and angular momentum of the ISCO; pressure is ignored" },
       NULL },
     { { "rays.infinity",
         "g is relative to infinity; for an observer at a finite radius, multiply it by the observer's nu/E_infinity" },
