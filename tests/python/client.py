@@ -318,7 +318,7 @@ class Blocking(Case):
             self.hole.session({"image": {"width": 320, "height": 180}}, least=1).close()
         with self.hole.session({"image": {"width": 320, "height": 180}}, min_scale=1) as live:
             self.assertEqual(next(iter(live)).image.width, 320)
-        with self.assertRaisesRegex(TypeError, "both given"):
+        with self.assertRaisesRegex(TypeError, "cannot be used with least"):
             self.hole.session(min_scale=1, least=1)
 
     def test_a_session(self):

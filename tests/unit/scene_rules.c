@@ -109,7 +109,7 @@ static const struct rule rules[] = {
       "is 1; it must be 0 unless the observer stays" },
     { "{\"camera\":{\"r\":9},\"motion\":{\"proper_time_rate\":1}}", NULL, NULL },
     { "{\"camera\":{\"r\":9,\"observer\":\"keplerian\"},\"motion\":{\"proper_time_rate\":1}}",
-      "/motion/proper_time_rate", "orbits in the equatorial plane" },
+      "/motion/proper_time_rate", "orbits there in the equatorial plane" },
     { "{\"camera\":{\"r\":9,\"observer\":\"velocity\"},\"motion\":{\"proper_time_rate\":1}}",
       "/motion/proper_time_rate", "it must be 0 unless" },
     { "{\"camera\":{\"r\":9,\"observer\":\"infall\",\"infall_from\":10},\"motion\":{\"proper_time_rate\":1}}",

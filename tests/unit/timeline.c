@@ -140,7 +140,7 @@ static void what_is_no_path_is_refused(void **state)
         { "{}", "[{\"at\":1,\"proper_time\":1}]", "/keyframes/0/proper_time",
           "is 1; it must be 0 unless the observer stays" },
         { "{\"camera\":{\"r\":9}}", "[{\"at\":1,\"proper_time\":\"end\"}]", "/keyframes/0/proper_time",
-          "of an observer that falls" },
+          "for an observer that falls" },
         { RAIN, "[{\"at\":1,\"proper_time\":\"soon\"}]", "/keyframes/0/proper_time", "\"horizon\" or \"end\"" },
         { RAIN, "[{\"at\":1,\"proper_time\":-1}]", "/keyframes/0/proper_time", "is -1; it must be 0 to" },
         { RAIN, "[{\"at\":1,\"scene\":{\"camera\":{\"r\":1}},\"proper_time\":\"horizon\"}]", "/keyframes/0/proper_time",

@@ -97,7 +97,7 @@ class Physics(Browser):
         self.there(page, "On average the answer comes", figure)
         self.shot(page, "integrals-echo", full_page=True)
         choose("visibility", "Visibility by baseline")
-        self.there(page, "share of all light", figure)
+        self.there(page, "shares of all light", figure)
         self.assertTrue(
             daemon.eventually(lambda: [round(y, 6) for y in numbers()[0][1:3]] == [1, 1]),
             "without a baseline it is all light",
