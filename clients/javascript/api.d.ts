@@ -97,11 +97,11 @@ export interface Scene {
      */
     infall_momentum?: number;
     /**
-     * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round
-     * the critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all directions
-     * from a finite radius, longitude to the right and latitude upwards; fulldome: the angle from the middle as
-     * distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at infinity, otherwise pinhole;
-     * default "auto".
+     * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: the angle
+     * round the critical curve across, the logarithm of the distance to it upwards, at infinity only;
+     * equirectangular: all directions from a finite radius, longitude to the right and latitude upwards; fulldome:
+     * the angle from the middle as distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at
+     * infinity, otherwise pinhole; default "auto".
      */
     projection?: 'auto' | 'plane' | 'pinhole' | 'ring' | 'equirectangular' | 'fulldome';
     /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
@@ -238,9 +238,8 @@ export interface Scene {
      */
     plunging_temperature?: number;
     /**
-     * largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes at
-     * the ISCO, it is also the largest relative amplitude of oscillations in r (model: particles); 0 to 0.2;
-     * default 0.02.
+     * largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the ISCO,
+     * also the largest relative amplitude of oscillations in r (model: particles); 0 to 0.2; default 0.02.
      */
     epicycles?: number;
     /**
@@ -399,8 +398,8 @@ export interface Scene {
      */
     model?: 'none' | 'uniform' | 'gold' | 'riaf' | 'torus' | 'grid';
     /**
-     * inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a radio
-     * frequency; for a torus half of volume.torus_radius; in M; 1 to 30000; default "horizon".
+     * inner edge; horizon: 1 % outside the horizon, or 0.05 % for the models at a radio frequency; for a torus,
+     * half of volume.torus_radius; in M; 1 to 30000; default "horizon".
      */
     inner?: 'horizon' | number;
     /** outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20. */
@@ -559,9 +558,10 @@ export interface Scene {
   /** polarisation of light, as layers and ticks show it; in a picture it changes only the light of volumes. */
   polarization?: {
     /**
-     * polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and the
-     * ray in the gas's frame; scattering, in a deep atmosphere of free electrons, perpendicular to the normal and
-     * the ray. transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays; default "none".
+     * polarisation. none; synchrotron: of light from the disk's plane, perpendicular to polarization.field and the
+     * ray in the gas's frame; scattering: of light from the disk's plane, by a deep atmosphere of free electrons,
+     * perpendicular to the normal and the ray; transfer: of a volume at a radio frequency, Stokes I, Q, U and V
+     * along the rays; default "none".
      */
     model?: 'none' | 'synchrotron' | 'scattering' | 'transfer';
     /**
@@ -595,9 +595,9 @@ export interface Scene {
      */
     model?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
     /**
-     * brightness, in units of the disk's brightest surface brightness at g = 1, of the grid, or of a sky of 21
-     * magnitudes per square arcsecond; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for stars
-     * and the Milky Way behind other light; 0 to 100; default "auto".
+     * brightness of the grid, or of a sky of 21 magnitudes per square arcsecond, in units of the disk's brightest
+     * surface brightness at g = 1; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for stars and
+     * the Milky Way behind other light; 0 to 100; default "auto".
      */
     brightness?: 'auto' | number;
     /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
@@ -610,7 +610,7 @@ export interface Scene {
      * is 21 magnitudes per square arcsecond; default null.
      */
     image?: null | string;
-    /** magnitude of the faintest stars; in magnitudes; -2 to 14; default 14. */
+    /** magnitude of the faintest stars that are shown; in magnitudes; -2 to 14; default 14. */
     limit_mag?: number;
     /** seed of the random numbers of the generated sky; 0 to 2147483647; default 1. */
     seed?: number;
@@ -643,8 +643,8 @@ export interface Scene {
      */
     samples?: 'auto' | number;
     /**
-     * apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays (samples: auto);
-     * 0.001 to 0.5; default 0.003.
+     * apparent error, as a fraction of white, above which a pixel of one ray gets more rays (samples: auto); 0.001
+     * to 0.5; default 0.003.
      */
     pixel_error?: number;
     /**
@@ -655,7 +655,7 @@ export interface Scene {
     /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
     bit_depth?: number;
     /**
-     * contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the disk,
+     * contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing of the disk,
      * or with the suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and NPY have
      * several as numbers; up to 16; default ["rgb"].
      */
@@ -691,7 +691,7 @@ export interface Scene {
      */
     name?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
     /**
-     * exponent of 2 of the exposure, relative to the disk's brightest surface brightness at g = 1; auto: by the
+     * exposure as an exponent of 2, relative to the disk's brightest surface brightness at g = 1; auto: by the
      * light in the picture, with a limit for pictures of stars alone so that empty space is black; in stops; -40 to
      * 40; default "auto".
      */
@@ -1073,7 +1073,7 @@ export interface OrbitsRequest {
     periods?: number;
     /** coordinate time [M]; 0 to 1e+30. */
     time?: number;
-    /** follow an orbit that plunges or escapes to its end, because it has no periods. */
+    /** follow an orbit to its end if it plunges or escapes, and so has no periods. */
     or_end?: boolean;
   };
   seen?: {
@@ -1311,8 +1311,8 @@ export interface LineProfile {
     /** estimated largest error of the cumulative share at any edge. */
     error: number | null;
     /**
-     * equivalent width of the line at the observer over that in the gas's frame; the number of line photons that
-     * the gas emits is the number of continuum photons per unit of energy that reach it; null without a source.
+     * equivalent width of the line at the observer over that in the gas's frame, for gas that emits as many line
+     * photons as continuum photons per unit of energy reach it; null without a source.
      */
     strength: number | null;
     /**
@@ -1393,11 +1393,11 @@ export interface TransferFunction {
     f_far: (number | null)[];
     /** near side: cosine of the angle between the emitted light and the disk's normal in the gas's frame. */
     mu_near: (number | null)[];
-    /** the same for the far side. */
+    /** far side: the same cosine. */
     mu_far: (number | null)[];
-    /** of the ring. */
+    /** smallest g of the ring. */
     g_min: (number | null)[];
-    /** of the ring. */
+    /** largest g of the ring. */
     g_max: (number | null)[];
   };
   units: Record<string, string>;
@@ -1602,15 +1602,15 @@ export interface ImpulseResponse {
     /** innermost stable circular orbit. */
     isco: number | null;
     /**
-     * equivalent width of the line at the observer over that in the gas's frame; the number of line photons that
-     * the gas emits is the number of continuum photons per unit of energy that reach it.
+     * equivalent width of the line at the observer over that in the gas's frame, for gas that emits as many line
+     * photons as continuum photons per unit of energy reach it.
      */
     strength: number | null;
     /** ratio of the source's continuum at the observer to that of the same source at rest far from the hole. */
     direct_flux: number | null;
     /** mean redshift factor of the continuum. */
     direct_g: number | null;
-    /** mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r. */
+    /** mean arrival time of the continuum after the flash, minus r + 2 ln r at the observer's radius r. */
     direct_time: number | null;
     /** GM/c^3. */
     unit_s: number | null;
@@ -1734,15 +1734,15 @@ export interface Lags {
     /** innermost stable circular orbit. */
     isco: number | null;
     /**
-     * equivalent width of the line at the observer over that in the gas's frame; the number of line photons that
-     * the gas emits is the number of continuum photons per unit of energy that reach it.
+     * equivalent width of the line at the observer over that in the gas's frame, for gas that emits as many line
+     * photons as continuum photons per unit of energy reach it.
      */
     strength: number | null;
     /** ratio of the source's continuum at the observer to that of the same source at rest far from the hole. */
     direct_flux: number | null;
     /** mean redshift factor of the continuum. */
     direct_g: number | null;
-    /** mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r. */
+    /** mean arrival time of the continuum after the flash, minus r + 2 ln r at the observer's radius r. */
     direct_time: number | null;
     /** GM/c^3. */
     unit_s: number | null;
@@ -1818,7 +1818,10 @@ export interface VisibilityRequest {
     | 'thick-disk' | 'star-behind' | 'companions' | 'falling' | 'infall' | 'jet' | 'gargantua-gas' | 'polarised-ring'
     | 'gold-1' | 'gold-2' | 'gold-3' | 'gold-4' | 'gold-5' | 'riaf' | 'torus';
   scene?: Scene;
-  /** eastward components of the baselines, in units of 1e9 wavelengths; as many as v [Gl]; up to 20001. */
+  /**
+   * eastward components of the baselines, in units of 1e9 wavelengths; as many numbers as v has [Gl]; up to
+   * 20001.
+   */
   u?: number[];
   /** northward components of the baselines [Gl]; up to 20001. */
   v?: number[];
@@ -1862,13 +1865,13 @@ export interface Visibilities {
     flux_jy: number | null;
     /** distance from one pixel to the next. */
     pixel_uas: number | null;
-    /** of the map. */
+    /** width of the map. */
     width_uas: number | null;
-    /** of the map. */
+    /** height of the map. */
     height_uas: number | null;
     /** longest baseline that the width of the pixels resolves. */
     nyquist_gl: number | null;
-    /** flux of a sky as bright as the map's border over the whole map, as a share of the map's flux. */
+    /** flux of a map that is everywhere as bright as the map's border, as a share of the map's flux. */
     edge_share: number | null;
     /** number of pixels whose light is not a number; they count as dark. */
     undefined: number | null;
@@ -2000,13 +2003,13 @@ export interface Comparison {
     flux_jy: number | null;
     /** distance from one pixel to the next. */
     pixel_uas: number | null;
-    /** of the map. */
+    /** width of the map. */
     width_uas: number | null;
-    /** of the map. */
+    /** height of the map. */
     height_uas: number | null;
     /** longest baseline that the width of the pixels resolves. */
     nyquist_gl: number | null;
-    /** flux of a sky as bright as the map's border over the whole map, as a share of the map's flux. */
+    /** flux of a map that is everywhere as bright as the map's border, as a share of the map's flux. */
     edge_share: number | null;
     /** number of pixels whose light is not a number; they count as dark. */
     undefined: number | null;
@@ -2018,7 +2021,7 @@ export interface Comparison {
     position_angle_deg: number | null;
     /** shift of the map to the east. */
     shift_east_uas: number | null;
-    /** to the north. */
+    /** shift of the map to the north. */
     shift_north_uas: number | null;
   };
   columns: {
@@ -2058,7 +2061,7 @@ export interface Comparison {
     log_closure_amplitude: number | null;
     visibility: number | null;
   };
-  /** the same for a map 1.5 times as fine; null with check none. */
+  /** chi^2 over the number of data for a map 1.5 times as fine; null with check none. */
   chi2_finer: {
     amplitude: number | null;
     closure_phase: number | null;
@@ -2137,7 +2140,7 @@ export interface ComparisonOfSets {
     /** longest baseline that the width of its pixels resolves. */
     nyquist_gl: number | null;
     /**
-     * flux of a sky as bright as a map's border over the whole map, as a share of the map's flux; the largest of
+     * flux of a map that is everywhere as bright as the map's border, as a share of the map's flux; the largest of
      * all maps.
      */
     edge_share: number | null;
@@ -2147,11 +2150,11 @@ export interface ComparisonOfSets {
   columns: {
     /** chi^2 of the amplitudes over their number; null without data, or if the picture is dark. */
     chi2_amplitude: (number | null)[];
-    /** the same of the closure phases. */
+    /** chi^2 of the closure phases over their number. */
     chi2_closure_phase: (number | null)[];
-    /** the same of the log closure amplitudes. */
+    /** chi^2 of the log closure amplitudes over their number. */
     chi2_log_closure_amplitude: (number | null)[];
-    /** the same of the visibilities. */
+    /** chi^2 of the visibilities over their number. */
     chi2_visibility: (number | null)[];
     /** chi^2 summed over all data; null if the picture is dark. */
     total: (number | null)[];
@@ -2163,7 +2166,7 @@ export interface ComparisonOfSets {
     position_angle_deg: (number | null)[];
     /** shift of the map to the east. */
     shift_east_uas: (number | null)[];
-    /** to the north. */
+    /** shift of the map to the north. */
     shift_north_uas: (number | null)[];
     /** 1: all searches converged; 0: one did not, or the picture is dark. */
     converged: (number | null)[];
@@ -2252,13 +2255,13 @@ export interface Simulation {
     flux_jy: number | null;
     /** distance from one pixel to the next. */
     pixel_uas: number | null;
-    /** of the map. */
+    /** width of the map. */
     width_uas: number | null;
-    /** of the map. */
+    /** height of the map. */
     height_uas: number | null;
     /** longest baseline that the width of the pixels resolves. */
     nyquist_gl: number | null;
-    /** flux of a sky as bright as the map's border over the whole map, as a share of the map's flux. */
+    /** flux of a map that is everywhere as bright as the map's border, as a share of the map's flux. */
     edge_share: number | null;
     /** number of pixels whose light is not a number; they count as dark. */
     undefined: number | null;
@@ -2377,7 +2380,7 @@ export interface Playground {
   debris_per_body?: number;
   /** temperature in K of the debris, a black body in pictures; 300 to 1000000000. */
   debris_temperature_k?: number;
-  /** optical depth in pictures of the debris of one body, spread over 1000 M^2; 0 to 1000000. */
+  /** optical depth in pictures that the debris of one body has if it is spread over 1000 M^2; 0 to 1000000. */
   debris_depth?: number;
   /** share of the disk's light that bodies reflect in pictures; 0: reflection is not computed; 0 to 1. */
   albedo?: number;
@@ -2435,7 +2438,7 @@ export interface PlaygroundChange {
   debris_per_body?: number;
   /** temperature in K of the debris, a black body in pictures; 300 to 1000000000. */
   debris_temperature_k?: number;
-  /** optical depth in pictures of the debris of one body, spread over 1000 M^2; 0 to 1000000. */
+  /** optical depth in pictures that the debris of one body has if it is spread over 1000 M^2; 0 to 1000000. */
   debris_depth?: number;
   /** share of the disk's light that bodies reflect in pictures; 0: reflection is not computed; 0 to 1. */
   albedo?: number;
@@ -3574,11 +3577,11 @@ export interface SceneQuery {
    */
   'camera.infall_momentum'?: number;
   /**
-   * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round
-   * the critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all directions
-   * from a finite radius, longitude to the right and latitude upwards; fulldome: the angle from the middle as
-   * distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at infinity, otherwise pinhole;
-   * default "auto".
+   * plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: the angle
+   * round the critical curve across, the logarithm of the distance to it upwards, at infinity only;
+   * equirectangular: all directions from a finite radius, longitude to the right and latitude upwards; fulldome:
+   * the angle from the middle as distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at
+   * infinity, otherwise pinhole; default "auto".
    */
   'camera.projection'?: 'auto' | 'plane' | 'pinhole' | 'ring' | 'equirectangular' | 'fulldome';
   /** width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46. */
@@ -3712,9 +3715,8 @@ export interface SceneQuery {
    */
   'disk.plunging_temperature'?: number;
   /**
-   * largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes at
-   * the ISCO, it is also the largest relative amplitude of oscillations in r (model: particles); 0 to 0.2;
-   * default 0.02.
+   * largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the ISCO,
+   * also the largest relative amplitude of oscillations in r (model: particles); 0 to 0.2; default 0.02.
    */
   'disk.epicycles'?: number;
   /**
@@ -4558,8 +4560,8 @@ export interface SceneQuery {
    */
   'volume.model'?: 'none' | 'uniform' | 'gold' | 'riaf' | 'torus' | 'grid';
   /**
-   * inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a radio
-   * frequency; for a torus half of volume.torus_radius; in M; 1 to 30000; default "horizon".
+   * inner edge; horizon: 1 % outside the horizon, or 0.05 % for the models at a radio frequency; for a torus,
+   * half of volume.torus_radius; in M; 1 to 30000; default "horizon".
    */
   'volume.inner'?: 'horizon' | number;
   /** outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20. */
@@ -4712,9 +4714,10 @@ export interface SceneQuery {
   /** include the jet below the disk; default true. */
   'jets.counterjet'?: boolean;
   /**
-   * polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and the
-   * ray in the gas's frame; scattering, in a deep atmosphere of free electrons, perpendicular to the normal and
-   * the ray. transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays; default "none".
+   * polarisation. none; synchrotron: of light from the disk's plane, perpendicular to polarization.field and the
+   * ray in the gas's frame; scattering: of light from the disk's plane, by a deep atmosphere of free electrons,
+   * perpendicular to the normal and the ray; transfer: of a volume at a radio frequency, Stokes I, Q, U and V
+   * along the rays; default "none".
    */
   'polarization.model'?: 'none' | 'synchrotron' | 'scattering' | 'transfer';
   /**
@@ -4745,9 +4748,9 @@ export interface SceneQuery {
    */
   'sky.model'?: 'none' | 'grid' | 'stars' | 'catalogue' | 'image';
   /**
-   * brightness, in units of the disk's brightest surface brightness at g = 1, of the grid, or of a sky of 21
-   * magnitudes per square arcsecond; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for stars
-   * and the Milky Way behind other light; 0 to 100; default "auto".
+   * brightness of the grid, or of a sky of 21 magnitudes per square arcsecond, in units of the disk's brightest
+   * surface brightness at g = 1; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for stars and
+   * the Milky Way behind other light; 0 to 100; default "auto".
    */
   'sky.brightness'?: 'auto' | number;
   /** spacing of the celestial grid; in degrees; 1 to 90; default 15. */
@@ -4760,7 +4763,7 @@ export interface SceneQuery {
    * is 21 magnitudes per square arcsecond; default null.
    */
   'sky.image'?: null | string;
-  /** magnitude of the faintest stars; in magnitudes; -2 to 14; default 14. */
+  /** magnitude of the faintest stars that are shown; in magnitudes; -2 to 14; default 14. */
   'sky.limit_mag'?: number;
   /** seed of the random numbers of the generated sky; 0 to 2147483647; default 1. */
   'sky.seed'?: number;
@@ -4790,8 +4793,8 @@ export interface SceneQuery {
    */
   'image.samples'?: 'auto' | number;
   /**
-   * apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays (samples: auto);
-   * 0.001 to 0.5; default 0.003.
+   * apparent error, as a fraction of white, above which a pixel of one ray gets more rays (samples: auto); 0.001
+   * to 0.5; default 0.003.
    */
   'image.pixel_error'?: number;
   /**
@@ -4802,7 +4805,7 @@ export interface SceneQuery {
   /** bits a channel: 8 or 16; in bits; 8 to 16; default 8. */
   'image.bit_depth'?: number;
   /**
-   * contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the disk,
+   * contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing of the disk,
    * or with the suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and NPY have
    * several as numbers; up to 16; default ["rgb"].
    */
@@ -4832,7 +4835,7 @@ export interface SceneQuery {
    */
   'style.name'?: 'none' | 'film' | 'raw' | 'dngr' | 'eht' | 'starless';
   /**
-   * exponent of 2 of the exposure, relative to the disk's brightest surface brightness at g = 1; auto: by the
+   * exposure as an exponent of 2, relative to the disk's brightest surface brightness at g = 1; auto: by the
    * light in the picture, with a limit for pictures of stars alone so that empty space is black; in stops; -40 to
    * 40; default "auto".
    */
@@ -5669,9 +5672,9 @@ export interface Operations {
         /** order of the image: 0 direct, 1 past the other side of the hole; 0 to 1; default 0. */
         order?: number | string;
         /**
-         * angle psi in the image plane: the direction from the origin is (cos psi, cos i sin psi), uniform along an
-         * unlensed ring; at a finite radius it is about the direction -r on the sky, in the frame of an observer that
-         * falls from rest at infinity [degrees]; -360 to 720; default "0:355:72".
+         * angle psi in the image plane, uniform along an unlensed ring: the direction from the origin is (cos psi, cos
+         * i sin psi); at a finite radius the origin is the direction -r on the sky of an observer that falls from rest
+         * at infinity [degrees]; -360 to 720; default "0:355:72".
          */
         angle_deg?: number | string;
         /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
@@ -6127,13 +6130,12 @@ export interface Operations {
         /** time of the sample `wave` [M]; 0 to 1000000; default 0. */
         t?: number | string;
         /**
-         * octaves by which the sound is higher than the ringing; it also decays faster by the same factor; -40 to 40;
-         * default 0.
+         * octaves by which the sound is higher than the ringing; the sound also decays faster by the same factor; -40
+         * to 40; default 0.
          */
         shift_octaves?: number | string;
         /**
-         * factor by which the decay of the shifted sound is then slowed down, at the same pitch; 1 to 1000000; default
-         * 1.
+         * factor by which the decay of the shifted sound is slowed down, at the same pitch; 1 to 1000000; default 1.
          */
         stretch?: number | string;
         /** significant digits of numbers in lists, and of all numbers in CSV; 17: all; 1 to 17. */
@@ -6702,9 +6704,9 @@ export interface Operations {
   'GET /v1/physics/inspiral': {
     takes: {
       query?: {
-        /** one mass [solar masses]; 1e-10 to 1e+12; default 1.4398. */
+        /** mass of one body [solar masses]; 1e-10 to 1e+12; default 1.4398. */
         mass1_msun?: number | string;
-        /** the other [solar masses]; 1e-10 to 1e+12; default 1.3886. */
+        /** mass of the other body [solar masses]; 1e-10 to 1e+12; default 1.3886. */
         mass2_msun?: number | string;
         /** orbital period now [s]; 1e-09 to 1e+20; default 27906.979587. */
         period_s?: number | string;
@@ -6824,7 +6826,7 @@ export interface Operations {
         mass_msun?: number | string;
         /** mass of the star [solar masses]; 0.001 to 1000; default 1. */
         star_mass_msun?: number | string;
-        /** its radius [solar radii]; 1e-06 to 10000; default 1. */
+        /** radius of the star [solar radii]; 1e-06 to 10000; default 1. */
         star_radius_rsun?: number | string;
         /** tidal radius over pericentre of its parabolic orbit; 0.1 to 100; default 1. */
         penetration?: number | string;
@@ -7294,7 +7296,7 @@ export interface Operations {
       query?: {
         /** number of the client's last frame; default 0; 0 to 1e+18. */
         after?: number;
-        /** time in ms to wait for a newer one; 0 to 60000. */
+        /** longest time in ms to wait for a newer answer; 0 to 60000. */
         wait_ms?: number;
       };
     };
@@ -7305,8 +7307,8 @@ export interface Operations {
     };
   };
   /**
-   * The same; with lossy=Q, frames before the last are JPEG. PATCH: also a merge patch of the scene (RFC 7396),
-   * and the answer is a frame with it.
+   * The newest frame, as at frame.png; with lossy=Q, frames before the last are JPEG. PATCH: applies a merge
+   * patch (RFC 7396) to the scene, and the answer is a frame of the changed scene.
    */
   'GET /v1/sessions/{id}/frame': {
     takes: {
@@ -7316,7 +7318,7 @@ export interface Operations {
       query?: {
         /** number of the client's last frame; default 0; 0 to 1e+18. */
         after?: number;
-        /** time in ms to wait for a newer one; 0 to 60000. */
+        /** longest time in ms to wait for a newer answer; 0 to 60000. */
         wait_ms?: number;
         /** quality of JPEG for frames before the last; without it all of these are PNG; 1 to 100. */
         lossy?: number;
@@ -7337,8 +7339,8 @@ export interface Operations {
     };
   };
   /**
-   * The same; with lossy=Q, frames before the last are JPEG. PATCH: also a merge patch of the scene (RFC 7396),
-   * and the answer is a frame with it.
+   * The newest frame, as at frame.png; with lossy=Q, frames before the last are JPEG. PATCH: applies a merge
+   * patch (RFC 7396) to the scene, and the answer is a frame of the changed scene.
    */
   'PATCH /v1/sessions/{id}/frame': {
     takes: {
@@ -7353,7 +7355,7 @@ export interface Operations {
         order?: number;
         /** number of the client's last frame; default 0; 0 to 1e+18. */
         after?: number;
-        /** time in ms to wait for a newer one; 0 to 60000. */
+        /** longest time in ms to wait for a newer answer; 0 to 60000. */
         wait_ms?: number;
         /** quality of JPEG for frames before the last; without it all of these are PNG; 1 to 100. */
         lossy?: number;
@@ -7387,7 +7389,7 @@ export interface Operations {
     };
     gives: {};
   };
-  /** Numbers of each frame: quality in force, times, accuracy. */
+  /** Stream of the numbers of each frame: its quality, times and accuracy. */
   'GET /v1/sessions/{id}/events': {
     takes: {
       path: {
@@ -7451,7 +7453,7 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** Says that a pupil is present, and what it chooses; the answer is the lesson. */
+  /** Reports that a pupil is present, and which choice it makes; the answer is the lesson. */
   'POST /v1/lessons/{id}/hands': {
     takes: {
       path: {
@@ -7546,7 +7548,7 @@ export interface Operations {
       'application/json': PlaygroundStatus;
     };
   };
-  /** Stream of its numbers (tick) and of its numbered events (happened), each once. */
+  /** Stream of the numbers of a playground (tick) and of its numbered events (happened), each event once. */
   'GET /v1/playground/{id}/events': {
     takes: {
       path: {
@@ -7563,8 +7565,8 @@ export interface Operations {
     gives: {};
   };
   /**
-   * Its bodies as packed 32-bit words: a header of eight, then ten for each body; 204 if there is nothing new
-   * within wait_ms.
+   * The bodies of a playground as packed 32-bit words: a header of eight, then ten for each body; 204 if there is
+   * nothing new within wait_ms.
    */
   'GET /v1/playground/{id}/bodies': {
     takes: {
@@ -7574,7 +7576,7 @@ export interface Operations {
       query?: {
         /** generation of the client's data; without it the answer is immediate; 0 to 1e+18. */
         after?: number;
-        /** time in ms to wait for a newer one; 0 to 60000. */
+        /** longest time in ms to wait for a newer answer; 0 to 60000. */
         wait_ms?: number;
       };
     };
@@ -7586,7 +7588,7 @@ export interface Operations {
     };
   };
   /**
-   * A subset of its debris as packed 32-bit words: a header of eight, then four for each piece; 204 if there is
+   * A subset of the debris as packed 32-bit words: a header of eight, then four for each piece; 204 if there is
    * nothing new within wait_ms.
    */
   'GET /v1/playground/{id}/debris': {
@@ -7597,7 +7599,7 @@ export interface Operations {
       query?: {
         /** generation of the client's data; without it the answer is immediate; 0 to 1e+18. */
         after?: number;
-        /** time in ms to wait for a newer one; 0 to 60000. */
+        /** longest time in ms to wait for a newer answer; 0 to 60000. */
         wait_ms?: number;
         /** largest number of pieces; of more, the answer has every k-th; default 20000; 1 to 1000000. */
         at_most?: number;
@@ -7610,7 +7612,10 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** Its newest picture, as soon as its number is above after; 204 if there is none within wait_ms. */
+  /**
+   * The newest picture of a playground, as soon as its number is above after; 204 if there is none within
+   * wait_ms.
+   */
   'GET /v1/playground/{id}/frame.png': {
     takes: {
       path: {
@@ -7619,7 +7624,7 @@ export interface Operations {
       query?: {
         /** number of the client's last frame; default 0; 0 to 1e+18. */
         after?: number;
-        /** time in ms to wait for a newer one; 0 to 60000. */
+        /** longest time in ms to wait for a newer answer; 0 to 60000. */
         wait_ms?: number;
       };
     };
@@ -7629,7 +7634,7 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** Stream of its newest pictures, as for a session. */
+  /** Stream of the newest pictures of a playground, as for a session. */
   'GET /v1/playground/{id}/frames': {
     takes: {
       path: {
@@ -7854,7 +7859,7 @@ export interface Operations {
       '': undefined;
     };
   };
-  /** Stream of its progress. */
+  /** Stream of the progress of a job. */
   'GET /v1/jobs/{id}/events': {
     takes: {
       path: {
@@ -7863,7 +7868,9 @@ export interface Operations {
     };
     gives: {};
   };
-  /** The unfinished frame as far as it is rendered, or else the last finished one; 409 while there is none. */
+  /**
+   * The finished part of the unfinished frame, or otherwise the last finished frame; 409 while there is neither.
+   */
   'GET /v1/jobs/{id}/preview.png': {
     takes: {
       path: {

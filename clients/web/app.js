@@ -340,7 +340,7 @@ async function start() {
   if (scene.unknown.length)
     byId('link-fault').textContent = t(
       'app.of-the-link-this',
-      'Not understood in the link: {0}.',
+      'Parts of the link that are not understood: {0}.',
       scene.unknown.join(', '),
     );
   await watch(scene);

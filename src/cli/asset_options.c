@@ -22,12 +22,13 @@ enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char
              text);
     if (!*asset.path || length >= sizeof asset.name || !kd_asset_is_name(asset.name))
         return kd_error_set(error, KD_EINVAL,
-                            "--asset %.100s: it must be NAME=FILE, as in sky=milky-way.png; a name is a letter and up "
-                            "to 62 letters, digits, dots, dashes and underscores",
+                            "--asset is %.100s; it must be NAME=FILE, as in sky=milky-way.png, where NAME is a letter "
+                            "and up to 62 letters, digits, dots, dashes and underscores",
                             text);
     for (size_t i = 0; i < options->n; i++)
         if (!strcmp(options->list[i].name, asset.name))
-            return kd_error_set(error, KD_EINVAL, "--asset %s: this name is given twice", asset.name);
+            return kd_error_set(error, KD_EINVAL, "--asset %s is given twice; each name must be given once",
+                                asset.name);
     struct kd_named_asset *list = realloc(options->list, (options->n + 1) * sizeof *list);
     if (!list)
         return kd_error_set(error, KD_ENOMEM, "out of memory");
@@ -152,7 +153,9 @@ enum kd_status kd_asset_options_check(const struct kd_asset_options *options, st
 {
     for (size_t i = 0; i < options->n; i++)
         if (!options->list[i].used)
-            return kd_error_set(error, KD_EINVAL, "--asset %s: no field of the scene names it", options->list[i].name);
+            return kd_error_set(error, KD_EINVAL,
+                                "--asset %s cannot be used, because no field of the scene refers to this name",
+                                options->list[i].name);
     return KD_OK;
 }
 

@@ -32,7 +32,7 @@ static double seconds_of(const struct argp_state *state, const char *text)
     char *end;
     double value = strtod(text, &end);
     if (end == text || *end || !(value >= 0.001 && value <= 60))
-        argp_error(state, "--seconds %s: a number from 0.001 to 60", text);
+        argp_error(state, "--seconds is %s; it must be a number from 0.001 to 60", text);
     return value;
 }
 
@@ -119,7 +119,7 @@ static enum kd_status keep(const struct kd_renderer *renderer, const struct kd_a
              !strcmp(old->version, table->version))
         told = kd_buffer_printf(said, "\nThe table is not saved: %s is from a longer measurement.\n", path);
     else if (!(status = kd_accuracy_save(table, path, error)))
-        told = kd_buffer_printf(said, "\nkept in %s\n", path);
+        told = kd_buffer_printf(said, "\nstored in %s\n", path);
     else
         told = status;
     free(path);
@@ -184,10 +184,9 @@ const struct argp *kd_cli_bench_argp(void)
         .parser = parse,
         .args_doc = "accuracy",
         .doc = "Measure speed and error of every engine, precision and number of steps on this device, against the "
-               "closed form.\v"
-               "The table is kept for this device, and GET /v1/accuracy serves it. Errors are those of the crossings "
-               "of the "
-               "equatorial plane, speeds the device's own time. Without --quick it takes some minutes.",
+               "closed form.\vThe table is stored for this device, and GET /v1/accuracy returns it. Errors are those "
+               "of the points where rays cross the equatorial plane; speeds are measured in device time. Without "
+               "--quick the measurement takes some minutes.",
         .children = kd_cli_device_children,
     };
     return &argp;

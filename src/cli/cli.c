@@ -30,7 +30,7 @@ static error_t parse_log(int key, char *text, struct argp_state *state)
         return ARGP_ERR_UNKNOWN;
     if (kd_cli_set_log_level(text))
         return 0;
-    argp_error(state, "--log-level %s: error, warn, info or debug", text);
+    argp_error(state, "--log-level is %s; it must be error, warn, info or debug", text);
     return EINVAL;
 }
 
@@ -139,7 +139,7 @@ unsigned kd_cli_number(const struct argp_state *state, const char *option, const
 {
     unsigned value = 0;
     if (!kd_cli_read_number(text, minimum, maximum, &value))
-        argp_error(state, "%s %s: a whole number from %u to %u", option, text, minimum, maximum);
+        argp_error(state, "%s is %s; it must be a whole number from %u to %u", option, text, minimum, maximum);
     return value;
 }
 

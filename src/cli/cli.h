@@ -21,7 +21,7 @@ extern const struct argp kd_cli_log_argp, kd_cli_device_argp;
 extern const struct argp_child kd_cli_device_children[];
 #define KD_CLI_LOG_LEVELS "error|warn|info|debug"
 #define KD_CLI_LOG_LEVEL_DOC "lowest level of messages on standard error (default: warn)"
-#define KD_CLI_DEVICE_DOC "auto, an index of `kerrd doctor`, or part of a name (default: $KERRD_DEVICE, else auto)"
+#define KD_CLI_DEVICE_DOC "auto, an index of `kerrd doctor`, or part of a name (default: $KERRD_DEVICE, otherwise auto)"
 /* Sets the log level by name. Returns false if there is no such level. */
 bool kd_cli_set_log_level(const char *word);
 

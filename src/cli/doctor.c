@@ -41,10 +41,10 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case KEY_SELFTEST: arguments->selftest = true; return 0;
     case KEY_JSON: arguments->json = true; return 0;
     case KEY_DEVICES: arguments->devices = true; return 0;
-    case ARGP_KEY_ARG: argp_error(state, "%s: the command takes no argument", text); return 0;
+    case ARGP_KEY_ARG: argp_error(state, "%s cannot be used, because the command takes no argument", text); return 0;
     case ARGP_KEY_END:
         if (arguments->json && !arguments->selftest)
-            argp_error(state, "--json needs --selftest");
+            argp_error(state, "--json cannot be used without --selftest");
         if (arguments->devices && arguments->selftest)
             argp_error(state, "--devices cannot be used with --selftest");
         return 0;
@@ -61,7 +61,7 @@ static void print_device(const struct kd_vk_info *info)
     printf("  %s, Vulkan %u.%u.%u, driver %s%s%s\n", kd_vk_type_name(info->type), v >> 22 & 0x7f, v >> 12 & 0x3ff,
            v & 0xfff, info->driver, *info->driver_info ? " " : "", info->driver_info);
     if (info->own_driver)
-        printf("  the driver is installed with kerrd; the system has none of Vulkan 1.2\n");
+        printf("  this driver is part of kerrd, because the system has no driver of Vulkan 1.2\n");
     printf("  memory %.0f MiB, one binding %.0f MiB, one allocation %.0f MiB\n", mib(info->heap_bytes),
            mib(info->max_binding_bytes), mib(info->max_allocation_bytes));
     printf("  subgroup %u, workgroup %u, push constants %u bytes, f64 %s, timestamps %s\n", info->subgroup_size,

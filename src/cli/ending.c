@@ -50,7 +50,7 @@ _Noreturn static void refuse(const struct argp_state *state, const char *option,
                                  : known[i + 1] ? ", "
                                                 : " or ",
                                  strcmp(known[i], "text") ? known[i] : "txt");
-    argp_error(state, "%s is \"%s\": the name must end in %s", option, path, list);
+    argp_error(state, "%s is \"%s\"; the name must end in %s", option, path, list);
     exit(argp_err_exit_status); /* not reached, because argp_error does not return */
 }
 

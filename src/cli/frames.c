@@ -45,7 +45,7 @@ enum kd_status kd_frames_open_folder(struct kd_frames *f, const char *path, bool
     f->shared = shared;
     if (flock(f->lock, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB))
         return kd_error_set(error, KD_EINVAL,
-                            errno == EWOULDBLOCK ? "another process keeps its %ss in %s"
+                            errno == EWOULDBLOCK ? "another process stores its %ss in %s"
                                                  : "the %ss in %s cannot be locked",
                             f->noun, path);
     return make_room(f, error);

@@ -54,7 +54,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case ARGP_KEY_ARG:
         if (arguments->input)
-            argp_error(state, "%s: one file at a time, and %s was given already", text, arguments->input);
+            argp_error(state, "%s cannot be used with %s, because the command takes one file", text, arguments->input);
         arguments->input = text;
         return 0;
     case ARGP_KEY_END:

@@ -141,12 +141,12 @@ const struct argp *kd_cli_light_curve_argp(void)
         .options = table,
         .parser = parse,
         .args_doc = KD_SCENE_ARGS_DOC,
-        .doc =
-            "Compute flux and centroid of a scene over time: of the whole picture, and of its hot spots alone.\vFlux "
-            "is in M^2 (from a finite radius: sr) times the unit of brightness, centroids are (alpha, beta) in M "
-            "(degrees to the right of the hole and above it). Where light is polarised (polarization.model), Stokes Q "
-            "and U in the unit of the flux, the polarised fraction and the EVPA in radians are written as well, so "
-            "that a spot's Q-U loop can be drawn. What lies outside the picture is not counted.",
+        .doc = "Compute flux and centroid of a scene over time: of the whole picture, and of its hot spots "
+               "alone.\vFlux is in M^2 times the unit of brightness; centroids are (alpha, beta) in M. From a finite "
+               "radius, flux is in sr times the unit of brightness, and centroids are in degrees to the right of the "
+               "hole and above it. Where light is polarised (polarization.model), Stokes Q and U in the unit of the "
+               "flux, the polarised fraction and the EVPA in radians are written as well, so that a spot's Q-U loop "
+               "can be drawn. What lies outside the picture is not counted.",
         .children = kd_scene_device_children,
     };
     return &argp;

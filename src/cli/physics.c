@@ -32,7 +32,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
             argp_error(state, "--format is %s; it must be json, csv or wav", text);
         arguments->format = text;
         return 0;
-    case ARGP_KEY_ARG: argp_error(state, "%s: parameters are options, as in --%s VALUE", text, "spin"); return 0;
+    case ARGP_KEY_ARG: argp_error(state, "%s must be an option, as in --%s VALUE", text, "spin"); return 0;
     case ARGP_KEY_END:
         if (!arguments->format)
             arguments->format = kd_cli_ending(state, "--output", arguments->output, KD_ENDINGS("json", "csv", "wav"));
@@ -111,8 +111,8 @@ const struct argp *kd_cli_quantity_argp(const struct kd_quantity *quantity)
     static struct options options;
     make_options(quantity, &options);
     snprintf(options.doc, sizeof options.doc,
-             "%c%s.\vA VALUE is a number or a range, first:last:count. What each number of the answer means is in "
-             "docs/physics-quantities.md and in GET /v1/physics.",
+             "%c%s.\vA VALUE is a number or a range, first:last:count. docs/physics-quantities.md and GET /v1/physics "
+             "explain each number of the answer.",
              quantity->summary[0] - 'a' + 'A', quantity->summary + 1);
     options.argp =
         (struct argp) { .options = options.table, .parser = parse, .doc = options.doc, .children = children };
@@ -145,9 +145,10 @@ static error_t parse_name(int key, char *text, struct argp_state *state)
         for (size_t i = 0; i < kd_quantity_count; i++)
             kd_spelling_offer(&meant, text, kd_quantities[i]->name);
         if (!kd_quantity_find(text) && meant.name)
-            argp_error(state, "there is no quantity \"%s\"; did you mean %s? Known are %s", text, meant.name, names);
+            argp_error(state, "there is no quantity \"%s\"; did you mean %s? The quantities are %s", text, meant.name,
+                       names);
         if (!kd_quantity_find(text))
-            argp_error(state, "there is no quantity \"%s\"; known are %s", text, names);
+            argp_error(state, "there is no quantity \"%s\"; the quantities are %s", text, names);
         *index = state->next - 1;
         state->next = state->argc; /* parsing stops here, because the remaining arguments belong to the quantity */
         return 0;

@@ -53,7 +53,7 @@ static const struct argp_option table[] = {
       0 },
     { "fallback", KEY_FALLBACK, "FILE.csv", 0,
       "rate at which debris has returned, with the law t^(-5/3) for comparison", 0 },
-    { "events", KEY_EVENTS, "FILE.ndjson", 0, "events, one a line", 0 },
+    { "events", KEY_EVENTS, "FILE.ndjson", 0, "events, one per line", 0 },
     { "list", KEY_LIST, 0, 0, "print the presets", 0 },
     { "picture", KEY_PICTURE, "FILE", 0,
       "lensed picture of the final state; the ending chooses PNG, FITS, EXR, NPZ or NPY; with --every the name must "
@@ -336,7 +336,7 @@ static enum kd_status work(struct arguments *a, struct kd_error *error)
     else
         KD_TRY(go_on(a, p, p->t + a->time, &story, error));
     if (story.lost)
-        fprintf(stderr, "kerrd: %llu events are lost; at most %d of one sub-step are stored\n",
+        fprintf(stderr, "kerrd: %llu events are lost, because at most %d events of one sub-step are stored\n",
                 (unsigned long long)story.lost, KD_PLAYGROUND_EVENTS);
     if (kd_playground_lost_momentum(p))
         fprintf(stderr, "kerrd: bodies smaller than 2 (m1 + m2) accelerated one another beyond c; their speeds were "

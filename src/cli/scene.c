@@ -76,7 +76,7 @@ static error_t parse_presets(int key, char *text, struct argp_state *state)
 {
     if (key != ARGP_KEY_ARG)
         return ARGP_ERR_UNKNOWN;
-    argp_error(state, "%s: the command takes no argument", text);
+    argp_error(state, "%s cannot be used, because the command takes no argument", text);
     return 0;
 }
 

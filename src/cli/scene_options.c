@@ -118,7 +118,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
         return 0;
     case ARGP_KEY_ARG:
         if (options->document)
-            argp_error(state, "%s: one scene at a time, and %s was given already", text, options->document);
+            argp_error(state, "%s cannot be used with %s, because the command takes one scene", text,
+                       options->document);
         options->document = text;
         return 0;
     case ARGP_KEY_END: check_sources(options, state); return 0;

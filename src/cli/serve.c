@@ -41,7 +41,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     if (key == 'h')
         argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
     if (key == ARGP_KEY_ARG)
-        argp_error(state, "%s: the command takes no argument", text);
+        argp_error(state, "%s cannot be used, because the command takes no argument", text);
     size_t i = 0; /* index of the setting; headings are not counted */
     const struct argp_option *option = table;
     while (i < KD_SERVE_COUNT && option->key != key)
@@ -85,7 +85,7 @@ static void show_code(const char *address, uint16_t port, const char *base_path,
         return;
     bool six = strchr(name, ':') && *name != '[';
     snprintf(text, sizeof text, "http://%s%s%s:%u%s/", six ? "[" : "", name, six ? "]" : "", port, base_path);
-    printf("kerrd: for a telephone on this network, %s\n", text);
+    printf("kerrd: a telephone on this network can open %s\n", text);
     if (kd_cli_code(stdout, text))
         kd_log(KD_LOG_ERROR, "out of memory for the QR code of %s", text);
 }

@@ -14,7 +14,7 @@
       "numeric address to listen on (default 127.0.0.1)") \
     S(PORT, "port", 'p', "PORT", NUMBER, 0, 65535, "8080", ANYWHERE, "TCP port, 0 for any free one (default 8080)") \
     S(BASE_PATH, "base-path", 'b', "/PREFIX", TEXT, 0, 0, NULL, ANYWHERE, \
-      "prefix of every path that a proxy passes on, like /some/prefix (default: none)") \
+      "path prefix of all requests that a proxy passes on, like /some/prefix (default: none)") \
     S(HOST, "host", 'H', "NAME", LIST, 0, 0, NULL, ANYWHERE, \
       "answer requests for this host name too; may be repeated") \
     S(PUBLIC_URL, "public-url", 'u', "URL", TEXT, 0, 0, NULL, ANYWHERE, \
@@ -25,10 +25,10 @@
       "accept only requests with a token of this file; a line is NAME ROLE TOKEN, and ROLE is view or render, or " \
       "link for a key that signs links") \
     S(SHARE_KEY, "share-key", 'K', "NAME", TEXT, 0, 0, NULL, ANYWHERE, \
-      "let everybody see scenes that users share, for 30 days, by links that are signed with this key of the token " \
-      "file") \
+      "let everybody see the scenes that users share, by links that are valid for 30 days and signed with this key " \
+      "of the token file") \
     S(INSECURE, "insecure", 'I', "yes|no", SWITCH, 0, 0, "no", ANYWHERE, \
-      "allow --listen on an address that other machines reach without a token file: everybody there may use the " \
+      "allow --listen, without a token file, on an address that other machines reach: everybody on them may use the " \
       "server") \
     S(CROSS_SITE, "allow-cross-site", 'X', "yes|no", SWITCH, 0, 0, "no", ANYWHERE, \
       "accept requests from pages of other sites, for example from an <img>") \
@@ -36,23 +36,23 @@
       "let pages of this origin, like https://example.org, use the server and read its answers; may be repeated, or " \
       "be several separated by commas") \
     S(EMBED_ORIGIN, "embed-origin", 'F', "ORIGIN", LIST, 0, 0, NULL, ANYWHERE, \
-      "as --cors-origin, and let pages of this origin show the hole, by /embed in a frame or by the element " \
+      "as --cors-origin; pages of this origin may also show the hole, in a frame of /embed or by the element " \
       "kerr-hole") \
     GROUP("The page:") \
     S(SKY, "sky", 'y', "FILE", TEXT, 0, 0, NULL, ANYWHERE, \
-      "photograph of the whole sky that the page offers by one click, a PNG file such as scripts/sky makes") \
+      "PNG file with a photograph of the whole sky, as scripts/sky makes it; the page offers it by one click") \
     GROUP("Limits:") \
     S(QUEUE, "queue", 'q', "N", NUMBER, 1, 100000, "16", ANYWHERE, \
-      "renders that may wait for the device (default 16)") \
+      "limit of renders that wait for the device (default 16)") \
     S(SESSIONS, "sessions", 's', "N", NUMBER, 1, 10000, "16", ANYWHERE, \
-      "limit of live sessions at once, and also of playgrounds (default 16)") \
-    S(JOBS, "jobs", 'j', "N", NUMBER, 1, 1000, "16", ANYWHERE, "unfinished jobs at once (default 16)") \
+      "limit of open live sessions, and also of open playgrounds (default 16)") \
+    S(JOBS, "jobs", 'j', "N", NUMBER, 1, 1000, "16", ANYWHERE, "limit of unfinished jobs (default 16)") \
     S(CLIENT_SHARE, "client-share", 'C', "PERCENT", NUMBER, 1, 100, "75", ANYWHERE, \
       "largest share in percent of each of these limits for one client, which is a token or an address (default 75)") \
     S(CLIENT_DEVICE_S, "client-device-seconds", 'D', "S", NUMBER, 1, 60, NULL, ANYWHERE, \
       "seconds of device time that one client may use in a minute, 1 to 60 (default: no limit)") \
     S(CLIENT_JOBS, "jobs-per-client", 'J', "N", NUMBER, 1, 1000, NULL, ANYWHERE, \
-      "unfinished jobs of one client (default: by --client-share)") \
+      "limit of unfinished jobs of one client (default: by --client-share)") \
     S(MEMORY, "memory", 'M', "SIZE", BYTES, 0, 0, NULL, ANYWHERE, KD_CLI_MEMORY_DOC) \
     GROUP("State and shutdown:") \
     S(STATE, "state", 'S', "DIR", TEXT, 0, 0, NULL, ANYWHERE, \
@@ -65,9 +65,10 @@
     GROUP("The device:") \
     S(DEVICE, "device", 'd', "DEVICE", TEXT, 0, 0, "auto", ANYWHERE, KD_CLI_DEVICE_DOC) \
     S(DEVICE_TIMEOUT, "device-timeout", 't', "SECONDS", NUMBER, 1, 3600, "60", ANYWHERE, \
-      "seconds after which a device that has not finished a submission counts as hanging: exit code 3 (default 60)") \
+      "seconds after which an unfinished submission means that the device hangs, so that kerrd ends with exit code 3 " \
+      "(default 60)") \
     S(DEVICE_REOPENINGS, "device-reopenings", 'R', "N", NUMBER, 0, 1000000, "3", ANYWHERE, \
-      "limit of how often a failed device is reopened in ten minutes; after that: exit code 3 (default 3)") \
+      "how often within ten minutes a failed device is reopened before kerrd ends with exit code 3 (default 3)") \
     GROUP("Log and configuration:") \
     S(LOG_LEVEL, "log-level", 'l', KD_CLI_LOG_LEVELS, WORDS, 0, 0, "warn", ANYWHERE, KD_CLI_LOG_LEVEL_DOC) \
     S(LOG_FORMAT, "log-format", 'L', "text|json", WORDS, 0, 0, "text", ANYWHERE, \

@@ -64,7 +64,7 @@ bool kd_setting_takes(const struct kd_cli_setting *setting, const char *text, ch
         snprintf(allowed, KD_ALLOWED_SIZE, "yes, no, true, false, 1 or 0");
         return switch_of(text) >= 0;
     case KD_SETTING_WORDS: kd_row_allowed(&row, allowed); return kd_word_index(setting->argument, text) >= 0;
-    case KD_SETTING_LIST: snprintf(allowed, KD_ALLOWED_SIZE, "texts that are not empty"); return *text;
+    case KD_SETTING_LIST: snprintf(allowed, KD_ALLOWED_SIZE, "an array of texts that are not empty"); return *text;
     case KD_SETTING_TEXT: break;
     }
     return true;

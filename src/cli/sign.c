@@ -72,7 +72,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     }
     case ARGP_KEY_ARG:
         if (a->address)
-            argp_error(state, "%s: one address at a time, and %s was given already", text, a->address);
+            argp_error(state, "%s cannot be used with %s, because the command takes one address", text, a->address);
         a->address = text;
         return 0;
     case ARGP_KEY_END:
@@ -171,8 +171,7 @@ static const char doc[] =
     "Make a link: an address of a server with a token file that works without a token until it expires.\vThe key is a "
     "line NAME link KEY of the server's token file, with 32 to 256 characters. Whoever has the link may GET that "
     "address and no other. A link ends early when its key is removed from the file and the server is started again. "
-    "The "
-    "server counts a link's work as that of its key's name.";
+    "The work for a link counts towards the limits of its key's name.";
 
 const struct argp *kd_cli_sign_argp(void)
 {

@@ -33,10 +33,8 @@ static const struct argp_option options[] = {
     { "axis", 'x', "FIELD=VALUES", 0,
       "makes FIELD a parameter of the table. VALUES are numbers and ranges START:STOP/COUNT, separated by commas. A "
       "reader interpolates linearly between them; if log: precedes VALUES, it interpolates in their logarithm. Fields "
-      "are spin" KD_HOLE_MORE_NAMES
-      ", inclination_deg, inner, inner_isco (over the ISCO), outer, index, outer_index, break_r, "
-      "height, "
-      "photon_index. May be repeated",
+      "are spin" KD_HOLE_MORE_NAMES ", inclination_deg, inner, inner_isco (inner over the ISCO), outer, index, "
+      "outer_index, break_r, height, photon_index. May be repeated",
       0 },
     { "set", 's', "FIELD=VALUE", 0, "a field of kerrd line that has one value; may be repeated", 0 },
     { "output", 'o', "FILE", 0, "file to write, .fits (required); unfinished work is FILE.part", 0 },
@@ -77,7 +75,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     case 't': a->stats = true; return 0;
     case ARGP_KEY_ARG:
         if (a->input)
-            argp_error(state, "%s: one file at a time, and %s was given already", text, a->input);
+            argp_error(state, "%s cannot be used with %s, because the command takes one file", text, a->input);
         a->input = text;
         return 0;
     case ARGP_KEY_END:
@@ -372,11 +370,10 @@ done:
 
 static const char doc[] =
     "Additive table model of the profile of a line from a thin disk, for XSPEC and other programs that fit X-ray "
-    "spectra.\vFILE is a request of POST /v1/line. A table has axes for spin and inclination, unless --set "
-    "gives the field one value or --axis other values; other fields have axes if --axis names them. The energies are "
-    "keV, by "
-    "default about 6.4 keV. An interrupted table is continued by the same command. docs/xspec.md explains the use of a "
-    "table. No device is needed.";
+    "spectra.\vFILE is a request of POST /v1/line. A table has axes for spin and inclination, unless --set gives the "
+    "field one value or --axis other values; other fields have axes if --axis names them. Energies are in keV, by "
+    "default around 6.4 keV. An interrupted table is continued by the same command. docs/xspec.md explains the use of "
+    "a table. No device is needed.";
 
 const struct argp *kd_cli_table_argp(void)
 {

@@ -24,7 +24,7 @@ struct arguments {
 
 static const struct argp_option table[] = {
     { "protocol", KEY_PROTOCOL, "kitty|sixel", 0,
-      "protocol of the picture, also if standard output is not a terminal (default: by a query of the terminal)", 0 },
+      "protocol of the picture, even if standard output is not a terminal (default: kerrd queries the terminal)", 0 },
     { "enlarge", KEY_ENLARGE, NULL, 0, "enlarge a smaller picture to the size of the terminal", 0 },
     KD_CLI_MEMORY,
     { 0 },
@@ -134,7 +134,7 @@ static enum kd_status show_scene(struct kd_scene_command *base, struct kd_buffer
     scene->image.height = (int32_t)height;
     if (kd_scene_has_tile(scene))
         KD_TRY(kd_error_field(error, "/image/tile/width",
-                              "image.tile.width is %d; it must be 0: kerrd view shows whole pictures",
+                              "image.tile.width is %d; it must be 0, because kerrd view shows whole pictures",
                               scene->tile.width));
     KD_TRY(kd_scene_validate(scene, error));
     KD_TRY(kd_scene_command_open(base, error));

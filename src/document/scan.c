@@ -57,7 +57,7 @@ static enum kd_status escape(struct scan *s)
         return KD_OK;
     }
     if (s->length - s->at < 6)
-        return fail(s, s->at, "escape cut short");
+        return fail(s, s->at, "an escape that ends too early");
     for (int i = 2; i < 6; i++)
         if (!isxdigit((unsigned char)s->text[s->at + i]))
             return fail(s, s->at, "malformed escape");
@@ -85,7 +85,7 @@ static enum kd_status string(struct scan *s)
         if (c == '\\') {
             status = escape(s);
         } else if ((unsigned char)c < 0x20) {
-            status = fail(s, s->at, "control character in a string");
+            status = fail(s, s->at, "a control character in a string");
         } else {
             size_t n = kd_utf8_sequence(s->text + s->at, s->length - s->at);
             if (!n)
@@ -95,7 +95,7 @@ static enum kd_status string(struct scan *s)
         if (status)
             return status;
     }
-    return fail(s, start, "string without an end");
+    return fail(s, start, "a string without an end");
 }
 
 static enum kd_status number(struct scan *s)
@@ -105,7 +105,7 @@ static enum kd_status number(struct scan *s)
     if (!n || (next && strchr("0123456789.+-eE", next)))
         return fail(s, s->at, "malformed number");
     if (n > NUMBER_MAX)
-        return fail(s, s->at, "number of more than 60 characters");
+        return fail(s, s->at, "a number of more than 60 characters");
     s->at += n;
     return KD_OK;
 }
@@ -123,7 +123,7 @@ static enum kd_status word(struct scan *s)
         }
     }
     char what[48];
-    snprintf(what, sizeof what, "unknown word %.*s", (int)(n < 24 ? n : 24), s->text + s->at);
+    snprintf(what, sizeof what, "the unknown word %.*s", (int)(n < 24 ? n : 24), s->text + s->at);
     return fail(s, s->at, what);
 }
 

@@ -85,7 +85,10 @@ enum kd_status kd_unknown(const struct kd_document *document, const struct kd_ob
     const struct kd_object clipped = { in, object->list, object->index };
     return kd_error_field(error, pointer, "there is no %s %s%s; %s%s%s", bare ? "parameter" : "field",
                           kd_mention_of("", &clipped, shown).called, typed ? "" : " here",
-                          *s.meant ? "did you mean " : "known are ", *s.meant ? s.meant : list, *s.meant ? "?" : "");
+                          *s.meant ? "did you mean "
+                          : bare   ? "the parameters are "
+                                   : "the fields are ",
+                          *s.meant ? s.meant : list, *s.meant ? "?" : "");
 }
 
 enum kd_status kd_document_unknown(const struct kd_document *document, const char *name, struct kd_error *error)

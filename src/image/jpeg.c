@@ -186,9 +186,9 @@ enum kd_status kd_jpeg_encode(uint32_t width, uint32_t height, const uint8_t *pi
                               struct kd_buffer *out, struct kd_error *error)
 {
     if (quality < 1 || quality > 100)
-        return kd_error_set(error, KD_EINVAL, "a JPEG of quality %u: it must be 1 to 100", quality);
+        return kd_error_set(error, KD_EINVAL, "the quality of a JPEG is %u; it must be 1 to 100", quality);
     if (width < 1 || width > KD_JPEG_SIDE_MAX || height < 1 || height > KD_JPEG_SIDE_MAX)
-        return kd_error_set(error, KD_EINVAL, "a JPEG of %u x %u pixels: each side must be 1 to %d", width, height,
+        return kd_error_set(error, KD_EINVAL, "a JPEG has %u x %u pixels; each side must be 1 to %d", width, height,
                             KD_JPEG_SIDE_MAX);
     struct picture picture = { .width = width, .height = height, .pixels = pixels, .quality = quality, .out = out };
     const size_t before = out->size;

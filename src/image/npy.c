@@ -245,7 +245,7 @@ static enum kd_status take_entry(struct reader *r, bool seen[3])
     while (which < 3 && strcmp(key, keys[which]))
         which++;
     if (which == 3 || seen[which])
-        return fail(r, "its header must have the keys descr, fortran_order and shape, each once, and no other");
+        return fail(r, "its header must have the keys descr, fortran_order and shape, each once, and no other key");
     seen[which] = true;
     switch (which) {
     case 0: return take_descr(r);
@@ -314,7 +314,7 @@ static enum kd_status read_all(const void *data, size_t size, bool text, struct 
     out->items = items;
     if (bytes != size - out->header_size)
         return kd_error_set(error, KD_EINVAL,
-                            "not a usable NPY array: %zu bytes follow its header; by its shape there must be %llu",
+                            "not a usable NPY array: %zu bytes follow its header; for its shape there must be %llu",
                             size - out->header_size, (unsigned long long)bytes);
     return KD_OK;
 }

@@ -81,18 +81,20 @@ static bool key_ok(const char *key)
 static enum kd_status check_params(const struct kd_png_params *params, struct kd_error *error)
 {
     if (params->width < 1 || params->width > MAX_SIDE || params->height < 1 || params->height > MAX_SIDE)
-        return kd_error_set(error, KD_EINVAL, "a PNG of %u x %u pixels: each side must be 1 to %u", params->width,
+        return kd_error_set(error, KD_EINVAL, "a PNG has %u x %u pixels; each side must be 1 to %u", params->width,
                             params->height, MAX_SIDE);
     if (params->bit_depth != 8 && params->bit_depth != 16)
-        return kd_error_set(error, KD_EINVAL, "a PNG of %d bits a channel; it must be 8 or 16", params->bit_depth);
+        return kd_error_set(error, KD_EINVAL, "a PNG has %d bits a channel; it must have 8 or 16", params->bit_depth);
     if (params->compression < 0 || params->compression > 8)
-        return kd_error_set(error, KD_EINVAL, "PNG compression level %d; it must be 0 to 8", params->compression);
+        return kd_error_set(error, KD_EINVAL, "the PNG compression level is %d; it must be 0 to 8",
+                            params->compression);
     size_t total = 0;
     for (size_t i = 0; i < params->n_text; i++) {
         const struct kd_png_text *text = &params->text[i];
         if (!key_ok(text->key))
             return kd_error_set(error, KD_EINVAL,
-                                "PNG text key \"%.80s\"; it must be 1 to 79 printable ASCII characters", text->key);
+                                "a PNG text key is \"%.80s\"; it must be 1 to 79 printable ASCII characters",
+                                text->key);
         if (!kd_utf8_valid(text->value))
             return kd_error_set(error, KD_EINVAL, "PNG text \"%s\" is not UTF-8", text->key);
         total += strlen(text->key) + strlen(text->value);
@@ -100,8 +102,8 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
     /* more text could be written, but kerrd could not read it again */
     if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS)
         return kd_error_set(error, KD_EINVAL,
-                            "%zu bytes of PNG text in %zu chunks; there must be at most %u bytes in %d chunks", total,
-                            params->n_text, MAX_TEXT, MAX_CHUNKS - 1);
+                            "a PNG has %zu bytes of text in %zu chunks; it must have at most %u bytes in %d chunks",
+                            total, params->n_text, MAX_TEXT, MAX_CHUNKS - 1);
     return KD_OK;
 }
 
@@ -300,7 +302,7 @@ static enum kd_status check_header(const uint8_t *data, size_t size, size_t *tex
         return kd_error_set(error, KD_EINVAL, "the PNG file ends inside its header");
     uint32_t width = big_endian(data + 16), height = big_endian(data + 20);
     if (memcmp(data + 12, "IHDR", 4) == 0 && (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE))
-        return kd_error_set(error, KD_EINVAL, "a PNG of %u x %u pixels: each side must be 1 to %u", width, height,
+        return kd_error_set(error, KD_EINVAL, "a PNG has %u x %u pixels; each side must be 1 to %u", width, height,
                             MAX_SIDE);
     for (size_t at = 8; at < size;) {
         size_t room = size - at;

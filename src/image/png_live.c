@@ -59,7 +59,7 @@ enum kd_status kd_png_live_encode(struct kd_png_live *live, uint32_t width, uint
                                   struct kd_buffer *out, struct kd_error *error)
 {
     if (width < 1 || width > MAX_SIDE || height < 1 || height > MAX_SIDE)
-        return kd_error_set(error, KD_EINVAL, "a live PNG of %u x %u pixels: each side must be 1 to %d", width, height,
+        return kd_error_set(error, KD_EINVAL, "a live PNG has %u x %u pixels; each side must be 1 to %d", width, height,
                             MAX_SIDE);
     uint64_t filtered = (3 * (uint64_t)width + 1) * height;
     if (filtered > KD_PNG_LIVE_MAX)

@@ -70,7 +70,7 @@ enum kd_status kd_text_code_read(const char *code, struct kd_buffer *out, struct
         return kd_error_set(error, KD_ETOOBIG, "the code of the link is longer than %d characters", KD_TEXT_CODE_MOST);
     if (!to_bytes(code, length, packed, &n))
         return kd_error_set(error, KD_EINVAL,
-                            "the code of the link must be base64url: letters, digits, - and _, whole bytes of them");
+                            "the code of the link must be base64url (letters, digits, - and _) of whole bytes");
     struct libdeflate_decompressor *decompressor = libdeflate_alloc_decompressor();
     if (!decompressor)
         return no_memory(error);

@@ -55,9 +55,9 @@ enum kd_status kd_webp_encode(uint32_t width, uint32_t height, const uint8_t *pi
                               struct kd_buffer *out, struct kd_error *error)
 {
     if (quality < 1 || quality > 100)
-        return kd_error_set(error, KD_EINVAL, "a WebP of quality %u: it must be 1 to 100", quality);
+        return kd_error_set(error, KD_EINVAL, "the quality of a WebP is %u; it must be 1 to 100", quality);
     if (width < 1 || width > KD_WEBP_SIDE_MAX || height < 1 || height > KD_WEBP_SIDE_MAX)
-        return kd_error_set(error, KD_EINVAL, "a WebP of %u x %u pixels: each side must be 1 to %d", width, height,
+        return kd_error_set(error, KD_EINVAL, "a WebP has %u x %u pixels; each side must be 1 to %d", width, height,
                             KD_WEBP_SIDE_MAX);
     const size_t before = out->size;
     const enum kd_status status = encode(width, height, pixels, quality, out);
@@ -65,12 +65,12 @@ enum kd_status kd_webp_encode(uint32_t width, uint32_t height, const uint8_t *pi
         out->size = before;
     if (status == KD_ETOOBIG)
         return kd_error_set(error, status,
-                            "a picture of %u x %u pixels has more detail than a WebP of quality %u can hold; a lower "
-                            "quality, jpg or png can",
+                            "a picture of %u x %u pixels has more detail than a WebP of quality %u can hold; use a "
+                            "lower quality, jpg or png",
                             width, height, quality);
     return !status ? KD_OK
            : status == KD_EINTERNAL
-               ? kd_error_set(error, status, "libwebp is of another version than the one that kerrd was built with")
+               ? kd_error_set(error, status, "the version of libwebp differs from the one that kerrd was built with")
                : kd_error_set(error, status, "out of memory for a WebP of %u x %u pixels", width, height);
 }
 
@@ -99,7 +99,7 @@ enum kd_status kd_webp_xmp(const void *data, size_t size, struct kd_buffer *out,
         status = kd_buffer_append(out, packet.bytes, packet.size);
     else
         kd_error_set(error, KD_EINVAL,
-                     mux ? "the WebP has no XMP, which would hold its scene" : "the file is not a WebP");
+                     mux ? "the WebP contains no scene, because it has no XMP" : "the file is not a WebP");
     WebPMuxDelete(mux);
     return status == KD_ENOMEM ? kd_error_set(error, status, "out of memory for the XMP of a WebP") : status;
 }

@@ -28,8 +28,8 @@ static enum kd_status check_edge_on(const struct kd_integral_request *r, struct 
         return KD_OK;
     return kd_error_field(
         error, "/inclination_deg",
-        "inclination_deg is %.9g, next to edge on, where a thin disk shows its lower face too (3 %% of "
-        "the light at 89 degrees, half at 90); %s it must be 0 to 87 or 93 to 180",
+        "inclination_deg is %.9g; %s it must be 0 to 87 or 93 to 180, because nearer to edge on the lower face of the "
+        "disk is seen too (3 %% of the light at 89 degrees, half at 90)",
         r->inclination_deg,
         echo           ? "for an echo"
         : r->polarized ? "with polarization \"yes\""
@@ -48,10 +48,9 @@ static enum kd_status check_disk(struct kd_integral_request *r, struct kd_error 
     if (isnan(r->inner))
         r->inner = isco;
     if (r->inner < isco * (1 - 1e-9))
-        return kd_error_field(
-            error, "/inner",
-            "inner is %.9g, within the ISCO of this hole, %.9g M; it must be at least that, or \"isco\"", r->inner,
-            isco);
+        return kd_error_field(error, "/inner",
+                              "inner is %.9g; it must be \"isco\" or at least %.9g M, the ISCO of this hole", r->inner,
+                              isco);
     if (r->returning && r->inner > isco * (1 + 1e-9))
         return kd_error_field(error, "/inner",
                               "inner is %.9g; with returning \"%s\" it must be the ISCO, %.9g M, or \"isco\"", r->inner,
@@ -78,7 +77,7 @@ enum kd_status kd_integral_check_growth(const struct kd_number_list *list, const
         if (!(list->at[i] > list->at[i - 1])) {
             char pointer[60];
             snprintf(pointer, sizeof pointer, "/%s/%zu", name, i);
-            return kd_error_field(error, pointer, "%s is %.9g after %.9g; each must be larger than the one before",
+            return kd_error_field(error, pointer, "%s has %.9g after %.9g; each must be larger than the one before",
                                   name, list->at[i], list->at[i - 1]);
         }
     return KD_OK;
@@ -341,8 +340,9 @@ static enum kd_status check_lags(struct kd_integral_request *r, struct kd_error 
     KD_TRY(check_emissivity(r, error));
     KD_TRY(check_edges(r, error));
     if (!(r->edges.at[0] > 0))
-        return kd_error_field(error, kd_integral_given(r, "edges") ? "/edges/0" : "/energy_min",
-                              "the first edge is 0, where a power law has no number of photons; it must be above 0");
+        return kd_error_field(
+            error, kd_integral_given(r, "edges") ? "/edges/0" : "/energy_min",
+            "the first edge is 0; it must be above 0, because a power law has infinitely many photons down to 0");
     if (r->frequencies_m.n) {
         KD_TRY(kd_integral_check_beside(r, "frequencies_m", even, 3, error));
         KD_TRY(kd_integral_check_growth(&r->frequencies_m, "frequencies_m", error));

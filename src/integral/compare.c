@@ -333,8 +333,9 @@ void kd_integral_compare_schema(struct kd_json *json)
 {
     kd_schema_text(json, "chi2",
                    OF_PRODUCTS("chi^2 over the number of data; null for a product without data", OR_NULL));
-    kd_schema_text(json, "chi2_finer",
-                   OF_PRODUCTS("the same for a map 1.5 times as fine; null with check none", OR_NULL));
+    kd_schema_text(
+        json, "chi2_finer",
+        OF_PRODUCTS("chi^2 over the number of data for a map 1.5 times as fine; null with check none", OR_NULL));
     kd_schema_text(json, "n", OF_PRODUCTS("number of data; two for each visibility", COUNT));
     kd_schema_text(json, "solved", SOLVED);
 }

@@ -36,14 +36,15 @@ static const char *const spectrum_sources[] = {
     NULL,
 };
 static const char *const spectrum_approximations[] = {
-    "a thin opaque disk in the equatorial plane, gas on circular orbits, no torque at the ISCO, nothing within it",
+    "the disk is thin and opaque and lies in the equatorial plane; its gas is on circular orbits, with no torque at "
+    "the ISCO and no gas inside it",
     "each ring shines as a black body of its colour temperature, dimmed so that its flux is conserved",
-    "only the direct image: light that goes round the hole is ignored",
+    "only the direct image counts; light that goes round the hole is ignored",
     NULL,
 };
 static const char no_returning[] = "light that returns to the disk is ignored";
-static const char with_returning[] = "the disk absorbs all light that returns to it from a disk without outer edge, "
-                                     "and radiates it again as a black body";
+static const char with_returning[] = "the disk absorbs all light that returns to it and radiates it again as a black "
+                                     "body; this light is that of a disk without outer edge";
 static const char *const echo_sources[] = {
     "P. Uttley et al. 2014, A&ARv 22, 72 (lags)",
     "C. S. Reynolds et al. 1999, ApJ 514, 164 (impulse response)",
@@ -53,27 +54,28 @@ static const char *const echo_sources[] = {
     NULL,
 };
 static const char *const echo_approximations[] = {
-    "a thin opaque disk in the equatorial plane, gas on circular orbits, nothing within its inner edge",
-    "only direct light: light that crosses the plane within the inner edge, or goes round the hole, is ignored",
-    "the gas emits without delay; the source shines isotropically in its own frame, and all of a ring flashes at the "
+    "the disk is thin and opaque and lies in the equatorial plane; its gas is on circular orbits, and there is none "
+    "inside the inner edge",
+    "only direct light counts; light that crosses the plane inside the inner edge, or goes round the hole, is ignored",
+    "the gas emits without delay; the source shines isotropically in its own frame; all parts of a ring flash at the "
     "same time",
     NULL,
 };
 static const char scattered_once[] =
     "a deep atmosphere of free electrons reflects the light that returns to it for the first time, without changing "
-    "its "
-    "energy in the gas's frame; light that returns again, and the work of its angular momentum, are ignored";
+    "its energy in the gas's frame; light that returns again is ignored, and so is the work of the stresses that its "
+    "angular momentum causes";
 static const char *const disk_approximations[] = {
-    "a thin opaque disk in the equatorial plane, gas on circular orbits, nothing within its inner edge",
-    "only the direct image: light that goes round the hole and crosses the plane again is ignored",
+    "the disk is thin and opaque and lies in the equatorial plane; its gas is on circular orbits, and there is none "
+    "inside the inner edge",
+    "only the direct image counts; light that goes round the hole and crosses the plane again is ignored",
     NULL,
 };
 
-static const char lower_face[] =
-    "next to edge on, the lower face of the disk is seen past its outer edge; its light is "
-    "included, but not that which crosses the plane within the inner edge";
-static const char upper_face[] = "the upper face alone: past the outer edge of a disk seen next to edge on, its lower "
-                                 "face is seen too";
+static const char lower_face[] = "nearly edge on, the lower face of the disk is seen past its outer edge; the light of "
+                                 "this face is included, except light that crosses the plane inside the inner edge";
+static const char upper_face[] = "only the upper face is computed; nearly edge on, the lower face would also be seen "
+                                 "past the outer edge of the disk";
 
 static const char *const visibility_sources[] = {
     "A. R. Thompson, J. M. Moran & G. W. Swenson 2017, Interferometry and Synthesis in Radio Astronomy, 3rd ed., eq. "
@@ -84,7 +86,7 @@ static const char *const visibility_sources[] = {
 static const char *const visibility_approximations[] = {
     "no light comes from beyond the map's border; edge_share shows how bright the border is",
     "each pixel is a point at its centre; baselines beyond nyquist_gl are aliased to shorter ones",
-    "an ideal instrument: no beam, no noise, no gaps, no averaging over time or bandwidth",
+    "the instrument is ideal: it has no beam, noise or gaps, and does not average over time or bandwidth",
     NULL,
 };
 static const char *const compare_sources[] = {
@@ -130,26 +132,26 @@ static const char *const volume_approximations[] = {
 #define ECHO_VALUES \
     { "isco", "M", "innermost stable circular orbit", false }, \
         { "strength", "1", \
-          "equivalent width of the line at the observer over that in the gas's frame; the number of line " \
-          "photons that the gas emits is the number of continuum photons per unit of energy that reach it", \
+          "equivalent width of the line at the observer over that in the gas's frame, for gas that emits as many " \
+          "line photons as continuum photons per unit of energy reach it", \
           false }, \
         { "direct_flux", "1", \
           "ratio of the source's continuum at the observer to that of the same source at rest far from the hole", \
           false }, \
         { "direct_g", "1", "mean redshift factor of the continuum", false }, \
         { "direct_time", "M", \
-          "mean arrival of the continuum after the flash, less r + 2 ln r at the observer's radius r", false }, \
+          "mean arrival time of the continuum after the flash, minus r + 2 ln r at the observer's radius r", false }, \
     { \
         "unit_s", "s", "GM/c^3", false \
     }
 
 /* Values that describe a map of light. */
 #define MAP_VALUES \
-    { "pixel_uas", "uas", "distance from one pixel to the next", false }, { "width_uas", "uas", "of the map", false }, \
-        { "height_uas", "uas", "of the map", false }, \
+    { "pixel_uas", "uas", "distance from one pixel to the next", false }, \
+        { "width_uas", "uas", "width of the map", false }, { "height_uas", "uas", "height of the map", false }, \
         { "nyquist_gl", "Gl", "longest baseline that the width of the pixels resolves", false }, \
         { "edge_share", "1", \
-          "flux of a sky as bright as the map's border over the whole map, as a share of the map's flux", false }, \
+          "flux of a map that is everywhere as bright as the map's border, as a share of the map's flux", false }, \
     { \
         "undefined", "pixels", "number of pixels whose light is not a number; they count as dark", false \
     }
@@ -163,11 +165,9 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                              { "inside", "1", "share of the line between the first and the last edge" },
                              { "error", "1", "estimated largest error of the cumulative share at any edge" },
                              { "strength", "1",
-                               "equivalent width of the line at the observer over that in the gas's frame; the number "
-                               "of "
-                               "line photons that the gas emits is the number of continuum photons per unit of energy "
-                               "that reach it; "
-                               "null without a source" },
+                               "equivalent width of the line at the observer over that in the gas's frame, for gas "
+                               "that emits as many line photons as continuum photons per unit of energy reach it; null "
+                               "without a source" },
                              { "direct_flux", "1",
                                "ratio of the source's continuum at the observer to that of the same source at rest far "
                                "from the hole; null without a source" },
@@ -190,9 +190,9 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                  { "mu_near", "1",
                                    "near side: cosine of the angle between the emitted light and the disk's normal in "
                                    "the gas's frame" },
-                                 { "mu_far", "1", "the same for the far side" },
-                                 { "g_min", "1", "of the ring" },
-                                 { "g_max", "1", "of the ring" } },
+                                 { "mu_far", "1", "far side: the same cosine" },
+                                 { "g_min", "1", "smallest g of the ring" },
+                                 { "g_max", "1", "largest g of the ring" } },
                                transfer_sources,
                                disk_approximations },
     [KD_INTEGRAL_SPECTRUM] = { "spectrum of a thin disk of black bodies",
@@ -261,11 +261,11 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
     [KD_INTEGRAL_VISIBILITY] = { "visibilities of a scene's picture",
                                  { { "flux_jy", "Jy", "flux of the whole map; null if its light has no frequency" },
                                    { "pixel_uas", "uas", "distance from one pixel to the next" },
-                                   { "width_uas", "uas", "of the map" },
-                                   { "height_uas", "uas", "of the map" },
+                                   { "width_uas", "uas", "width of the map" },
+                                   { "height_uas", "uas", "height of the map" },
                                    { "nyquist_gl", "Gl", "longest baseline that the width of the pixels resolves" },
                                    { "edge_share", "1",
-                                     "flux of a sky as bright as the map's border over the whole map, as a share of "
+                                     "flux of a map that is everywhere as bright as the map's border, as a share of "
                                      "the map's flux" },
                                    { "undefined", "pixels",
                                      "number of pixels whose light is not a number; they count as dark" },
@@ -292,7 +292,7 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                 { "position_angle_deg", "deg", "angle by which the map is rotated, from north to east",
                                   false },
                                 { "shift_east_uas", "uas", "shift of the map to the east", false },
-                                { "shift_north_uas", "uas", "to the north", false } },
+                                { "shift_north_uas", "uas", "shift of the map to the north", false } },
                               { { "product", "",
                                   "amplitude, closure_phase, log_closure_amplitude, visibility_re or visibility_im",
                                   true },
@@ -320,8 +320,8 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                              { "height_uas", "uas", "of the last map", false },
                              { "nyquist_gl", "Gl", "longest baseline that the width of its pixels resolves", false },
                              { "edge_share", "1",
-                               "flux of a sky as bright as a map's border over the whole map, as a share of the map's "
-                               "flux; the largest of all maps",
+                               "flux of a map that is everywhere as bright as the map's border, as a share of the "
+                               "map's flux; the largest of all maps",
                                false },
                              { "undefined", "pixels",
                                "number of pixels whose light is not a number, in all pictures; they count as dark",
@@ -330,16 +330,17 @@ static const struct kd_integral_kind_of kinds[KD_INTEGRALS] = {
                                "chi^2 of the amplitudes over their number; null without data, or if the picture is "
                                "dark",
                                false },
-                             { "chi2_closure_phase", "1", "the same of the closure phases", false },
-                             { "chi2_log_closure_amplitude", "1", "the same of the log closure amplitudes", false },
-                             { "chi2_visibility", "1", "the same of the visibilities", false },
+                             { "chi2_closure_phase", "1", "chi^2 of the closure phases over their number", false },
+                             { "chi2_log_closure_amplitude", "1",
+                               "chi^2 of the log closure amplitudes over their number", false },
+                             { "chi2_visibility", "1", "chi^2 of the visibilities over their number", false },
                              { "total", "1", "chi^2 summed over all data; null if the picture is dark", false },
                              { "flux_jy", "Jy", "flux of the compared map; null if nothing determines it", false },
                              { "size", "1", "factor by which the map is enlarged, at the same flux", false },
                              { "position_angle_deg", "deg", "angle by which the map is rotated, from north to east",
                                false },
                              { "shift_east_uas", "uas", "shift of the map to the east", false },
-                             { "shift_north_uas", "uas", "to the north", false },
+                             { "shift_north_uas", "uas", "shift of the map to the north", false },
                              { "converged", "1", "1: all searches converged; 0: one did not, or the picture is dark",
                                false } },
                            compare_sources,
@@ -411,8 +412,8 @@ static enum kd_status continuum_of(const struct kd_integral_request *r, const st
         shape = (struct kd_corona_shape) { .height = r->height, .top = r->height };
     if (!kd_corona_continuum_of(&image->hole, &shape, r->photon_index, fmax(image->cos_i, FLATTEST), out))
         return kd_error_field(error, "/height",
-                              "height and corona_radius place the source where no light that reaches the observer "
-                              "directly was found; one of them, or inclination_deg, must be different");
+                              "no direct light from the source to the observer was found for this height and "
+                              "corona_radius; one of them, or inclination_deg, must be different");
     return KD_OK;
 }
 
@@ -597,8 +598,8 @@ enum kd_status kd_integral_compute(const struct kd_integral_request *request, st
 done:
     free(image);
     if (kd_pause()) /* the result counts as a failure: after a pause that returned true it is incomplete */
-        status =
-            kd_error_set(error, KD_ECANCELLED, "nobody waits for the %s any more", kd_integral_name(request->what));
+        status = kd_error_set(error, KD_ECANCELLED, "the computation of the %s was cancelled",
+                              kd_integral_name(request->what));
     if (status)
         kd_integral_answer_finish(answer);
     return status;

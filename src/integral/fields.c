@@ -203,7 +203,7 @@ const struct kd_row kd_integral_fields[] = {
     NUMBERS(frequencies_hz, "Hz", 1e-3, 1e25, SPECTRUM | VOLUME,
             "frequencies, instead of frequency_min_hz, frequency_max_hz and frequencies"),
     NUMBERS(u, "Gl", -1e15, 1e15, VISIBILITY,
-            "eastward components of the baselines, in units of 1e9 wavelengths; as many as v"),
+            "eastward components of the baselines, in units of 1e9 wavelengths; as many numbers as v has"),
     NUMBERS(v, "Gl", -1e15, 1e15, VISIBILITY, "northward components of the baselines"),
     NUMBERS(lengths, "Gl", 0, 1e15, VISIBILITY,
             "lengths of baselines, instead of u and v; each length is combined with each of angles_deg"),

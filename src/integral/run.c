@@ -72,7 +72,7 @@ static enum kd_status begin_model(struct kd_integral_run *run, struct kd_error *
         kd_scattering_sgra(&scattering, r->observation->frequency_hz);
     for (size_t i = 0; r->scattering && i < r->u.n; i++) {
         if (kd_pause_every(i, 32))
-            return kd_error_set(error, KD_ECANCELLED, "nobody waits for the visibilities any more");
+            return kd_error_set(error, KD_ECANCELLED, "the computation of the visibilities was cancelled");
         run->scattering[i] = kd_scattering_at(&scattering, r->u.at[i] * 1e9, r->v.at[i] * 1e9);
     }
     return KD_OK;

@@ -65,9 +65,9 @@ static enum kd_status check_radio(const struct kd_scene *scene, struct kd_error 
 {
     if (!kd_scene_is_radio(scene) && !kd_scene_has_disk_frequency(scene))
         return kd_error_field(error, "/scene/volume/model",
-                              "the scene has no light of one frequency in physical units, as a spectrum needs; "
-                              "volume.model must be a model with volume.frequency_ghz, such as gold or riaf, or "
-                              "disk.band \"frequency\"; without scene and preset the spectrum is that of a thin disk");
+                              "the scene has no light of one frequency in physical units, which a spectrum needs; "
+                              "volume.model must be \"gold\", \"riaf\", \"torus\" or \"grid\", or disk.band must be "
+                              "\"frequency\"; without scene and preset the spectrum is that of a thin disk");
     if (!kd_scene_is_radio_alone(scene))
         return kd_error_field(
             error, "/scene",
@@ -159,7 +159,7 @@ static enum kd_status check_baselines(struct kd_integral_request *r, struct kd_e
         KD_TRY(make_baselines(r, error));
     else if (r->u.n != r->v.n)
         KD_TRY(kd_error_field(error, r->u.n > r->v.n ? "/u" : "/v",
-                              "u has %zu numbers and v has %zu; both must have as many", r->u.n, r->v.n));
+                              "u has %zu numbers and v has %zu; both must have the same number", r->u.n, r->v.n));
     else
         KD_TRY(kd_integral_check_beside(r, "u", others, 4, error));
     if (r->u.n * (1 + r->orders) > KD_INTEGRAL_ROWS)

@@ -94,7 +94,8 @@ static enum kd_status set_field(struct kd_integral_set *set, const cJSON *item, 
 {
     char text[64];
     if (!strncmp(item->string, "image.", 6))
-        return kd_error_field(error, "", "%.40s cannot be in a set; all sets have the same picture", item->string);
+        return kd_error_field(error, "", "%.40s cannot be in a set, because all sets have the same picture",
+                              item->string);
     if (cJSON_IsNumber(item))
         snprintf(text, sizeof text, "%.17g", item->valuedouble);
     else if (!cJSON_IsBool(item) && !cJSON_IsString(item))
@@ -160,7 +161,7 @@ enum kd_status kd_integral_make_sets(struct kd_integral_request *r, struct kd_er
         memcpy(&set->scene, r->scene, sizeof set->scene);
         set->flux_jy = NAN, set->size = 1, set->row = (uint32_t)s->n;
         if (kd_pause_every(s->n, 16))
-            return kd_error_set(error, KD_ECANCELLED, "nobody waits for the sets any more");
+            return kd_error_set(error, KD_ECANCELLED, "the computation of the sets was cancelled");
         status = make_set(r, item, set, error);
         if (status == KD_EINVAL) {
             struct kd_error inner = error ? *error : (struct kd_error) { 0 };

@@ -265,7 +265,8 @@ static enum kd_status set_energies(struct kd_table *table, struct kd_error *erro
 {
     struct kd_integral_request *base = &table->base;
     if (base->energy)
-        return kd_error_field(error, "/counts", "counts is energy; it must be photons, which an additive table has");
+        return kd_error_field(error, "/counts",
+                              "counts is energy; it must be photons, because an additive table has numbers of photons");
     if (!kd_integral_given(base, "rest_energy"))
         base->rest_energy = REST_KEV;
     if (!kd_integral_given(base, "energy_min"))
@@ -313,7 +314,7 @@ enum kd_status kd_table_init(struct kd_table *table, struct kd_integral_request 
         table->nodes *= axis->n;
         table->run *= rank_of(axis) < IMAGE_AXES ? 1 : axis->n;
         if (table->nodes > KD_TABLE_NODES)
-            KD_TRY(kd_error_set(error, KD_ETOOBIG, "the axes make more than %u nodes, the most that a table may have",
+            KD_TRY(kd_error_set(error, KD_ETOOBIG, "the axes make too many nodes; a table must have at most %u",
                                 KD_TABLE_NODES));
     }
     KD_TRY(set_energies(table, error));

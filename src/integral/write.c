@@ -233,8 +233,9 @@ enum kd_status kd_integral_check_format(const struct kd_integral_request *r, enu
 {
     if (format != KD_INTEGRAL_UVFITS || r->file)
         return KD_OK;
-    return kd_error_field(error, "/observation",
-                          "observation is a CSV, which has no places of stations; for uvfits it must be a uvfits file");
+    return kd_error_field(
+        error, "/observation",
+        "observation is a CSV, which has no positions of stations; for uvfits it must be a uvfits file");
 }
 
 enum kd_status kd_integral_write(const struct kd_integral_answer *answer, enum kd_integral_format format,

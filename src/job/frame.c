@@ -22,7 +22,7 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
     if (!status && spec->blur.samples)
         status = kd_blur_plan(spec->blur.samples, spec->blur.shutter, capacity, plan, &inner);
     if (!status && plan->cost.estimate_ms > 1e3 * most_s)
-        status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s, more than the %.0f s a frame may take",
+        status = kd_error_set(&inner, KD_ETOOBIG, "it would take about %.0f s; a frame must take at most %.0f s",
                               plan->cost.estimate_ms * 1e-3, most_s);
     if (!status)
         return KD_OK;

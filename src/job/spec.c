@@ -143,8 +143,9 @@ static enum kd_status look_through(struct reader *r, const struct kd_playground 
 static enum kd_status read_every(struct reader *r)
 {
     if (!r->every)
-        return kd_error_field(r->error, "/every",
-                              "every is missing; it is the time in M from one frame of the playground to the next");
+        return kd_error_field(
+            r->error, "/every",
+            "every is missing; it must be the time in M from one frame of the playground to the next");
     const double every = cJSON_IsNumber(r->every) ? r->every->valuedouble : 0;
     if (!(every > 0) || every > KD_PLAYGROUND_TIME)
         return kd_member_refuse(r->every, "/every", "a number above 0, the time in M from one frame to the next",
@@ -179,8 +180,8 @@ static enum kd_status read_film(struct reader *r)
     spec->frames = (unsigned)kd_timeline_end(&spec->timeline) + 1;
     if (!r->frames && !r->timeline.keyframes)
         KD_TRY(kd_error_field(r->error, "/frames",
-                              "frames is missing; it must be the number of pictures of the playground, or there must "
-                              "be keyframes, the last for the last picture"));
+                              "frames is missing; it must be the number of pictures of the playground, unless the last "
+                              "keyframe is at the last picture"));
     if (r->frames)
         KD_TRY(kd_member_whole(r->frames, "/frames", spec->frames, KD_JOB_FRAMES_MAX, &spec->frames, r->error));
     KD_TRY(look_through(r, p));
@@ -209,7 +210,7 @@ static enum kd_status read_output(struct reader *r)
         r->spec->series = cJSON_IsString(r->output) ? kd_series_named(r->output->valuestring) : NULL;
     if (r->spec->series && r->spec->series->swept && !r->axes)
         return kd_error_field(r->error, "/output",
-                              "output is \"%s\", which takes axes, as in \"axes\": {\"spacetime.spin\": [0, 0.5, 0.9]}",
+                              "output is \"%s\", which needs axes, as in \"axes\": {\"spacetime.spin\": [0, 0.5, 0.9]}",
                               r->spec->series->name);
     if (r->spec->series)
         return KD_OK;
@@ -237,8 +238,8 @@ static enum kd_status read_exposure(struct reader *r)
                               spec->series->name);
     if (word == ONE && (spec->sweep || r->playground))
         return kd_error_field(r->error, "/exposure",
-                              "exposure is \"one\"; with %s it must be \"each\": give style.exposure of the scene a "
-                              "number, which all frames then have",
+                              "exposure is \"one\"; with %s it must be \"each\"; a number in style.exposure gives all "
+                              "frames the same exposure",
                               spec->sweep ? "axes" : "a playground");
     spec->one_exposure = word == ONE;
     return KD_OK;
@@ -273,7 +274,7 @@ static enum kd_status read_blur(struct reader *r)
           .initial = 0.5,
           .most = 1,
           .open = KD_OPEN_BELOW,
-          .allowed = "a number above 0, at most 1: the open time of the shutter over a frame's time" },
+          .allowed = "a number above 0, at most 1: the open time of the shutter as a fraction of a frame's time" },
     };
     static const struct kd_document document = { .rows = rows, .n = sizeof rows / sizeof *rows };
     const struct kd_job_base *asked = r->asked;
@@ -287,7 +288,7 @@ static enum kd_status read_blur(struct reader *r)
                                   : KD_OK;
     if (unblurred(r))
         return kd_error_field(r->error, "/motion_blur",
-                              "motion_blur cannot be used with %s; it needs frames of keyframes, as pictures",
+                              "motion_blur cannot be used with %s; it needs keyframes and an output of pictures",
                               unblurred(r));
     if (r->blur && !cJSON_IsObject(r->blur))
         return kd_member_refuse(r->blur, "/motion_blur",
@@ -354,8 +355,8 @@ static enum kd_status scene_at(const struct kd_job_spec *spec, double at, struct
 {
     struct kd_error inner = { 0 };
     if (kd_timeline_scene(&spec->timeline, at, out, &inner))
-        return kd_error_field(error, inner.pointer, "between keyframes, frame %.9g is no valid scene: %.380s", at,
-                              inner.message);
+        return kd_error_field(error, inner.pointer, "frame %.9g, between two keyframes, is not a valid scene: %.380s",
+                              at, inner.message);
     if (isinf(out->style.exposure) && !isnan(spec->exposure))
         out->style.exposure = spec->exposure;
     return KD_OK;

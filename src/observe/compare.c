@@ -14,11 +14,10 @@ unsigned kd_product_stations(enum kd_product product) { return product == KD_PRO
 enum kd_status kd_comparison_add(struct kd_comparison *c, const struct kd_comparison_row *row, struct kd_error *error)
 {
     if (c->rows == KD_COMPARISON_ROWS)
-        return kd_error_set(
-            error, KD_EINVAL,
-            "the observation has more than %d amplitudes and closures, the limit: average over longer times, or "
-            "use a minimal set",
-            KD_COMPARISON_ROWS);
+        return kd_error_set(error, KD_EINVAL,
+                            "the observation has more than %d amplitudes and closures; a larger average_s or closures "
+                            "\"minimal\" gives fewer",
+                            KD_COMPARISON_ROWS);
     if (c->rows == c->room) {
         const size_t more = c->room ? 2 * c->room : 1024;
         struct kd_comparison_row *at = realloc(c->row, more * sizeof *at);

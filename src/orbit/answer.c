@@ -94,13 +94,13 @@ static void close(struct text *t) { put(t, "}"); }
 const char *kd_orbit_approximation(const struct kd_orbit_run *run, size_t index)
 {
     const char *const all[] = {
-        "the body is a test particle: no gravity of its own, no radiation, no tidal disruption",
+        "the body is a test particle: it has no gravity of its own, does not radiate, and is not disrupted by tides",
         run->orbit.fate == KD_ORBIT_PLUNGE
             ? "Boyer-Lindquist t and phi grow without bound towards the horizon, at which a path ends"
             : NULL,
         kd_orbit_is_seen(run->params)
-            ? "each point has one image, which is continuous with the image of the point before; it is the direct "
-              "image, but close to a spinning hole seen nearly edge on it may become an image whose light has gone "
+            ? "each point has one image, which continues the image of the point before; this is the direct image, "
+              "except that close to a spinning hole seen nearly edge on it may become an image whose light has gone "
               "round the hole; points within 1.2 horizon radii have no image"
             : NULL,
     };

@@ -204,11 +204,11 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
     }
     if (!isnan(p->periods) && !isnan(p->time))
         return kd_error_field(error, "/duration",
-                              "duration is given as periods and as time: only one of them may be given");
+                              "periods cannot be used with time, because a duration is either of them");
     if (p->or_end && isnan(p->periods))
         return kd_error_field(error, "/duration/or_end",
-                              "or_end is true without periods; it must be false, because without a duration an orbit "
-                              "that plunges or escapes is followed to its end");
+                              "or_end is true without periods; it must be false, because an orbit without a duration "
+                              "is always followed to its end");
     if (!kd_orbit_is_seen(p) &&
         (isfinite(p->seen.r) || p->seen.azimuth_deg != 0 || p->seen.motion != KD_OBSERVER_STATIC))
         return kd_error_field(error, "/seen/observer_inclination_deg",
@@ -221,11 +221,13 @@ enum kd_status kd_orbit_request_check(const struct kd_orbit_request *request, st
         return kd_error_field(error, "/samples", "samples is %u; with seen it must be at most %u", p->samples,
                               KD_ORBIT_SEEN_MAX);
     if (p->samples == 1)
-        return kd_error_field(error, "/samples",
-                              "samples is 1; it must be 0 for none, or 2 or more: both ends of the path are samples");
+        return kd_error_field(
+            error, "/samples",
+            "samples is 1; it must be 0 for none, or at least 2, because both ends of the path are samples");
     if (request->many && p->series && (double)p->samples * (double)request->n > KD_ORBIT_SAMPLES_MAX)
-        return kd_error_field(error, "/samples", "%u samples of %zu orbits are too many (limit %u in all)", p->samples,
-                              request->n, KD_ORBIT_SAMPLES_MAX);
+        return kd_error_field(error, "/samples",
+                              "samples is %u for each of %zu orbits; there must be at most %u samples in all",
+                              p->samples, request->n, KD_ORBIT_SAMPLES_MAX);
     return KD_OK;
 }
 
@@ -250,9 +252,9 @@ static enum kd_status check_whirl(const struct kd_orbit_spec *s, const struct kd
     kd_number_format(energy, orbit->energy);
     kd_number_format(momentum, orbit->momentum);
     return kd_error_field(error, s->form == KD_ORBIT_CONSTANTS ? "/angular_momentum" : "/velocity",
-                          "energy %s and angular_momentum %s are too close to those of the unstable circle at r = %.9g "
-                          "for double precision to decide how long the body whirls there, and whether it falls or "
-                          "returns; they must differ from these by some parts in 1e12",
+                          "energy %s and angular_momentum %s are too close to those of the unstable circular orbit at "
+                          "r = %.9g: double precision cannot decide how long the body whirls there, or whether it "
+                          "falls in or returns; they must differ from these by some parts in 1e12",
                           energy, momentum, r);
 }
 

@@ -173,8 +173,8 @@ static enum kd_status set_end(struct kd_orbit_run *run, struct kd_error *error)
     }
     if (!isnan(p->periods) && !p->or_end && !run->orbit.circular)
         return kd_error_field(error, "/duration/periods",
-                              "periods cannot be used with an orbit that will %s, because it has none: leave the "
-                              "duration out or add or_end to follow it to its end, or give a time",
+                              "periods cannot be used with an orbit that will %s, because it has none; give a time, or "
+                              "leave the duration out or add or_end to follow the orbit to its end",
                               kd_orbit_fate_name(run->orbit.fate));
     double h = 2 * M_PI / kd_orbit_pace(&run->orbit) / 128, before = NAN;
     bool found = false;
@@ -256,10 +256,10 @@ static enum kd_status settle(struct kd_orbit_run *run, struct kd_error *error)
     double pace = sqrt(
         fmax(kd_orbit_radial(&run->orbit, run->aim), 0)); /* t grows as 1/w^2, which one step across w cannot resolve */
     if (!status && run->rounding > 1e-12 && !run->params->steps && run->end == KD_END_FAR && run->h * pace > run->aim)
-        return kd_error_field(
-            error, "/r_max",
-            "r_max is %g; it must be smaller, because this path whirls near an unstable circle and needs short steps",
-            run->params->r_max);
+        return kd_error_field(error, "/r_max",
+                              "r_max is %g; it must be smaller, because this path whirls near an unstable circular "
+                              "orbit and needs short steps",
+                              run->params->r_max);
     return status;
 }
 

@@ -41,7 +41,8 @@ enum kd_playground_gravity { KD_GRAVITY_PACZYNSKI_WIITA, KD_GRAVITY_KERR };
     INT(debris_per_body, 20000, 16, KD_PLAYGROUND_DEBRIS_MAX, \
         "number of pieces of debris of a body that is torn apart") \
     REAL(debris_temperature_k, 5000, 300, 1e9, "temperature in K of the debris, a black body in pictures") \
-    REAL(debris_depth, 1, 0, 1e6, "optical depth in pictures of the debris of one body, spread over 1000 M^2") \
+    REAL(debris_depth, 1, 0, 1e6, \
+         "optical depth in pictures that the debris of one body has if it is spread over 1000 M^2") \
     REAL(albedo, 0, 0, 1, "share of the disk's light that bodies reflect in pictures; 0: reflection is not computed") \
     INT(seed, 1, 0, 4294967295u, "seed of the random directions of debris")
 

@@ -18,10 +18,10 @@ static enum kd_status check_hole(const struct kd_playground_params *params, stru
         return kd_hole_check(kd_playground_hole(params), error);
 #define MORE(x, name, ...) \
     if (params->name != 0) \
-        return kd_error_field(error, "/" #name, \
-                              "%s is %.9g; without gravity \"kerr\" it must be 0: the potential, in which stars are " \
-                              "torn apart, is that of an uncharged hole", \
-                              #name, params->name);
+        return kd_error_field( \
+            error, "/" #name, \
+            "%s is %.9g; without gravity \"kerr\" it must be 0, because the potential is that of an uncharged hole", \
+            #name, params->name);
     KD_HOLE_MORE(MORE, )
 #undef MORE
     return KD_OK;
@@ -86,7 +86,7 @@ static enum kd_status check(const struct kd_playground *p, const struct kd_playg
                                   FAR);
     if (!(v <= 1 + 1e-12) || (kerr(p) && !(v < 1)))
         return kd_error_field(error, "/velocity", "velocity is %.9g c; it must be %s", v,
-                              kerr(p) ? "less than c" : "up to c");
+                              kerr(p) ? "less than c" : "at most c");
     if (!kerr(p) && !(r > KD_PLAYGROUND_CAPTURE))
         return kd_error_field(
             error, "/position",
@@ -262,8 +262,9 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
                 "Bodies accelerated one another to the speed limit c; limiting their speeds removed momentum.");
         if (s->waves)
             kd_json_string(json, NULL,
-                           "The loss to gravitational waves is Peters' formula, of leading order: its power is 4 % too "
-                           "high at r = 10 M for a = 0 and 27 % for a = 0.9; the error is below 1 % only near 300 M.");
+                           "The loss to gravitational waves follows Peters' formula, which is of leading order: at r = "
+                           "10 M its power is 4 % too high for a = 0 and 27 % too high for a = 0.9; the error falls "
+                           "below 1 % only near 300 M.");
         if (s->waves && s->amplification != 1) {
             char text[120];
             snprintf(text, sizeof text, "The loss to gravitational waves is exaggerated %g times.", s->amplification);
@@ -272,8 +273,9 @@ void kd_playground_approximations(const struct kd_playground *p, struct kd_json 
         if (p->held)
             kd_json_string(json, NULL, "The exaggerated loss to waves was limited to a tenth of the attraction.");
         if (s->waves && p->n > KD_WAVE_PAIRS_MAX)
-            kd_json_string(json, NULL,
-                           "There are too many bodies for waves of pairs: each body radiates with the hole alone.");
+            kd_json_string(
+                json, NULL,
+                "There are too many bodies to compute waves of all pairs: each body radiates only with the hole.");
         if (s->tides && p->debris.last_source)
             kd_json_string(
                 json, NULL,

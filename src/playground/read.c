@@ -107,7 +107,7 @@ static enum kd_status do_one(struct kd_playground *p, enum list what, const cJSO
     }
     KD_TRY(read_body(&body, item, pointer, what == CHANGE ? &id : NULL, 1, error));
     if (isnan(body.x[0]))
-        KD_TRY(kd_error_field(error, pointer, "position is missing; a body needs one"));
+        KD_TRY(kd_error_field(error, pointer, "position is missing; a body must have one"));
     KD_TRY(
         in_list(what == CHANGE ? kd_playground_change(p, id, &body, error) : kd_playground_add(p, &body, NULL, error),
                 pointer, error));
@@ -151,7 +151,7 @@ static enum kd_status read_settings(struct kd_playground_params *params, const c
 enum kd_status kd_playground_parse(const char *text, size_t length, cJSON **tree, struct kd_error *error)
 {
     enum kd_status status = kd_tree_parse(text, length, KD_PLAYGROUND_JSON_MAX, VALUES, tree, error);
-    return !status && !cJSON_IsObject(*tree) ? kd_error_set(error, KD_EINVAL, "the document is not a JSON object")
+    return !status && !cJSON_IsObject(*tree) ? kd_error_set(error, KD_EINVAL, "the document must be a JSON object")
                                              : status;
 }
 
@@ -188,7 +188,7 @@ static enum kd_status take_bodies(struct kd_playground *p, const cJSON *list, st
         snprintf(pointer, sizeof pointer, "/bodies/%u", i++);
         KD_TRY(read_body(&body, one, pointer, NULL, KD_PLAYGROUND_BODIES_MAX, error));
         if (isnan(body.x[0]))
-            KD_TRY(kd_error_field(error, pointer, "position is missing; a body needs one"));
+            KD_TRY(kd_error_field(error, pointer, "position is missing; a body must have one"));
         if (!(kd_playground_radius(body.x) > KD_PLAYGROUND_CAPTURE && kd_playground_radius(body.v) <= 1 + 1e-12) &&
             p->params.gravity != KD_GRAVITY_KERR)
             KD_TRY(kd_error_field(

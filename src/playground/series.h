@@ -23,8 +23,9 @@ enum { KD_SERIES_ROWS = 4096 };
     X(angular_momentum_y, "M^2", "of the bodies") \
     X(angular_momentum_z, "M^2", "of the bodies") \
     X(radiated, "M", "energy lost to gravitational waves") \
-    X(separation, "M", "separation of the closest bound pair of bodies, or else of the innermost body and the hole") \
-    X(wave_frequency, "1/M", "wave frequency: twice the orbital frequency of these two") \
+    X(separation, "M", \
+      "separation of the closest bound pair of bodies; without a bound pair, of the innermost body and the hole") \
+    X(wave_frequency, "1/M", "wave frequency: twice the orbital frequency of this pair") \
     X(h_plus, "M", "strain h+ times distance, seen along the hole's axis") \
     X(h_cross, "M", "strain hx times distance, seen along the hole's axis") \
     X(debris, "", "number of moving pieces of debris") \

@@ -236,7 +236,7 @@ done:
     return status;
 }
 
-#define THAT_HOLE "spacetime.%s is %.9g; it must be %.9g: the playground's bodies move round a hole of that %s"
+#define THAT_HOLE "spacetime.%s is %.9g; it must be %.9g, because the playground's bodies move round a hole of that %s"
 
 enum kd_status kd_playground_may_show(const struct kd_playground *p, const struct kd_scene *scene,
                                       struct kd_error *error)
@@ -245,8 +245,8 @@ enum kd_status kd_playground_may_show(const struct kd_playground *p, const struc
 #define MORE(x, name, ...) \
     if (!kerr && scene->spacetime.name != 0) \
         return kd_error_field(error, "/spacetime/" #name, \
-                              "spacetime.%s is %.9g; it must be 0: the playground's bodies and debris move in the " \
-                              "potential of an uncharged hole", \
+                              "spacetime.%s is %.9g; it must be 0, because the playground's bodies and debris move " \
+                              "in the potential of an uncharged hole", \
                               #name, scene->spacetime.name); \
     if (kerr && scene->spacetime.name != p->params.name) \
         return kd_error_field(error, "/spacetime/" #name, THAT_HOLE, #name, scene->spacetime.name, p->params.name, \

@@ -37,7 +37,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "a thin disk that ends at the ISCO without torque and radiates locally",
+    "the disk is thin, ends at the ISCO without torque, and radiates locally",
     "the luminosity ignores the light that the hole captures and the light that returns to the disk",
     "shakura_sunyaev is the Newtonian disk, with its inner edge at the ISCO",
     NULL,

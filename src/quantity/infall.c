@@ -54,14 +54,13 @@ static enum kd_status check(const struct kd_observer_motion *motion, const struc
 {
     const double end = at->hole.inner;
     if (!(at->r > end))
-        return kd_quantity_outside(error, "r", at->r, "not outside %.9g M, where the model ends", end);
+        return kd_quantity_outside(error, "r", at->r, "; it must be more than %.9g M, where the model ends", end);
     if (kd_quantity_observer_exists(motion, at, error))
         return KD_EINVAL;
     if (!kd_infall_is_level(motion, at))
-        return kd_quantity_outside(
-            error, "inclination_deg", atan2(at->s, at->u) * (180 / M_PI),
-            "where the fall would change its latitude; with spin it must be 0, 90 or 180, or the "
-            "fall must begin at rest at infinity");
+        return kd_quantity_outside(error, "inclination_deg", atan2(at->s, at->u) * (180 / M_PI),
+                                   "; with spin it must be 0, 90 or 180, or the fall must begin at rest at infinity, "
+                                   "because any other fall changes its latitude");
     return KD_OK;
 }
 

@@ -5,8 +5,9 @@
 #include "physics/waves/inspiral.h"
 
 #define PARAMETERS(P) \
-    P(mass1_msun, .unit = "solar masses", .typed = "1.4398", .least = 1e-10, .most = 1e12, .help = "one mass") \
-    P(mass2_msun, .unit = "solar masses", .typed = "1.3886", .least = 1e-10, .most = 1e12, .help = "the other") \
+    P(mass1_msun, .unit = "solar masses", .typed = "1.4398", .least = 1e-10, .most = 1e12, .help = "mass of one body") \
+    P(mass2_msun, .unit = "solar masses", .typed = "1.3886", .least = 1e-10, .most = 1e12, \
+      .help = "mass of the other body") \
     P(period_s, .unit = "s", .typed = "27906.979587", .least = 1e-9, .most = 1e20, .help = "orbital period now") \
     P(eccentricity, .unit = "1", .typed = "0.6171334", .least = 0, .most = 0.999999, .help = "eccentricity now") \
     P(eccentricity_later, .unit = "1", .typed = "0", .least = 0, .most = 0.999999, \
@@ -51,7 +52,8 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "leading order: quadrupole radiation of a Kepler ellipse, averaged over an orbit; masses without spin or size",
+    "radiation is of leading order: that of the quadrupole of a Kepler ellipse, averaged over an orbit; the masses "
+    "have no spin and no size",
     "the relative error is of the order of M/a; the chirp is cut at a = 6 M, the ISCO of a hole of the total mass",
     NULL,
 };
@@ -73,7 +75,7 @@ static enum kd_status fill_now(const struct parameters *p, const struct orbit *k
     if (!(a * (1 - e) > 6))
         return kd_quantity_outside(
             error, "period_s", p->period_s,
-            "for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; it must be longer", a);
+            ", for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; it must be longer", a);
     o->eta = eta;
     o->chirp_mass = kd_inspiral_chirp_mass(eta) * k->total;
     o->axis = a, o->axis_km = a * k->unit_m * 1e-3;

@@ -61,10 +61,10 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
     const bool below = p->inclination_deg > 90;
     m->inner = isinf(p->inner) ? horizon : p->inner;
     if (m->inner < horizon)
-        return kd_quantity_outside(error, "inner", m->inner, "inside the horizon at %.9g M; it must be outside",
-                                   horizon);
+        return kd_quantity_outside(error, "inner", m->inner, "; it must be at least %.9g M, the horizon", horizon);
     if (!(p->outer > m->inner))
-        return kd_quantity_outside(error, "outer", p->outer, "not above inner, %.9g M; it must be larger", m->inner);
+        return kd_quantity_outside(error, "outer", p->outer, "; it must be more than %.9g M, the value of inner",
+                                   m->inner);
     m->curve = kd_critical_of(&(struct kd_critical_observer) { .hole = kd_hole_in(p),
                                                                .radius = INFINITY,
                                                                .cos_theta = fabs(kd_cos_deg(p->inclination_deg)),

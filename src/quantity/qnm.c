@@ -21,9 +21,10 @@
       .help = "mass of the hole, with any redshift: m (1 + z)") \
     P(t, .unit = "M", .typed = "0", .least = 0, .most = 1e6, .help = "time of the sample `wave`") \
     P(shift_octaves, .unit = "1", .typed = "0", .least = -40, .most = 40, \
-      .help = "octaves by which the sound is higher than the ringing; it also decays faster by the same factor") \
+      .help = \
+          "octaves by which the sound is higher than the ringing; the sound also decays faster by the same factor") \
     P(stretch, .unit = "1", .typed = "1", .least = 1, .most = 1e6, \
-      .help = "factor by which the decay of the shifted sound is then slowed down, at the same pitch")
+      .help = "factor by which the decay of the shifted sound is slowed down, at the same pitch")
 #define OUTPUTS(O) \
     O(omega_re, .unit = "1/M", .fixed = true, .help = "angular frequency") \
     O(omega_im, .unit = "1/M", .fixed = true, .help = "minus the damping rate") \
@@ -56,7 +57,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "first order in the perturbation; gravitational waves (spin weight -2) alone",
+    "the perturbation is of first order, and consists only of gravitational waves (spin weight -2)",
     "wave is a single mode with amplitude 1 and phase 0, not a signal",
     NULL,
 };
@@ -80,11 +81,13 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     struct outputs *o = KD_QUANTITY_OUT(out);
     (void)memory;
     if (fabs(p->m) > p->l)
-        return kd_quantity_outside(error, "m", p->m, "and l is %g; it must be -%g to %g", p->l, p->l, p->l);
+        return kd_quantity_outside(error, "m", p->m, "; with l %g it must be -%g to %g", p->l, p->l, p->l);
     if (fresh) {
         struct kd_qnm mode;
         if (!kd_qnm_find((int)p->l, (int)p->m, (int)p->n, kd_hole(p->spin), &mode))
-            return kd_quantity_outside(error, "spin", p->spin, "where the iteration for this mode does not converge");
+            return kd_quantity_outside(
+                error, "spin", p->spin,
+                "; it must be different, because the iteration for this mode does not converge there");
         o->omega_re = creal(mode.omega), o->omega_im = cimag(mode.omega);
         o->separation_re = creal(mode.separation), o->separation_im = cimag(mode.separation);
         o->quality = kd_ringdown_quality(mode.omega);

@@ -38,7 +38,7 @@ KD_QUANTITY_TABLES(PARAMETERS, OUTPUTS)
 static const char *const sources[] = {
     "C. T. Cunningham 1975, ApJ 202, 788 (g; inside the ISCO, gas plunges with the E and L of the ISCO)",
     "S. E. Gralla & A. Lupsasca 2020, Phys. Rev. D 101, 044032 (rays in closed form)",
-    "J.-P. Luminet 1979, A&A 75, 228 (g_flat but for the straight rays)",
+    "J.-P. Luminet 1979, A&A 75, 228 (g_flat, except its straight rays)",
     NULL,
 };
 static const char *const approximations[] = {
@@ -63,7 +63,7 @@ static double g_of(const struct parameters *p, double r, const struct kd_ring_im
 static enum kd_status not_found(const struct memory *m, struct kd_error *error)
 {
     return kd_quantity_outside(error, "r", m->r,
-                               "too close to the horizon for its image to be found; it must be larger");
+                               "; it must be larger, because so close to the horizon no image of the ring is found");
 }
 
 static enum kd_status make_rings(const struct parameters *p, struct memory *m, struct kd_error *error)
@@ -72,11 +72,12 @@ static enum kd_status make_rings(const struct parameters *p, struct memory *m, s
     /* an observer below the plane is reflected to above the plane; only beta then differs */
     double i = p->inclination_deg, up = (i > 90 ? 180 - i : i) * (M_PI / 180);
     if (i > 89.9 && i < 90.1)
-        return kd_quantity_outside(error, "inclination_deg", i,
-                                   "where the ring is a line; it must be 0 to 89.9 or 90.1 to 180");
+        return kd_quantity_outside(
+            error, "inclination_deg", i,
+            "; it must be 0 to 89.9 or 90.1 to 180, because from the equatorial plane the ring is a line");
     m->r = isinf(p->r) ? kd_kerr_isco(hole) : p->r;
     if (m->r <= hole->outer)
-        return kd_quantity_outside(error, "r", m->r, "not outside the horizon at %.9g M", hole->outer);
+        return kd_quantity_outside(error, "r", m->r, "; it must be more than %.9g M, the horizon", hole->outer);
     bool found =
         kd_ring_image_init(&m->rings[0], hole, up, m->r, 0) && kd_ring_image_init(&m->rings[1], hole, up, m->r, 1);
     return found ? KD_OK : not_found(m, error);

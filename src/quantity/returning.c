@@ -52,7 +52,7 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "a thin disk from the ISCO to infinity; between the ISCO and the hole nothing stops light",
+    "the disk is thin and reaches from the ISCO to infinity; between the ISCO and the hole nothing stops light",
     "the disk absorbs all returning light, and radiates it again from the same place with the law of its own light",
     NULL,
 };
@@ -67,10 +67,10 @@ static enum kd_status begin(const struct parameters *p, struct memory *m, struct
         return KD_EINVAL;
     kd_returning_init(&m->table, &hole, (enum kd_limb)p->limb);
     if (!(m->table.error < KD_RETURNING_WRONG))
-        return kd_quantity_outside(
-            error, largest.name, largest.value,
-            "so close to an extremal hole that the energy balance has an error of %.1g (limit %g); it must be smaller",
-            m->table.error, KD_RETURNING_WRONG);
+        return kd_quantity_outside(error, largest.name, largest.value,
+                                   ", so close to an extremal hole that the energy balance has an error of %.1g (limit "
+                                   "%g); it must be smaller",
+                                   m->table.error, KD_RETURNING_WRONG);
     o->isco = m->table.isco;
     o->disk_returns = m->table.first.returns, o->disk_falls_in = m->table.first.falls_in,
     o->disk_escapes = m->table.first.escapes;
@@ -91,7 +91,7 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
         return status;
     const double r = isinf(p->r) ? m->table.isco : p->r;
     if (r < m->table.isco)
-        return kd_quantity_outside(error, "r", r, "inside the ISCO at %.9g M; it must be outside", m->table.isco);
+        return kd_quantity_outside(error, "r", r, "; it must be at least %.9g M, the ISCO", m->table.isco);
     const struct kd_returning_shares photons = kd_returning_shares_at(&m->table, &m->table.photons, r),
                                      energy = kd_returning_shares_at(&m->table, &m->table.energy, r);
     o->returns = photons.returns, o->falls_in = photons.falls_in, o->escapes = photons.escapes;

@@ -16,9 +16,9 @@
     P(order, .unit = "1", .typed = "0", .least = 0, .most = 1, .kind = KD_KIND_INT, \
       .help = "order of the image: 0 direct, 1 past the other side of the hole") \
     P(angle_deg, .unit = "degrees", .typed = "0:355:72", .least = -360, .most = 720, \
-      .help = "angle psi in the image plane: the direction from the origin is (cos psi, cos i sin psi), uniform " \
-              "along an unlensed ring; at a finite radius it is about the direction -r on the sky, in the frame of " \
-              "an observer that falls from rest at infinity")
+      .help = "angle psi in the image plane, uniform along an unlensed ring: the direction from the origin is (cos " \
+              "psi, cos i sin psi); at a finite radius the origin is the direction -r on the sky of an observer that " \
+              "falls from rest at infinity")
 #define OUTPUTS(O) \
     O(alpha, .unit = "M", \
       .help = "coordinate on the image plane, to the right; at any distance it labels the constants of motion; null " \
@@ -90,13 +90,14 @@ static enum kd_status evaluate(const double *in, double *out, void *memory, bool
     if (kd_hole_check(hole, error))
         return KD_EINVAL;
     if (i > 89.9 && i < 90.1)
-        return kd_quantity_outside(error, "inclination_deg", i,
-                                   "where the ring is a line; it must be 0 to 89.9 or 90.1 to 180");
+        return kd_quantity_outside(
+            error, "inclination_deg", i,
+            "; it must be 0 to 89.9 or 90.1 to 180, because from the equatorial plane the ring is a line");
     if (kd_quantity_outside_horizon(hole, r, error) || (fresh && make(p, r, m, error)))
         return KD_EINVAL;
     if (!(isinf(p->observer_r) ? see_far(p, &m->far, o) : see_near(p, &m->near, o)))
-        return kd_quantity_outside(error, "r", r,
-                                   "too close to the horizon for its image to be found; it must be larger");
+        return kd_quantity_outside(
+            error, "r", r, "; it must be larger, because so close to the horizon no image of the ring is found");
     return KD_OK;
 }
 

@@ -40,15 +40,14 @@ enum kd_status kd_quantity_outside(struct kd_error *error, const char *name, dou
     va_end(args);
     snprintf(pointer, sizeof pointer, "/%s", name);
     kd_number_format(number, value);
-    return kd_error_field(error, pointer, "%s is %s, %s", name, number, text);
+    return kd_error_field(error, pointer, "%s is %s%s", name, number, text);
 }
 
 enum kd_status kd_quantity_outside_horizon(const struct kd_hole *hole, double r, struct kd_error *error)
 {
     double horizon = hole->outer;
-    return r >= horizon
-               ? KD_OK
-               : kd_quantity_outside(error, "r", r, "inside the horizon at %.9g M; it must be outside", horizon);
+    return r >= horizon ? KD_OK
+                        : kd_quantity_outside(error, "r", r, "; it must be at least %.9g M, the horizon", horizon);
 }
 
 enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *motion, const struct kd_vantage *at,
@@ -57,7 +56,7 @@ enum kd_status kd_quantity_observer_exists(const struct kd_observer_motion *moti
     static const struct kd_observer_names names = { "", "", "observer_r", "observer" };
     const double horizon = at->hole.outer;
     if (!(at->r > horizon) && kd_observers[motion->observer].outside(&at->hole, at->u) >= horizon)
-        return kd_quantity_outside(error, "observer_r", at->r, "not outside the horizon at %.9g M", horizon);
+        return kd_quantity_outside(error, "observer_r", at->r, "; it must be more than %.9g M, the horizon", horizon);
     enum kd_status status = kd_observer_check_place(&names, motion->observer, at, error);
     return status || !isfinite(at->r) ? status : kd_observer_check_numbers(&names, motion, at, error);
 }

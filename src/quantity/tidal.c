@@ -11,7 +11,7 @@
       .help = "spin parameter a; a < 0: the star's orbit is against the hole's spin") \
     P(mass_msun, .unit = "solar masses", .typed = "1e6", .least = 1e-3, .most = 1e12, .help = "mass of the hole") \
     P(star_mass_msun, .unit = "solar masses", .typed = "1", .least = 1e-3, .most = 1e3, .help = "mass of the star") \
-    P(star_radius_rsun, .unit = "solar radii", .typed = "1", .least = 1e-6, .most = 1e4, .help = "its radius") \
+    P(star_radius_rsun, .unit = "solar radii", .typed = "1", .least = 1e-6, .most = 1e4, .help = "radius of the star") \
     P(penetration, .unit = "1", .typed = "1", .least = 0.1, .most = 100, \
       .help = "tidal radius over pericentre of its parabolic orbit") \
     P(time_days, .unit = "days", .typed = "fallback", .least = 0, .most = 1e9, .words = "fallback", \
@@ -50,10 +50,10 @@ static const char *const sources[] = {
     NULL,
 };
 static const char *const approximations[] = {
-    "Newtonian tide on a star without structure and spin, on a parabolic orbit; the hole's spin affects only horizon "
-    "and capture",
-    "debris with a uniform distribution of energy, half of it bound; simulations differ by factors of two, and rise "
-    "smoothly to the peak",
+    "the tide is Newtonian, on a star without structure and spin on a parabolic orbit; the hole's spin affects only "
+    "the horizon and the capture",
+    "energies of the debris are uniformly distributed, and half of the debris is bound; simulations differ by factors "
+    "of two, and their rate rises smoothly to the peak",
     NULL,
 };
 

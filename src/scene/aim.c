@@ -56,13 +56,14 @@ enum kd_status kd_aim_look(const struct kd_aim *aim, const struct kd_scene *scen
         return KD_OK;
     }
     if (isinf(scene->camera.r))
-        return kd_error_field(error, "/look_at", "look_at needs a finite camera.r");
+        return kd_error_field(error, "/look_at",
+                              "look_at cannot be used with camera.r \"infinity\"; camera.r must be finite");
     const struct kd_vantage at = kd_scene_vantage(scene), beside = beside_horizon(at);
     const struct kd_observer_motion motion = kd_scene_observer(scene);
     const struct kd_tetrad frame = kd_observer_tetrad(&motion, &beside);
     struct kd_covector photon = straight_out(&beside);
     if (aim->kind == KD_AIM_PLACE && !arriving(aim, scene, &beside, &photon))
-        return kd_error_field(error, "/look_at", "look_at is the position of the camera; it must be another");
+        return kd_error_field(error, "/look_at", "look_at is the position of the camera; it must be another position");
     const struct kd_look seen = kd_tetrad_look(&frame, &photon);
     const double length = sqrt(seen.right * seen.right + seen.up * seen.up + seen.inwards * seen.inwards);
     look[0] = seen.right / length;

@@ -72,11 +72,11 @@
          "angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude " \
          "(observer: infall)") \
     ENUM(camera, projection, LOOK, REST, KD_PROJECTION_AUTO, \
-         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle " \
-         "round the critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all " \
-         "directions from a finite radius, longitude to the right and latitude upwards; fulldome: the angle from the " \
-         "middle as distance, 90 degrees at the nearer edges, from a finite radius; auto: plane at infinity, " \
-         "otherwise pinhole", \
+         "plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: the " \
+         "angle round the critical curve across, the logarithm of the distance to it upwards, at infinity only; " \
+         "equirectangular: all directions from a finite radius, longitude to the right and latitude upwards; " \
+         "fulldome: the angle from the middle as distance, 90 degrees at the nearer edges, from a finite radius; " \
+         "auto: plane at infinity, otherwise pinhole", \
          "auto|plane|pinhole|ring|equirectangular|fulldome") \
     REAL(camera, field_m, LOOK, FRONT, 46.0, 1e-6, 1e7, "M", "width of the image plane (plane projection)") \
     WORD(camera, field_uas, LOOK, REST, INFINITY, 1e-12, 1e12, "microarcseconds", \
@@ -167,8 +167,8 @@
          "temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: " \
          "particles)") \
     REAL(disk, epicycles, MODEL, REST, 0.02, 0.0, 0.2, "1", \
-         "largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes " \
-         "at the ISCO, it is also the largest relative amplitude of oscillations in r (model: particles)") \
+         "largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the " \
+         "ISCO, also the largest relative amplitude of oscillations in r (model: particles)") \
     BOOL(disk, slow_light, PHYSICS, REST, false, \
          "show particles, gas, spots and a flash at the time when the light of each ray left them, instead of at one " \
          "coordinate time")
@@ -256,8 +256,8 @@
          "are powers of r; torus, a thick disk in equilibrium; grid, numbers from a file", \
          "none|uniform|gold|riaf|torus|grid") \
     WORD(volume, inner, MODEL, REST, INFINITY, 1.0, 3e4, "M", \
-         "inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a " \
-         "radio frequency; for a torus half of volume.torus_radius", \
+         "inner edge; horizon: 1 % outside the horizon, or 0.05 % for the models at a radio frequency; for a torus, " \
+         "half of volume.torus_radius", \
          "horizon") \
     REAL(volume, outer, MODEL, FRONT, 20.0, 1.0, 3e4, "M", "outer edge of the matter; larger than the inner edge") \
     REAL(volume, emissivity, MODEL, FRONT, 0.02, 0.0, 1e30, "1/M", \
@@ -361,9 +361,10 @@
 
 #define KD_POLARIZATION_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     ENUM(polarization, model, MODEL, FRONT, KD_POLARIZATION_NONE, \
-         "polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and " \
-         "the ray in the gas's frame; scattering, in a deep atmosphere of free electrons, perpendicular to the " \
-         "normal and the ray. transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays", \
+         "polarisation. none; synchrotron: of light from the disk's plane, perpendicular to polarization.field and " \
+         "the ray in the gas's frame; scattering: of light from the disk's plane, by a deep atmosphere of free " \
+         "electrons, perpendicular to the normal and the ray; transfer: of a volume at a radio frequency, Stokes I, " \
+         "Q, U and V along the rays", \
          "none|synchrotron|scattering|transfer") \
     ENUM(polarization, field, MODEL, REST, KD_FIELD_TOROIDAL, \
          "direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model: " \
@@ -388,9 +389,9 @@
          "the stars of the Hipparcos catalogue over that Milky Way; or sky.image without stars", \
          "none|grid|stars|catalogue|image") \
     WORD(sky, brightness, MODEL, FRONT, INFINITY, 0.0, 100.0, "1", \
-         "brightness, in units of the disk's brightest surface brightness at g = 1, of the grid, or of a sky of 21 " \
-         "magnitudes per square arcsecond; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for " \
-         "stars and the Milky Way behind other light", \
+         "brightness of the grid, or of a sky of 21 magnitudes per square arcsecond, in units of the disk's " \
+         "brightest surface brightness at g = 1; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 " \
+         "for stars and the Milky Way behind other light", \
          "auto") \
     REAL(sky, grid_deg, MODEL, REST, 15.0, 1.0, 90.0, "degrees", "spacing of the celestial grid") \
     REAL(sky, milky_way, MODEL, FRONT, 1.0, 0.0, 100.0, "1", \
@@ -399,7 +400,8 @@
           "picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as " \
           "wide as high, with galactic longitude 0 in the middle and rising to the left, latitude rising upwards; " \
           "its white is 21 magnitudes per square arcsecond") \
-    REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", "magnitude of the faintest stars") \
+    REAL(sky, limit_mag, MODEL, REST, 14.0, -2.0, 14.0, "magnitudes", \
+         "magnitude of the faintest stars that are shown") \
     INT(sky, seed, MODEL, REST, 1, 0, 2147483647, "1", "seed of the random numbers of the generated sky") \
     ENUM( \
         sky, orientation, MODEL, FRONT, KD_SKY_GALACTIC, \
@@ -420,14 +422,13 @@
         "differ from their neighbours", \
         "auto") \
     REAL(image, pixel_error, LOOK, REST, 0.003, 0.001, 0.5, "1", \
-         "apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays " \
-         "(samples: auto)") \
+         "apparent error, as a fraction of white, above which a pixel of one ray gets more rays (samples: auto)") \
     INT(image, critical_factor, LOOK, REST, 4, 1, 16, "1", \
         "factor on the number of rays along each side of pixels at the critical curve, where the photon ring is " \
         "thinner than a pixel; the product is at most 16") \
     INT(image, bit_depth, LOOK, REST, 8, 8, 16, "bits", "bits a channel: 8 or 16") \
     WORDS(image, layers, LOOK, REST, \
-          "contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the " \
+          "contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing of the " \
           "disk, or with the suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and " \
           "NPY have several as numbers", \
           "rgb|intensity_N|g_N|temperature_N|r_N|phi_N|delay_N|emission_angle_N|order|sky_theta|sky_phi|fate|" \
@@ -452,8 +453,8 @@
          "style, which sets all fields of the look except those that the document sets; none: no style", \
          "none|film|raw|dngr|eht|starless") \
     WORD(style, exposure, LOOK, FRONT, INFINITY, -40.0, 40.0, "stops", \
-         "exponent of 2 of the exposure, relative to the disk's brightest surface brightness at g = 1; " \
-         "auto: by the light in the picture, with a limit for pictures of stars alone so that empty space is black", \
+         "exposure as an exponent of 2, relative to the disk's brightest surface brightness at g = 1; auto: by the " \
+         "light in the picture, with a limit for pictures of stars alone so that empty space is black", \
          "auto") \
     ENUM(style, tone_map, LOOK, FRONT, KD_TONE_ACES, \
          "aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours, and compresses light " \

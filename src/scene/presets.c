@@ -278,9 +278,9 @@ static enum kd_status unknown(const char *name, struct kd_error *error)
         used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", i ? ", " : "", kd_presets[i].name);
     }
     if (meant.name)
-        return kd_error_set(error, KD_EINVAL, "there is no preset \"%s\"; did you mean %s? Known are %s", shown,
+        return kd_error_set(error, KD_EINVAL, "there is no preset \"%s\"; did you mean %s? The presets are %s", shown,
                             meant.name, known);
-    return kd_error_set(error, KD_EINVAL, "there is no preset \"%s\"; known are %s", shown, known);
+    return kd_error_set(error, KD_EINVAL, "there is no preset \"%s\"; the presets are %s", shown, known);
 }
 
 void kd_scene_smooth(struct kd_scene *scene)

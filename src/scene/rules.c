@@ -216,10 +216,11 @@ static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
     if (m->proper_time_rate == 0)
         return KD_OK;
     if (!kd_worldline_is_known(&motion, &at))
-        return kd_error_field(error, "/motion/proper_time_rate",
-                              "motion.proper_time_rate is %s; it must be 0 unless camera.observer stays, orbits in "
-                              "the equatorial plane or falls without leaving its latitude, from a finite camera.r",
-                              show(m->proper_time_rate).text);
+        return kd_error_field(
+            error, "/motion/proper_time_rate",
+            "motion.proper_time_rate is %s; it must be 0 unless the observer stays at a finite camera.r, orbits there "
+            "in the equatorial plane, or falls from there at constant latitude",
+            show(m->proper_time_rate).text);
     if (kd_scene_is_slow(scene) && scene->camera.observer == KD_OBSERVER_INFALL) {
         const char *of = scene->disk.slow_light ? "disk" : "volume";
         return kd_error_field(error, scene->disk.slow_light ? "/disk/slow_light" : "/volume/slow_light",
@@ -620,7 +621,7 @@ static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *er
     if (!kd_scene_is_magnetic(scene))
         return kd_error_field(error, "/polarization/model",
                               "polarization.model is \"transfer\", which needs a volume.model with electrons in a "
-                              "magnetic field: \"riaf\", \"torus\", \"grid\"");
+                              "magnetic field: \"riaf\", \"torus\" or \"grid\"");
     if (scene->volume.electrons == KD_VOLUME_KAPPA && !(scene->volume.kappa >= 3.5 && scene->volume.kappa <= 5))
         return kd_error_field(error, "/volume/kappa",
                               "volume.kappa is %s; with polarization.model \"transfer\" it must be 3.5 to 5, for which "

@@ -160,8 +160,8 @@ static enum kd_status go_on(struct kd_scene *scene, double proper_time, struct k
         return KD_OK;
     if (!kd_worldline_is_known(&motion, &at))
         return kd_error_field(error, "",
-                              "proper_time is %.9g M; it must be 0 unless camera.observer stays, orbits in the "
-                              "equatorial plane or falls without leaving its latitude, from a finite camera.r",
+                              "proper_time is %.9g M; it must be 0 unless the observer stays at a finite camera.r, "
+                              "orbits there in the equatorial plane, or falls from there at constant latitude",
                               proper_time);
     kd_scene_go_on(scene, proper_time);
     return KD_OK;

@@ -29,8 +29,9 @@ static enum kd_status read_place(struct reader *r, const cJSON *item, const char
     unsigned frame = 0;
     char allowed[80];
     if (!first && last(r)->at >= r->form->most)
-        return kd_error_field(r->error, pointer, "%s follows a keyframe at %.9g, which must be the last", pointer + 1,
-                              r->form->most);
+        return kd_error_field(r->error, pointer,
+                              "%s cannot be used, because the keyframe before it is at %.9g, the latest place",
+                              pointer + 1, r->form->most);
     if (r->form->whole) {
         enum kd_status status = kd_member_whole(item, pointer, first ? 0 : (unsigned)last(r)->at + 1,
                                                 (unsigned)r->form->most, &frame, r->error);
@@ -67,15 +68,13 @@ static enum kd_status read_proper_time(struct reader *r, const cJSON *item, cons
                                           : NAN;
     if (!(value >= 0 && value <= 1e12))
         return kd_member_refuse(item, pointer,
-                                "0 to 1000000000000 M, or \"horizon\" or \"end\" of an observer that falls from "
-                                "further out without leaving its "
-                                "latitude",
+                                "0 to 1000000000000 M, or \"horizon\" or \"end\" for an observer that falls from "
+                                "further out at constant latitude",
                                 r->error);
     if (value > 0 && !kd_worldline_is_known(&motion, &at))
         return kd_member_refuse(item, pointer,
-                                "0 unless camera.observer stays, orbits in the equatorial plane or falls without "
-                                "leaving its latitude, from a "
-                                "finite camera.r",
+                                "0 unless the observer stays at a finite camera.r, orbits there in the equatorial "
+                                "plane, or falls from there at constant latitude",
                                 r->error);
     if (value > 0 && key->scene.motion.proper_time_rate > 0)
         return kd_error_field(r->error, pointer, "%s cannot be used with motion.proper_time_rate", pointer + 1);

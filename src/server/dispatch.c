@@ -22,7 +22,7 @@
 #include <string.h>
 
 #define BODIES_TOO_MANY "too many bodies are being received"
-#define BODIES_OF_CLIENT "too many bytes of your request bodies are being received at once (limit for one client)"
+#define BODIES_OF_CLIENT "too many bytes of your requests are being received at once (limit for one client)"
 /* largest body that can arrive at 32 kB/s within the default deadline of 30 s */
 #define PACE ((size_t)960000)
 
@@ -306,7 +306,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     else if (makes_something(request) && !kd_reply_matches(request, NULL))
         problem = (struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
                                         .close = request->body_announced,
-                                        .detail = "no resource here has an ETag of If-Match" };
+                                        .detail = "no resource at this address has an ETag of If-Match" };
     else if (!query_fault(request, &error, &problem) && !body_fault(request, &told, &problem) &&
              kd_once_read(request, &problem, key))
         return true;

@@ -74,7 +74,8 @@ enum kd_status kd_vk_functions_load_own(struct kd_vk_functions *fn, const char *
     void *library = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (!library)
         return kd_error_set(error, KD_EDEVICE,
-                            "the system has no device of Vulkan 1.2, and kerrd's own cannot be used: %s", dlerror());
+                            "the system has no device of Vulkan 1.2, and kerrd's own driver cannot be used: %s",
+                            dlerror());
     return load(fn, library, "vk_icdGetInstanceProcAddr", error);
 }
 

@@ -187,14 +187,14 @@ enum kd_status kd_vk_heap_take(struct kd_vk_heap *heap, const struct kd_vk_core 
     enum kd_status status = take_or_grow(heap, core, type, size, alignment, out, &why);
     if (!status)
         return KD_OK;
-    return kd_error_set(error, status, "%.2f MiB of %s memory: %.200s (%.2f MiB are held, the heap has %.0f MiB)",
-                        (double)size / 0x1p20,
-                        memory == KD_VK_DEVICE   ? "device"
-                        : memory == KD_VK_UPLOAD ? "upload"
-                                                 : "readback",
-                        why.message, (double)kd_vk_heap_bytes(heap) / 0x1p20,
-                        (double)heap->properties.memoryHeaps[heap->properties.memoryTypes[type].heapIndex].size /
-                            0x1p20);
+    return kd_error_set(
+        error, status, "cannot allocate %.2f MiB of %s memory: %.200s (%.2f MiB are in use, the heap has %.0f MiB)",
+        (double)size / 0x1p20,
+        memory == KD_VK_DEVICE   ? "device"
+        : memory == KD_VK_UPLOAD ? "upload"
+                                 : "readback",
+        why.message, (double)kd_vk_heap_bytes(heap) / 0x1p20,
+        (double)heap->properties.memoryHeaps[heap->properties.memoryTypes[type].heapIndex].size / 0x1p20);
 }
 
 void kd_vk_heap_give(struct kd_vk_heap *heap, const struct kd_vk_core *core, const struct kd_vk_slice *slice)

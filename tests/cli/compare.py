@@ -223,7 +223,7 @@ class Compare(Case):
         self.good("observe", *csv_alone, "-o", self.path("again.csv"))
         self.assertLess(self.told("--observation", self.path("again.csv"), *asked)["chi2"]["visibility"], 1.1)
         for given, words in (
-            ([*csv_alone, "-o", self.path("a.uvfits")], "observation is a CSV, which has no places of stations"),
+            ([*csv_alone, "-o", self.path("a.uvfits")], "observation is a CSV, which has no positions of stations"),
             (["--observation", compared.CSV, *compared.THIN], "flux_jy is auto; it must be a number"),
             (["-p", "riaf"], "observation is missing"),
             ([*csv_alone, "--seed", "-1"], "seed is -1; it must be a whole number from 0 to 4294967295"),

@@ -154,7 +154,7 @@ class Config(support.Case):
             ('{"port": 1, "port": 2}', "port is given twice"),
             ('{"prt": 1}', "there is no field prt here; did you mean port? (at /prt)"),
             ('{"config": "x"}', "there is no field config here"),
-            ('{"zzzzzzzz": 1}', "known are listen, port"),
+            ('{"zzzzzzzz": 1}', "the fields are listen, port"),
             ('{"port": 01}', "JSON"),
             ('{"port": 1} x', "JSON"),
             (" " * 70000, "65536"),

@@ -293,7 +293,7 @@ class Grid(Case):
                 self.path("a.png"),
             ).stderr
         )
-        self.assertIn("volume: volume.grid is not set: there is no matter", told["approximations"])
+        self.assertIn("volume: there is no matter, because volume.grid is not set", told["approximations"])
         self.assertEqual(told["flux_jy"], 0)
 
     def test_the_plan_counts_its_nodes(self):

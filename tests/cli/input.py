@@ -73,7 +73,13 @@ class Usage(Case):
                 + chunk(b"IDAT", zlib.compress(b"\0\0"))
                 + chunk(b"IEND", b"")
             )
-        self.bad(2, "--asset sky: no field of the scene names it", "scene", "--asset", "sky=" + picture)
+        self.bad(
+            2,
+            "--asset sky cannot be used, because no field of the scene refers to this name",
+            "scene",
+            "--asset",
+            "sky=" + picture,
+        )
         self.bad(2, "not a PNG file", "scene", "--asset", "sky=" + self.write("b.png", "text"))
         for begin, words in (
             (b"\x93NUMPY\x01\0", "an NPY file, which has one array"),
@@ -82,7 +88,15 @@ class Usage(Case):
         ):
             self.bad(2, words, "scene", "--asset", "g=" + self.write("b.npz", begin + bytes(200)))
         self.bad(2, "No such file", "scene", "--asset", "sky=" + self.path("none.png"))
-        self.bad(2, "this name is given twice", "scene", "--asset", "sky=a", "--asset", "sky=b")
+        self.bad(
+            2,
+            "--asset sky is given twice; each name must be given once",
+            "scene",
+            "--asset",
+            "sky=a",
+            "--asset",
+            "sky=b",
+        )
         for text in "sky", "sky=", "=a.png", "2=a.png", "a/b=a.png", "a" * 64 + "=a.png":
             self.bad(2, "it must be NAME=FILE", "scene", "--asset", text)
 
@@ -132,11 +146,13 @@ class Usage(Case):
         self.bad(2, "--wrong", "--wrong")
         self.bad(2, "--wrong", "render", "--wrong")
         self.bad(2, "-o FILE is missing", "render")
-        self.bad(2, "one scene at a time", "scene", "a.json", "b.json")
+        self.bad(
+            2, "b.json cannot be used with a.json, because the command takes one scene", "scene", "a.json", "b.json"
+        )
         self.bad(2, "no argument", "presets", "x")
         self.bad(2, "no argument", "serve", "x")
         self.bad(2, "no argument", "doctor", "x")
-        self.bad(2, "--json needs --selftest", "doctor", "--json")
+        self.bad(2, "--json cannot be used without --selftest", "doctor", "--json")
         self.bad(2, "error, warn, info or debug", "scene", "--log-level", "loud")
         for port in ["", "-1", "65536", "80x", " 80", "99999999999999999999"]:
             self.bad(2, "0 to 65535", "serve", "--port", port)
@@ -217,7 +233,7 @@ class Names(Case):
                 for name in names:
                     self.bad(
                         2,
-                        f'is "{self.path(name)}": the name must end in .',
+                        f'is "{self.path(name)}"; the name must end in .',
                         *command,
                         option,
                         self.path(name),

@@ -34,7 +34,9 @@ class Orbit(Case):
     GENERIC = ["--spin", "0.9", "--p", "6", "--e", "0.5", "--inclination-deg", "30"]
 
     def test_usage(self):
-        self.bad(2, "one file at a time", "orbit", "a.json", "b.json")
+        self.bad(
+            2, "b.json cannot be used with a.json, because the command takes one file", "orbit", "a.json", "b.json"
+        )
         self.bad(2, "json, ndjson, csv or npy", "orbit", "--case", "isco", "--format", "png")
         self.bad(2, "orbit is missing", "orbit")
         self.bad(2, "No such file", "orbit", self.path("absent.json"))

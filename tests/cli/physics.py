@@ -73,10 +73,10 @@ class Physics(Case):
         self.assertEqual(len(self.good("physics", "kerr", "--r", "3:30:100000", "-f", "csv").splitlines()), 100001)
 
     def test_refused(self):
-        self.bad(2, "known are kerr, ", "physics", "nothing")
+        self.bad(2, "the quantities are kerr, ", "physics", "nothing")
         for words, *args in (
             ("--mass", "--mass", "1"),
-            ("parameters are options", "0.5"),
+            ("0.5 must be an option, as in --spin VALUE", "0.5"),
             ("json, csv or wav", "-f", "npy"),
         ):
             done = run("physics", "kerr", *args)  # the hint that argp adds takes two lines
@@ -156,7 +156,7 @@ class Integrals(Case):
             (["--bins", "0"], "(at /bins)"),
             (["--height", "9"], "belongs to emissivity lamppost"),
             (["absent.json"], "No such file"),
-            (["a.json", "b.json"], "one file at a time"),
+            (["a.json", "b.json"], "b.json cannot be used with a.json, because the command takes one file"),
             (["-f", "png"], "json, csv, npy or npz"),
         ):
             self.bad(2, words, "line", *args)

@@ -86,7 +86,10 @@ class Playground(Case):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(told[0]["kind"], "lost", told[0])
         self.assertEqual([one["number"] for one in told[1:]], list(range(told[0]["to"] + 1, told[0]["to"] + 4097)))
-        self.assertIn(f"{told[0]['to']} events are lost; at most 4096 of one sub-step are stored".encode(), done.stderr)
+        self.assertIn(
+            f"{told[0]['to']} events are lost, because at most 4096 events of one sub-step are stored".encode(),
+            done.stderr,
+        )
         ring = [
             {**body, "radius": 0.5, "position": [30 * x for x in body["position"]], "velocity": [0, 0, 0]}
             for body in ring[:1000]

@@ -28,7 +28,7 @@ class Rays(Case):
 
     def test_usage(self):
         self.bad(2, "there are no rays", "rays")
-        self.bad(2, "one file at a time", "rays", "a.json", "b.json")
+        self.bad(2, "b.json cannot be used with a.json, because the command takes one file", "rays", "a.json", "b.json")
         for ray in ["", "1", "1,", ",1", "1,2,3", "1 ,2", "1,nan", "x,1", "+1,2", "1,2 "]:
             self.bad(2, "ALPHA,BETA", "rays", "--ray", ray)
         self.bad(2, "json, npy or csv", "rays", "--ray", "1,2", "--format", "png")

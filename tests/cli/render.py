@@ -224,7 +224,7 @@ class Pictures(Case):
         )
         self.bad(
             2,
-            "--asset ground: no field of the scene names it",
+            "--asset ground cannot be used, because no field of the scene refers to this name",
             "render",
             *named,
             "--asset",
@@ -241,7 +241,7 @@ class Pictures(Case):
         self.bad(
             2, "image.width is null where a number is needed", "render", *SMALL, "--set", "image.width=null", "-o", "-"
         )
-        self.assertIn(b"the generated Milky Way takes its place", text(alone)[b"kerrd:approximations"])
+        self.assertIn(b"the generated Milky Way is shown", text(alone)[b"kerrd:approximations"])
         self.assertNotIn(b"Copyright", text(alone))
 
     def test_pipes_give_the_bytes_of_a_file(self):
@@ -607,21 +607,21 @@ class Devices(Case):
             return subprocess.run(words, env={**none, **more}, capture_output=True)
 
         here = self.good("doctor", env={**os.environ, "VK_DRIVER_FILES": manifest})
-        self.assertNotIn(b"installed with kerrd", here)
+        self.assertNotIn(b"this driver is part of kerrd", here)
         for place in ("lib/kerrd-driver", "bin/kerrd-driver"):
             os.makedirs(self.path(place))
             link = self.path(f"{place}/libvulkan_lvp.so")
             os.symlink(lavapipe, link)
             self.assert_drawn(draw(), "own.png")
             doctor = subprocess.run([program, "doctor"], env=none, capture_output=True).stdout
-            self.assertIn(b"the driver is installed with kerrd; the system has none of Vulkan 1.2", doctor)
+            self.assertIn(b"this driver is part of kerrd, because the system has no driver of Vulkan 1.2", doctor)
             self.assertEqual(draw(VK_DRIVER_FILES="/nonexistent").returncode, 1)
             os.remove(link)
             with open(link, "w") as file:
                 file.write("no library")
             done = draw()
             self.assertEqual(done.returncode, 1)
-            self.assertIn(b"kerrd's own cannot be used: ", done.stderr)
+            self.assertIn(b"kerrd's own driver cannot be used: ", done.stderr)
             os.remove(link)
 
     def test_own_c_library(self):

@@ -93,7 +93,7 @@ class Sign(Case):
         self.refused("--token-file is missing")
         self.refused("--key is missing", "-T", self.tokens)
         self.refused("--expires is missing", "-T", self.tokens, "-k", "website")
-        self.bad(2, "one address at a time", "sign", "a", "b")
+        self.bad(2, "b cannot be used with a, because the command takes one address", "sign", "a", "b")
 
     def test_what_is_wrong(self):
         good = ("-T", self.tokens, "-e", "1d")

@@ -347,7 +347,7 @@ class Sweep(support.Case):
         self.assertEqual(units["rgb"].data.shape, (2, 3, 36, 64))
         self.bad(
             2,
-            "--asset b: no field of the scene names it",
+            "--asset b cannot be used, because no field of the scene refers to this name",
             "sweep",
             *SCENE,
             *sky[:-1],

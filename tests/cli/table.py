@@ -190,7 +190,7 @@ class Table(support.Case):
             (2, "index has two axes", ["-x", "index=2,3", "-x", "index=4,5", *out]),
             (2, "inner has two axes", ["-x", "inner=6,7", "-x", "inner_isco=1,2", *out]),
             (2, "index has an axis and a value", ["-x", "index=2,3", "-s", "index=2", *out]),
-            (2, "within the ISCO of this hole", ["-x", "spin=0,0.9", "-x", "inner=3,4", *out]),
+            (2, "the ISCO of this hole", ["-x", "spin=0,0.9", "-x", "inner=3,4", *out]),
             (2, "belongs to emissivity lamppost", ["-x", "height=3,4", *out]),
             (2, "counts is energy", ["-s", "counts=energy", *out]),
             (2, "the first edge is 0", ["-s", "energy_min=0", *out]),

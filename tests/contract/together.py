@@ -41,7 +41,7 @@ SCENE = (
     "camera.r is %s M; it must be more than %s M, the horizon of %s",
     *OBSERVER,
     'camera.%s is %s; it must be %s unless camera.observer is "%s" at a finite camera.r',
-    "motion.proper_time_rate is %s; it must be 0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+    "motion.proper_time_rate is %s; it must be 0 unless the observer stays at a finite camera.r, orbits there in the equatorial plane, or falls from there at constant latitude",
     "%s.slow_light is true; with motion.proper_time_rate %s of a falling observer it must be false, because the fall enters the ergosphere, where slow light is not computed",
     "motion.%s is %s; with motion.proper_time_rate %s it must be 0, because the observer's path determines time and azimuth",
     'camera.stereo is "pair"; it must be "none" unless camera.r is finite and the projection is pinhole',
@@ -79,7 +79,7 @@ SCENE = (
     "image.tile.left is %d and image.tile.top %d pixels; both must be 0 without image.tile.width and image.tile.height",
     "image.tile.width is %d pixels from column %d; it must be at most %d in a picture of image.width %d",
     "image.tile.height is %d pixels from row %d; it must be at most %d in a picture of image.height %d",
-    'polarization.model is "transfer", which needs a volume.model with electrons in a magnetic field: "riaf", "torus", "grid"',
+    'polarization.model is "transfer", which needs a volume.model with electrons in a magnetic field: "riaf", "torus" or "grid"',
     'volume.kappa is %s; with polarization.model "transfer" it must be 3.5 to 5, for which Faraday rotation is known',
     'polarization.model is "transfer", which needs a scene where only the volume shines: disk.model and sky.model "none", no jets, spots, flash or bodies',
     'polarization.model is "transfer"; with camera.projection "ring", whose picture has no upward direction, it must be "none"',
@@ -143,20 +143,20 @@ PICTURE = (
     'camera.stereo is "pair"; for names of stars it must be "none"',
 )
 TIMELINE = (
-    "look_at needs a finite camera.r",
-    "look_at is the position of the camera; it must be another",
-    "proper_time is %.9g M; it must be 0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
-    "%s follows a keyframe at %.9g, which must be the last",
+    'look_at cannot be used with camera.r "infinity"; camera.r must be finite',
+    "look_at is the position of the camera; it must be another position",
+    "proper_time is %.9g M; it must be 0 unless the observer stays at a finite camera.r, orbits there in the equatorial plane, or falls from there at constant latitude",
+    "%s cannot be used, because the keyframe before it is at %.9g, the latest place",
     "%s cannot be used with motion.proper_time_rate",
     "keyframes/%zu/at is %s; it must be |a number %s %.9g to %.9g",  # each keyframe is later than the one before it
     "keyframes/%zu/frame is %s; it must be |a whole number from %u to %u",
     "frames is %s; it must be |a whole number from %u to %u",
-    'keyframes/%zu/proper_time is %s; it must be |0 to 1000000000000 M, or "horizon" or "end" of an observer that falls from further out without leaving its latitude',
-    "keyframes/%zu/proper_time is %s; it must be |0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r",
+    'keyframes/%zu/proper_time is %s; it must be |0 to 1000000000000 M, or "horizon" or "end" for an observer that falls from further out at constant latitude',
+    "keyframes/%zu/proper_time is %s; it must be |0 unless the observer stays at a finite camera.r, orbits there in the equatorial plane, or falls from there at constant latitude",
 )
 RADII = (
     HOLE,
-    'inner is %.9g, within the ISCO of this hole, %.9g M; it must be at least that, or "isco"',
+    'inner is %.9g; it must be "isco" or at least %.9g M, the ISCO of this hole',
     "outer is %.9g and inner is %.9g; outer must be larger than inner",
     "%s is %.17g, too close to an extremal hole for double precision to follow the disk's image at inclination_deg %.9g",
 )
@@ -165,7 +165,7 @@ CORONA = (
     "height is %.9g; it must be at least %.9g, %g times corona_radius",
     "motion is corotating, which is faster than light %.9g M from the axis and %.9g M above the plane; it must be static or zamo, or the corona must be elsewhere",
     "height is %.9g; it must be at least %.9g, 1.05 times the horizon of this hole",
-    "height and corona_radius place the source where no light that reaches the observer directly was found; one of them, or inclination_deg, must be different",
+    "no direct light from the source to the observer was found for this height and corona_radius; one of them, or inclination_deg, must be different",
 )
 SESSION = (
     "image.layers has %zu layers; in a session, which shows one picture, it must have one",
@@ -178,7 +178,7 @@ OF_SCENES = "(GET|POST) /v1/(render|pixel|share)$|POST /v1/(plan|sessions|jobs|p
 TOGETHER = [
     (OF_SCENES, SCENE + ENGINE),
     ("(GET|POST) /v1/render|POST /v1/jobs", PICTURE),
-    ("(GET|POST) /v1/render", ("quality is %s; it must be absent with format %s, which is exact",)),
+    ("(GET|POST) /v1/render", ("quality is %s; it cannot be used with format %s, which is exact",)),
     (
         "(GET|POST) /v1/share",
         (
@@ -214,7 +214,7 @@ TOGETHER = [
             'disk.model is "%.*s"; for a list of particles it must be "particles"',
             "%s is %s; it must be a whole number from %g to %.0f of the scene's %u particles",
             "count is %zu; it must be 1 to %zu for %u particles with first %u and stride %u",
-            "count is %zu with %zu bytes a particle; it must be 1 to %llu in one answer: first gives the rest, stride fewer",
+            "count is %zu with %zu bytes a particle; it must be 1 to %llu in one answer; first selects the rest, and a larger stride selects fewer",
         ),
     ),
     # the refusal depends on the contents of a job
@@ -224,7 +224,7 @@ TOGETHER = [
             "frame must be the number of a frame of this job, counted from 0",
             "rate must be a whole number of frames a second from 1 to 120, with format=mp4 or webm",
             "format must be %s| for all frames; or %s or %s, optionally with frame=NUMBER",
-            "format is %s: the frames of this job are %s",
+            "format must be %s, because the frames of this job are %s",
             "frame cannot be used with a %s; it belongs to pictures",
         ),
     ),
@@ -236,9 +236,9 @@ TOGETHER = [
         + (
             "corona_inner is %.9g and corona_radius %.9g; corona_radius must be larger than corona_inner",
             "corona_top is %.9g and height %.9g; corona_top must be larger than height",
-            "%s is %.9g after %.9g; each must be larger than the one before",
+            "%s has %.9g after %.9g; each must be larger than the one before",
             "energy_max is %.9g and energy_min %.9g; energy_max must be larger than energy_min",
-            "height is %.9g, from which rays to some radii of the disk were not found; it must be different",
+            "height is %.9g M; it must be different, because no rays from there to some radii of the disk were found",
             "%s is %.17g, so close to an extremal hole that the profile is not a number",
         ),
     ),
@@ -257,10 +257,10 @@ TOGETHER = [
         RADII
         + CORONA
         + (
-            "%s is %.9g after %.9g; each must be larger than the one before",
+            "%s has %.9g after %.9g; each must be larger than the one before",
             "energy_max is %.9g and energy_min %.9g; energy_max must be larger than energy_min",
-            "height and corona_radius place the source where rays to some radii of the disk were not found; one of them must be different",
-            "inclination_deg has a value for which no ray to the ring at %.9g was found; it must be different",
+            "no rays from the source to some radii of the disk were found for this height and corona_radius; one of them must be different",
+            "no ray to the ring at %.9g M was found for this inclination_deg; it must be different",
         ),
     ),
     (
@@ -276,22 +276,22 @@ TOGETHER = [
             "frequency_max is %.9g and frequency_min %.9g; frequency_max must be larger than frequency_min",
             "reference_max is %.9g and reference_min %.9g; reference_max must be larger than reference_min",
             "%u bins with %u frequencies make too many rows (limit %u)",
-            "the first edge is 0, where a power law has no number of photons; it must be above 0",
+            "the first edge is 0; it must be above 0, because a power law has infinitely many photons down to 0",
         ),
     ),
     (
         "POST /v1/spectrum",
         RADII
         + (
-            "%s is %.9g after %.9g; each must be larger than the one before",
+            "%s has %.9g after %.9g; each must be larger than the one before",
             "frequency_max_hz is %.9g and frequency_min_hz %.9g; frequency_max_hz must be larger than frequency_min_hz",
             "%s is %.17g, so close to an extremal hole that the flux at %.9g Hz is not a number",
             "%s is %.17g, so close to an extremal hole that the energy balance of returning light has an error of %.1g (limit %g); it must be further from extremal",
             'inner is %.9g; with returning "%s" it must be the ISCO, %.9g M, or "isco"',
             'returning is "scattered", which needs an atmosphere of electrons; limb must be "scattering"',
-            "inclination_deg is %.9g, next to edge on, where a thin disk shows its lower face too (3 %% of the light at 89 degrees, half at 90); %s it must be 0 to 87 or 93 to 180",
+            "inclination_deg is %.9g; %s it must be 0 to 87 or 93 to 180, because nearer to edge on the lower face of the disk is seen too (3 %% of the light at 89 degrees, half at 90)",
             'polarization is "yes", which needs an atmosphere of electrons; limb must be "scattering"',
-            'the scene has no light of one frequency in physical units, as a spectrum needs; volume.model must be a model with volume.frequency_ghz, such as gold or riaf, or disk.band "frequency"; without scene and preset the spectrum is that of a thin disk',
+            'the scene has no light of one frequency in physical units, which a spectrum needs; volume.model must be "gold", "riaf", "torus" or "grid", or disk.band must be "frequency"; without scene and preset the spectrum is that of a thin disk',
             'a spectrum needs a scene where only a volume, or only a disk with disk.band "frequency", shines: sky.model must be "none", and there must be no jets, spots, flash or bodies',
             "camera.projection does not preserve areas, as a flux needs; it must be plane or pinhole",
         ),
@@ -299,7 +299,7 @@ TOGETHER = [
     (
         "POST /v1/visibility",
         (
-            "u has %zu numbers and v has %zu; both must have as many",
+            "u has %zu numbers and v has %zu; both must have the same number",
             "%zu lengths at %zu angles make too many baselines (limit %u)",
             "%zu baselines with %u orders make too many rows (limit %u)",
             "orders is %u; without a disk, which alone has separate image orders, it must be 0",
@@ -318,7 +318,7 @@ TOGETHER = [
             "solve has shift; products must have visibility, because amplitudes and closures do not depend on the position",
             "none of the %zu visibilities can be compared, and %zu of them have too short baselines: uv_min_gl or snr_cut must be lower",
             "there are %zu visibilities and %zu rows to compare; there must be at most %u of each; a larger average_s gives fewer",
-            "the observation has more than %d amplitudes and closures, the limit: average over longer times, or use a minimal set",
+            'the observation has more than %d amplitudes and closures; a larger average_s or closures "minimal" gives fewer',
             'visibilities need a flat map seen from infinity: camera.r must be "infinity", and camera.projection auto or plane',
             "the picture of %u x %u pixels is dark and has no visibilities",
         ),
@@ -328,7 +328,7 @@ TOGETHER = [
         (
             "observation is not an asset of this server; it must be the SHA-256 of one, or %s",
             "flux_jy is auto; it must be a number, because the scene's light has no frequency and thus no flux in Jy",
-            "observation is a CSV, which has no places of stations; for uvfits it must be a uvfits file",
+            "observation is a CSV, which has no positions of stations; for uvfits it must be a uvfits file",
             "the observation has %zu visibilities; it must have at most %u to be simulated",
             'visibilities need a flat map seen from infinity: camera.r must be "infinity", and camera.projection auto or plane',
             "the picture of %u x %u pixels is dark and has no visibilities",
@@ -349,7 +349,7 @@ TOGETHER = [
         + (
             # OpenAPI's parameters apply to all bodies of an operation
             "the query may have parameters only with a body of application/x-npy|; with JSON they must be in the document",
-            'r is %.16g; it must be "infinity" or a radius above that of the horizon, %.9g, up to %g',
+            'r is %.16g; it must be "infinity", or more than %.9g, the horizon, and at most %g',
             HOLE,
             *OBSERVER,
             "no light with the constants of ray %zu, alpha = %.9g and beta = %.9g, reaches an observer at r = %.9g",
@@ -359,20 +359,20 @@ TOGETHER = [
         "POST /v1/orbits",
         (
             HOLE,
-            "%u samples of %zu orbits are too many (limit %u in all)",
-            "energy %s and angular_momentum %s are too close to those of the unstable circle at r = %.9g for double precision to decide how long the body whirls there, and whether it falls or returns; they must differ from these by some parts in 1e12",
+            "samples is %u for each of %zu orbits; there must be at most %u samples in all",
+            "energy %s and angular_momentum %s are too close to those of the unstable circular orbit at r = %.9g: double precision cannot decide how long the body whirls there, or whether it falls in or returns; they must differ from these by some parts in 1e12",
             "observer_r is %.9g; it must be a radius outside the horizon, r = %.9g",
             "observer_r is %.9g, where no observer can be %s; observer must be %s there",
             "steps is %u; it must be larger to find the end of this path",
             "double precision cannot follow this path to its end",
-            "periods cannot be used with an orbit that will %s, because it has none: leave the duration out or add or_end to follow it to its end, or give a time",
+            "periods cannot be used with an orbit that will %s, because it has none; give a time, or leave the duration out or add or_end to follow the orbit to its end",
             'method is "closed"; for an orbit that will %s it must be another, because "closed" follows only bound orbits',
             "the duration takes %.3g steps; it must take at most %.0f",
-            "r_max is %g; it must be smaller, because this path whirls near an unstable circle and needs short steps",
+            "r_max is %g; it must be smaller, because this path whirls near an unstable circular orbit and needs short steps",
             "r is %.16g; it must be above the horizon at %.9g",
             "r is %.16g, which no particle with these constants reaches",
-            "energy is %.16g: no particle outside the horizon has these constants",
-            "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
+            "energy is %.16g; it must be different, because no particle outside the horizon has these constants",
+            "%s at r = %.16g, inside %s, which ends at %.9g here; frame must be %s",
             "the speed is %.16g c; it must be below 1",
             "double precision cannot follow the motion from r = %.16g",
             "p is %.16g; it must be above the horizon at %.9g",
@@ -382,44 +382,44 @@ TOGETHER = [
     ("GET /v1/physics/", (HOLE,)),
     (
         "GET /v1/physics/(disk-flux|flamm|frame-dragging|potential|kerr|tidal|infall)$",
-        ("%s is %s, |inside the horizon at %.9g M; it must be outside",),
+        ("%s is %s|; it must be at least %.9g M, the horizon",),
     ),
     (
         "GET /v1/physics/returning$",
         (
-            "%s is %s, |inside the ISCO at %.9g M; it must be outside",
-            "%s is %s, |so close to an extremal hole that the energy balance has an error of %.1g (limit %g); it must be smaller",
+            "%s is %s|; it must be at least %.9g M, the ISCO",
+            "%s is %s|, so close to an extremal hole that the energy balance has an error of %.1g (limit %g); it must be smaller",
         ),
     ),
     (
         "GET /v1/physics/(deflection|redshift|ring-image|shadow|sky|photon-rings|infall)$",
-        (*OBSERVER, "%s is %s, |not outside the horizon at %.9g M"),
+        (*OBSERVER, "%s is %s|; it must be more than %.9g M, the horizon"),
     ),
     (
         "GET /v1/physics/infall$",
         (
-            "%s is %s, |not outside %.9g M, where the model ends",
-            "%s is %s, |where the fall would change its latitude; with spin it must be 0, 90 or 180, or the fall must begin at rest at infinity",
+            "%s is %s|; it must be more than %.9g M, where the model ends",
+            "%s is %s|; with spin it must be 0, 90 or 180, or the fall must begin at rest at infinity, because any other fall changes its latitude",
         ),
     ),
     (
         "GET /v1/physics/inspiral$",
         (
-            "%s is %s, |for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; it must be longer",
+            "%s is %s|, for which a = %.6g M and the orbit comes inside 6 M, where these formulas fail; it must be longer",
         ),
     ),
     (
         "GET /v1/physics/photon-rings$",
         (
-            "%s is %s, |inside the horizon at %.9g M; it must be outside",
-            "%s is %s, |not above inner, %.9g M; it must be larger",
+            "%s is %s|; it must be at least %.9g M, the horizon",
+            "%s is %s|; it must be more than %.9g M, the value of inner",
         ),
     ),
     (
         "GET /v1/physics/qnm$",
         (
-            "%s is %s, |and l is %g; it must be -%g to %g",
-            "%s is %s, |where the iteration for this mode does not converge",
+            "%s is %s|; with l %g it must be -%g to %g",
+            "%s is %s|; it must be different, because the iteration for this mode does not converge there",
             "%s is a range of %zu values; for a sound it must be one value",
             "t is %g; for a sound it must be 0, because a sound has all times",
             "mass_msun is %g, which rings at %.3g Hz with this shift_octaves; for an audible %g to %g Hz it must be %.4g to %.4g solar masses, or shift_octaves %.0f to %.0f",
@@ -428,20 +428,20 @@ TOGETHER = [
     ),
     (
         "GET /v1/physics/redshift$",
-        ("%s is %s, |too close to the horizon for its image to be found; it must be larger",),
+        ("%s is %s|; it must be larger, because so close to the horizon no image of the ring is found",),
     ),
     (
         "GET /v1/physics/(redshift|ring-image)$",
         (
-            "%s is %s, |where the ring is a line; it must be 0 to 89.9 or 90.1 to 180",
-            "%s is %s, |not outside the horizon at %.9g M",
+            "%s is %s|; it must be 0 to 89.9 or 90.1 to 180, because from the equatorial plane the ring is a line",
+            "%s is %s|; it must be more than %.9g M, the horizon",
         ),
     ),
     (
         "GET /v1/physics/ring-image$",
         (
-            "%s is %s, |too close to the horizon for its image to be found; it must be larger",
-            "%s is %s, |inside the horizon at %.9g M; it must be outside",
+            "%s is %s|; it must be larger, because so close to the horizon no image of the ring is found",
+            "%s is %s|; it must be at least %.9g M, the horizon",
         ),
     ),
     (
@@ -478,17 +478,17 @@ TOGETHER = [
     (
         "(POST|PATCH) /v1/playground|POST /v1/jobs",
         (
-            "spacetime.%s is %.9g; it must be %.9g: the playground's bodies move round a hole of that %s",
+            "spacetime.%s is %.9g; it must be %.9g, because the playground's bodies move round a hole of that %s",
             HOLE,
-            '%s is %.9g; without gravity "kerr" it must be 0: the potential, in which stars are torn apart, is that of an uncharged hole',
-            "spacetime.%s is %.9g; it must be 0: the playground's bodies and debris move in the potential of an uncharged hole",
+            '%s is %.9g; without gravity "kerr" it must be 0, because the potential is that of an uncharged hole',
+            "spacetime.%s is %.9g; it must be 0, because the playground's bodies and debris move in the potential of an uncharged hole",
             "velocity is %.9g c; it must be %s",
             "position is %.9g M from the hole; it must be more than %g M, inside which the hole captures everything",
             "a snapshot cannot have this body, because it is captured by the hole or faster than c",
             "name is not a string of at most %zu bytes",  # a schema counts characters, not bytes
             # this sentence and the next two are given with gravity "kerr"
             "r is %.16g; it must be above the horizon at %.9g",
-            "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
+            "%s at r = %.16g, inside %s, which ends at %.9g here; frame must be %s",
             "double precision cannot follow the motion from r = %.16g",
         ),
     ),
@@ -518,4 +518,4 @@ TOGETHER = [
     ),
 ]
 # If there are several scenes, the sentence is preceded by a name of the scene.
-AMONG = ("scene %u: ", "frame %u: ", "with %s: ", "between keyframes, frame %.9g is no valid scene: ")
+AMONG = ("scene %u: ", "frame %u: ", "with %s: ", "frame %.9g, between two keyframes, is not a valid scene: ")

@@ -15,7 +15,7 @@ static void look(const struct kd_job_spec *spec, unsigned frame)
     else {
         kd_fuzz_fields(&scene);
         status = kd_scene_validate(&scene, &error);
-        CHECK(!status, "frame %u is no valid scene: %s: %s", frame, error.pointer, error.message);
+        CHECK(!status, "frame %u is not a valid scene: %s: %s", frame, error.pointer, error.message);
     }
     if (spec->blur.samples && (status = kd_job_spec_sample(spec, frame, spec->blur.samples - 1, &scene, &error)))
         kd_fuzz_refused(status, &error);

@@ -317,7 +317,7 @@ static void test_refused(void **state)
 static bool says_noise(const struct kd_plan *plan)
 {
     for (size_t i = 0; i < plan->report.n_approximations; i++)
-        if (strstr(plan->report.approximations[i].text, "sky: noise"))
+        if (strstr(plan->report.approximations[i].text, "sky: it is noise"))
             return true;
     return false;
 }

@@ -237,7 +237,7 @@ static void test_refused(void **state)
         { "fields", "x,y,x", "/fields", "each once" },
         { "fields", "", "/fields", "each once" },
         { "fields", "x,", "/fields", "each once" },
-        { "colour", "red", "/colour", "known are first, stride, count, fields, time" },
+        { "colour", "red", "/colour", "the parameters are first, stride, count, fields and time" },
     };
     struct kd_scene scene = scene_of(0.5, 0);
     struct kd_particle_list list;

@@ -62,7 +62,7 @@ static void oversized(void **state)
     while (n < 64 && !kd_vk_buffer_create(vk, bytes, KD_VK_DEVICE, "part", &part[n], NULL))
         n++;
     assert_int_equal(n, 16);
-    FAILS(KD_ENOMEM, "are held", kd_vk_buffer_create(vk, bytes, KD_VK_DEVICE, "one more", &none, &error));
+    FAILS(KD_ENOMEM, "are in use", kd_vk_buffer_create(vk, bytes, KD_VK_DEVICE, "one more", &none, &error));
     while (n)
         kd_vk_buffer_destroy(vk, part[--n]);
     heap->size = truth;

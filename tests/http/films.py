@@ -304,9 +304,7 @@ class Kept(Films):
     def test_one_for_which_there_is_no_room(self):
         server, job, answer = self.film_of(KEEPS, self.FRAMES, options=("--jobs-kib", 64))
         self.assertProblem(answer, 507, "disk-full")
-        self.assertRegex(
-            answer.json()["detail"], r"^the film has [0-9.]+ MB, too many beside the [0-9.]+ MB of all jobs"
-        )
+        self.assertRegex(answer.json()["detail"], r"^the film has [0-9.]+ MB; with the [0-9.]+ MB of all jobs")
         self.assertEqual(server.get(self.at(job, "/result?format=png&frame=0")).status, 200)
         self.ended(server)
 

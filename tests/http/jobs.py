@@ -676,7 +676,7 @@ class Jobs(Case):
                 self.assertEqual(self.daemon.get("/healthz").status, 200)
                 between += 1
             problem = self.assertProblem(daemon.read_answer(s), 422, "invalid-job", "/keyframes")
-        self.assertRegex(problem["detail"], r"frame 99\d\d is no valid scene: .*outer")
+        self.assertRegex(problem["detail"], r"frame 99\d\d, between two keyframes, is not a valid scene: .*outer")
         self.assertGreater(between, 3)
 
     def test_a_client_that_leaves_while_its_frames_are_checked(self):

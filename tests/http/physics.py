@@ -354,7 +354,7 @@ class Physics(daemon.Case):
             ("r=2:3", "/r", "first:last:count"),
             ("r=2:3:1", "/r", "count"),
             ("r=2:3:200000", "/r", "100000"),
-            ("mass=1", "/mass", "nown are spin, charge, theta_deg, r"),
+            ("mass=1", "/mass", "parameters are spin, charge, theta_deg, r"),
             ("format=xml", "/format", '"csv"'),
             ("a/b=1", "/a~1b", "a/b"),
             ("spin=0&spin=0", None, "twice"),
@@ -840,8 +840,8 @@ class Integrals(daemon.Case):
 
     def test_pictures_are_refused(self):
         for name, document, pointer, words in (
-            ("spectrum", {"scene": {}}, "/scene/volume/model", "volume.frequency_ghz"),
-            ("spectrum", {"preset": "smooth"}, "/scene/volume/model", "gold or riaf"),
+            ("spectrum", {"scene": {}}, "/scene/volume/model", "volume.model must be"),
+            ("spectrum", {"preset": "smooth"}, "/scene/volume/model", "volume.model must be"),
             ("spectrum", {"preset": "riaf", "scene": {"sky": {"model": "grid"}}}, "/scene", "only a volume"),
             ("spectrum", {"preset": "riaf", "spin": 0}, "/spin", "no field spin"),
             ("spectrum", {"preset": "riaf", "frequencies": 201}, "/frequencies", "2 to 200"),
@@ -1022,7 +1022,7 @@ class Integrals(daemon.Case):
         for document, pointer, words in (
             ({"spin": 1}, "/spin", "spin is 1; it must be a number above -1 and below 1"),
             ({"inclination_deg": 181}, "/inclination_deg", "0 to 180"),
-            ({"inner": 3}, "/inner", "within the ISCO"),
+            ({"inner": 3}, "/inner", "the ISCO of this hole"),
             ({"inner": "horizon"}, "/inner", '"isco"'),
             ({"outer": 2}, "/outer", "larger than inner"),
             ({"emissivity": "lamppost", "height": 2}, "/height", "horizon"),

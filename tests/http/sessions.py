@@ -320,7 +320,7 @@ class Sessions(daemon.Owned):
             ('{"amplitude": "1"}', 422, "/amplitude", '"1"'),
             ('{"amplitude": 1e999}', 422, "/amplitude", "0 to 1"),
             ('{"amplitude": null}', 422, "/amplitude", "null"),
-            ('{"loud": 1}', 422, "/loud", "known are amplitude"),
+            ('{"loud": 1}', 422, "/loud", "the fields are amplitude"),
             ('{"amplitude": 1, "amplitude": 0}', 422, "/amplitude", "twice"),
             ("[1]", 400, None, "object"),
             ("{", 400, None, ""),
@@ -387,7 +387,7 @@ class Sessions(daemon.Owned):
             ("fields=x,mass", "/fields", "x,y,z,r,phi,latitude,energy,angular_momentum,dr_dt"),
             ("fields=", "/fields", "each once"),
             ("time=now", "/time", "time is now"),
-            ("particle=3", "/particle", "known are"),
+            ("particle=3", "/particle", "the parameters are"),
             ("count=5&count=6", None, "twice"),
         ):
             with self.subTest(query):
@@ -446,7 +446,7 @@ class Sessions(daemon.Owned):
         ):
             self.assertProblem(self.daemon.get(self.at(session, "/frame.png?" + query)), 422, "invalid-parameters")
         for query, pointer, word in (
-            ("aftr=1", "/aftr", "there is no parameter aftr here; known are after, wait_ms"),
+            ("aftr=1", "/aftr", "there is no parameter aftr here; the parameters are after, wait_ms"),
             ("after=1&wait=5", "/wait", "wait here"),
             ("after=1&after=2", "", "twice"),
         ):

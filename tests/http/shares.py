@@ -386,7 +386,7 @@ class Tasks(Case):
         self.assertTrue(daemon.eventually(lambda: self.daemon.metrics()["kerrd_" + unfinished] == 4))
         problem = self.ask("127.0.0.1", method, target, body)
         self.assertIn(
-            "you have too many such requests in progress (limit 4 for one client)",
+            "you have too many requests of this kind in progress (limit 4 for one client)",
             self.assertProblem(problem, 429, "quota")["detail"],
         )
         self.assertTrue(problem.header("Retry-After"))

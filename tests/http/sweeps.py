@@ -129,7 +129,9 @@ class Sweeps(Case):
             refused = self.daemon.get(path)
             self.assertEqual(refused.status, 429)
             problem = self.assertProblem(refused, 429, "quota")
-            self.assertIn("you are fetching too many cubes and films at once (limit for one client)", problem["detail"])
+            self.assertIn(
+                "you are downloading too many cubes and films at once (limit for one client)", problem["detail"]
+            )
             self.assertEqual(self.daemon.request("HEAD", path).status, 200)
             self.assertEqual(self.daemon.get(self.at(job, "/result?format=zip")).status, 200, "no cube")
             readers[1].close()

@@ -100,12 +100,12 @@ class Said(Case):
             ("layers is 'rgb'", TypeError, lambda: self.hole.layers(None, "rgb")),
             ("layers is 'rgb'", TypeError, lambda: self.hole.sweep(None, {"spacetime.spin": [0]}, layers="rgb")),
             (
-                "spots.x.r: x is no place in a list of 0",
+                "spots.x.r: x is no index of a list of 0 elements",
                 KeyError,
                 lambda: self.hole.render({"spots": []}, **{"spots.x.r": 1}),
             ),
             (
-                "spots.1.r: 1 is no place in a list of 1; it must be 0 to 0",
+                "spots.1.r: 1 is no index of a list of 1 elements; it must be 0 to 0",
                 KeyError,
                 lambda: self.hole.render({"spots": [{}]}, **{"spots.1.r": 1}),
             ),
@@ -115,15 +115,15 @@ class Said(Case):
                 lambda: self.hole.render({"image": {"width": 3}}, **{"image.width.x": 1}),
             ),
             ("tile is 0", ValueError, lambda: self.hole.stitched({"image": SIZE}, tile=0)),
-            ("size is '640': it must be two whole numbers", ValueError, lambda: self.hole.render(size="640")),
+            ("size is '640'; it must be two whole numbers", ValueError, lambda: self.hole.render(size="640")),
             (r"size is .640, -3.", ValueError, lambda: self.hole.render(size=(640, -3))),
             (
-                "camera.inclination_deg is nan: it must be a finite number",
+                "camera.inclination_deg is nan; it must be a finite number",
                 ValueError,
                 lambda: self.hole.render(camera__inclination_deg=float("nan")),
             ),
             (
-                "spots.0.r is inf: it must be a finite number",
+                "spots.0.r is inf; it must be a finite number",
                 ValueError,
                 lambda: self.hole.render({"spots": [{"r": np.inf}]}),
             ),
@@ -318,7 +318,7 @@ class Blocking(Case):
             self.hole.session({"image": {"width": 320, "height": 180}}, least=1).close()
         with self.hole.session({"image": {"width": 320, "height": 180}}, min_scale=1) as live:
             self.assertEqual(next(iter(live)).image.width, 320)
-        with self.assertRaisesRegex(TypeError, "both given"):
+        with self.assertRaisesRegex(TypeError, "cannot be used with least"):
             self.hole.session(min_scale=1, least=1)
 
     def test_a_session(self):
@@ -393,7 +393,7 @@ class Saved(Case):
         frame = self.hole.render({"image": SIZE})
         with tempfile.TemporaryDirectory() as folder:
             for name in ("a.fits", "a.jpg", "a.npz", "a.png.gz", "a.h5"):
-                with self.assertRaisesRegex(kerrd.KerrdError, f"{name}: the name must end in .png"):
+                with self.assertRaisesRegex(kerrd.KerrdError, f"{name} must end in .png"):
                     frame.save(f"{folder}/{name}")
             for name in ("a.PNG", "hole", "v1.5"):
                 frame.save(f"{folder}/{name}")
@@ -485,7 +485,7 @@ class Saved(Case):
             )
             for missing, message in (
                 ("jy_per_pixel", "no layer"),
-                ("intensity", "ask for it"),
+                ("intensity", "request it"),
                 ("stokes_u", "together"),
             ):
                 less = dataclasses.replace(frame, layers={k: v for k, v in frame.layers.items() if k != missing})

@@ -103,7 +103,7 @@ class Cluster(unittest.TestCase):
                 [paths[5]],
                 "what is there is kept",
             )
-            with self.assertRaisesRegex(kerrd.KerrdError, "000003.png shows another scene"):
+            with self.assertRaisesRegex(kerrd.KerrdError, "000003.png is not known to show this scene"):
                 kerrd.sweep([*scenes[:3], SCENE, *scenes[4:]], self.dask, folder=folder, binary=KERRD)
 
     def test_2_arrays_and_stores(self):

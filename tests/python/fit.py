@@ -145,7 +145,7 @@ class Fits(unittest.TestCase):
         np.testing.assert_array_equal(again.chain, whole.chain)
         np.testing.assert_array_equal(again.log_probability, whole.log_probability)
         self.assertEqual(fit.posterior(steps=10, walkers=8, seed=2, file=file).chain.shape, (10, 8, 3))
-        with self.assertRaisesRegex(ValueError, "is of another fit"):
+        with self.assertRaisesRegex(ValueError, "belongs to another fit"):
             self.fit(average_s=300).posterior(steps=10, walkers=8, seed=2, file=file)
 
     def test_outside_the_bounds(self):

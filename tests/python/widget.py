@@ -142,12 +142,12 @@ class Names(Case):
         )
         for name, said in {
             "outer": "disk.outer, volume.outer, jets.outer",
-            "spinn": "near it: spin",
+            "spinn": "similar fields are spin",
             "nothing_like_it_": "no field",
         }.items():
             with self.assertRaisesRegex(kerrd.KerrdError, said):
                 fields.path(name)
-        for name, said in {"image.layers": "no number", "camera": "is a section"}.items():
+        for name, said in {"image.layers": "not a number", "camera": "is a section"}.items():
             with self.assertRaisesRegex(kerrd.KerrdError, said):
                 fields.control(name)
 
@@ -188,7 +188,7 @@ class Names(Case):
     def test_controls_that_cannot_be(self):
         with self.assertRaisesRegex(kerrd.KerrdError, "spinn"):
             self.open(controls=["spinn"])
-        with self.assertRaisesRegex(KeyError, "spots.0.r: 0 is no place in a list of 0"):
+        with self.assertRaisesRegex(KeyError, "spots.0.r: 0 is no index of a list of 0 elements"):
             self.open(controls=["spots.0.r"])
         with self.assertRaisesRegex(kerrd.KerrdError, "client is a int"):
             kerrd.widget(client=3)
@@ -290,7 +290,7 @@ class Browser(Case):
         until(lambda: page.state("error") == "" and len(page.told("took")) == 2, "an end of the error")
         page.change(spots__0__r=9)
         until(lambda: len(page.told("took")) == 3, "an answer")
-        self.assertRegex(page.state("error"), "0 is no place in a list of 0")
+        self.assertRegex(page.state("error"), "0 is no index of a list of 0 elements")
         with self.assertRaisesRegex(kerrd.Problem, "spacetime.spin is 7"):
             widget.set(spin=7)
         self.assertRegex(widget.error, r"spacetime.spin is 7; it must be ")

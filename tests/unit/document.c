@@ -98,11 +98,13 @@ static void refusals_say_what_it_must_be(void **state)
         { "{\"guest\":1}", "/guest", "there is no field guest here; did you mean guests?" },
         { "{\"milk\":true}", "/milk", "there is no field milk here; did you mean table.milk?" },
         { "{\"xyzzy\":1}", "/xyzzy",
-          "there is no field xyzzy here; known are table, minutes, sugar_g, heat, cups, leaf, pot, iced, times, place, "
+          "there is no field xyzzy here; the fields are table, minutes, sugar_g, heat, cups, leaf, pot, iced, times, "
+          "place, "
           "name, host, guests" },
-        { "{\"table\":{\"a/b\":1}}", "/table/a~1b", "there is no field table.a/b here; known are milk, with" },
+        { "{\"table\":{\"a/b\":1}}", "/table/a~1b", "there is no field table.a/b here; the fields are milk, with" },
         { "{\"table.milk\":true}", "/table.milk",
-          "there is no field table.milk here; known are table, minutes, sugar_g, heat, cups, leaf, pot, iced, times, "
+          "there is no field table.milk here; the fields are table, minutes, sugar_g, heat, cups, leaf, pot, iced, "
+          "times, "
           "place, name, host, guests" },
     };
     (void)state;
@@ -126,7 +128,7 @@ static void a_kind_of_document_has_its_own_rows(void **state)
     assert_int_equal(read_kind(&tea, "{\"pot\":\"iron\"}", TEA_BAG, NULL, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/pot");
     assert_int_equal(read_kind(&tea, "{\"table\":{\"milk\":true}}", TEA_BAG, NULL, &error), KD_EINVAL);
-    assert_string_equal(error.message, "there is no field table.milk here; known are with");
+    assert_string_equal(error.message, "there is no field table.milk here; the fields are with");
 }
 
 static void typed_text_sets_one_field(void **state)
@@ -151,7 +153,8 @@ static void typed_text_sets_one_field(void **state)
         { "times", "1,2,3,4,5", "/times", "times has 5 numbers; it must have 1 to 4" },
         { "place", "1,2", "/place", "place is \"1,2\"; it must be an array of 3 numbers" },
         { "tables.milk", "true", "/tables.milk",
-          "there is no parameter tables.milk; known are minutes, sugar_g, heat, cups, leaf, pot, iced, milk, with, "
+          "there is no parameter tables.milk; the parameters are minutes, sugar_g, heat, cups, leaf, pot, iced, milk, "
+          "with, "
           "times, place, name" },
         { "leav", "x", "/leav", "there is no parameter leav; did you mean leaf?" },
     };
@@ -377,7 +380,7 @@ static void lists_are_refused_where_they_are_wrong(void **state)
         { "{\"on\":{\"cloth\":1}}", "/on/cloth", "on.cloth is 1; it must be an object with fields" },
         { "{\"on\":{\"cloth\":{\"red\":1}}}", "/on/cloth/red", "on.cloth.red is 1; it must be true or false" },
         { "{\"on.cloth\":{}}", "/on.cloth",
-          "there is no field on.cloth here; known are on, biscuits, weight_g, fruit" },
+          "there is no field on.cloth here; the fields are on, biscuits, weight_g, fruit" },
         { "{\"on\":{\"label\":\"a/b\"}}", "/on/label",
           "on.label is \"a/b\"; it must be null, the SHA-256 of an asset as 64 hexadecimal digits, or a name: a "
           "letter, "

@@ -235,8 +235,8 @@ static void bad_parameters_are_refused(void **state)
     refused(WITH(.height = 0), "2 x 0");
     refused(WITH(.width = 32769), "32769");
     refused(WITH(.bit_depth = 4), "4 bits");
-    refused(WITH(.compression = 9), "level 9");
-    refused(WITH(.compression = -1), "level -1");
+    refused(WITH(.compression = 9), "level is 9");
+    refused(WITH(.compression = -1), "level is -1");
     static const char *const keys[] = { "", " a", "a ", "a  b", "a\nb", "\xc3\xa4" };
     for (size_t i = 0; i < sizeof keys / sizeof *keys; i++) {
         struct kd_png_text text = { keys[i], "x" };

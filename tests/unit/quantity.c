@@ -160,7 +160,7 @@ static void bad_requests(void **state)
         { "spin", "isco", "/spin", "isco" },
         { "r", "0.5", "/r", "\"isco\"" },
         { "r", "isco:10:2", "/r", "isco" },
-        { "mass", "1", "/mass", "nown are spin, charge, theta_deg, r" },
+        { "mass", "1", "/mass", "parameters are spin, charge, theta_deg, r" },
         { "a/b~", "1", "/a~1b~0", "a/b~" },
         { "digits", "0", "/digits", "1 to 17" },
         { "digits", "2.5", "/digits", "digits is 2.5; it must be a whole number" },
@@ -189,7 +189,7 @@ static void outside_the_domain(void **state)
     kd_quantity_request_set(&request, "r", "1.25", NULL);
     assert_int_equal(kd_quantity_evaluate(&request, &answer, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/r");
-    assert_non_null(strstr(error.message, "horizon at 1.43588989 M"));
+    assert_non_null(strstr(error.message, "at least 1.43588989 M, the horizon"));
     kd_quantity_request_set(&request, "spin", "0.5:0.999:7", NULL); /* enough samples for the first point only */
     assert_int_equal(kd_quantity_evaluate(&request, &answer, &error), KD_EINVAL);
     kd_quantity_request_set(&request, "r", "2", NULL);

@@ -205,7 +205,8 @@ static void assets_on_a_command_line(void **state)
     assert_int_equal(kd_asset_options_add(&options, texts[1], &error), KD_OK);
     scene = of("{\"film\":\"sky\"}");
     assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_EINVAL);
-    assert_string_equal(error.message, "--asset ground: no field of the scene names it");
+    assert_string_equal(error.message,
+                        "--asset ground cannot be used, because no field of the scene refers to this name");
     scene = of("{\"film\":\"sky\",\"stops\":[{\"sound\":\"wind\"}]}");
     assert_int_equal(kd_asset_options_resolve(&options, &scene, &error), KD_EINVAL);
     assert_string_equal(error.pointer, "/stops/0/sound");

@@ -38,7 +38,7 @@ class Lensing(Browser):
         self.assertEqual(shown, paths - {"image.width", "image.height"})
         words = page.inner_text("#accuracy-words")
         self.assertIn("traced again in double precision", words)
-        told = [value(x) for x in re.search("off by (.+?) of themselves in the median, (.+?) at worst", words).groups()]
+        told = [value(x) for x in re.search("error of radii is (.+?) in the median and (.+?) at worst", words).groups()]
         last = self.frames[-1].headers["kerrd-accuracy"]
         for got, name in zip(told, ("median", "worst")):
             self.assertAlmostEqual(got / float(re.search(rf"{name}=(\S+)", last)[1]), 1, delta=0.06)
@@ -733,7 +733,8 @@ class Lensing(Browser):
     def test_what_a_link_or_a_hand_gets_wrong(self):
         page = self.open("lang=en&foo=1&camera.roll=2&spacetime.spin=x&orbit.p=7")
         self.assertEqual(
-            page.inner_text("#link-fault"), "Not understood in the link: spacetime.spin, foo, camera.roll."
+            page.inner_text("#link-fault"),
+            "Parts of the link that are not understood: spacetime.spin, foo, camera.roll.",
         )
         self.open_groups(page)
         page.fill('[data-path="spacetime.spin"] input[type=number]', "2")
@@ -745,13 +746,16 @@ class Lensing(Browser):
         )
 
         page = self.open("lang=en&camera.r=&time=1e400&disk.slow_light=yes&spacetime.spin=0.5")
-        self.assertEqual(page.inner_text("#link-fault"), "Not understood in the link: camera.r, disk.slow_light, time.")
+        self.assertEqual(
+            page.inner_text("#link-fault"),
+            "Parts of the link that are not understood: camera.r, disk.slow_light, time.",
+        )
         self.assertEqual(self.field(page, "spacetime.spin"), "0.5")
 
     def test_a_link_to_no_preset(self):
         self.expected = "404"
         page = self.open("lang=en&preset=nosuch")
-        self.assertEqual(page.inner_text("#link-fault"), "Not understood in the link: preset.")
+        self.assertEqual(page.inner_text("#link-fault"), "Parts of the link that are not understood: preset.")
         self.assertEqual(page.input_value("#preset"), "")
         self.assertFalse(page.get_attribute("#status", "data-wrong"))
 

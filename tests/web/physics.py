@@ -89,15 +89,15 @@ class Physics(Browser):
             page.keyboard.press("Tab")
         self.assertEqual(asked.value.post_data_json["spin"], 0.7)
         choose("impulse", "Echo of a flash")
-        self.there(page, "The answer comes", figure)
+        self.there(page, "On average the answer comes", figure)
         with page.expect_request("**/v1/impulse") as asked:
             page.fill("#in-impulse-height", "12")
             page.keyboard.press("Tab")
         self.assertEqual(asked.value.post_data_json["height"], 12)
-        self.there(page, "The answer comes", figure)
+        self.there(page, "On average the answer comes", figure)
         self.shot(page, "integrals-echo", full_page=True)
         choose("visibility", "Visibility by baseline")
-        self.there(page, "share of all light", figure)
+        self.there(page, "shares of all light", figure)
         self.assertTrue(
             daemon.eventually(lambda: [round(y, 6) for y in numbers()[0][1:3]] == [1, 1]),
             "without a baseline it is all light",
@@ -205,7 +205,11 @@ class Physics(Browser):
         ask = {"spin": 0.9, "inclination_deg": 40, "height": 10, "rest_energy": 6.4, "energy_min": 1, "energy_max": 9}
         ask |= {"bins": 64, "time_min": 0, "time_max": 100, "times": 80}
         answer = self.daemon.post("/v1/impulse", ask).json()
-        self.there(page, f"The echo comes {answer['values']['mean_time']:.1f} M after the flash", "#curve-echo figure")
+        self.there(
+            page,
+            f"On average the echo comes {answer['values']['mean_time']:.1f} M after the flash",
+            "#curve-echo figure",
+        )
         share = answer["columns"]["share"]
         before = self.drawn(page, "#curve-echo canvas")
         self.assertGreater(before["coloured"], 3000, "the map beneath the curves")

@@ -308,7 +308,7 @@ class Playground(Browser):
         page.click("#play-sound")
         page.wait_for_selector("#play-sound[data-hz]")
         self.assertEqual(page.evaluate("opened"), 1)
-        self.assertIn("Heard as with a hole of", page.inner_text("#play-heard"))
+        self.assertIn("You hear it as for a hole of", page.inner_text("#play-heard"))
         begin = float(page.get_attribute("#play-sound", "data-hz"))
         # the bounds are wide, because the frequency rises until a busy machine reports it
         self.assertTrue(90 < begin < 400, begin)

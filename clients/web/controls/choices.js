@@ -5,21 +5,30 @@ const observers = {
   static: t('choices.at-rest-with-respect', 'At rest with respect to infinity; only outside the ergosphere'),
   zamo: t(
     'choices.without-angular-momentum-goes',
-    'Without angular momentum: goes round with space as the hole drags it',
+    'Without angular momentum: goes round only because the hole drags space round',
   ),
-  keplerian: t('choices.on-a-circular-orbit', 'On a circular orbit with the disk, whose highest latitude is here'),
-  retrograde: t('choices.the-same-against-the', 'The same against the disk'),
+  keplerian: t(
+    'choices.on-a-circular-orbit',
+    'On a circular orbit with the disk; the orbit reaches its highest latitude here',
+  ),
+  retrograde: t(
+    'choices.the-same-against-the',
+    'On a circular orbit against the disk; the orbit reaches its highest latitude here',
+  ),
   infall: t(
     'choices.falls-freely-from-rest',
-    'Falls freely, from rest at infinity or as you choose; also within the horizon',
+    'Falls freely, from rest at infinity or as you choose; possible inside the horizon too',
   ),
-  velocity: t('choices.moves-as-you-choose', 'Moves as you choose past one without angular momentum'),
+  velocity: t(
+    'choices.moves-as-you-choose',
+    'Moves with a velocity of your choice, relative to an observer without angular momentum',
+  ),
 };
 
 const skies = {
   none: t('choices.nothing-lies-behind', 'Nothing lies behind'),
   grid: t('choices.lines-of-latitude-and', 'Lines of latitude and longitude, which show how light is bent'),
-  stars: t('choices.stars-and-a-milky', 'Stars and a Milky Way that are made up, another sky for each seed'),
+  stars: t('choices.stars-and-a-milky', 'Made-up stars and a made-up Milky Way, which differ for each seed'),
   catalogue: t(
     'choices.118-216-stars-of',
     '118 216 stars of the Hipparcos catalogue; point at a bright one for its name',
@@ -35,12 +44,18 @@ const orientations = {
 };
 
 const projections = {
-  auto: t('choices.plane-at-infinity-pinhole', 'Plane at infinity, pinhole near'),
-  plane: t('choices.parallel-rays-the-picture', 'Parallel rays; the picture is measured in M. Only at infinity'),
-  pinhole: t('choices.straight-lines-stay-straight', 'Straight lines stay straight, as in a camera. Only near'),
+  auto: t('choices.plane-at-infinity-pinhole', 'Plane from infinity, pinhole from nearby'),
+  plane: t(
+    'choices.parallel-rays-the-picture',
+    'Parallel rays; the picture is measured in M. Only for a camera at infinity',
+  ),
+  pinhole: t(
+    'choices.straight-lines-stay-straight',
+    'Straight lines stay straight, as in a camera. Only for a camera nearby',
+  ),
   ring: t(
     'choices.round-the-edge-of',
-    'Round the edge of the shadow, the distance to it on a logarithmic scale: photon rings one above the other',
+    'The edge of the shadow unrolled: the distance to it upwards, on a logarithmic scale. Photon rings lie one above the other',
   ),
   equirectangular: t(
     'choices.all-directions-longitude-across',

@@ -43,7 +43,7 @@ function words({ i, q, u, re, im }) {
     turned = number((180 / Math.PI) * Math.atan2(im, re), 3);
   return t(
     'ticks.of-all-light-is',
-    'of all light {0} % is polarised, at {1}° from the top to the left; β₂ {2} at {3}°',
+    '{0} % of all light is polarised, at {1}° from the top to the left; β₂ is {2} at {3}°',
     part,
     angle,
     beta,

@@ -41,11 +41,11 @@ export function showAccuracy(frame, scene) {
   const measured = !(sampled > 0)
     ? t(
         'accuracy.the-error-of-this',
-        'The error of this picture was not measured: no ray of it crosses the disk’s plane where it could be.',
+        'The error of this picture was not measured, because none of its rays crosses the disk’s plane where an error can be measured.',
       )
     : t(
         'accuracy.radii-are-off',
-        'Radii are off by {0} of themselves in the median, {1} at worst. Measured: {2} of {3} rays were traced again in double precision{4}.',
+        'The relative error of radii is {0} in the median and {1} at worst. To measure it, {2} of {3} rays were traced again in double precision{4}.',
         number(median, 2),
         number(worst, 2),
         number(sampled),
@@ -57,7 +57,7 @@ export function showAccuracy(frame, scene) {
     ? ''
     : t(
         'accuracy.pixels-as-shown',
-        ' Pixels as shown are off by {0} of white in the mean, {1} at worst, measured on {2} of them by 64 rays each; {3} have 16 rays.',
+        ' The error of pixels as shown is {0} of white in the mean and {1} at worst, measured on {2} pixels with 64 rays each; {3} pixels have 16 rays.',
         number(pixel_error, 2),
         number(pixel_error_worst, 2),
         number(pixel_sampled),
@@ -68,7 +68,7 @@ export function showAccuracy(frame, scene) {
     ? ''
     : t(
         'accuracy.light-along-rays-followed',
-        ' Light along {0} rays, followed twice as closely, changed by at most {1} in nine of ten, {2} at worst.',
+        ' Along {0} rays, steps of half the length changed the light by at most {1} in nine of ten, and by {2} at worst.',
         number(volume_sampled),
         number(volume_error, 2),
         number(volume_error_worst, 2),
@@ -132,7 +132,7 @@ export function caption(frame) {
   const worst = frame.accuracy.sampled > 0 ? t('accuracy.error', 'error ≤ {0}, ', number(frame.accuracy.worst, 2)) : '';
   const rays = frame.samples > 1 ? t('accuracy.rays-a-pixel', ', {0} rays a pixel', frame.samples ** 2) : '';
   const lossy = frame.lossy
-    ? t('accuracy.colours-lossy-while-it', ', colours lossy while it moves (JPEG {0})', frame.lossy)
+    ? t('accuracy.colours-lossy-while-it', ', compressed colours while it moves (JPEG {0})', frame.lossy)
     : '';
   const pace = frame.pace ? t('accuracy.pictures-a-second', ', {0} pictures a second', number(frame.pace, 2)) : '';
   return `${worst}${frame.width} × ${frame.height}${rays}, ${Math.round(frame.passes.find(pass => pass.name === 'total')?.ms ?? 0)} ms${pace}${lossy}`;

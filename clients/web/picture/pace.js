@@ -8,9 +8,12 @@ import { pace } from './sizes.js';
 const words = {
   auto: t(
     'pace.pictures-are-at-least',
-    'Pictures are at least half as wide as the window, unless one takes the server more than a tenth of a second: then they are narrower, and the line below the picture says so.',
+    'Pictures are at least half as wide as the window. They are narrower only if the server needs more than a tenth of a second for one; the line below the picture then says so.',
   ),
-  sharp: t('pace.pictures-have-all-pixels', 'Pictures have all pixels of the window, however few come a second.'),
+  sharp: t(
+    'pace.pictures-have-all-pixels',
+    'Pictures have all pixels of the window, even if only a few come a second.',
+  ),
   fast: t(
     'pace.pictures-become-as-small',
     'Pictures become as small as a quarter of the window’s width, so that more come a second.',

@@ -5,7 +5,7 @@ export const explained = {
   'null-potential': {
     text: t(
       'explained.null-potential',
-      'Light has no mass, but it has an energy E and an angular momentum L, and keeps both on its way: only their ratio b = L/E matters, the distance by which it would miss the hole if it went straight. The hill is the least energy that light with L = 1 needs to be at r. Where the line 1/b runs into the hill, light turns back; where it passes above the top, nothing holds it and it falls in. On the top itself light can go round in a circle, but the least push takes it off: that is the photon orbit, and the edge of the shadow is made of rays that all but stay there.',
+      'Light has no mass, but it has an energy E and an angular momentum L, and both stay the same on its way. Only their ratio b = L/E matters: it is the distance by which the light would miss the hole if it went straight. The hill is the least energy that light with L = 1 needs to be at r. Where the line 1/b runs into the hill, light turns back; where it passes above the top, nothing holds it and it falls in. On the top itself light can go round in a circle, but the smallest push takes it off. This circle is the photon orbit, and the edge of the shadow is made of rays that almost stay there.',
     ),
     steps: [
       t(
@@ -25,7 +25,7 @@ export const explained = {
   deflection: {
     text: t(
       'explained.deflection',
-      'A ray that passes far outside is bent by 4M/b, twice what Newton’s corpuscles would be: half of it comes from time that runs slower near the mass, half from space that is curved there. Closer in the exact angle grows faster, and next to b_c without bound: the ray winds round the hole once, twice, any number of times before it leaves. So each thing behind the hole is seen again and again, in images that crowd together at the edge of the shadow. With spin, light that goes along with it can come closer than light that goes against it.',
+      'A ray that passes far outside is bent by 4M/b, twice as much as Newton’s particles of light would be: half of it comes from time, which runs slower near the mass, and half from space, which is curved there. Closer in the exact angle grows faster, and next to b_c it grows without bound: the ray winds round the hole once, twice, any number of times before it leaves. So each thing behind the hole is seen again and again, in images that crowd together at the edge of the shadow. With spin, light that goes round in its sense can come closer than light that goes against it.',
     ),
     steps: [
       t(
@@ -45,7 +45,7 @@ export const explained = {
   'photon-rings': {
     text: t(
       'explained.photon-rings',
-      'Light that has made n half turns round the hole is seen as a ring of order n, and each ring holds a whole picture of all that surrounds the hole. The rings do not get fainter per area but thinner: each is e^−γ times as wide as the one before. γ is the Lyapunov exponent of the photon orbit that is seen in that direction: by e^γ a small departure grows in half a turn. Without spin it is π all round, and each ring 23 times thinner than the last; with spin it depends on where along the edge one looks. Light also arrives later by half a turn for each order, an echo that no telescope has resolved yet.',
+      'Light that has made n half turns round the hole is seen as a ring of order n, and each ring holds a whole picture of all that surrounds the hole. The rings do not get fainter per area but thinner: each is e^−γ times as wide as the one before. γ is the Lyapunov exponent of the photon orbit that is seen in that direction: in half a turn a small departure grows by the factor e^γ. Without spin it is π all round, and each ring 23 times thinner than the last; with spin γ depends on the place along the edge. Light also arrives later by half a turn for each order, an echo that no telescope has resolved yet.',
     ),
     steps: [
       t(
@@ -65,7 +65,7 @@ export const explained = {
   potential: {
     text: t(
       'explained.potential',
-      'What a body of given L can do is read off like a ball in a valley: it moves where its energy line lies above the curve. Newton’s valley always has a floor. Here gravity wins in the end: the curve falls again close to the hole, so that next to the stable circle in the valley there is an unstable one on the hill. With less L the two come together, and at the ISCO they meet: the valley is gone, and what comes nearer plunges without another push. That is why disks have an inner edge.',
+      'A body of given L moves like a ball in a valley: it can be where its energy line lies above the curve. Newton’s valley always has a floor. Here gravity wins in the end: the curve falls again close to the hole, so that next to the stable circle in the valley there is an unstable one on the hill. With less L the two come together, and at the ISCO they meet: the valley is gone, and what comes nearer plunges without another push. That is why disks have an inner edge.',
     ),
     steps: [
       t(
@@ -196,7 +196,7 @@ export const explained = {
       ),
       t(
         'explained.line-of-rings.2',
-        'A line of each ring is asked for, with the number of its photons; the shares are added.',
+        'The page requests the line of each ring, with the number of its photons, and adds the shares.',
       ),
     ],
   },
@@ -236,7 +236,7 @@ export const explained = {
       ),
       t(
         'explained.frame-dragging.2',
-        'Far away ω → 2J/r³. Gravity Probe B measured what that of the Earth does to a gyroscope: it turns by 37 milliseconds of arc a year.',
+        'Far away ω → 2J/r³. Gravity Probe B measured how the Earth’s rotation turns a gyroscope in this way: by 37 milliseconds of arc a year.',
       ),
     ],
   },
@@ -263,16 +263,16 @@ export const explained = {
   qnm: {
     text: t(
       'explained.qnm',
-      'A hole that has been struck rings like a bell, at pitches that depend on its mass and spin alone. But it is a poor bell: light and waves that linger at the photon orbit leak away within a few swings. The pitch is about that of light going round, the fading is how unstable its orbit is, so the curve above of rings and this one have the same root. Listening to the ringdown of a merger therefore weighs the new hole and tells its spin; two tones of one hole would test whether it is Kerr’s at all.',
+      'A hole that has been struck rings like a bell, at pitches that depend on its mass and spin alone. But it is a poor bell: light and waves that linger at the photon orbit leak away within a few swings. The pitch is about the frequency of light on its circular orbit, and the sound fades as fast as that orbit is unstable. So this curve and the curve of photon rings have the same cause. Listening to the ringdown of a merger therefore weighs the new hole and tells its spin; two tones of one hole would test whether it is Kerr’s at all.',
     ),
     steps: [
       t(
         'explained.qnm.0',
-        'A small wave on Kerr splits into e^{−iωt} e^{imφ} S(θ) R(r) (Teukolsky 1973). Nothing may come out of the horizon and nothing in from afar: only some complex ω allow that.',
+        'A small wave on Kerr splits into e^{−iωt} e^{imφ} S(θ) R(r) (Teukolsky 1973). Nothing may come out of the horizon, and nothing may come in from afar: only some complex ω allow this.',
       ),
       t(
         'explained.qnm.1',
-        'R as a power series with these ends built in has coefficients with a three-term recurrence; its minimal solution exists where a continued fraction is zero (Leaver 1985).',
+        'As a power series with these boundary conditions built in, R has coefficients with a three-term recurrence. The recurrence has a minimal solution where a continued fraction is zero (Leaver 1985).',
       ),
       t(
         'explained.qnm.2',

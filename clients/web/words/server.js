@@ -34,10 +34,11 @@ const sentences = {
     'The stars of the Hipparcos catalogue over a picture of the sky behind.',
   'said.the-server-is-stopping-and': 'the server is stopping and accepts no new sessions',
   'said.each-point-has-one-image':
-    'each point has one image, which is continuous with the image of the point before; it is the direct image, but close to a spinning hole seen nearly edge on it may become an image whose light has gone round the hole; points within 1.2 horizon radii have no image',
+    'each point has one image, which continues the image of the point before; this is the direct image, except that close to a spinning hole seen nearly edge on it may become an image whose light has gone round the hole; points within 1.2 horizon radii have no image',
   'hole.charged':
     'hole: it has a charge, which matter around a real hole would soon neutralise; light and matter here are neutral, and the charge affects them only through space-time',
-  'said.the-body-is-a-test': 'the body is a test particle: no gravity of its own, no radiation, no tidal disruption',
+  'said.the-body-is-a-test':
+    'the body is a test particle: it has no gravity of its own, does not radiate, and is not disrupted by tides',
   'said.spin-parameter-a-a-0': 'spin parameter a; a < 0: the orbit or the disk turns against its hole',
   'said.spin-parameter-a-a-0-the': "spin parameter a; a < 0: the star's orbit is against the hole's spin",
   'said.spin-parameter-a-closer-to':
@@ -58,10 +59,10 @@ const sentences = {
   'said.multipole': 'multipole',
   'said.azimuthal-number-l-to-l': 'azimuthal number, -l to l; m > 0 turns with a hole of positive spin',
   'said.mass-of-the-hole-with': 'mass of the hole, with any redshift: m (1 + z)',
-  'said.one-mass': 'one mass',
-  'said.the-other': 'the other',
+  'said.one-mass': 'mass of one body',
+  'said.the-other': 'mass of the other body',
   'said.mass-of-the-star': 'mass of the star',
-  'said.its-radius': 'its radius',
+  'said.its-radius': 'radius of the star',
   'playground.star': 'star',
   'playground.moon': 'moon',
   'playground.companion': 'companion',
@@ -110,7 +111,7 @@ const sentences = {
   'playground.share-of-the-disks-light':
     "share of the disk's light that bodies reflect in pictures; 0: reflection is not computed",
   'playground.optical-depth-in-pictures-of':
-    'optical depth in pictures of the debris of one body, spread over 1000 M^2',
+    'optical depth in pictures that the debris of one body has if it is spread over 1000 M^2',
   'playground.seed-of-the-random-directions': 'seed of the random directions of debris',
   'playground.mass-in-units-of-the':
     "mass in units of the hole's mass, at least 1e-30; 0: a test body that attracts nothing",
@@ -127,10 +128,10 @@ const sentences = {
   'playground.bodies-accelerated-one-another-beyond':
     'Bodies accelerated one another to the speed limit c; limiting their speeds removed momentum.',
   'playground.the-loss-to-gravitational-waves':
-    "The loss to gravitational waves is Peters' formula, of leading order: its power is 4 % too high at r = 10 M for a = 0 and 27 % for a = 0.9; the error is below 1 % only near 300 M.",
+    "The loss to gravitational waves follows Peters' formula, which is of leading order: at r = 10 M its power is 4 % too high for a = 0 and 27 % too high for a = 0.9; the error falls below 1 % only near 300 M.",
   'playground.the-exaggerated-loss-to-waves': 'The exaggerated loss to waves was limited to a tenth of the attraction.',
   'playground.there-are-too-many-bodies':
-    'There are too many bodies for waves of pairs: each body radiates with the hole alone.',
+    'There are too many bodies to compute waves of all pairs: each body radiates only with the hole.',
   'playground.debris-starts-with-a-flat':
     "Debris starts with a flat distribution of energies, and moves in the hole's potential alone.",
 };
@@ -204,10 +205,7 @@ const patterns = [
     'refusal.is-in-a-tile-it-must-be-a',
     '{} is {}; in a tile it must be a number, because {} depends on the whole picture',
   ],
-  [
-    'refusal.frame-it-would-take-about-more-than',
-    'frame {}: it would take about {}, more than the {} a frame may take',
-  ],
+  ['refusal.frame-it-would-take-about-more-than', 'frame {}: it would take about {}; a frame must take at most {}'],
   ['refusal.is-it-must-be-at-least-the', '{} is {}; it must be at least {}, the ISCO of {} {}, or {}'],
   ['refusal.is-it-must-be-at-least-the-isco', '{} is {}; it must be at least {}, the ISCO of {} {} and {} {}, or {}'],
   ['refusal.is-it-must-be-at-least-the-isco-of', '{} is {}; it must be at least {}, the ISCO of {} {} and {} {}'],
@@ -220,15 +218,15 @@ const patterns = [
   ],
   [
     'refusal.spacetime-charge-is-it-must-be-that',
-    "spacetime.charge is {}; it must be {}: the playground's bodies move round a hole of that charge",
+    "spacetime.charge is {}; it must be {}, because the playground's bodies move round a hole of that charge",
   ],
   [
     'refusal.bodies-and-debris-move-in-the-potential',
-    "spacetime.charge is {}; it must be {}: the playground's bodies and debris move in the potential of an uncharged hole",
+    "spacetime.charge is {}; it must be {}, because the playground's bodies and debris move in the potential of an uncharged hole",
   ],
   [
     'refusal.the-potential-is-that-of-an-uncharged',
-    'charge is {}; without gravity "kerr" it must be {}: the potential, in which stars are torn apart, is that of an uncharged hole',
+    'charge is {}; without gravity "kerr" it must be {}, because the potential is that of an uncharged hole',
   ],
   ['refusal.is-it-must-be-at-least-the-isco-of-2', '{} is {}; it must be at least {}, the ISCO of {} {}'],
   ['refusal.is-it-must-be-more-than-the-horizon', '{} is {}; it must be more than {}, the horizon of {} {}'],
@@ -279,7 +277,7 @@ const patterns = [
   ],
   [
     'refusal.is-it-must-be-0-unless-camera',
-    '{} is {}; it must be 0 unless camera.observer stays, orbits in the equatorial plane or falls without leaving its latitude, from a finite camera.r',
+    '{} is {}; it must be 0 unless the observer stays at a finite camera.r, orbits there in the equatorial plane, or falls from there at constant latitude',
   ],
   [
     'refusal.is-with-motion-proper-time-rate-it',
@@ -312,9 +310,9 @@ const patterns = [
     'refusal.is-inside-the-horizon-at-it-must',
     "{} is {}; inside the horizon, at {} {}, it must be {}, because coordinate time does not define the light's delay there",
   ],
-  ['refusal.is-inside-the-horizon-at-it-must-be', '{} is {}, inside the horizon at {}; it must be outside'],
-  ['refusal.is-not-outside-the-horizon-at', '{} is {}, not outside the horizon at {}'],
-  ['refusal.is-and-l-is-it-must-be', '{} is {}, and l is {}; it must be {} to {}'],
+  ['refusal.is-inside-the-horizon-at-it-must-be', '{} is {}; it must be at least {}, the horizon'],
+  ['refusal.is-not-outside-the-horizon-at', '{} is {}; it must be more than {}, the horizon'],
+  ['refusal.is-and-l-is-it-must-be', '{} is {}; with l {} it must be {} to {}'],
   [
     'refusal.there-is-no-the-list-has-elements',
     'there is no {}: the list has {} elements, and the next free index is {}',

@@ -73,9 +73,9 @@ const size_t kd_n_examples = sizeof kd_examples / sizeof *kd_examples;
 const struct kd_variable kd_variables[] = {
     { "KERRD_DEVICE", NULL, "the Vulkan device when --device is not given, in the same form" },
     { "KERRD_VALIDATE", NULL, "1: use Vulkan's validation layer and report its findings; for developers" },
-    { "KERRD_WATCH", NULL, "tell: a build that watches the server's threads reports broken rules and continues" },
+    { "KERRD_WATCH", NULL, "tell: a build that checks the server's threads reports a broken rule and continues" },
     { "XDG_CACHE_HOME", NULL,
-      "the folder for kerrd/, which has compiled kernels and measurements of devices (default: ~/.cache)" },
+      "the folder in which kerrd/ stores compiled kernels and measurements of devices (default: ~/.cache)" },
     { "HOME", NULL, "the folder with .cache" },
     { "VK_DRIVER_FILES", NULL, "the drivers that Vulkan's loader uses instead of the installed ones" },
     { "MESA_SHADER_CACHE_DIR", "serve",

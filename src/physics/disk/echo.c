@@ -66,15 +66,15 @@ static enum kd_status make_view(const struct kd_disk_image *image, const struct 
         return kd_error_set(error, KD_ENOMEM, "out of memory for the image of a disk");
     if (!kd_corona_direct_of(&p->source, p->photon_index, image->cos_i, &echo->direct))
         return kd_error_field(error, "/height",
-                              "height and corona_radius place the source where no light that reaches the observer "
-                              "directly was found; one of them, or inclination_deg, must be different");
+                              "no direct light from the source to the observer was found for this height and "
+                              "corona_radius; one of them, or inclination_deg, must be different");
     const enum kd_status status = kd_corona_init(&view->corona, &p->source, p->photon_index, p->inner, p->outer);
     if (status == KD_ENOMEM)
         return kd_error_set(error, KD_ENOMEM, "out of memory for the light of a corona");
     if (status)
         return kd_error_field(error, "/height",
-                              "height and corona_radius place the source where rays to some radii of the disk were not "
-                              "found; one of them must be different");
+                              "no rays from the source to some radii of the disk were found for this height and "
+                              "corona_radius; one of them must be different");
     const size_t angles = (size_t)view->corona.angles;
     view->part = malloc((RINGS + 1) * angles * sizeof(double));
     view->time = malloc((RINGS + 1) * angles * sizeof(double));
@@ -90,7 +90,7 @@ static enum kd_status make_view(const struct kd_disk_image *image, const struct 
         if (!fill_ring(image, p, r, view->points[i]))
             return kd_error_field(
                 error, "/inclination_deg",
-                "inclination_deg has a value for which no ray to the ring at %.9g was found; it must be different", r);
+                "no ray to the ring at %.9g M was found for this inclination_deg; it must be different", r);
     }
     return KD_OK;
 }
@@ -385,7 +385,7 @@ enum kd_status kd_echo_transform(const struct kd_disk_image *image, const struct
     for (size_t i = 0; i <= RINGS; i++) {
         beats[i].of = room + i * 2 * n;
         if (kd_pause())
-            KD_TRY(kd_error_set(error, KD_ECANCELLED, "nobody waits for the echo any more"));
+            KD_TRY(kd_error_set(error, KD_ECANCELLED, "the computation of the echo was cancelled"));
         fill_beat(&view, i, frequencies, n, &beats[i]);
     }
     for (int skip = 1; skip <= 2; skip++) {

@@ -430,7 +430,7 @@ static enum kd_status receive(const struct kd_hole *hole, const struct kd_line_p
     if (status)
         return kd_error_field(
             error, "/height",
-            "height is %.9g, from which rays to some radii of the disk were not found; it must be different",
+            "height is %.9g M; it must be different, because no rays from there to some radii of the disk were found",
             p->height);
     return KD_OK;
 }

@@ -147,7 +147,7 @@ enum kd_status kd_orbit_from_shape(const struct kd_hole *hole, double p, double 
     if (status)
         return status;
     if (!(e >= 0 && e < 1))
-        return kd_error_field(error, "/e", "e is %.16g; it must be 0 up to, not including, 1: a bound orbit", e);
+        return kd_error_field(error, "/e", "e is %.16g; it must be at least 0 and less than 1, as of a bound orbit", e);
     if (!(p > hole->outer) || !isfinite(p))
         return kd_error_field(error, "/p", "p is %.16g; it must be above the horizon at %.9g", p, hole->outer);
     *o = of_shape(hole, p, e, x);

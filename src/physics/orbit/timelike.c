@@ -111,8 +111,8 @@ enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy
         return status;
     if (!(carter >= 0))
         return kd_error_field(error, "/carter",
-                              "carter is %.16g; it must be 0 or more; a motion that never crosses the equator (Q < 0) "
-                              "needs position and velocity",
+                              "carter is %.16g; it must be at least 0; a motion with Q < 0, which never crosses the "
+                              "equator, must be given by position and velocity",
                               carter);
     if (!isnan(r) && !(r > hole->outer))
         return kd_error_field(error, "/r", "r is %.16g; it must be above the horizon at %.9g", r, hole->outer);
@@ -123,8 +123,10 @@ enum kd_status kd_orbit_from_constants(const struct kd_hole *hole, double energy
     if (!find_range(o, 1 / r) && !isnan(r))
         return kd_error_field(error, "/r", "r is %.16g, which no particle with these constants reaches", r);
     if (!(o->w_high > 0) || !to_the_future(o))
-        return kd_error_field(error, "/energy", "energy is %.16g: no particle outside the horizon has these constants",
-                              energy);
+        return kd_error_field(
+            error, "/energy",
+            "energy is %.16g; it must be different, because no particle outside the horizon has these constants",
+            energy);
     set_fate(o);
     return KD_OK;
 }
@@ -194,8 +196,9 @@ static enum kd_status check_state(const struct kd_hole *hole, double r, double t
     if (!(theta_deg >= 0 && theta_deg <= 180))
         return kd_error_field(error, "/position/theta_deg", "theta_deg is %.16g; it must be 0 to 180", theta_deg);
     if (!kd_observer_exists(frame, &at))
-        return kd_error_field(error, "/velocity/frame", "%s at r = %.16g, inside %s, which ends at %.9g here: use %s",
-                              row->why, r, row->edge, row->outside(hole, at.u), kd_observer_others(&at, others));
+        return kd_error_field(error, "/velocity/frame",
+                              "%s at r = %.16g, inside %s, which ends at %.9g here; frame must be %s", row->why, r,
+                              row->edge, row->outside(hole, at.u), kd_observer_others(&at, others));
     if (!(speed < 1))
         return kd_error_field(error, "/velocity", "the speed is %.16g c; it must be below 1", speed);
     return KD_OK;

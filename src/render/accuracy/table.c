@@ -34,8 +34,8 @@ static enum kd_status refuse(const struct kd_accuracy_table *table, const struct
     /* Rounded up, so that a request for the printed number succeeds. */
     return kd_error_field(
         error, "/accuracy/tolerance",
-        "tolerance is %.3g; %s reaches %.3g at best (%s %s with %u steps); the engine \"closed\", the reference of "
-        "these measurements, is more accurate",
+        "tolerance is %.3g; %s reaches %.3g at best (%s %s with %u steps), but the engine \"closed\", with which these "
+        "are compared, is more accurate",
         tolerance, stands_in ? "llvmpipe, whose table replaces the missing table of this device," : "this device",
         1.01 * kd_accuracy_holds(best), kd_engine_name(best->engine), kd_precision_name(best->precision), best->steps);
 }

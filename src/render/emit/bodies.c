@@ -265,14 +265,14 @@ WHEN(unseen, unseen_of(scene))
 
 static const struct kd_sentence sentences[] = {
     { "bodies.flat",
-      "bodies: opaque spheres in their own frames; near a body, space is taken as flat and light as straight; tides, "
-      "the gravity of bodies and shadows are ignored",
+      "bodies: they are opaque spheres in their own frames; near a body, space is taken as flat and rays as straight; "
+      "tides, shadows and the gravity of bodies are ignored",
       NULL },
     { "bodies.unlit", "bodies: light of the disk that falls on them is ignored", dark },
     { "bodies.lit",
-      "bodies: they scatter light of the disk isotropically; this light comes along straight lines from 16 rings of 24 "
-      "points; the disk is taken as smooth, unobscured and without limb darkening, and only three moments of the "
-      "light's direction are used",
+      "bodies: they scatter light of the disk equally in all directions; this light comes along straight lines from 16 "
+      "rings of 24 points of a smooth, unobscured disk without limb darkening; only three moments of its direction are "
+      "used",
       lit_ones },
     { "bodies.large",
       "bodies: a body whose radius exceeds a tenth of its distance from the hole has a wrong shape, because space near "
@@ -281,7 +281,7 @@ static const struct kd_sentence sentences[] = {
     { "bodies.black-body",
       "bodies: each body shines as a black body of one temperature, with a chosen linear law of limb darkening", NULL },
     { "bodies.fast",
-      "bodies: fast light: all are shown at one coordinate time, and the delay of their light is ignored", NULL },
+      "bodies: all are shown at one coordinate time, and the delay of their light is ignored (fast light)", NULL },
     { "bodies.still",
       "bodies: a falling body, or one with a chosen velocity, stays at its place; its velocity only shifts its light",
       stands },
@@ -290,8 +290,8 @@ static const struct kd_sentence sentences[] = {
       "momentum",
       shown },
     { "bodies.potential",
-      "bodies: bodies of a playground move in a potential; the r of the potential is taken as the Boyer-Lindquist "
-      "radius, and its velocity as gamma v",
+      "bodies: bodies of a playground move in a potential; its r is taken as the Boyer-Lindquist radius, and a "
+      "velocity in the potential as gamma v",
       by_potential },
     { "bodies.not-shown",
       "bodies: some bodies of a playground are not shown, because they have no radius or are at the horizon", unseen },

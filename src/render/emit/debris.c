@@ -111,24 +111,24 @@ WHEN(bolometric, scene->disk.band == KD_BAND_BOLOMETRIC)
 
 static const struct kd_sentence sentences[] = {
     { "debris.plane",
-      "debris: projected onto the disk's plane, and shown as a density on a grid of r and azimuth; a stream is at "
-      "least one cell wide",
+      "debris: it is projected onto the disk's plane and shown as a density on a grid of r and azimuth, so that a "
+      "stream is at least one cell wide",
       NULL },
     { "debris.no-height", "debris: its mean distance from the disk's plane exceeds r/50; this height is not shown",
       thick },
     { "debris.black-body",
-      "debris: a black body of one chosen temperature; its optical depth is a chosen number times its column density, "
-      "independent of angle",
+      "debris: it shines as a black body of one chosen temperature; its optical depth is a chosen number times its "
+      "column density, at any angle",
       NULL },
     { "debris.mean",
       "debris: its light is shifted by the local mean velocity within the plane; heating by shocks and the spread of "
       "velocities are ignored",
       NULL },
-    { "debris.fast", "debris: fast light: all of it is shown at one coordinate time; the light's delay is ignored",
-      NULL },
+    { "debris.fast",
+      "debris: all of it is shown at one coordinate time, and the delay of its light is ignored (fast light)", NULL },
     { "debris.potential",
-      "debris: it moves in a potential; the r of the potential is taken as the Boyer-Lindquist radius, and its "
-      "velocity as gamma v",
+      "debris: it moves in a potential, whose r is taken as the Boyer-Lindquist radius; a velocity in the potential is "
+      "taken as gamma v",
       by_potential },
     { "debris.not-shown", "debris: some pieces are outside the grid and not shown", hidden },
     { "debris.bolometric", "debris: brightness is bolometric (g^4), colour is that of the visible part of the spectrum",

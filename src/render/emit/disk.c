@@ -200,8 +200,8 @@ WHEN(seen_through, scene->disk.opacity < 1)
 
 static const struct kd_sentence sentences[] = {
     { "disk.thin",
-      "disk: geometrically thin, in the equatorial plane; its gas moves on circular Kerr orbits and ends at the "
-      "inner edge",
+      "disk: it is geometrically thin and lies in the equatorial plane; its gas moves on circular Kerr orbits and ends "
+      "at the inner edge",
       thin },
     { "disk.isotropic", "disk: each element shines as an isotropic black body, without limb darkening", isotropic },
     { "disk.atmosphere",
@@ -214,11 +214,13 @@ static const struct kd_sentence sentences[] = {
       "angular momentum where it arrives, and radiated again",
       with_returning },
     { "disk.reflected",
-      "disk: the reflected share of returning light leaves with the angular law and the angular momentum of the disk's "
-      "own light; its spectrum is a dilute black body, with the mean temperature at which the gas sees the sources",
+      "disk: reflected light has the angular distribution and the angular momentum of the disk's own light; its "
+      "spectrum is that of a dilute black body, whose temperature is the mean of the sources' temperatures as the gas "
+      "sees them",
       reflected },
     { "disk.newtonian",
-      "disk: the flux of the Newtonian thin disk, cut at the ISCO, instead of the Page-Thorne integral", newtonian },
+      "disk: its flux is that of the Newtonian thin disk, cut at the ISCO, instead of the Page-Thorne integral",
+      newtonian },
     { "disk.temperature",
       "disk: the peak temperature is chosen for visibility, not computed from a mass and an accretion rate",
       chosen_peak },
@@ -226,7 +228,7 @@ static const struct kd_sentence sentences[] = {
       bolometric },
     { "disk.frequency",
       "disk: brightness is the specific intensity at disk.frequency_ghz of a black body of the colour temperature, "
-      "over the fourth power of disk.hardening; brightness 1 is the hottest place without a shift; the light is grey",
+      "over the fourth power of disk.hardening; the hottest place has brightness 1 without a shift; the light is grey",
       at_frequency },
     { "disk.no-flux",
       "disk: light of one frequency is shown beside light of other kinds, on different scales of brightness; the "

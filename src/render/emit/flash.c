@@ -51,16 +51,16 @@ WHEN(fast, !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
     { "flash.drawn",
-      "flash: the gas of the thin disk shines at once, in proportion to the lamp's light that it receives, with a "
-      "power-law spectrum and the redshift of its own orbit, and fades out as the disk does; the brightness, the "
-      "colour and the Gaussian course in time are chosen, not computed",
+      "flash: the gas of the thin disk shines without delay, in proportion to the light that it receives from the "
+      "lamp; this light has a power-law spectrum and the redshift of the gas, and fades out at the outer edge as the "
+      "disk does; its brightness, its colour and the Gaussian course in time are chosen, not computed",
       NULL },
     { "flash.isotropic", "flash: the lit gas shines isotropically, without limb darkening", isotropic },
     { "flash.no-shift", "flash: the Doppler shift or the gravitational redshift of the gas is switched off",
       without_shift },
     { "flash.fast",
-      "flash: fast light: the echo is shown at one coordinate time, and the delay of its light to the "
-      "observer is ignored",
+      "flash: the echo is shown at one coordinate time, and the delay of its light to the observer is ignored (fast "
+      "light)",
       fast },
 };
 

@@ -142,10 +142,10 @@ static const struct kd_sentence sentences[] = {
       "of its middle, so that the pattern does not shear",
       turbulent },
     { "gas.octaves",
-      "gas: octaves finer than a ray's footprint on the disk fade to their mean; the variation of the light with time "
-      "is then up to a tenth smaller than with 64 rays a pixel",
+      "gas: octaves of the turbulence that are finer than a ray's footprint on the disk are replaced by their mean; "
+      "the light then varies with time up to a tenth less than with 64 rays a pixel",
       turbulent },
-    { "gas.fast", "gas: fast light: the gas is shown at one coordinate time, and the delay of its light is ignored",
+    { "gas.fast", "gas: the gas is shown at one coordinate time, and the delay of its light is ignored (fast light)",
       fast },
     { "gas.depth",
       "gas: the disk's optical depth is grey and proportional to its flux, with a chosen value at the brightest "

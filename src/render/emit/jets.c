@@ -53,9 +53,10 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
 
 static const struct kd_sentence sentences[] = {
     { "jets.drawn",
-      "jets: stylised cones of optically thin gas along the spin axis; the gas moves radially outwards at one speed "
-      "relative to observers of zero angular momentum; without magnetic field and synchrotron spectrum, brightness is "
-      "proportional to g^(2 + index), and the colour is that of a chosen temperature, which is not shifted",
+      "jets: they are stylised cones of optically thin gas along the spin axis; the gas moves radially outwards at one "
+      "speed relative to observers of zero angular momentum; there is no magnetic field and no synchrotron spectrum; "
+      "brightness is proportional to g^(2 + index), and the colour is that of a chosen temperature, which is not "
+      "shifted",
       NULL },
 };
 

@@ -48,8 +48,9 @@ static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 
 static const struct kd_sentence sentences[] = {
     { "lamp.point",
-      "lamp: a point at rest on the axis, and another below the disk, so that both faces are lit alike; it shines in "
-      "all directions with a power law, and is not shown itself; its light meets the disk once",
+      "lamp: it is a point at rest on the axis, and a second one lies below the disk, so that both faces are lit "
+      "alike; it shines in all directions with a power-law spectrum, and is not shown itself; its light meets the disk "
+      "once",
       NULL },
 };
 

@@ -358,9 +358,10 @@ static const struct kd_sentence sentences[] = {
       "chosen; pressure and collisions are ignored",
       NULL },
     { "particles.fast",
-      "particles: fast light: the whole disk is shown at one coordinate time, and the light's delay is ignored", fast },
+      "particles: the whole disk is shown at one coordinate time, and the delay of its light is ignored (fast light)",
+      fast },
     { "particles.slow",
-      "particles: during the delay of the light they move on their guiding circles, without epicycles", slow },
+      "particles: for the delay of their light they are moved on their guiding circles, without epicycles", slow },
 };
 
 const struct kd_emitter kd_emit_particles = {

@@ -295,20 +295,21 @@ static bool is_beside(const struct kd_scene *scene, const struct kd_setting *ray
 
 static const struct kd_sentence sentences[] = {
     { "plasma.frequency",
-      "volume: light of one frequency, without scattering; brightness 1 is a brightness temperature of 1e10 K", NULL },
+      "volume: its light has one frequency and is not scattered; brightness 1 is a brightness temperature of 1e10 K",
+      NULL },
     { "plasma.unpolarised",
       "volume: all polarisations of light are emitted and absorbed equally, so that the light is not polarised",
       is_unpolarised },
     { "plasma.gold",
-      "volume: the analytic model of Gold et al. 2020, made for the comparison of programs; it ends at its edges",
+      "volume: it is the analytic model of Gold et al. 2020, which was made to compare programs; it ends at its edges",
       is_gold },
     { "plasma.powers",
       "volume: density, temperature and magnetic field are power laws of r, not solutions of an equation of motion; "
       "the matter ends at its edges, and 7 scale heights from the plane",
       is_powers },
     { "plasma.torus",
-      "volume: the torus of Fishbone & Moncrief 1976, whose equilibrium ignores the magnetic field; the field follows "
-      "from a chosen ratio of pressures; the ratio of ion and electron temperature is constant",
+      "volume: it is the torus of Fishbone & Moncrief 1976, whose equilibrium ignores the magnetic field; the field "
+      "follows from a chosen ratio of pressures; the ratio of ion and electron temperature is constant",
       is_torus },
     { "plasma.grid",
       "volume: matter is interpolated between the nodes of a grid, density and temperature by their logarithms; "
@@ -325,9 +326,9 @@ static const struct kd_sentence sentences[] = {
     { "plasma.series-ends",
       "volume: some light left before the first or after the last frame of the series, and shows that frame instead",
       is_beyond },
-    { "plasma.no-grid", "volume: volume.grid is not set: there is no matter", is_missing },
+    { "plasma.no-grid", "volume: there is no matter, because volume.grid is not set", is_missing },
     { "plasma.pandya",
-      "volume: synchrotron light by the fits of Pandya et al. 2016, which are good to a few percent within "
+      "volume: synchrotron light follows the fits of Pandya et al. 2016, which are accurate to a few percent within "
       "their range; the electrons are isotropic",
       is_hot },
     { "plasma.no-flux",

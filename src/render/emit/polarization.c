@@ -71,15 +71,15 @@ static const struct kd_sentence sentences[] = {
       "its way is ignored",
       NULL },
     { "polarization.field",
-      "polarization: synchrotron: only direction and fraction depend on the field; brightness and colour are those of "
-      "the disk, whatever the angle to the field",
+      "polarization: the field determines only the direction and the fraction of synchrotron polarisation; brightness "
+      "and colour are those of the disk, whatever the angle to the field",
       by_field },
     { "polarization.scatter",
-      "polarization: scattering: the fraction is that of a deep, plane atmosphere of electrons (Chandrasekhar 1960); "
-      "its limb darkening, and the polarisation of light that returned to the disk, are ignored",
+      "polarization: the fraction of scattered light is that of a deep, plane atmosphere of electrons (Chandrasekhar "
+      "1960); its limb darkening, and the polarisation of light that returned to the disk, are ignored",
       by_electrons },
     { "polarization.darkened",
-      "polarization: scattering: brightness and fraction are those of a deep, plane atmosphere of electrons "
+      "polarization: brightness and fraction of scattered light are those of a deep, plane atmosphere of electrons "
       "(Chandrasekhar 1960); light that returned to the disk is polarised like the disk's own light",
       by_atmosphere },
     { "polarization.none", "polarization: light of volumes, bodies and the sky is unpolarised", beside },

@@ -120,14 +120,15 @@ static bool noise(const struct kd_scene *scene, const struct kd_setting *rays)
 }
 
 static const struct kd_sentence sentences[] = {
-    { "sky.grid", "sky: a drawn celestial grid; its lensing is exact, but its brightness is not redshifted", drawn },
+    { "sky.grid", "sky: it is a drawn celestial grid; its lensing is exact, but its brightness is not redshifted",
+      drawn },
     { "sky.noise",
-      "sky: noise, because the camera is so close to the horizon; for most pixels a step of one pixel, or of the last "
-      "digit of a ray's constants, changes the direction by more than 0.1 rad",
+      "sky: it is noise, because the camera is very close to the horizon; for most pixels a step of one pixel, or of "
+      "the last digit of a ray's constants, changes the direction by more than 0.1 rad",
       noise },
     { "sky.made-up", "sky: stars are generated, with the numbers of the real sky in each magnitude", made_up },
     { "sky.hipparcos",
-      "sky: stars of the Hipparcos catalogue, all at infinity; the catalogue is nearly complete only to "
+      "sky: the stars are those of the Hipparcos catalogue, all at infinity; the catalogue is nearly complete only to "
       "magnitude 8",
       listed },
     { "sky.star-colour",
@@ -151,7 +152,7 @@ static const struct kd_sentence sentences[] = {
     { "sky.milky-way",
       "sky: the light between the stars is a generated Milky Way, which differs from the real one in its details",
       milky },
-    { "sky.no-image", "sky: sky.model is \"image\" but sky.image is not set: the generated Milky Way takes its place",
+    { "sky.no-image", "sky: the generated Milky Way is shown, because sky.model is \"image\" but sky.image is not set",
       stands_in },
     { "sky.picture",
       "sky: the light between the stars is a photograph, which is not calibrated: its white is taken as 21 "

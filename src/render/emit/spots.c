@@ -76,13 +76,13 @@ WHEN(fast, !scene->disk.slow_light)
 
 static const struct kd_sentence sentences[] = {
     { "spots.drawn",
-      "spots: Gaussians in r and phi that move rigidly with the orbit of their centre; they shine only in the "
+      "spots: they are Gaussians in r and phi that move rigidly with the orbit of their centre; they shine only in the "
       "equatorial plane outside the ISCO, with a power-law spectrum and the redshift of the gas at each place",
       NULL },
     { "spots.chosen", "spots: their brightness and colour are chosen, not computed; they absorb no light", NULL },
     { "spots.no-shift", "spots: the Doppler shift or the gravitational redshift of the gas is switched off",
       without_shift },
-    { "spots.fast", "spots: fast light: all are shown at one coordinate time, and the delay of their light is ignored",
+    { "spots.fast", "spots: all are shown at one coordinate time, and the delay of their light is ignored (fast light)",
       fast },
 };
 

@@ -96,29 +96,29 @@ static const struct kd_sentence sentences[] = {
       "constant over each short step; I differs from that of unpolarised transfer",
       NULL },
     { "stokes.thermal",
-      "polarization: thermal synchrotron light by the fits of Pandya et al. 2016 and Dexter 2016 (V); if the field is "
-      "along the ray, or electrons are not hot, V is limited so that at most 99 % of I is polarised",
+      "polarization: thermal synchrotron light follows the fits of Pandya et al. 2016, and its V that of Dexter 2016; "
+      "if the field is along the ray, or electrons are not hot, V is limited so that at most 99 % of I is polarised",
       is_thermal },
     { "stokes.power",
-      "polarization: synchrotron light of a power law by the fits of Pandya et al. 2016; at most 99 % of I is "
+      "polarization: synchrotron light of a power law follows the fits of Pandya et al. 2016; at most 99 % of I is "
       "polarised",
       is_power },
     { "stokes.kappa",
-      "polarization: synchrotron light of a kappa distribution by the fits of Pandya et al. 2016, V for hot "
-      "electrons only; at most 99 % of I is polarised",
+      "polarization: synchrotron light of a kappa distribution follows the fits of Pandya et al. 2016, whose V is for "
+      "hot electrons only; at most 99 % of I is polarised",
       is_kappa },
     { "stokes.faraday",
-      "polarization: Faraday rotation and conversion by those electrons only (Shcherbakov 2008, Dexter 2016; "
-      "Jones & O'Dell 1977); there are no cold electrons",
+      "polarization: only the electrons that shine cause Faraday rotation and conversion (Shcherbakov 2008, Dexter "
+      "2016; Jones & O'Dell 1977); there are no cold electrons",
       turns_others },
     { "stokes.faraday-dexter",
-      "polarization: Faraday rotation and conversion by those electrons only (Dexter 2016; rotation below Theta "
-      "= 1/2 by Shcherbakov 2008); there are no cold electrons",
+      "polarization: only the electrons that shine cause Faraday rotation and conversion (Dexter 2016; rotation below "
+      "Theta = 1/2 by Shcherbakov 2008); there are no cold electrons",
       turns_dexters },
     { "stokes.faraday-kappa",
-      "polarization: Faraday rotation and conversion of a kappa distribution by the fits of Marszewski et al. 2021 "
-      "alone, made for frequencies above 100 gyrofrequencies and above 0.1 (kappa w)^2 sin(theta) gyrofrequencies; "
-      "between kappa 3.5, 4, 4.5 and 5 they are interpolated",
+      "polarization: Faraday rotation and conversion of a kappa distribution follow only the fits of Marszewski et al. "
+      "2021, which are for frequencies above 100 gyrofrequencies and above 0.1 (kappa w)^2 sin(theta) gyrofrequencies; "
+      "between kappa 3.5, 4, 4.5 and 5 the fits are interpolated",
       turns_kappa },
     { "stokes.no-faraday", "polarization: Faraday rotation and conversion are left out", turns_not },
     { "stokes.disorder",

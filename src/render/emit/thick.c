@@ -69,8 +69,8 @@ static bool by_profile(const struct kd_scene *scene, const struct kd_setting *ra
 
 static const struct kd_sentence sentences[] = {
     { "thick.height",
-      "thick disk: a Gaussian profile of a chosen height, with the thin disk's temperature, flux and optical depth at "
-      "each distance from the axis; it is not a torus in equilibrium, and it ends at 4.5 heights",
+      "thick disk: it has a Gaussian profile of a chosen height, and the thin disk's temperature, flux and optical "
+      "depth at each distance from the axis; it is not a torus in equilibrium, and it ends at 4.5 heights",
       NULL },
     { "thick.rotation",
       "thick disk: at any height its gas has the angular velocity of the circular orbit in the plane at its "

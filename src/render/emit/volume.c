@@ -42,9 +42,9 @@ static bool unshifted(const struct kd_scene *scene, const struct kd_setting *ray
 
 static const struct kd_sentence sentences[] = {
     { "volume.made-up",
-      "volume: invented, uniform matter, which is at rest relative to observers of zero angular momentum and ends 1 % "
-      "outside the horizon; it is grey, with the colour of a chosen temperature; its light is bolometric, independent "
-      "of disk.band",
+      "volume: the matter is invented and uniform; it is at rest relative to observers of zero angular momentum and "
+      "ends 1 % outside the horizon; it is grey, with the colour of a chosen temperature; its light is bolometric, "
+      "whatever disk.band is",
       NULL },
     { "volume.no-shift",
       "volume: the frequency shift of the matter is switched off; lengths are measured by the observer's affine "

@@ -84,7 +84,8 @@ static int why_from_within(const struct kd_ray_motion *m, enum kd_ray_fate fate,
                         "falls to the horizon of the hole's past.",
                         m->turning_r);
     return snprintf(
-        out, size, "Followed back, the ray stays inside, to the horizon of the hole's past: it has no source outside.");
+        out, size,
+        "Followed back, the ray stays inside until the horizon of the hole's past: its light has no source outside.");
 }
 
 int kd_ray_motion_why(const struct kd_ray_motion *m, enum kd_ray_fate fate, char *out, size_t size)

@@ -117,7 +117,7 @@ static enum kd_status render_background(struct kd_renderer *renderer, const stru
         return found;
     struct kd_background_render *a = enter_background_render(renderer, plan);
     if (!a)
-        return kd_error_set(error, KD_EBUSY, "too many pictures are being rendered beside others (limit %u)",
+        return kd_error_set(error, KD_EBUSY, "too many background pictures are being rendered (limit %u)",
                             KD_BACKGROUND_RENDERS);
     struct kd_frame_job job = {
         .r = renderer,

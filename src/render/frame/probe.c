@@ -320,10 +320,10 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     struct kd_error error = { 0 };
     if (by->engine == KD_ENGINE_CLOSED)
         return say_no_steps(
-            told, "the picture's engine is the closed form, which takes no steps: choose another with accuracy.engine");
+            told, "the engine of the picture is \"closed\", which takes no steps; accuracy.engine must be another");
     if (scene->camera.r <= kd_scene_hole(scene)->outer)
-        return say_no_steps(told, "the observer is inside the horizon, where rays have no alpha and beta: use the "
-                                  "path, which has its own steps");
+        return say_no_steps(told, "the observer is inside the horizon, where rays have no alpha and beta; only the "
+                                  "path of the ray has steps there");
     kd_lens_label(&counted, &j->plan->lens, told->middle.x, told->middle.y, &label);
     const double alpha_beta[] = { label.alpha, label.beta };
     const bool outward = label.outward && isfinite(scene->camera.r);

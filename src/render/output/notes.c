@@ -75,14 +75,13 @@ static const struct {
     uint64_t (*count)(const struct kd_accuracy_report *report);
 } measured[] = {
     { { "rays.undecided", "rays: some rays of this picture were given up; their pixels are magenta; the accuracy "
-                          "report counts them as undecided" },
+                          "report counts them as \"undecided\"" },
       undecided },
     { { "rays.differ", "rays: a sample of this picture's rays was traced again in 64 bits, and some of them have "
-                       "another fate or number of crossings; the accuracy report counts them as differ" },
+                       "another fate or number of crossings; the accuracy report counts them as \"differ\"" },
       differ },
-    { { "light.lost",
-        "light: some pixels of this picture have no finite light, or a ray that was given up in a volume; they are "
-        "magenta; the accuracy report counts them as lost" },
+    { { "light.lost", "light: some pixels of this picture have no finite light, or a ray that was given up in a "
+                      "volume; they are magenta; the accuracy report counts them as \"lost\"" },
       lost },
 };
 

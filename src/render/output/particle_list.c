@@ -100,7 +100,8 @@ enum kd_status kd_particle_list_set(struct kd_particle_list *list, const char *n
     if (!first && !stride && !count) {
         kd_text_clip(given, sizeof given, name);
         return kd_error_field(error, pointer,
-                              "there is no parameter %s here; known are first, stride, count, fields, time", given);
+                              "there is no parameter %s here; the parameters are first, stride, count, fields and time",
+                              given);
     }
     if (!number(text, &value) || !(value >= least && value <= most) || value != floor(value))
         return kd_error_field(error, pointer,
@@ -131,8 +132,8 @@ enum kd_status kd_particle_list_settle(struct kd_particle_list *list, uint64_t m
                               there, list->grid.count, list->first, list->stride);
     if (most && list->n * row > most)
         return kd_error_field(error, "/count",
-                              "count is %zu with %zu bytes a particle; it must be 1 to %llu in one answer: first gives "
-                              "the rest, stride fewer",
+                              "count is %zu with %zu bytes a particle; it must be 1 to %llu in one answer; first "
+                              "selects the rest, and a larger stride selects fewer",
                               list->n, row, (unsigned long long)(most / row));
     list->orbits = needs_orbits(list);
     if (list->orbits)

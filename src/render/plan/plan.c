@@ -71,17 +71,17 @@ static const struct sentence {
         { "disk.orders", "disk: image orders beyond accuracy.orders are left out", crossings },
     { "volumes.march",
       "volumes: light is integrated in 32 bits with three points per step; the number of steps depends on the texture, "
-      "the optical depth and the ray; the requested accuracy is a target, beside which an error of about 5e-5 remains; "
-      "the error is measured on a sample of rays with half the step length",
+      "the optical depth and the ray; the requested accuracy is a target, and an error of about 5e-5 remains in "
+      "addition; the error is measured on a sample of rays with half the step length",
       volumes },
     { "volumes.sketch",
-      "volumes: a sketch while the view changes; its measured error is about 5 %, and leaving out fine octaves of the "
-      "turbulence adds about 7 %, which is not measured",
+      "volumes: while the view changes, light is computed roughly; its measured error is about 5 %; fine octaves of "
+      "the turbulence are left out, which adds an error of about 7 % that is not measured",
       sketched },
     { "sky.sketch",
-      "sky: while the view changes, faint images of stars are left out, which would brighten their pixel by less than "
-      "sky.brightness, and so are images at the critical curve whose pixel covers more than 0.15 rad of the sky; the "
-      "others are displaced by up to a fifth of a ray's spacing",
+      "sky: while the view changes, images of stars are left out that would brighten their pixel by less than "
+      "sky.brightness, or whose pixel at the critical curve covers more than 0.15 rad of the sky; the other images are "
+      "displaced by up to a fifth of the distance between rays",
       bright },
     { "colour.gamut", "colour: black bodies outside the sRGB gamut are moved to its edge at equal luminance",
       crossings },
@@ -89,25 +89,25 @@ static const struct sentence {
       "image: pixels at the critical curve have few rays, so that a photon ring thinner than a pixel appears dotted",
       few_rays },
     { "image.adaptive",
-      "image: pixels that differ from the mean of their neighbours by twice image.pixel_error have 16 rays, the "
-      "others one; where the lens map is smooth these rays are interpolated; the remaining error is measured on "
-      "a sample",
+      "image: pixels that differ from the mean of their neighbours by at least twice image.pixel_error have 16 rays, "
+      "the others have one; where the lens map is smooth, the 16 rays are interpolated; the remaining error is "
+      "measured on a sample",
       adapted },
     { "image.one-ray",
       "image: if image.samples is \"auto\", maps, the ring projection and light curves have one ray a pixel",
       not_adapted },
-    { "post.film", "post: a tone curve like that of film; pixel values are not proportional to radiance", film },
+    { "post.film", "post: the tone curve is like that of film; pixel values are not proportional to radiance", film },
     { "post.neutral",
-      "post: a neutral tone curve; light above 0.8 of white is compressed, and pixel values are not proportional to "
-      "radiance",
+      "post: the tone curve is neutral; light above 0.8 of white is compressed, and pixel values are not proportional "
+      "to radiance",
       neutral },
     { "post.bloom",
-      "post: glare of a lens: part of bright light is spread around its position; the total is conserved, and light "
+      "post: the glare of a lens spreads part of bright light around its position; the total is conserved, and light "
       "that would leave the picture stays at its edge",
       bloom },
     { "post.beam",
-      "post: a Gaussian beam represents a telescope: no gaps between stations, no noise, no reconstruction; no "
-      "light comes from beyond the picture's edge",
+      "post: a Gaussian beam represents a telescope, without gaps between stations, noise or reconstruction; no light "
+      "comes from beyond the picture's edge",
       beam },
     { "post.near-beam",
       "post: for a near observer the beam is as wide at the hole, in M, as it is from spacetime.distance_pc",
@@ -117,14 +117,15 @@ static const struct sentence {
       "camera, no telescope would measure this flux",
       near_flux },
     { "post.heat",
-      "post: false colours; brightness is that of the model's band, not a brightness temperature at a radio "
+      "post: colours are false; brightness is that of the model's band, not a brightness temperature at a radio "
       "frequency",
       heat },
     { "sky.cut", "sky: images of stars are cut at the edges of the bands in which a picture of this size is rendered",
       cut },
     { "volume.normalised",
       "volume: the density is chosen so that a picture of 128 pixels has the flux volume.normalise_to_jy; small "
-      "pictures determine it, and the estimate does not include their time; answers give the factor as density_scale",
+      "pictures determine this density, and the estimated time does not include them; answers give the factor of the "
+      "density as density_scale",
       normalised },
     { "volume.held",
       "volume: while the view is dragged, the density is the last one found for this matter in another view; the flux "
@@ -138,7 +139,8 @@ static const struct sentence {
       "scale",
       projected },
     { "projection.angles",
-      "projection: a map of half of the sky or all of it; angles become distances, and areas are not to scale",
+      "projection: the picture is a map of half of the sky or of all of it; angles become distances, and areas are not "
+      "to scale",
       rounded },
     { "camera.stereo",
       "camera: each eye of a pair is an observer of the same kind at the same time; its displacement from the middle "
@@ -150,16 +152,17 @@ static const struct sentence {
       "interpolated to 1e-5, or to 2e-6 with the profile balanced; answers give the number of interpolated pixels",
       interpolated },
     { "arithmetic.f32",
-      "arithmetic: 32-bit; rays whose fate or number of crossings is uncertain in 32 bits are followed again in "
-      "64 bits",
+      "arithmetic: rays are followed in 32 bits; rays whose fate or number of crossings is then uncertain are followed "
+      "again in 64 bits",
       single },
     { "arithmetic.f32-listed",
-      "arithmetic: 32-bit, by an engine whose rays are not traced again in 64 bits; within about 1e-5 of the critical "
-      "curve rays may be lost, or their fate may be wrong",
+      "arithmetic: rays are followed in 32 bits by an engine that does not trace them again in 64 bits; within about "
+      "1e-5 of the critical curve rays may be lost, or their fate may be wrong",
       single_listed },
-    { "arithmetic.f64", "arithmetic: 64-bit rays; the radii of their crossings are kept in 32 bits", twice },
-    { "rays.kerr-schild", "rays: followed in Kerr-Schild coordinates for comparison; docs/accuracy.md gives the cost",
-      compared },
+    { "arithmetic.f64", "arithmetic: rays are followed in 64 bits; the radii of their crossings are stored in 32 bits",
+      twice },
+    { "rays.kerr-schild",
+      "rays: they are followed in Kerr-Schild coordinates for comparison; docs/accuracy.md gives the cost", compared },
 };
 enum { SENTENCES = sizeof sentences / sizeof *sentences };
 

@@ -107,14 +107,14 @@ static const struct {
 } approximations[] = {
     { { "rays.vacuum", "rays are null geodesics in vacuum: no plasma, no scattering, no absorption at a crossing" },
       NULL },
-    { { "rays.gas",
-        "g is that of gas on circular equatorial orbits outside the ISCO, and inside it of gas that falls with "
-        "the energy and angular momentum of the ISCO; pressure is ignored" },
+    { { "rays.gas", "g is for gas on circular equatorial orbits outside the ISCO; inside the ISCO it is for gas that "
+                    "falls with the energy and angular momentum of the ISCO; pressure is ignored" },
       NULL },
     { { "rays.infinity",
         "g is relative to infinity; for an observer at a finite radius, multiply it by the observer's nu/E_infinity" },
       is_labelled },
-    { { "rays.f32", "rays in 32-bit arithmetic; within about 1e-5 of the critical curve the fate may be wrong" },
+    { { "rays.f32",
+        "rays are followed in 32-bit arithmetic; within about 1e-5 of the critical curve their fate may be wrong" },
       is_single },
     { { "rays.from-1000",
         "the engine starts rays from infinity at 1000 M, at the exact position given by their constants; the direction "

@@ -20,8 +20,7 @@ static enum kd_status check_observer(const struct kd_rays_params *p, struct kd_e
     double horizon = hole.outer;
     if (!isinf(p->r) && !(p->r > horizon && p->r <= KD_RAYS_FAR))
         return kd_error_field(error, "/observer/r",
-                              "r is %.16g; it must be \"infinity\" or a radius above that of the horizon, %.9g, up "
-                              "to %g",
+                              "r is %.16g; it must be \"infinity\", or more than %.9g, the horizon, and at most %g",
                               p->r, horizon, KD_RAYS_FAR);
     if (!(p->r > 0))
         return kd_error_field(error, "/observer/r", "r is negative");

@@ -135,7 +135,7 @@ static enum kd_status number(struct reader *r, int component, double *out)
     if (next && strchr("0123456789.+-eE", next))
         return not_json(r, "malformed number");
     if (n > NUMBER_MAX)
-        return not_json(r, "number of more than 60 characters");
+        return not_json(r, "a number of more than 60 characters");
     *out = strtod(r->text + r->at, NULL);
     if (!isfinite(*out))
         return wrong(r, component, "a number beyond 1e308");

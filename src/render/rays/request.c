@@ -67,7 +67,8 @@ static enum kd_status read_tree(struct document *d, const cJSON *root)
     if (status)
         return status;
     if (!rays)
-        return kd_error_field(d->error, "/rays", "rays is missing: an array of pairs of numbers [alpha, beta]");
+        return kd_error_field(d->error, "/rays",
+                              "rays is missing; it must be an array of pairs of numbers [alpha, beta]");
     if (!cJSON_IsArray(rays))
         return kd_member_refuse(rays, "/rays", "an array of pairs of numbers [alpha, beta]", d->error);
     return !rays->child ? KD_OK
@@ -169,9 +170,9 @@ static enum kd_status read_pairs(const void *data, size_t size, struct kd_npy *a
     if (status)
         return status;
     if (array->n_fields != 1 || array->fields[0].name[0] || array->fields[0].type != KD_NPY_F8)
-        return kd_error_set(error, KD_EINVAL, "the elements of the array are not 8-byte floats, <f8");
+        return kd_error_set(error, KD_EINVAL, "the elements of the array must be 8-byte floats, <f8");
     if (array->n_dimensions != 2 || array->shape[1] != 2)
-        return kd_error_set(error, KD_EINVAL, "the shape of the array is not (n, 2)");
+        return kd_error_set(error, KD_EINVAL, "the shape of the array must be (n, 2)");
     if (array->shape[0] > KD_RAYS_MAX)
         return kd_error_set(error, KD_EINVAL, "there are %llu rays; there must be 1 to %d",
                             (unsigned long long)array->shape[0], KD_RAYS_MAX);

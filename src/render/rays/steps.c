@@ -150,7 +150,7 @@ enum kd_status kd_rays_steps(struct kd_renderer *renderer, const struct kd_rays_
     KD_TRY(kd_rays_check(params, ray->alpha_beta, 1, error));
     if (params->engine == KD_ENGINE_CLOSED)
         return kd_error_field(error, "/accuracy/engine",
-                              "the closed form takes no steps: choose an engine of the device");
+                              "engine is \"closed\", which takes no steps; it must be an engine of the device");
     out->params.steps = params->steps ? params->steps : kd_engine_steps(params->engine, params->precision);
     size_t most = room(&out->params);
     if (!(numbers = calloc(most, sizeof *numbers)))

@@ -217,8 +217,8 @@ enum kd_status kd_critical_pixels_of(const struct kd_scene *scene, struct kd_cri
     *out = (struct kd_critical_pixels) { 0 };
     w.curve = kd_critical_of(&observer);
     if (w.curve.status) /* cannot happen for a valid scene */
-        return kd_error_set(error, KD_EINVAL, "no critical curve for spin %.16g, camera.r %.16g", observer.hole.a,
-                            observer.radius);
+        return kd_error_set(error, KD_EINVAL, "there is no critical curve for spin %.16g and camera.r %.16g",
+                            observer.hole.a, observer.radius);
     w.across = (w.width + TILE - 1) / TILE;
     w.down = (w.height + TILE - 1) / TILE;
     return mark_and_list(&w, out, error);

@@ -81,7 +81,7 @@ static enum MHD_Result unknown(struct kd_request *request)
 {
     char names[300], detail[400];
     kd_quantity_names(names, sizeof names);
-    snprintf(detail, sizeof detail, "there is no quantity of this name; known are %s", names);
+    snprintf(detail, sizeof detail, "there is no quantity of this name; the quantities are %s", names);
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = detail });
 }
 

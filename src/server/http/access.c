@@ -326,11 +326,11 @@ static bool check_link(struct kd_request *request, struct kd_problem *problem, s
         *problem = (struct kd_problem) { .type = KD_PROBLEM_LINK, .detail = error->message };
         return false;
     case KD_LINK_CROWDED:
-        *problem = (struct kd_problem) {
-            .type = KD_PROBLEM_LINKS_FULL,
-            .retry_after = 3600,
-            .detail = "the server keeps count of too many links that have a budget and have not expired"
-        };
+        *problem =
+            (struct kd_problem) { .type = KD_PROBLEM_LINKS_FULL,
+                                  .retry_after = 3600,
+                                  .detail =
+                                      "the server counts the device time of too many links that have not expired" };
         return false;
     }
     return false;

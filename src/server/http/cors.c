@@ -59,7 +59,8 @@ static enum kd_status add_one(struct kd_cors *cors, const char *origin, bool emb
 {
     const char *fault = (embeds ? embed_fault_of : fault_of)(origin);
     if (fault)
-        return kd_error_set(error, KD_EINVAL, "--%s-origin \"%.200s\": %s", embeds ? "embed" : "cors", origin, fault);
+        return kd_error_set(error, KD_EINVAL, "--%s-origin is \"%.200s\"; %s", embeds ? "embed" : "cors", origin,
+                            fault);
     if (embeds && kd_buffer_printf(&cors->embedders, "%s%s", cors->embedders.size ? " " : "", origin))
         return kd_error_set(error, KD_ENOMEM, "out of memory");
     char **origins = realloc(cors->origins, (cors->n + 1) * sizeof *origins);

@@ -123,8 +123,9 @@ bool kd_reply_matches(struct kd_request *request, const char *etag)
 
 enum MHD_Result kd_reply_unmatched(struct kd_request *request)
 {
-    return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
-                                                            .detail = "no resource here has an ETag of If-Match" });
+    return kd_reply_problem(request,
+                            &(struct kd_problem) { .type = KD_PROBLEM_PRECONDITION,
+                                                   .detail = "no resource at this address has an ETag of If-Match" });
 }
 
 static bool only_asks(const struct kd_request *request)

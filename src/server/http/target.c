@@ -142,7 +142,7 @@ enum kd_status kd_target_only(const struct kd_target *target, const char *const 
             continue;
         kd_text_pointer(pointer, sizeof pointer, name);
         kd_text_clip(given, sizeof given, name);
-        return kd_error_field(error, pointer, "there is no parameter %s here; known are %s", given, list);
+        return kd_error_field(error, pointer, "there is no parameter %s here; the parameters are %s", given, list);
     }
     return kd_target_distinct(target, error);
 }

@@ -326,9 +326,9 @@ enum kd_status kd_scheduler_admit(struct kd_scheduler *scheduler, const char *cl
     pthread_mutex_unlock(&scheduler->lock);
     *quota = n < scheduler->limit && own >= scheduler->share;
     if (n >= scheduler->limit)
-        return kd_error_set(error, KD_EBUSY, "too many such requests are in progress (limit %u)", n);
+        return kd_error_set(error, KD_EBUSY, "too many requests of this kind are in progress (limit %u)", n);
     return *quota ? kd_error_set(error, KD_EBUSY,
-                                 "you have too many such requests in progress (limit %u for one client)", own)
+                                 "you have too many requests of this kind in progress (limit %u for one client)", own)
                   : KD_OK;
 }
 

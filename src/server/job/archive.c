@@ -68,8 +68,8 @@ static bool admit(struct kd_request *request, size_t held, enum MHD_Result *refu
     const struct kd_problem problem = {
         .type = quota ? KD_PROBLEM_QUOTA : KD_PROBLEM_QUEUE_FULL,
         .retry_after = 2,
-        .detail = quota ? "you are fetching too many cubes and films at once (limit for one client)"
-                        : "too many cubes and films are being fetched"
+        .detail = quota ? "you are downloading too many cubes and films at once (limit for one client)"
+                        : "too many cubes and films are being downloaded"
     };
     *refused = kd_reply_problem(request, &problem);
     return false;

@@ -93,7 +93,7 @@ static enum kd_status reserve(const struct kd_job_film_writer *w, struct kd_erro
         status = kd_error_set(error, KD_EIO, "the job has been deleted");
     else if (w->film.bytes > all->params.bytes || all->bytes > all->params.bytes - w->film.bytes)
         status = kd_error_set(
-            error, KD_EFULL, "the film has %.1f MB, too many beside the %.1f MB of all jobs (limit %.1f MB)",
+            error, KD_EFULL, "the film has %.1f MB; with the %.1f MB of all jobs it exceeds the limit of %.1f MB",
             1e-6 * (double)w->film.bytes, 1e-6 * (double)all->bytes, 1e-6 * (double)all->params.bytes);
     else {
         all->bytes += w->film.bytes;

@@ -137,7 +137,7 @@ enum MHD_Result kd_job_send_table(struct kd_request *request, struct kd_job *job
     if (!format && !table)
         return not_acceptable(request, job, series);
     if (!table) {
-        snprintf(detail, sizeof detail, "format is %s: the frames of this job are %s",
+        snprintf(detail, sizeof detail, "format must be %s, because the frames of this job are %s",
                  list_tables(series, false, names, sizeof names), series->each);
         return kd_job_bad(request, job, detail);
     }

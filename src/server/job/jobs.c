@@ -214,7 +214,9 @@ static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota
         return kd_error_set(error, KD_EBUSY, "you have too many unfinished jobs (limit %u for one client)", own);
     }
     if (stored >= all->params.stored && !gives_way)
-        return kd_error_set(error, KD_EBUSY, "too many stored jobs (limit %u), and all are being read", stored);
+        return kd_error_set(error, KD_EBUSY,
+                            "too many stored jobs (limit %u), and none can be deleted, because all are being read",
+                            stored);
     return KD_OK;
 }
 

@@ -84,7 +84,7 @@ void kd_job_store_tidy(void)
         if (lock >= 0) { /* the lock was free: the server that made the folder is dead */
             kd_job_folder_empty(folder);
             if (!unlinkat(parent, entry->d_name, AT_REMOVEDIR))
-                kd_log(KD_LOG_INFO, "%s is removed; a server that has ended left it", entry->d_name);
+                kd_log(KD_LOG_INFO, "%s, which a server that has ended left behind, is removed", entry->d_name);
             close(lock);
         }
         if (folder >= 0)

@@ -9,13 +9,13 @@ void kd_openapi_access_schemes(struct kd_json *json)
                    "{\"token\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"the token from the creation "
                    "of the session, playground, job or "
                    "asset\"},\"tokenQuery\":{\"type\":\"apiKey\",\"in\":\"query\",\"name\":\"token\",\"description\":"
-                   "\"the same, if Authorization has an access "
+                   "\"the token from the creation of the object, if Authorization has an access "
                    "token\"},\"access\":{\"type\":\"http\",\"scheme\":\"bearer\",\"description\":\"an access token of "
                    "the server's token file, if it has "
                    "one\"},\"accessHeader\":{\"type\":\"apiKey\",\"in\":\"header\",\"name\":\"" KD_ACCESS_HEADER
-                   "\",\"description\":\"the same, if Authorization has another "
+                   "\",\"description\":\"the access token, if Authorization has another "
                    "token\"},\"accessCookie\":{\"type\":\"apiKey\",\"in\":\"cookie\",\"name\":\"" KD_ACCESS_COOKIE
-                   "\",\"description\":\"the same, for a browser that opened a page with "
+                   "\",\"description\":\"the access token, for a browser that opened a page with "
                    "?access=TOKEN\"},\"link\":{\"type\":\"apiKey\",\"in\":\"query\",\"name\":\"signature\","
                    "\"description\":\"the last parameter of a signed link, behind signer, expires and budget_ms\"}}");
 }

@@ -23,7 +23,7 @@ static const struct {
     { "Accept-Ranges", "{\"const\":\"bytes\"}", "the resource supports Range", false },
     { "Content-Range", TEXT, "bytes FIRST-LAST/ALL of a part; bytes */ALL if the range is beyond the end", true },
     { "Repr-Digest", TEXT, "sha-256 of the whole (RFC 9530)", false },
-    { "Content-Digest", TEXT, "the same digest, if the answer is not a part", false },
+    { "Content-Digest", TEXT, "sha-256 of the whole, if the answer is not a part", false },
     { "Content-Disposition", TEXT, "the name of a file", false },
     { "Server-Timing", TEXT, "times in ms: queue, each pass, encoding", false },
     { "Preference-Applied", TEXT, "return=minimal, if Prefer requested it", false },

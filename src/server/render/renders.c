@@ -99,7 +99,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     else if (name && !format)
         refuse_name(name, &error);
     else if (name && text && !format->lossy)
-        kd_error_field(&error, "/quality", "quality is %s; it must be absent with format %s, which is exact", text,
+        kd_error_field(&error, "/quality", "quality is %s; it cannot be used with format %s, which is exact", text,
                        name);
     else {
         const struct offer offer = offer_of(text);

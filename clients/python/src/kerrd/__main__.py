@@ -23,11 +23,11 @@ DUMP_OPTIONS = (
     ("gamma_p", float, "adiabatic index of ions (default: the file's, else 5/3)"),
     ("sigma_cut", float, "no matter where b^2/rho is larger (default: 1)"),
     ("rho_floor", float, "no matter where the code's density is at most this (default: everywhere)"),
-    ("outer", float, "leave out rows beyond this r"),
+    ("outer", float, "leave out rows with a larger r"),
     ("spin", float, "spin of the hole, for Athena++, whose files do not have it"),
     ("gamma", float, "adiabatic index of the gas, for Athena++"),
-    ("every", int, "of so many dumps of a series, keep one (default: 1)"),
-    ("row_step", int, "of so many rows, keep one (default: 1)"),
+    ("every", int, "keep one of so many dumps of a series (default: 1)"),
+    ("row_step", int, "keep one of so many rows (default: 1)"),
 )
 
 
@@ -89,14 +89,16 @@ def main(arguments: list[str] | None = None) -> int:
     )
     one.add_argument("file", metavar="FILE", nargs="+")
     one.add_argument(
-        "--code", choices=CODES + grmhd.CODES, help="the code that the file is for (default: by its contents)"
+        "--code", choices=CODES + grmhd.CODES, help="the code that the file belongs to (default: by its contents)"
     )
     one.add_argument("--model", choices=MODELS, help="the model of ipole (default: by the file's keys)")
     one.add_argument(
-        "-o", "--output", metavar="OUT", help="write the scene there (default: standard output), or the grid"
+        "-o", "--output", metavar="OUT", help="file for the scene (default: standard output), or for the grid"
     )
     one.add_argument("-a", "--all", action="store_true", help="print the use of every key")
-    one.add_argument("--strict", action="store_true", help="write no scene if something is not said, with exit code 1")
+    one.add_argument(
+        "--strict", action="store_true", help='if a key is "not said", write no scene and end with exit code 1'
+    )
     dumps = one.add_argument_group("dumps of simulations")
     for name, kind, text in DUMP_OPTIONS:
         dumps.add_argument("--" + name.replace("_", "-"), type=kind, help=text)

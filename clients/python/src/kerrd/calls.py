@@ -364,7 +364,7 @@ def open_session(
 ) -> Call[dict[str, Any]]:
     if least is not None:
         if min_scale is not None:
-            raise TypeError("min_scale and least, its former name, are both given")
+            raise TypeError("min_scale cannot be used with least, which is its former name")
         warnings.warn("least is now called min_scale", DeprecationWarning, stacklevel=3)
         min_scale = least
     return post(

@@ -237,7 +237,7 @@ def _files(folder: Path, documents: Sequence[Document], preset: str | None, laye
     for name, of in wanted.items():
         if (folder / name).exists() and known.get(name) != of:
             raise KerrdError(
-                f"{folder / name} shows another scene than this sweep's, or nobody knows which: give an empty folder, or remove it"
+                f"{folder / name} is not known to show this scene of the sweep; give an empty folder, or remove the file"
             )
     part = folder / f"sweep.json.{os.getpid()}.part"
     part.write_text(json.dumps({**known, **wanted}, indent=0))
@@ -271,7 +271,7 @@ def stitched(
     document = scene_of(scene, {})
     image = document.get("image") or {}
     if not ("width" in image and "height" in image):
-        raise ValueError("image.width and image.height are missing: a picture of tiles says its size")
+        raise ValueError("image.width and image.height are missing; both must be given for a picture of tiles")
     width, height = int(image["width"]), int(image["height"])
     places = windows(width, height, tile)
     parts = sweep(

@@ -40,7 +40,7 @@ def finite(value: Any, path: str = "") -> Any:
     for name, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
         finite(part, f"{path}.{name}" if path else str(name))
     if isinstance(value, float) and not math.isfinite(value):
-        raise ValueError(f"{path or 'the document'} is {value}: it must be a finite number")
+        raise ValueError(f"{path or 'the document'} is {value}; it must be a finite number")
     return value
 
 
@@ -73,7 +73,7 @@ def _place(here: Any, name: str, path: str) -> Any:
         return name
     if not name.isdigit() or int(name) >= len(here):
         raise KeyError(
-            f"{path}: {name} is no place in a list of {len(here)}; it must be "
+            f"{path}: {name} is no index of a list of {len(here)} elements; it must be "
             + (f"0 to {len(here) - 1}" if here else "none")
         )
     return int(name)
@@ -87,7 +87,7 @@ def _size(value: Any) -> tuple[int, int]:
         or len(parts) != 2
         or not all(re.fullmatch(r"[0-9]+", str(part)) for part in parts)
     ):
-        raise ValueError(f'size is {value!r}: it must be two whole numbers of pixels, as in (640, 360) or "640x360"')
+        raise ValueError(f'size is {value!r}; it must be two whole numbers of pixels, as in (640, 360) or "640x360"')
     return int(parts[0]), int(parts[1])
 
 

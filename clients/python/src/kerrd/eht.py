@@ -34,14 +34,14 @@ def _polarised(frame: Frame, flux: NDArray[np.float32]) -> list[NDArray[np.float
     names = [name for name in STOKES if name in frame.layers]
     if names not in ([], list(STOKES[:2]), list(STOKES)):
         raise ValueError(
-            f"stokes_q and stokes_u are needed together, and beside stokes_v; the frame has {', '.join(names)}"
+            f"the frame must have stokes_q and stokes_u together, also beside stokes_v; it has {', '.join(names)}"
         )
     if not names:
         return []
     light = next((frame.layers[name] for name in ("intensity", "specific_intensity") if name in frame.layers), None)
     if light is None:
         raise ValueError(
-            'Stokes Q, U and V are in the unit of the layer "intensity", which the frame has not: ask for it too'
+            'Stokes Q, U and V need the layer "intensity", which has their unit; the frame lacks it: request it too'
         )
     unit = float(flux.sum(dtype=np.float64)) / float(light.sum(dtype=np.float64))
     return [unit * frame.layers[name].astype(np.float64) for name in names]
@@ -72,7 +72,7 @@ def to_ehtim(
     known = told.get("name", "none") != "none" or any(told.get(key, 0) != 0 for key in ("ra_deg", "dec_deg"))
     if (ra is None) != (dec is None) or (ra is None and not known):
         raise ValueError(
-            "the position of the source is missing; it must be given by source.name, source.ra_deg and source.dec_deg of the scene, or by"
+            "the position of the source is missing; it must be given by source.name, or source.ra_deg and source.dec_deg, of the scene, or by"
             f" ra and dec here, both; ra is {ra}, dec is {dec}"
         )
     if mjd is None:

@@ -124,10 +124,10 @@ class Fields:
         if len(ending) == 1:
             return ending[0]
         if ending:
-            raise KerrdError(f"{name} may be {', '.join(ending)}: say which")
+            raise KerrdError(f"{name} is ambiguous; it must be one of {', '.join(ending)}")
         ends = {path.rsplit(".", 1)[-1] for path in self.paths}
         near = difflib.get_close_matches(said, [*self.paths, *ends], 3)
-        raise KerrdError(f"a scene has no field {name}" + (f"; near it: {', '.join(near)}" if near else ""))
+        raise KerrdError(f"a scene has no field {name}" + (f"; similar fields are {', '.join(near)}" if near else ""))
 
     def document(self, changes: Mapping[str, Any]) -> Document:
         """The same changes with full paths; `size` is kept."""
@@ -139,12 +139,12 @@ class Fields:
         spec = self.paths.get(re.sub(r"\.\d+(?=\.)", ".*", path))
         if spec is None:
             raise KerrdError(
-                f"{name} is a section: a control is of one of its fields, such as {next(p for p in self.paths if p.startswith(path + '.'))}"
+                f"{name} is a section; a control must be for one of its fields, such as {next(p for p in self.paths if p.startswith(path + '.'))}"
             )
         field = _field(path, spec)
         if field.kind == "other":
             raise KerrdError(
-                f"{path} is no number, choice or switch, and has no control; set(**{{{path!r}: …}}) sets it"
+                f"{path} has no control, because it is not a number, choice or switch; set(**{{{path!r}: …}}) sets it"
             )
         return field
 

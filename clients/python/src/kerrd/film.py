@@ -38,7 +38,7 @@ def _run(arguments: Sequence[str], request: bytes, binary: str | None) -> dict[s
         if not done.returncode:
             stats: dict[str, Any] = json.loads(said.splitlines()[-1])
             return stats
-        if "another process keeps its frames" not in said or time.monotonic() > until:
+        if "another process stores its frames" not in said or time.monotonic() > until:
             raise KerrdError(said.removeprefix("kerrd: ") or f"kerrd film ended with exit code {done.returncode}")
         time.sleep(0.5)
 

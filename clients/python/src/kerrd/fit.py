@@ -341,7 +341,7 @@ class Fit:
         if path is not None and path.exists():
             kept = _kept(path)
             if str(kept["fit"]) != described:
-                raise ValueError(f"{path} is of another fit; it must be removed, or file be another one")
+                raise ValueError(f"{path} belongs to another fit; remove it, or give another file")
             chain, logs, accepted = list(kept["chain"]), list(kept["log_probability"]), int(kept["accepted"])
             name, keys, *numbers = json.loads(str(kept["random"]))
             state = emcee.State(

@@ -44,7 +44,7 @@ def sign(
     else:
         ends = time.time() + (expires.total_seconds() if isinstance(expires, datetime.timedelta) else expires)
     if not time.time() < ends < 253402300800:
-        raise ValueError(f"expires is {expires!r}; it must be to come, and before the year 10000")
+        raise ValueError(f"expires is {expires!r}; it must be in the future and before the year 10000")
     if budget is not None and not 1e-3 <= budget <= 86400:
         raise ValueError(f"budget is {budget!r}; it must be a number of seconds, 0.001 to 86400")
     pairs = parse_qsl(at.query, keep_blank_values=True)

@@ -45,7 +45,7 @@ def _build(tree: Path) -> None:
         import fcntl
     except ImportError as missing:  # where there is no fcntl (no POSIX), kerrd cannot be built either
         raise NoBinary(
-            f"{tree} cannot be built on this system: kerrd runs on Linux; kerrd.Client(url) speaks to a server elsewhere"
+            f"{tree} cannot be built on this system: kerrd runs on Linux; kerrd.Client(url) uses a server elsewhere"
         ) from missing
     with open(tree / "scripts/setup", "rb") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
@@ -53,7 +53,7 @@ def _build(tree: Path) -> None:
             not (tree / "build/kerrd").exists()
             and subprocess.run([tree / "scripts/setup", "--program"], stdout=sys.stderr).returncode
         ):
-            raise NoBinary(f"{tree}/scripts/setup --program failed; what is wrong stands on standard error")
+            raise NoBinary(f"{tree}/scripts/setup --program failed; standard error has the reason")
 
 
 def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = False) -> str:
@@ -65,7 +65,7 @@ def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = F
         if said:
             found = shutil.which(os.fspath(said))
             if found is None:
-                raise NoBinary(f"{os.fspath(said)} is no program")
+                raise NoBinary(f"{os.fspath(said)} is not a program")
             return found
     found = _installed() or shutil.which("kerrd")
     if found:
@@ -74,7 +74,7 @@ def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = F
     if tree is None:
         raise NoBinary(
             f"there is no kerrd for {sys.platform} {platform.machine()} in this package: give binary=, set $KERRD, put it on the PATH, "
-            "or install this package from its source tree with pip install -e; kerrd.Client(url) speaks to a server elsewhere"
+            "or install this package from its source tree with pip install -e; kerrd.Client(url) uses a server elsewhere"
         )
     made = tree / "build/kerrd"
     if not made.exists() and build:
@@ -129,7 +129,7 @@ class local(Client):
         if found is None:
             self._stop()
             raise KerrdError(
-                f"{' '.join(command)} did not start (exit code {self.process.returncode}): {line.strip() or 'what is wrong stands on its standard error'}"
+                f"{' '.join(command)} did not start (exit code {self.process.returncode}): {line.strip() or 'its standard error has the reason'}"
             )
         atexit.register(self._stop)
         super().__init__(found[1], timeout=timeout, patience=patience, trust_env=False)

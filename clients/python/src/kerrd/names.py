@@ -15,6 +15,6 @@ def checked(path: str | os.PathLike[str], *endings: str) -> str:
     said = re.search(r"\.([A-Za-z][A-Za-z0-9]*)$", os.path.basename(name))
     if said and said[1].lower() not in endings:
         raise KerrdError(
-            f"{name}: the name must end in {' or '.join('.' + ending for ending in endings)}, which the file is"
+            f"{name} must end in {' or '.join('.' + ending for ending in endings)}, the format of the file"
         )
     return name

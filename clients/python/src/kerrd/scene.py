@@ -55,10 +55,10 @@ class Camera:
         1000; default "rest".
     infall_momentum: angular momentum per mass of the falling observer, which moves in r and azimuth but not in latitude (observer:
         infall); in M; -10000 to 10000; default 0.
-    projection: plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: angle round the
-        critical curve by the logarithm of the distance to it, at infinity only; equirectangular: all directions from a finite radius,
-        longitude to the right and latitude upwards; fulldome: the angle from the middle as distance, 90 degrees at the nearer edges,
-        from a finite radius; auto: plane at infinity, otherwise pinhole; default "auto".
+    projection: plane: parallel rays, image plane in M, at infinity only; pinhole: at a finite radius only; ring: the angle round the
+        critical curve across, the logarithm of the distance to it upwards, at infinity only; equirectangular: all directions from a
+        finite radius, longitude to the right and latitude upwards; fulldome: the angle from the middle as distance, 90 degrees at the
+        nearer edges, from a finite radius; auto: plane at infinity, otherwise pinhole; default "auto".
     field_m: width of the image plane (plane projection); in M; 1e-06 to 10000000; default 46.
     field_uas: width of the image plane on the sky, at spacetime.mass_msun and spacetime.distance_pc; it sets camera.field_m; none:
         camera.field_m is used; in microarcseconds; 1e-12 to 1e+12; default "none".
@@ -165,8 +165,8 @@ class Disk:
         "isco" (model: particles); 0 to 0.5; default 0.02.
     plunging_temperature: temperature of the plunging gas over the disk's largest temperature; 0: it is invisible (model: particles); 0
         to 1; default 0.7.
-    epicycles: largest amplitude of oscillations in latitude, in radians; multiplied by (kappa/Omega)^2, which vanishes at the ISCO, it
-        is also the largest relative amplitude of oscillations in r (model: particles); 0 to 0.2; default 0.02.
+    epicycles: largest amplitude of oscillations in latitude, in radians; times (kappa/Omega)^2, which vanishes at the ISCO, also the
+        largest relative amplitude of oscillations in r (model: particles); 0 to 0.2; default 0.02.
     slow_light: show particles, gas, spots and a flash at the time when the light of each ray left them, instead of at one coordinate
         time; default false.
     gas: turbulence in the gas of the smooth disk models.
@@ -297,8 +297,8 @@ class Volume:
     model: matter along the rays. none; uniform: a homogeneous shell at rest. At one radio frequency: gold, the analytic model of Gold
         et al. 2020; riaf, a hot, thin flow whose density, temperature and magnetic field are powers of r; torus, a thick disk in
         equilibrium; grid, numbers from a file; default "none".
-    inner: inner edge; horizon: as close to it as possible, which is 1 % outside it, or 0.05 % for the models at a radio frequency; for
-        a torus half of volume.torus_radius; in M; 1 to 30000; default "horizon".
+    inner: inner edge; horizon: 1 % outside the horizon, or 0.05 % for the models at a radio frequency; for a torus, half of
+        volume.torus_radius; in M; 1 to 30000; default "horizon".
     outer: outer edge of the matter; larger than the inner edge; in M; 1 to 30000; default 20.
     emissivity: light emitted along 1 M in the matter's frame, in units of the disk's brightest (model: uniform); in 1/M; 0 to 1e+30;
         default 0.02.
@@ -422,9 +422,9 @@ class Jets:
 class Polarization:
     """Polarisation of light, as layers and ticks show it; in a picture it changes only the light of volumes.
 
-    model: polarisation. none. Of light from the disk's plane: synchrotron, perpendicular to polarization.field and the ray in the gas's
-        frame; scattering, in a deep atmosphere of free electrons, perpendicular to the normal and the ray. transfer: of a volume at a
-        radio frequency, Stokes I, Q, U and V along the rays; default "none".
+    model: polarisation. none; synchrotron: of light from the disk's plane, perpendicular to polarization.field and the ray in the gas's
+        frame; scattering: of light from the disk's plane, by a deep atmosphere of free electrons, perpendicular to the normal and the
+        ray; transfer: of a volume at a radio frequency, Stokes I, Q, U and V along the rays; default "none".
     field: direction of the magnetic field in the plane: round the axis, outwards, or along the normal (model: synchrotron); default
         "toroidal".
     electron_index: p: the number of electrons is proportional to E^-p; an ordered field polarises their light by (p + 1)/(p + 7/3)
@@ -450,15 +450,15 @@ class Sky:
 
     model: sky at infinity: none; a celestial grid that shows the lensing; generated stars and a generated Milky Way; the stars of the
         Hipparcos catalogue over that Milky Way; or sky.image without stars; default "none".
-    brightness: brightness, in units of the disk's brightest surface brightness at g = 1, of the grid, or of a sky of 21 magnitudes per
-        square arcsecond; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for stars and the Milky Way behind other
+    brightness: brightness of the grid, or of a sky of 21 magnitudes per square arcsecond, in units of the disk's brightest surface
+        brightness at g = 1; stars and the Milky Way keep their real ratio. auto: 0.2, or 0.01 for stars and the Milky Way behind other
         light; 0 to 100; default "auto".
     grid_deg: spacing of the celestial grid; in degrees; 1 to 90; default 15.
     milky_way: factor on the natural brightness of the Milky Way or of sky.image; 0: only stars; 0 to 100; default 1.
     image: picture of the whole sky instead of the generated Milky Way (model: stars, catalogue, image): twice as wide as high, with
         galactic longitude 0 in the middle and rising to the left, latitude rising upwards; its white is 21 magnitudes per square
         arcsecond; default null.
-    limit_mag: magnitude of the faintest stars; in magnitudes; -2 to 14; default 14.
+    limit_mag: magnitude of the faintest stars that are shown; in magnitudes; -2 to 14; default 14.
     seed: seed of the random numbers of the generated sky; 0 to 2147483647; default 1.
     orientation: galactic, equatorial: the hole's axis points to that pole of the sky, and azimuth 0 to longitude 0; sgra, m87: an
         observer at azimuth 0 sees the hole where the Earth sees that source, with the galactic pole (sgra) or the celestial pole (m87)
@@ -503,12 +503,12 @@ class Image:
     height: height of the picture; in pixels; 1 to 32768; default 720.
     samples: rays along each side of a pixel: n gives the mean of n x n rays; auto: one ray, and 16 for pixels that differ from their
         neighbours; 1 to 8; default 1.
-    pixel_error: apparent error of a pixel of one ray, as a fraction of white, above which it gets more rays (samples: auto); 0.001 to
-        0.5; default 0.003.
+    pixel_error: apparent error, as a fraction of white, above which a pixel of one ray gets more rays (samples: auto); 0.001 to 0.5;
+        default 0.003.
     critical_factor: factor on the number of rays along each side of pixels at the critical curve, where the photon ring is thinner than
         a pixel; the product is at most 16; 1 to 16; default 4.
     bit_depth: bits a channel: 8 or 16; in bits; 8 to 16; default 8.
-    layers: contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing on the disk, or with the
+    layers: contents of the file: the picture, or maps of the rays (docs/layers.md) for the first crossing of the disk, or with the
         suffix _N for image order N; a PNG shows one map in false colour, FITS, EXR, NPZ and NPY have several as numbers; default
         ["rgb"].
     layer_min: value at the lower end of a layer's colour scale; auto: docs/layers.md gives it for each layer; -1e+12 to 1e+12; default
@@ -537,7 +537,7 @@ class Style:
     """From brightness to the colours of the file.
 
     name: style, which sets all fields of the look except those that the document sets; none: no style; default "film".
-    exposure: exponent of 2 of the exposure, relative to the disk's brightest surface brightness at g = 1; auto: by the light in the
+    exposure: exposure as an exponent of 2, relative to the disk's brightest surface brightness at g = 1; auto: by the light in the
         picture, with a limit for pictures of stars alone so that empty space is black; in stops; -40 to 40; default "auto".
     tone_map: aces: film-like curve; srgb: proportional to light, clipped; neutral: keeps colours, and compresses light near white;
         default "aces".

@@ -134,7 +134,7 @@ export const specs = [
     min: -0.99,
     max: 0.99,
     step: 0.001,
-    about: t('orbit-fields.as-the-same-one', 'By the same observer, along the hole’s rotation'),
+    about: t('orbit-fields.as-the-same-one', 'As measured by the ZAMO, along the hole’s rotation'),
   },
   {
     name: 'periods',

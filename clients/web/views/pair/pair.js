@@ -111,7 +111,7 @@ function linked(scene) {
   if (unknown.length)
     byId('link-fault').textContent = t(
       'pair.of-the-pair-in',
-      'Not understood of the pair in the link: {0}.',
+      'Parts of the pair in the link that are not understood: {0}.',
       unknown.join(', '),
     );
   return over;

@@ -13,7 +13,7 @@ export const falloff = {
   max: 10,
   step: 0.1,
   nature: 'model',
-  about: t('integrals.3-as-far-from', '3: as far from a lamp or from a disk that heats itself'),
+  about: t('integrals.3-as-far-from', '3 is the value far from a lamp, and far out on a disk that heats itself'),
 };
 export const axis = (label, more) => ({ label, ...more });
 // A range of radii from the horizon outwards.

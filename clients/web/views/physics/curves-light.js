@@ -46,7 +46,7 @@ export const light = [
               ? ''
               : t(
                   'curves-light.what-is-sent-out',
-                  ' Light that is sent out inside the hill reaches {0} M and falls back.',
+                  ' Light that is sent outwards inside the hill reaches {0} M and falls back.',
                   number(v.farthest),
                 )),
       x: axis(radius, { min: 0 }),
@@ -85,7 +85,7 @@ export const light = [
     show: (v, p) => ({
       note: t(
         'curves-light.light-nearer-than-b',
-        'Light nearer than b = {0} M ({1} M against the spin) falls in; next to it, it winds round the hole before it leaves.',
+        'Light with b below {0} M ({1} M against the spin) falls in. Light with b slightly above it winds round the hole before it leaves.',
         number(v.b_critical),
         number(v.b_critical_retrograde),
       ),
@@ -125,7 +125,7 @@ export const light = [
     show: (v, p, plain) => ({
       note: t(
         'curves-light.of-the-photon-orbit',
-        'γ = {0}, of the photon orbit at r = {1} M, which is seen there: each ring is {2} times thinner than the one before, {3} times without spin.',
+        'γ = {0} for the photon orbit at r = {1} M, which is seen there. Each ring is {2} times thinner than the one before; without spin it would be {3} times thinner.',
         number(v.gamma),
         number(v.orbit_r),
         number(Math.exp(v.gamma), 3),
@@ -155,7 +155,7 @@ export const light = [
     show: (v, p) => ({
       note: t(
         'curves-light.brightest-dimmest-of-what',
-        'Brightest {0}, dimmest {1} of what the gas emits. Light bends on its way here; without that, g would be the grey line.',
+        'The brightest gas appears {0} times and the dimmest {1} times as bright as it shines. Without the bending of light, g would be the grey line.',
         number(Math.max(...v.g4)),
         number(Math.min(...v.g4)),
       ),
@@ -205,7 +205,7 @@ export const light = [
     show: (v, p) => ({
       note: t(
         'curves-light.between-the-outer-two',
-        'Between the outer two lines lies all that can move. Inside r = {0} M the lower one is above zero: nothing there can stand still.',
+        'Everything that moves lies between the two outer lines. Inside r = {0} M the lower one is above zero: nothing there can stand still.',
         number(v.ergosphere),
       ),
       x: axis(radius),
@@ -230,7 +230,7 @@ export const light = [
     show: (v, p) => ({
       note: t(
         'curves-light.space-alone-at-one',
-        'Space alone, at one instant: distances along the curve are true distances near the hole. It does not show why things fall.',
+        'This is space alone, at one instant: distances along the curve are true distances near the hole. The curve does not show why things fall.',
       ),
       x: axis(t('curves-light.circumference-2-m', 'circumference / 2π, M')),
       y: axis(t('curves-light.height-z-m', 'height z / M'), { min: 0 }),
@@ -255,7 +255,7 @@ export const light = [
     show: (v, p) => ({
       note: t(
         'curves-light.hottest-at-r-m',
-        'Hottest at r = {0} M: {1} K. {2} % of the mass that falls in becomes light.',
+        'The disk is hottest at r = {0} M, with {1} K. {2} % of the mass that falls in becomes light.',
         number(v.r_peak),
         number(v.t_peak_k),
         number(100 * v.efficiency, 3),

@@ -81,7 +81,7 @@ export const lines = [
         live: true,
         note: t(
           'curves-lines.of-a-disk-round',
-          'Of the light of a disk round a hole without spin {0} % comes back to the disk; at spin {1} it is {2} %, and {3} % of that of its innermost ring.',
+          'Round a hole without spin, {0} % of the disk’s light returns to the disk. At spin {1} it is {2} %, and {3} % of the light of the innermost ring.',
           number(100 * whole[0], 3),
           number(fast.parameters.spin.at(-1)),
           number(100 * whole.at(-1), 3),
@@ -172,7 +172,7 @@ export const lines = [
         live: true,
         note: t(
           'curves-lines.the-echo-comes',
-          'The echo comes {0} M after the flash on the mean; {1} % of it is within these times. Bright: many photons at that time and energy.',
+          'On average the echo comes {0} M after the flash; {1} % of it is within these times. Where the picture is bright, many photons have that time and energy.',
           number(v.mean_time, 3),
           number(100 * v.inside, 3),
         ),
@@ -180,7 +180,7 @@ export const lines = [
           times[i].all > 0 &&
           t(
             'curves-lines.m-after-the-flash',
-            '{0} M after the flash: {1} % of the photons an M, at {2} keV on the mean.',
+            '{0} M after the flash: {1} % of the photons per M, at {2} keV on average.',
             number(p.time[i], 3),
             number((100 * times[i].all * n) / (time_max - time_min), 3),
             number(times[i].mean, 3),

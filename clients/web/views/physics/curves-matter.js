@@ -30,10 +30,10 @@ export const matter = [
     show: (v, p, at_isco) => ({
       note:
         v.r_min_matter == null
-          ? t('curves-matter.no-well-nothing-with', 'No well: nothing with this L stays on an orbit.')
+          ? t('curves-matter.no-well-nothing-with', 'There is no well: nothing with this L stays on an orbit.')
           : t(
               'curves-matter.a-stable-circle-at',
-              'A stable circle at r = {0} M, an unstable one at {1} M. With the ISCO’s L the two have merged.',
+              'There is a stable circular orbit at r = {0} M and an unstable one at {1} M. With the ISCO’s L the two have merged.',
               number(v.r_min_matter),
               number(v.r_max_matter),
             ),
@@ -78,7 +78,7 @@ export const matter = [
       note:
         t(
           'curves-matter.i-per-m-by',
-          'ω = {0} {1} {2} i per M, by Leaver’s continued fractions. Q = {3}. For this mass {4} Hz, fading by e in {5} s.',
+          'ω = {0} {1} {2} i per M, by Leaver’s continued fractions. Q = {3}. For this mass the frequency is {4} Hz, and the sound decays by a factor e in {5} s.',
           number(v.omega_re),
           v.omega_im < 0 ? '−' : '+',
           number(Math.abs(v.omega_im)),
@@ -90,7 +90,7 @@ export const matter = [
           ? ''
           : t(
               'curves-matter.the-formula-2-1',
-              ' The formula 2.1 + 11.3 a³ that circulates for Q is off by {0} % here.',
+              ' The common formula 2.1 + 11.3 a³ for Q has an error of {0} % here.',
               number(100 * v.quality_cubic_error, 2),
             )),
       x: axis(t('common.time-t-m', 'time t / M')),
@@ -113,7 +113,7 @@ export const matter = [
     show: (v, p) => ({
       note: t(
         'curves-matter.chirp-mass-solar-masses',
-        'Chirp mass {0} solar masses; cut where the orbit is at 6 M, {1} Hz. Leading order only.',
+        'The chirp mass is {0} solar masses. The curve ends where the orbit is at 6 M, at {1} Hz. It is of leading order only.',
         number(v.chirp_mass),
         number(v.isco_hz),
       ),
@@ -139,7 +139,7 @@ export const matter = [
       note:
         t(
           'curves-matter.torn-at-r-m',
-          'Torn at r = {0} M; the first debris is back after {1} days.',
+          'The star is torn apart at r = {0} M; the first debris returns after {1} days.',
           number(v.tidal_radius),
           number(v.fallback_days),
         ) +

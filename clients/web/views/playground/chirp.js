@@ -37,7 +37,7 @@ export function chirp(button, words) {
         ? t('chirp.there-is-no-pair', 'There is no pair whose waves could be heard.')
         : t(
             'chirp.heard-as-with-a',
-            'Heard as with a hole of {0} suns, whose M lasts {1} µs. Its frequency rises as slowly as on the screen. Its loudness grows with the strain.',
+            'You hear it as for a hole of {0} suns, for which 1 M lasts {1} µs. Its frequency rises as slowly as on the screen. Its loudness grows with the strain.',
             number(1 / (sun_s * first.hertz), 3),
             number(1e6 / first.hertz, 3),
           );

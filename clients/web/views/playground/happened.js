@@ -82,7 +82,7 @@ export function eventList(root, aloud) {
     lost({ to }) {
       none.hidden = false;
       none.dataset.lost = true;
-      none.textContent = t('happened.what-happened-up-to', 'What happened up to event {0} is no longer kept.', to);
+      none.textContent = t('happened.what-happened-up-to', 'What happened up to event {0} is no longer stored.', to);
     },
     clear() {
       none.textContent = t('happened.nothing-yet', 'Nothing yet.');

@@ -5,7 +5,7 @@ const words = {
   swarm: () =>
     t(
       'play-seen.four-hundred-bodies-on',
-      'Four hundred bodies on circles round the hole, tilted this way and that: the nearer the faster. Their colour is their temperature. The small circles round the hole are those of the last stable orbit (green), of the last bound one and of light. As light shows it, from near the edge, gas glows within the swarm, and the hole lifts its far side into view. Press and drag to throw one more.',
+      'Four hundred bodies on circles round the hole, tilted this way and that: the nearer, the faster. Their colour is their temperature. The small circles round the hole are those of the last stable orbit (green), of the last bound one and of light. As light shows it, from near the edge, gas glows within the swarm, and the hole lifts its far side into view. Press and drag to throw one more.',
     ),
   disruption: () =>
     t(
@@ -20,7 +20,7 @@ const words = {
   system: () =>
     t(
       'play-seen.five-planets-and-a',
-      'Five planets and a moon, each with the trail that it leaves: the nearer the faster, the innermost goes round within four seconds. As light shows it gas glows near the hole, and what passes behind is seen lifted over it. Press where nothing is and drag: you throw one more, and can send it between them.',
+      'Five planets and a moon, each with the trail that it leaves: the nearer, the faster, the innermost goes round within four seconds. As light shows it gas glows near the hole, and what passes behind is seen lifted over it. Press where nothing is and drag: you throw one more, and can send it between them.',
     ),
   binary: () =>
     t(

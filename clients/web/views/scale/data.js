@@ -157,7 +157,7 @@ export function measurements(root, page) {
       title: t('data.m87-closure-phases', 'M87*: closure phases'),
       note: t(
         'data.sums-of-phases-round',
-        'Sums of phases round triangles of telescopes, which errors of single stations leave alone. χ² a datum: {0}. Each line is for triangles of one shape and any size.',
+        'Sums of phases round triangles of telescopes; the errors of single stations cancel in them. χ² a datum: {0}. Each line is for triangles of one shape and any size.',
         number(chi2.closure_phase, 3),
       ),
       x: { label: t('data.longest-baseline-gl', 'longest baseline of the triangle, Gλ'), min: 0, max: longest_gl },

@@ -109,7 +109,7 @@ function panel(hole) {
       { diameter, spread } = ringOf(light, side, across_uas / side, look.beam_uas);
     fitted = t(
       'eht.the-ring-of-our',
-      ' The ring of our picture, through the beam: {0} ± {1} µas across, by the same fit at 48 angles.',
+      ' The ring of our picture, seen through the beam, is {0} ± {1} µas across, by the same fit at 48 angles.',
       number(diameter, 3),
       number(spread, 2),
     );
@@ -170,7 +170,7 @@ function panel(hole) {
     const ring = v.ring_uas
       ? t(
           'eht.measured-a-ring-as',
-          ' Measured: a ring {0} ± {1} µas across; mean diameter of the shadow {2} µas.',
+          ' The measured ring is {0} ± {1} µas across; the mean diameter of the shadow is {2} µas.',
           number(v.ring_uas),
           number(v.ring_error_uas),
           number(v.shadow_uas, 3),

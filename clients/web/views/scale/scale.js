@@ -56,7 +56,7 @@ const specs = [
     auto: true,
     about: t(
       'scale.between-the-axis-of',
-      'Between the axis of the hole and the line of sight; empty: that of the hole',
+      'Angle between the axis of the hole and the line of sight; empty: the inclination of the chosen hole',
     ),
   },
 ];

@@ -31,11 +31,11 @@ function disk(scene) {
 // A note that the plot is for a thin disk, if the scene shows something else.
 const elsewhere = scene =>
   (scene.get('disk.model') === 'none'
-    ? t('integrals.the-scene-has-no', ' The scene has no disk: this is of one that would lie there.')
+    ? t('integrals.the-scene-has-no', ' The scene has no disk, so this is computed for a disk that could be there.')
     : '') +
   (scene.get('camera.r') === 'infinity'
     ? ''
-    : t('integrals.seen-from-far-away', ' Seen from far away, not from where the camera is.'));
+    : t('integrals.seen-from-far-away', ' It is seen from far away, not from where the camera is.'));
 const unjudged = t('integrals.its-error-is-not', ' Its error is not estimated here.');
 
 const limits = (y, log) => (log ? { min: Math.max(...y) * floor, log } : { min: 0 });
@@ -84,7 +84,7 @@ const kinds = {
         note:
           t(
             'integrals.of-a-thin-disks',
-            'Of a thin disk’s gas, photons by energy, from an observer far away; {0} % of them lie in this range. Estimated error of the share up to any energy: {1}.',
+            'Photons from the gas of a thin disk by energy, for an observer far away; {0} % of them lie in this range. Estimated error of the share up to any energy: {1}.',
             number(100 * values.inside, 3),
             number(values.error, 2),
           ) + elsewhere(scene),
@@ -145,7 +145,7 @@ const kinds = {
         note:
           t(
             'integrals.a-lamp-above-the',
-            'A lamp above the hole flashes, and the disk’s gas answers with a line. The answer comes {0} M after the flash on the mean, {1} s for this mass; {2} % of it lies in this range.',
+            'A lamp above the hole flashes, and the disk’s gas answers with a line. On average the answer comes {0} M after the flash, which is {1} s for this mass; {2} % of it lies in this range.',
             number(values.mean_time, 3),
             number(values.mean_time * values.unit_s, 3),
             number(100 * values.inside, 3),
@@ -206,11 +206,14 @@ const kinds = {
         note:
           t('integrals.largest-at-hz-jy', 'Largest at {0} Hz: {1} Jy. ', number(at), number(most)) +
           (radio
-            ? t('integrals.of-the-scenes-volume', 'Of the scene’s volume, {0} pixels across.', parameters.pixels) +
-              unjudged
+            ? t(
+                'integrals.of-the-scenes-volume',
+                'It is the spectrum of the scene’s volume, from pictures {0} pixels across.',
+                parameters.pixels,
+              ) + unjudged
             : t(
                 'integrals.of-a-thin-disk',
-                'Of a thin disk of black bodies with the mass, distance and accretion rate of the scene.',
+                'It is the spectrum of a thin disk of black bodies with the mass, distance and accretion rate of the scene.',
               ) + elsewhere(scene)),
         x: { label: t('integrals.frequency-hz', 'frequency, Hz'), log: true },
         y: { label: 'Jy', ...limits(columns.flux_jy, true) },
@@ -255,7 +258,7 @@ const kinds = {
         title: t('integrals.visibility-by-baseline', 'Visibility by baseline'),
         note:
           (values.flux_jy == null
-            ? t('integrals.as-a-share-of', 'As a share of all light. ')
+            ? t('integrals.as-a-share-of', 'Amplitudes are shares of all light. ')
             : t('integrals.the-pictures-flux-jy', 'The picture’s flux: {0} Jy. ', number(values.flux_jy))) +
           t(
             'integrals.north-is-the-top',

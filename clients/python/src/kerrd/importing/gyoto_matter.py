@@ -286,7 +286,7 @@ class Matter:
         for key in ("InnerRadius", "OuterRadius", "Thickness"):
             if key in sheet:
                 sheet.number(key, low=0)
-            sheet.unsaid(key, "kerrd's spots have no edge, but at the ISCO")
+            sheet.unsaid(key, "kerrd's spots have no edge, except at the ISCO")
         if not shifted:
             sheet.unsaid("NoRedshift", "light of kerrd's spots is always shifted")
         self._magnetic(sheet)
