@@ -156,7 +156,7 @@ class Accuracy(unittest.TestCase):
         )
 
     def test_kept_and_served(self):
-        kept = re.search(r"^kept in (.+)$", self.said, re.M)[1]
+        kept = re.search(r"^stored in (.+)$", self.said, re.M)[1]
         self.assertTrue(kept.startswith(self.cache + "/kerrd/"))
         status, kind, problem = self.before
         self.assertEqual((status, kind), (404, "application/problem+json"))
