@@ -251,7 +251,7 @@ class Options(daemon.unittest.TestCase):
                 done = subprocess.run(
                     [*daemon.COMMAND, "--port", "0", "--cors-origin", text], capture_output=True, text=True, timeout=600
                 )
-                self.assertIn('--cors-origin "', done.stderr)
+                self.assertIn('--cors-origin is "', done.stderr)
                 self.assertIn(said, done.stderr)
                 self.assertNotIn("listening", done.stdout)
 

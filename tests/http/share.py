@@ -418,7 +418,7 @@ class Embedded(Case):
                 [*daemon.COMMAND, "--port", "0", "--embed-origin", origin], capture_output=True, text=True, timeout=600
             )
             self.assertNotEqual(run.returncode, 0)
-            self.assertIn(f'--embed-origin "{origin}"', run.stderr)
+            self.assertIn(f'--embed-origin is "{origin}"', run.stderr)
             self.assertIn(says, run.stderr)
 
 
