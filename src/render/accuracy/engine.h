@@ -11,15 +11,16 @@
 #include <stdint.h>
 
 enum kd_engine {
-    /* elliptic functions. On the CPU in double precision (the reference), or on the device in single precision for rays
-     * outside the photon orbits */
+    /* closed form with elliptic functions: on the CPU in double precision (the reference), or on the device in single
+     * precision for rays outside the photon orbits */
     KD_ENGINE_CLOSED,
     KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4 */
     KD_ENGINE_MINO_RKN6, /* Mino time on the device: Albrecht's Nystroem method of order 6 */
     KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler */
     KD_ENGINE_KS_RK4,    /* the Kerr-Schild Hamiltonian on the device: classical Runge-Kutta */
-    KD_ENGINE_KS_TAO6, /* the Kerr-Schild Hamiltonian in Tao's extended phase space, on the device: Yoshida's method of
-                          order 6. No engine named KS gives the delay */
+    /* the Kerr-Schild Hamiltonian in Tao's extended phase space, on the device: Yoshida's method of order 6. None of
+       the three Kerr-Schild engines computes the delay */
+    KD_ENGINE_KS_TAO6,
     KD_ENGINE_COUNT
 };
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
@@ -40,12 +41,12 @@ struct kd_accuracy_table;
 
 /* A request for accuracy, as given by accuracy.* of a scene or of a list of rays. */
 struct kd_accuracy_request {
-    int profile;    /* enum kd_profile; -1: none was named */
-    int engine;     /* enum kd_engine; -1: any */
-    int precision;  /* enum kd_precision; -1: any */
+    int profile;    /* value of enum kd_profile; -1: the request names no profile */
+    int engine;     /* value of enum kd_engine; -1: any engine */
+    int precision;  /* value of enum kd_precision; -1: any precision */
     uint32_t steps; /* number of steps per half period, a multiple of 4; 0: the profile or the engine sets it */
-    /* largest relative error of the crossing radii according to the table; INFINITY: no tolerance was requested, so
-     * the profile decides */
+    /* largest permitted relative error of the crossing radii, as the accuracy table lists it; INFINITY: the request
+     * names no tolerance, so the profile decides */
     double tolerance;
 };
 
@@ -53,12 +54,12 @@ struct kd_setting {
     enum kd_engine engine;
     enum kd_precision precision;
     uint32_t steps; /* number of steps; 0 for the closed form */
-    /* relative error of the crossing radii that the table gives for this setting; NaN: no tolerance was requested */
+    /* relative error of the crossing radii that the table lists for this setting; NaN: the request names no tolerance */
     double holds;
 };
 
-/* The closed form's own error estimate is within this tolerance for 99 of 100 rays (docs/accuracy.md). If no row of
- * the table meets a tolerance, the closed form is used. */
+/* Tolerance that the closed form meets: for 99 of 100 rays its own error estimate is smaller (docs/accuracy.md). The
+ * closed form is used if no row of the table meets the requested tolerance. */
 #define KD_CLOSED_HOLDS 1e-12
 
 #define KD_WISH_NONE { .profile = -1, .engine = -1, .precision = -1, .tolerance = INFINITY }

@@ -14,7 +14,8 @@
 #include "render/accuracy/engine.h"
 
 #define KD_ACCURACY_ORDERS 3
-/* M; crossings further out do not count: w = 1/r has an absolute error, so the relative error of r grows with r */
+/* Radius in M. Crossings further out are not compared: w = 1/r has an absolute error, so the relative error of r
+ * grows with r. */
 #define KD_ACCURACY_FAR 1e3
 #define KD_ACCURACY_ROWS 64
 /* The tolerance that a row meets is the larger of two errors. One is the 99th percentile over the crossings of the bulk
@@ -22,22 +23,22 @@
  * more accuracy edge-on. The near-critical set does not count, because more steps do not help near the critical curve.
  * The table gives only the first choice. In a list of rays, each ray whose own error exceeds the tolerance is traced
  * again (rays/hold.h). */
-/* a row meets no tolerance if more than this fraction of rays differ in one of these sets */
+/* A row meets no tolerance if, in one of the sets that count, more than this fraction of the rays differ. */
 #define KD_ACCURACY_STRAY 0.01
 
 enum kd_accuracy_quantity { KD_ACCURACY_R, KD_ACCURACY_PHI, KD_ACCURACY_DELAY, KD_ACCURACY_G, KD_ACCURACY_QUANTITIES };
 extern const char *const kd_accuracy_quantity_names[KD_ACCURACY_QUANTITIES]; /* "r", "phi", "delay", "g" */
 
-struct kd_accuracy_errors { double median, p99, worst; }; /* NaN: the engine has no such quantity */
+struct kd_accuracy_errors { double median, p99, worst; }; /* NaN: the engine does not compute this quantity */
 
 struct kd_accuracy_entry {
-    double rays_per_s; /* rays per second of the device's clock, or of the host's clock if the device has none */
+    double rays_per_s; /* rays per second, timed by the device's clock, or by the host's clock if the device has none */
     uint32_t rays, crossings, differ;
     struct kd_accuracy_errors of[KD_ACCURACY_QUANTITIES];
 };
 
 struct kd_accuracy_row {
-    enum kd_engine engine; /* the row of KD_ENGINE_CLOSED has only a speed, on one core of the host */
+    enum kd_engine engine; /* the row of KD_ENGINE_CLOSED has no errors, only a speed on one core of the host */
     enum kd_precision precision;
     uint32_t steps;
     struct kd_accuracy_entry sets[KD_ACCURACY_SETS];
@@ -47,10 +48,11 @@ struct kd_accuracy_table {
     char version[32], date[32]; /* version of kerrd; date in UTC, ISO 8601 */
     char command[256];
     char machine[256], device[800]; /* machine: processor and system; device: the Vulkan device with its driver */
-    char skipped[400];              /* tests that this device's limits exclude, in words; "" if there are none */
+    /* description of the tests that were skipped because of this device's limits; "" if there were none */
+    char skipped[400];
     uint32_t cores;                 /* cores that the device computes on; 0 if it is not a CPU */
     bool device_clock, quick;
-    double seconds; /* device time of one measurement of speed; shorter if a million rays take less */
+    double seconds; /* device time of one speed measurement; it is shorter if a million rays take less time */
     uint32_t n;
     struct kd_accuracy_row rows[KD_ACCURACY_ROWS];
 };

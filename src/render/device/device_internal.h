@@ -71,7 +71,7 @@ struct kd_renderer {
     struct kd_capacity stored;       /* capacity as it is stored in the file */
     struct kd_slice_pace slice_pace; /* pace of pictures that release the device between slices */
     uint32_t frames;                 /* number of frames so far, counted by learn.c */
-    /* if true, the cost of a pass is the smallest of its measured costs; otherwise it is their mean */
+    /* if true, the cost of a pass is the smallest of its measured costs; if false, the cost is their mean */
     bool probing;
     char name[800]; /* `device` and `driver`, joined */
     char device[256], driver[520];

@@ -19,7 +19,7 @@ enum kd_kernel {
     KD_KERNEL_RAYS_F64,
     KD_KERNEL_RAYS_KS_F32,
     KD_KERNEL_RAYS_KS_F64,
-    KD_KERNEL_RAYS_TRACE_F32, /* the four kernels of rays above, in variants that also record each step */
+    KD_KERNEL_RAYS_TRACE_F32, /* variants of the four ray kernels above that also record each step */
     KD_KERNEL_RAYS_TRACE_F64,
     KD_KERNEL_RAYS_KS_TRACE_F32,
     KD_KERNEL_RAYS_KS_TRACE_F64,
@@ -31,7 +31,8 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_TRANSFER_TEXELS, /* the transfer kernel; it reads texels */
-    /* transfer kernel for a single ray, with a report of each emitter; the next one is for rays through volumes */
+    /* transfer kernel for a single ray, with a report of each emitter; the kernel after it does the same for rays
+     * through volumes */
     KD_KERNEL_TRANSFER_PROBE,
     KD_KERNEL_MARCH_PROBE,
     KD_KERNEL_LAYERS,
@@ -40,7 +41,7 @@ enum kd_kernel {
     KD_KERNEL_LAYERS_MARCH,
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,
-    KD_KERNEL_BLOOM_BRIGHT, /* each bloom and beam kernel is followed by its variant for texels */
+    KD_KERNEL_BLOOM_BRIGHT, /* each bloom and beam kernel is followed by its variant that reads texels */
     KD_KERNEL_BLOOM_BRIGHT_TEXELS,
     KD_KERNEL_BLOOM_GATHER,
     KD_KERNEL_BLOOM_GATHER_TEXELS,
@@ -57,7 +58,7 @@ enum kd_kernel {
     KD_KERNEL_BEAM_SPREAD,
     KD_KERNEL_BEAM_SPREAD_TEXELS,
     KD_KERNEL_POST,
-    KD_KERNEL_POST_TEXELS, /* the variant of the kernel above for texels; kd_kernel_post chooses between the two */
+    KD_KERNEL_POST_TEXELS, /* variant of the kernel above that reads texels; kd_kernel_post chooses between the two */
     KD_KERNEL_POST_BLOOM,
     KD_KERNEL_POST_BLOOM_TEXELS,
     KD_KERNEL_POST_HEAT,

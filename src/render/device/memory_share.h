@@ -16,8 +16,9 @@ static inline uint64_t kd_memory_main(uint64_t all) { return all / 3 * 2; }
  * process's device buffers, which the next picture reuses. Pure. */
 void kd_memory_narrow(struct kd_capacity *capacity, const struct kd_memory_limit *host, uint64_t held);
 
-/* Gets the host's limit, at most KD_MEMORY_FRESH_MS old. If it cannot be read for lack of descriptors, the last
- * known limit is returned. One thread at a time. Initialise with zeros. */
+/* Gets the host's memory limit. A limit that was read less than KD_MEMORY_FRESH_MS ago is returned again. If it
+ * cannot be read because no file descriptor is free, the last known limit is returned. One thread at a time.
+ * Initialise the watch with zeros. */
 #define KD_MEMORY_FRESH_MS 250.0
 struct kd_memory_watch {
     struct kd_memory_limit limit;

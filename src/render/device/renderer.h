@@ -19,8 +19,8 @@ struct kd_renderer_params {
     const char *device;    /* same meaning as in kd_vk_params */
     const char *cache_dir; /* same meaning as in kd_vk_params */
     bool validate;
-    /* tests a device that is used for the first time, which takes half a second: kd_first_start
-     * (selftest/first_start.h), or NULL for no test */
+    /* test of a device that is used for the first time, which takes half a second: kd_first_start
+     * (selftest/first_start.h); NULL: no test */
     enum kd_status (*prove)(struct kd_renderer *renderer, struct kd_error *error);
     const struct kd_assets *assets; /* assets that scenes name (scene/asset.h); NULL: none */
     /* called on another thread when kd_renderer_assets_begin may have a new result; may be NULL */
@@ -77,24 +77,24 @@ uint64_t kd_renderer_held(const struct kd_renderer *renderer);
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
 
-/* Measured accuracy of a picture: errors of crossing radii on a sample of its rays against the closed form in
- * double. sampled is 0 if no error can be measured, because the picture is too large to keep its lens map or has no
- * crossings. */
+/* Measured accuracy of a picture: errors of crossing radii on a sample of its rays, compared with the closed form in
+ * double precision. `sampled` is 0 if the errors cannot be measured. This happens if the picture has no crossings, or
+ * if it is too large to keep its lens map. */
 struct kd_accuracy_report {
     uint64_t undecided; /* rays of the whole picture whose tracing was given up; the picture shows them in magenta */
-    /* Members for an interpolated lens map; 0 for any other. traced: number of rays that were traced for it (a node
-     * that two slices share counts twice); interpolated: number of the pixels' rays in smooth cells */
+    /* Members for an interpolated lens map; 0 for any other map. traced: number of rays that were traced to make the
+     * map (a node that two slices share counts twice); interpolated: number of pixel rays that lie in smooth cells */
     uint64_t traced, interpolated;
     /* sampled: number of rays that were traced again; crossings: number of crossings that were compared */
     uint32_t sampled, crossings;
     /* number of crossings that only one of the two results has, plus the number of rays with different fates */
     uint32_t differ;
-    double median, worst; /* relative error of the radius over the sample */
-    uint64_t followed;    /* number of rays that refinement traced beyond those of the plan */
-    /* Members for image.samples "auto". refined: pixels with more traced rays; between: pixels with interpolated
-     * rays */
+    double median, worst; /* relative error of the crossing radius: median and maximum over the sample */
+    uint64_t followed;    /* number of rays that refinement traced in addition to those of the plan */
+    /* Members for image.samples "auto". refined: number of pixels with more traced rays than planned; between: number
+     * of pixels with interpolated rays */
     uint64_t refined, between;
-    uint32_t pixel_sampled; /* pixels compared with 64 rays each */
+    uint32_t pixel_sampled; /* number of pixels that were compared with 64 rays each */
     /* difference of displayed values at these pixels, as a fraction of white. pixel_error: root mean square,
      * extrapolated to the whole picture; pixel_error_worst: largest in the sample */
     double pixel_error, pixel_error_worst;
@@ -103,8 +103,8 @@ struct kd_accuracy_report {
     /* relative change of the light of these rays; the divisor is at least KD_MARCH_DARK times the brightest light.
      * volume_error: 90th percentile; volume_error_worst: largest. 1 if light is not finite or a ray has no end */
     double volume_error, volume_error_worst;
-    /* number of rays that were given up in volumes and are magenta in the displayed picture, plus number of its pixels
-     * whose light is not finite */
+    /* number of rays that were given up in volumes (magenta in the displayed picture), plus number of pixels whose
+     * light is not finite */
     uint64_t lost;
 };
 

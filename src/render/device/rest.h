@@ -1,4 +1,4 @@
-/* Memory that an idle renderer keeps, in bytes of each kind, and how it frees the rest. */
+/* Counts the memory that an idle renderer keeps, in bytes of each kind, and frees the memory that it need not keep. */
 #ifndef KD_RENDER_DEVICE_REST_H
 #define KD_RENDER_DEVICE_REST_H
 
@@ -28,7 +28,8 @@ enum kd_cache_kind {
 /* Limit for all kinds together at rest. If it is exceeded, the device is closed and reopened. Otherwise lavapipe would
  * keep some memory of each kernel that it has ever compiled, because an LLVM context is never emptied. */
 #define KD_REST_BYTES (256ull << 20)
-/* above this, any moment without work counts as rest (server/render/rest.c); KD_REST_BYTES is the limit after a rest */
+/* above this limit, memory is freed at any moment without work (server/render/rest.c); KD_REST_BYTES is the limit
+ * after that */
 #define KD_REST_SOON_BYTES (768ull << 20)
 
 /* The label of a kind; NULL after the last. */

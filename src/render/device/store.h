@@ -20,7 +20,7 @@ struct kd_bands {
     uint64_t band_bytes;
 };
 
-/* Everything, besides the lens map, that determines the light of stars. The light of stars stays valid while only time
+/* Everything that determines the light of stars, except the lens map. The light of stars stays valid while only time
  * advances. */
 struct kd_star_key {
     char lens[65];
@@ -64,17 +64,18 @@ struct kd_store {
     struct kd_vk_buffer *transfer, *staging;
     struct kd_emit_data *sent; /* the uploaded data; NULL: none yet */
     bool sent_whole;           /* false: the uploaded data are unknown, because a frame was given up */
-    struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES for each camera; cameras_host is the staging
-                                                  * buffer; NULL: none yet */
+    /* cameras: KD_CAMERA_BYTES for each camera; cameras_host: staging buffer for the cameras. NULL: not made yet */
+    struct kd_vk_buffer *cameras, *cameras_host;
     struct kd_camera_block sent_cameras[KD_CAMERAS];
     bool cameras_sent; /* true if the buffer holds sent_cameras */
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* sums of photometry; NULL: not measured yet */
     struct kd_vk_buffer *bloom;              /* grids of bloom; NULL: not made yet */
     struct kd_bands beamed;                  /* radiance after the telescope's beam; no buffers: the plan has no beam */
-    /* intermediate rows of cells, and grids of cells; NULL: not made yet */
+    /* beam_lines: intermediate rows of cells; beam_grids: grids of cells. NULL: not made yet */
     struct kd_vk_buffer *beam_lines, *beam_grids;
-    struct kd_vk_buffer *palette;    /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: not made yet */
+    /* colours of style.palette: KD_MAP_ENTRIES colours of four floats each; NULL: not made yet */
+    struct kd_vk_buffer *palette;
     struct kd_vk_buffer *star_pairs; /* pairs of a ray and a star that the ray may see; NULL: no frame had stars */
     struct kd_vk_buffer *star_rays;  /* rays whose stars are searched one by one */
     struct kd_vk_buffer *listed;     /* lens map of listed pixels, overwritten part by part */
@@ -89,7 +90,7 @@ struct kd_store {
 };
 
 /* Finds the lens map of the plan; *reused is then true if the map is complete. Otherwise the map's buffers are ready
- * to be written, and kd_store_commit makes the map findable. Least recently used maps are evicted. */
+ * to be written, and after kd_store_commit later frames can find the map. Least recently used maps are evicted. */
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error);
 void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan_lens *lens);

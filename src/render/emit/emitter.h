@@ -40,7 +40,8 @@ struct kd_emitter {
      * such sentence. */
     void (*tell)(const struct kd_scene *scene, char out[KD_EMIT_TOLD]);
     bool (*present)(const struct kd_scene *scene);
-    uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
+    /* flags KD_TRAIT_... of the emitter's GLSL file; NULL: no flags */
+    uint32_t (*traits)(const struct kd_scene *scene);
     uint32_t (*needs)(
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
     /* enum kd_varies: the causes that change the emitter's light; NULL: its light never changes */

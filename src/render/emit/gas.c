@@ -7,14 +7,14 @@
 
 #include <math.h>
 
-/* Displacement of an octave by the octave before, where the octave before is one standard deviation from its mean. The
- * unit is the width of the octave's own cells. With this value streaks bend but do not tear. */
+/* Displacement of each octave where the octave before it is one standard deviation from its mean. The unit is the
+ * width of the displaced octave's cells. With this value streaks bend but do not tear. */
 #define WARP 0.2
 /* Mean square slope, along an axis and per cell, of each of the two noises. The amount by which a displacement steepens
  * an octave is proportional to this number. */
 #define STEEPNESS 16.6
-/* Ratio of the amplitudes of successive octaves of the logarithm. Each octave has KD_GAS_FINER times as many cells,
- * and by Kolmogorov's law amplitudes fall as the cube root of this number. */
+/* Ratio of the amplitudes of successive octaves of the logarithm. Each octave has KD_GAS_FINER times as many cells as
+ * the octave before. By Kolmogorov's law its amplitude is smaller by the cube root of KD_GAS_FINER. */
 #define PERSISTENCE 0.72
 
 static bool present(const struct kd_scene *scene)
@@ -47,7 +47,7 @@ static double inner_radius(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Amplitude of the first octave. It gives the logarithm, which is the sum of all octaves, the standard deviation
+/* Amplitude of the first octave. With it, the logarithm (the sum of all octaves) has the standard deviation
  * `amplitude`. */
 static double loudness(const struct kd_scene *scene)
 {

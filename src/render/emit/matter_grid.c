@@ -26,8 +26,8 @@
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
 /* largest number of rows per factor of e in r, because a stretch of the march is two cells long */
 #define FINEST 1024
-#define PARTS 64 /* largest k, if the grid covers 1/k of a turn */
-#define PLACES 4 /* cells for each column in the table of uneven columns */
+#define PARTS 64 /* largest permitted k of a grid that covers 1/k of a turn */
+#define PLACES 4 /* number of table cells per column, if the columns are unevenly spaced */
 #define PLACES_LEAST 256
 #define HEADER_MOST 65536
 
@@ -50,7 +50,7 @@ struct kd_matter_reader {
     struct kd_matter_grid grid;
     double *r, *theta;            /* theta: the angle of each column, or of each node of a layer */
     size_t theta_rows;            /* 1, or the number of rows if each row has its own angles */
-    bool look;                    /* the numbers are only checked, and not prepared for a renderer */
+    bool look;                    /* true if the numbers are only checked, and not prepared for a renderer */
     struct kd_matter_array array; /* the current array */
     size_t kind, done;            /* index of this array, and the number of its elements that are done */
 };
@@ -645,7 +645,7 @@ size_t kd_matter_reader_bytes(const struct kd_matter_reader *r)
 
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *r) { return &r->grid; }
 
-/* Unpacks the next array. Returns false if that array is u_con_t, the last one, and is missing. */
+/* Unpacks the next array. Returns false if the next array is the last one, u_con_t, and the file does not have it. */
 static bool begin_array(struct kd_matter_reader *r, enum kd_status *status, struct kd_error *error)
 {
     const char *name = r->kind < KD_MATTER_FLOATS ? kinds[r->kind].name : "u_con_t";

@@ -40,7 +40,7 @@ struct kd_particle_grid {
     uint32_t rows, columns;               /* number of intervals along each axis; columns is a power of 2 */
     uint32_t plunging;                    /* number of falling particles; 0: they have no grid */
     uint32_t plunge_rows, plunge_columns; /* size of the falling particles' grid */
-    /* rows from the start of the plunge to its end; rows before the start, for slow light */
+    /* lap_rows: rows from the start of the plunge to its end; lead_rows: rows before the start, for slow light */
     uint32_t lap_rows, lead_rows;
     uint32_t unit;  /* weight of one particle, chosen so that a node fits in 16 bits */
     uint64_t bytes; /* size of the grids on the device */
@@ -78,7 +78,8 @@ struct kd_particle_place {
     float r;
     uint32_t phi;
     float latitude;
-    bool plunging; /* the particle falls with the ISCO's energy and angular momentum; false: it is on a guiding orbit */
+    /* true if the particle falls with the ISCO's energy and angular momentum; false: it is on a guiding orbit */
+    bool plunging;
 };
 
 /* Sizes of the kernel's buffers. One buffer has the guiding orbits, followed by the expected numbers for the rows of

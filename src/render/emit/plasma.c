@@ -15,8 +15,8 @@
 #define NEVER -1e6 /* log2 of zero */
 #define GHZ 1e9
 #define GOLD_GHZ 230 /* frequency to which the numbers of the analytic model refer */
-#define ERG_CM3 0.1  /* W m^-3 of an erg/(s cm^3) */
-#define PER_CM 100   /* 1/m of a 1/cm */
+#define ERG_CM3 0.1  /* one erg/(s cm^3), in W m^-3 */
+#define PER_CM 100   /* one 1/cm, in 1/m */
 #define CM3 1e6
 #define GAUSS 1e-4 /* tesla */
 #define EPSILON_0 KD_EPSILON_0

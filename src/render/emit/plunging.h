@@ -26,7 +26,7 @@ bool kd_plunging_is_on(const struct kd_scene *scene);
 struct kd_plunging {
     struct kd_plunge curve;
     double start, end;            /* radii of the curve's start and end */
-    double time, omega;           /* time from start to end; angular velocity at the ISCO */
+    double time, omega;           /* time: from start to end; omega: angular velocity at the ISCO */
     struct kd_plunge_event first; /* the event at which the curve starts */
 };
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene);

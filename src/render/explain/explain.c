@@ -113,7 +113,7 @@ static void find_shown(const struct kd_picture *picture, struct kd_explained *x)
                                                   : ((const uint8_t *)kd_frame_pixels(f))[at + i] / 255.0;
 }
 
-/* Computes the labels, using a camera whose unit is the step between rays. */
+/* Computes the ray's labels, using a camera whose unit is the step between rays. */
 static void find_label(const struct kd_picture *picture, struct kd_explained *x)
 {
     const uint32_t steps = x->told->steps_a_pixel;

@@ -18,7 +18,7 @@ struct kd_explained {
     const struct kd_probed_ray *told; /* the picture's report on this ray */
     /* factor of the ray's light in the pixel's light: 0, or 1 divided by the number of rays */
     double weight;
-    const char *eye;              /* "left" or "right"; NULL: not a pair */
+    const char *eye;              /* "left" or "right"; NULL: the picture is not a pair */
     struct kd_scene scene;        /* scene of this eye */
     struct kd_camera_label label; /* energy: E at infinity divided by the energy that the observer measures */
     struct kd_ray_motion motion;

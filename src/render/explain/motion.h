@@ -13,7 +13,8 @@
 
 struct kd_ray_motion {
     struct kd_null_ray ray;
-    /* the observer is on or inside the horizon, so azimuths and times of the path are ingoing (null_course.h) */
+    /* true if the observer is on or inside the horizon, so that azimuths and times of the path are ingoing
+     * (null_course.h) */
     bool within;
     double lambda, eta; /* L/E, Q/E^2 */
     struct kd_null_roots roots;
@@ -52,7 +53,7 @@ struct kd_ray_path {
     struct kd_null_place *places; /* malloc'd */
     struct kd_ray_path_frame frame;
     double spin;
-    bool ingoing; /* azimuth and delay are ingoing */
+    bool ingoing; /* true if azimuth and delay are ingoing */
     /* largest relative error in r of the path's crossings; NAN: there is nothing to compare */
     double error;
 };

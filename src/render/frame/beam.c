@@ -66,7 +66,8 @@ done:
     return status;
 }
 
-/* Interpolates back from cells, into buffers of their own, separate from the light before the beam. */
+/* Interpolates from cells back to pixels. The result is in separate buffers, so that the light before the beam is
+ * kept. */
 static enum kd_status spread(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
@@ -87,7 +88,7 @@ static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel,
                           constants, n, out, j->error);
 }
 
-/* Dispatches a slice of rows, or all remaining rows if `all`. */
+/* Dispatches a slice of rows. If `all` is true, dispatches all remaining rows. */
 static enum kd_status slice(struct kd_frame_job *j, const struct kd_vk_dispatch *d, bool all)
 {
     enum kd_status status;

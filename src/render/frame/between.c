@@ -41,7 +41,7 @@ enum kd_status kd_frame_between(struct kd_frame_job *j, const struct kd_frame_pa
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
         for (uint32_t step; from < to; from += step) {
-            /* sized by an upper bound: the time that tracing these rays would take */
+            /* the slice is sized for the time that tracing these rays would take, which is an upper bound */
             step = kd_frame_slice_at_most(j, j->plan->cost.trace_ns * part->list->lattice.rays, (uint32_t)(to - from));
             struct kd_between_push push = {
                 .first = (uint32_t)from,

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Host memory for each pixel: the sum, and the light of one picture. */
+/* Bytes of host memory for each pixel: SUM for the sum, LIGHT for the light of one picture. */
 enum { SUM = 3 * sizeof(double), LIGHT = 3 * sizeof(float) };
 
 /* Requests that the linear light be copied to the host. */

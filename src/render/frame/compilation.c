@@ -10,7 +10,7 @@
 
 struct kd_compilation {
     struct kd_renderer *renderer;
-    bool picture; /* the kernels are those of a whole picture, so the scene is rendered by its plan */
+    bool picture; /* true if the kernels are those of a whole picture; the scene is then rendered by its plan */
     struct kd_scene scene;
     struct kd_dynamic_bodies *dynamic; /* the scene's bodies of a playground; a counted reference, because the
                                         * requester may end before the compilation */

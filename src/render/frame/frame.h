@@ -21,7 +21,7 @@ struct kd_frame {
     size_t n_layers;
     char credit[KD_CREDIT]; /* credits of the picture's sources, in the form that their authors request; "": none */
     double exposure;        /* exposure applied, in stops */
-    bool lens_reused;       /* the trace pass was skipped because the lens map was cached */
+    bool lens_reused;       /* true if the trace pass was skipped because the lens map was cached */
     uint32_t others_traced; /* number of lens maps traced for the other pictures of a mean (frame/blur.h) */
     struct kd_accuracy_report accuracy;
     struct kd_light_report light;

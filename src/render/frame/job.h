@@ -13,7 +13,7 @@ struct kd_frame_job {
     struct kd_renderer *r;
     struct kd_store *store;
     struct kd_prepared *prepared;
-    bool background;                           /* during `progress`, other pictures may be rendered */
+    bool background;                           /* true if other pictures may be rendered during `progress` */
     struct kd_vk_time times[KD_VK_MAX_PASSES]; /* if `background`: device times of finished work */
     size_t n_times;
     double away_ms; /* time spent in progress */
@@ -33,11 +33,11 @@ struct kd_frame_job {
     const struct kd_preview_hook *preview;
     void *user;
     double done, weight; /* done: number of rows done so far, summed over all passes; weight: number of all rows */
-    /* refine_rows: rows by which refinement counts in the progress, and which are not reported yet. refine_rays: number
-     * of rays that refinement is expected to trace */
+    /* refine_rows: rows that stand for refinement in the progress and are not reported yet. refine_rays: number of
+     * rays that refinement is expected to trace */
     double refine_rows, refine_rays;
     uint32_t lit;   /* number of rows of pixels, from the top, whose light is complete */
-    bool looking;   /* a preview is being made */
+    bool looking;   /* true while a preview is being made */
     uint8_t *kinds; /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
     bool teaches;   /* true if the job's times count as measurements of the passes' costs */
     struct kd_cpu_pressure
@@ -105,16 +105,16 @@ struct kd_frame_list {
     uint64_t most;                       /* number of pixels whose lens map fits in one buffer */
     struct kd_vk_buffer *const *buffers; /* the first buffer is for the first `most` pixels, the second for the next
                                           * `most`, ... */
-    bool again;                          /* one buffer is reused for all pixels, so no map is kept */
-    /* rays of pixels where interpolation is accurate are interpolated instead of traced (frame/lens.h) */
+    bool again;                          /* true if one buffer is reused for all pixels, so that no map is kept */
+    /* true if rays of pixels where interpolation is accurate are interpolated instead of traced (frame/lens.h) */
     bool between;
-    bool layers;      /* layers of light are computed in addition to the picture */
+    bool layers;      /* true if layers of light are computed in addition to the picture */
     const char *pass; /* pass to which the time of these pixels is assigned; NULL: the usual passes */
 };
-/* Computes the light of a list. needed: the lens map must be made first. */
+/* Computes the light of a list. needed: true if the lens map must be made first. */
 enum kd_status kd_frame_light_list(struct kd_frame_job *job, const struct kd_frame_list *list, bool needed);
-/* Records footprints for rows of rays of a buffer, or for a range of rays on listed pixels. All of these rays and
- * their neighbours must be traced. Nothing is submitted. Does nothing if the plan has no footprints. */
+/* Records footprints for rows of rays of a buffer, or for a range of rays on listed pixels. These rays and their
+ * neighbours must be traced before. Nothing is submitted. Does nothing if the plan has no footprints. */
 struct kd_footprint_area {
     struct kd_vk_buffer *lens;
     const struct kd_critical_lattice *lattice; /* NULL: rays of the grid */

@@ -222,7 +222,8 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *j, const struct 
         { { lens, 0, 0, true },
           { j->store->undecided, 0, 0, true },
           camera_binding(j, camera),
-          [KD_PLACES_BINDING] = camera_binding(j, camera) }, /* replaced if rays are given by place */
+          /* this camera's binding is replaced if rays are given by place */
+          [KD_PLACES_BINDING] = camera_binding(j, camera) },
     };
 }
 
@@ -254,7 +255,8 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     };
     kd_prepared_buffers(j->prepared, &j->plan->light, own);
     own[KD_OWN_point_light] =
-        j->plan->light.points ? j->lens->star_light.buffers[band] : NULL; /* stars.c makes it, band by band */
+        /* stars.c makes the light of stars, band by band */
+        j->plan->light.points ? j->lens->star_light.buffers[band] : NULL;
     for (int i = 0; i < KD_OWN_COUNT; i++)                                /* any buffer can be bound where none is
                                                                            * used */
         d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
