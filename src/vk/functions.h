@@ -123,7 +123,8 @@ enum kd_status kd_vk_functions_load_own(struct kd_vk_functions *fn, const char *
 void kd_vk_loader_lock(void);
 void kd_vk_loader_unlock(void);
 
-/* For tests only, otherwise NULL. It is called after each step, and may replace members (tests/gpu/fake_device.h). */
+/* Hook for tests; otherwise NULL. It is called after each step of loading, and may replace members of the table
+ * (tests/gpu/fake_device.h). */
 extern void (*kd_vk_functions_hook)(struct kd_vk_functions *fn);
 
 const char *kd_vk_result_name(VkResult result); /* such as "VK_ERROR_DEVICE_LOST"; never NULL */

@@ -14,12 +14,12 @@
 
 /* The timestamps of one submission. */
 struct kd_vk_stamps {
-    /* enough for the largest submission so far */
+    /* query pools for the largest submission so far */
     VkQueryPool *pools;
     size_t n_pools, n;                                           /* n: number of timestamps written */
     struct kd_vk_stamp_span { uint32_t pass, commands; } *spans; /* span i lies between stamps i and i + 1 */
     size_t n_spans, capacity;
-    bool broken; /* out of memory, so this submission is not timed */
+    bool broken; /* true if this submission is not timed, because memory ran out */
 };
 
 struct kd_vk_timing {

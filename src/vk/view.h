@@ -12,7 +12,7 @@ struct kd_vk_view {
     VkBufferView handle;
     VkFormat format;
     uint64_t offset, range;
-    uint64_t ticket; /* the last submission that uses the view, recorded or submitted */
+    uint64_t ticket; /* number of the last submission that uses the view, recorded or submitted */
 };
 
 struct kd_vk_views {

@@ -24,7 +24,7 @@
 #define LATEST 1e12 /* largest time, M; the same limit as that of the scene's time */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
 #define UNIT 1e-2   /* tolerance of |u.u + 1| */
-/* largest number of rows per factor of e in r, because a stretch of the march is two cells long */
+/* largest number of rows per factor of e in r; it bounds the work of the march, whose stretches are two cells long */
 #define FINEST 1024
 #define PARTS 64 /* largest permitted k of a grid that covers 1/k of a turn */
 #define PLACES 4 /* number of table cells per column, if the columns are unevenly spaced */

@@ -13,8 +13,8 @@ enum kd_varies {
     KD_MOVES_BY_FALL = 8, /* the camera falls, so its radius changes; independent of emitters */
 };
 
-/* enum kd_varies: what would change in the picture at another time or azimuth. Rates of the scene that are 0 do not
- * matter. */
+/* Returns flags of enum kd_varies: what would change in the picture at another time or azimuth. The scene's rates of
+ * change are ignored, even if they are 0. */
 unsigned kd_emit_varies(const struct kd_scene *scene);
 /* True if anything visible changes with time at the scene's rates. */
 bool kd_emit_moves(const struct kd_scene *scene);

@@ -69,7 +69,8 @@ static void compare(struct kd_explained *x)
     }
 }
 
-/* The opaque place of the ray. NULL if the ray has none, or if a volume in front of it is opaque. */
+/* The first place at which the ray is blocked by opaque matter of the plane. NULL if the ray has none, or if a volume
+ * in front of it is opaque. */
 static const struct kd_probed_place *hiding(const struct kd_probed_ray *told)
 {
     for (size_t i = 0; i < told->n_places; i++) {

@@ -55,7 +55,8 @@ double kd_explained_polarized(const double stokes[3]);
 double kd_explained_along_delay(const struct kd_explained *explained);
 void kd_explained_finish(struct kd_explained *explained);
 
-/* The reported place at the crossing of that order. NULL if its light is blocked, or if nothing emits light there. */
+/* The reported place at the crossing of this order. NULL if the crossing's light is blocked, or if nothing emits
+ * light there. */
 const struct kd_probed_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
 /* True if there is gas with a known temperature and angle; place may be NULL. */
 bool kd_explained_has_gas(const struct kd_probed_place *place);

@@ -16,7 +16,7 @@ static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const s
     if (pass->figure == KD_NS_NONE)
         return;
     if (pass->figure == KD_NS_RAY_MARCH && job->scene->volume.model == KD_VOLUME_GRID)
-        return; /* the time of this pass depends on the grid's cells */
+        return; /* on a grid, the time of this pass depends on the grid's cells, so the figure stays unchanged */
     double *figure = &c->ns[pass->figure];
     *figure = job->r->probing ? fmin(*figure, ns) : kd_cost_mean(*figure, ns);
 }

@@ -30,8 +30,8 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *job, const struct kd_c
                                      const struct kd_vk_pipeline **out);
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, int makes,
                                      const struct kd_vk_pipeline **out);
-/* Number of dispatches for the light of a pixel with `rays` rays. The march follows one ray at a time, and needs a
- * dispatch for each kd_slice.ray. */
+/* Number of dispatches for the light of a pixel with `rays` rays. The march follows one ray at a time, and needs one
+ * dispatch for each value of kd_slice.ray. */
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes);
 /* The dispatches of both kernels, without their size. kd_frame_trace: from rays of a camera (view/layout.h) to a
  * lens map. kd_frame_transfer: from the lens map to the radiance of a band. */

@@ -10,7 +10,7 @@ struct kd_parted {
     struct kd_renderer *renderer;
     const struct kd_scene *scene;
     const struct kd_plan *plan;
-    bool background; /* as in kd_render_in_background; there are no previews */
+    bool background; /* true for kd_render_in_background; parts have no previews */
     kd_progress_fn progress;
     void *user;
 };

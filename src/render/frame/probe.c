@@ -243,7 +243,7 @@ done:
     return status;
 }
 
-/* Index of the pixel in the list. If the list does not have the pixel, the list's length. */
+/* Returns the index of the pixel in the list, or the list's length if the pixel is not in the list. */
 static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_probed_pixel *told)
 {
     uint64_t i = 0;

@@ -17,10 +17,10 @@
 struct work {
     const struct kd_plan *plan;
     size_t n;
-    double twist; /* added to the observer's azimuth */
+    double twist; /* angle that is added to the observer's azimuth */
     double *alpha_beta, *energy;
     bool *outward;
-    bool *inwards; /* for each crossing whether the traced ray moves inwards; NULL: the closed form decides */
+    bool *inwards; /* for each crossing, true if the traced ray moves inwards there; NULL: the closed form decides */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
 };
@@ -145,7 +145,8 @@ static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
 static void fill(const struct work *w, const struct kd_scene *scene, float *planes)
 {
     const struct kd_plan *plan = w->plan;
-    float *of[32] = { 0 }; /* planes by the bit of a quantity; NULL: the map does not have the quantity */
+    /* plane of each quantity, indexed by the quantity's bit; NULL: the map does not have the quantity */
+    float *of[32] = { 0 };
     for (uint32_t bit = 0; bit < 32; bit++)
         if (plan->lens.quantities >> bit & 1)
             of[bit] = planes + w->n * kd_lens_plane(plan->lens.quantities, plan->lens.orders, 1u << bit);

@@ -29,7 +29,7 @@ static const double NARROWEST = 0.25;
  * max_frame_ms */
 static const double PATIENT_AGAIN = 0.6;
 enum {
-    MOVING_AUDIT = 4, /* frames that will be refined audit one in this many rays */
+    MOVING_AUDIT = 4, /* in frames that will be refined, one in this many of the sampled rays is audited */
     /* image.critical_factor for a picture that is replaced before the eye can examine it: 4 rays instead of 16 */
     DRAGGED_CRITICAL = 2,
     FEW = 4, /* this many slow frames in a row are a sign of load instead of a spike */

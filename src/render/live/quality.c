@@ -63,7 +63,7 @@ static struct kd_rung sketched(struct kd_rung r)
     return r;
 }
 
-/* Adds a rung if it takes less work than the one before. */
+/* Adds a rung if it takes less work than the rung before it. */
 static bool add_rung(struct kd_ladder *ladder, struct kd_rung rung)
 {
     if (ladder->n_rungs == KD_LADDER_RUNGS || rung.rays >= ladder->rungs[ladder->n_rungs - 1].rays)

@@ -17,9 +17,9 @@ struct kd_quality {
     int32_t critical;       /* limit for image.critical_factor; 0: as requested */
     /* enum kd_profile, which replaces all of accuracy.* except the engine; -1: accuracy.* stays as requested */
     int32_t profile;
-    bool sketch; /* volumes are marched more coarsely than with any profile: render/plan/march.h */
-    bool bright; /* only the bright images of stars are shown: plan.bright of render/plan/plan.h */
-    bool final;  /* everything is as requested */
+    bool sketch; /* true if volumes are marched more coarsely than with any profile: render/plan/march.h */
+    bool bright; /* true if only the bright images of stars are shown: plan.bright of render/plan/plan.h */
+    bool final;  /* true if everything is as requested */
 };
 
 /* Makes the scene to render: *asked at this quality. The result is valid if *asked is valid. With quality.final it

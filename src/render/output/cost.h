@@ -14,7 +14,7 @@ struct kd_cost {
     double file_bytes; /* total size of the files, for formats whose file size depends only on the picture's size */
     uint64_t rays;
     uint64_t device_bytes, host_bytes; /* bytes that the largest frame needs */
-    bool guessed;                      /* some pass has no measured cost */
+    bool guessed;                      /* true if some pass has no measured cost */
     struct kd_sweep_order order;       /* order of the frames of a sweep */
     struct kd_cube_shape shape;        /* shape that all scenes of a cube have */
 };

@@ -52,7 +52,7 @@ struct kd_cube {
 
 enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cube *out, struct kd_error *error);
 void kd_cube_finish(struct kd_cube *cube);
-/* Scans some more scenes. *over: all are done. */
+/* Scans some more scenes. *over: true if all scenes were scanned. */
 enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *error);
 /* The bytes stored for a scene: hash, accuracy of its picture, and flux. */
 static inline const char *kd_cube_row(const struct kd_cube *cube, unsigned scene)

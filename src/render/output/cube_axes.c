@@ -28,7 +28,7 @@ static double world_of(const struct kd_sweep_axis *axis, size_t i)
     return axis->values[i].number * (is_frequency(axis) ? 1e9 : 1);
 }
 
-/* The unit as the standard spells it (section 4.3). The standard has no unit for M = G m/c^2 and for stops. */
+/* The unit as the standard spells it (section 4.3). The standard has no unit for M = G m/c^2, and none for stops. */
 static const char *unit_of(const struct kd_sweep_axis *axis)
 {
     return !strcmp(axis->unit, "degrees")        ? "deg"

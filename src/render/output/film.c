@@ -202,7 +202,7 @@ static bool has_written(struct film *f)
     return f->written > before;
 }
 
-/* Writes as much as ffmpeg accepts now, and checks whether it has ended. */
+/* Writes as much as ffmpeg accepts now, and checks whether ffmpeg has ended. */
 static enum kd_status feed(struct film *f, struct kd_error *error)
 {
     enum kd_status status = KD_OK;

@@ -16,8 +16,8 @@ enum kd_status kd_fits_put_layer(struct kd_buffer *cards, const char *name, cons
 /* World coordinates of two axes. alternate: "" or one letter. */
 enum kd_status kd_fits_put_world_axes(struct kd_buffer *cards, const struct kd_wcs *wcs,
                                       const struct kd_wcs_axis axes[2], const char *alternate);
-/* The hole, the observer, and the frequency of a volume at a radio frequency, for readers that do not parse the scene.
- * sweep: fields that it varies are left out; NULL: there is no sweep. */
+/* The hole, the observer, and the frequency of a volume at a radio frequency, for readers that do not parse the
+ * scene. sweep: fields that the sweep varies are left out; NULL: there is no sweep. */
 enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene *scene, const struct kd_sweep *sweep);
 
 #endif

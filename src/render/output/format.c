@@ -40,11 +40,11 @@ static enum kd_status check_layers(const struct kd_format *format, const struct 
         scene->image.layers.count, format->name);
 }
 
-/* Adapts the scene to the format, and checks what the format holds. */
+/* Adapts the scene to the format, and checks that the format can hold the scene's layers. */
 static enum kd_status adapt(const struct kd_format *format, struct kd_scene *scene, struct kd_error *error)
 {
     const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
-    /* the file records the setting together with the requested scene */
+    /* true if the file records the setting of the exposure, as a part of the requested scene */
     const bool told = format->carries & shows && format->scene;
     if (!(format->carries & KD_CARRIES_PICTURE) && !told && isinf(scene->style.exposure))
         scene->style.exposure = 0;

@@ -43,8 +43,8 @@ struct kd_format {
     const char *magic;      /* first bytes of each file; "": the first bytes vary */
     const char *end;        /* last bytes of each file; NULL: the last bytes vary */
     unsigned carries;
-    bool live;  /* the format supports KD_EFFORT_LIVE */
-    bool lossy; /* the format takes a quality */
+    bool live;  /* true if the format supports KD_EFFORT_LIVE */
+    bool lossy; /* true if the format takes a quality */
     /* Adapts a scene so that its frame contains the data that the format needs; NULL: no change is necessary. Returns
      * KD_EINVAL at a field if the scene has no such data. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);

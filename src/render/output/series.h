@@ -11,8 +11,8 @@
 struct kd_table_format {
     const char *name, *media_type; /* "csv", "text/csv": as in kd_format */
     const char *file;              /* file name for saving the document; NULL: the document is displayed */
-    /* rows: n of them, each a frame of the series; sweep: the sweep of their scenes, NULL: none. The only error is
-     * KD_ENOMEM. */
+    /* rows: n rows, one for each frame of the series. sweep: the sweep of the frames' scenes; NULL: there is no
+     * sweep. The only error is KD_ENOMEM. */
     enum kd_status (*write)(const void *rows, size_t n, const struct kd_sweep *sweep, struct kd_buffer *out);
 };
 
@@ -27,7 +27,7 @@ struct kd_series {
     size_t n_tables;
     /* formats for gathering files, the first is the default; ends with NULL */
     const struct kd_gather_format *const *wholes;
-    bool swept; /* the series exists for sweeps only */
+    bool swept; /* true if the series exists for sweeps only */
 };
 
 extern const struct kd_series *const kd_series_all[]; /* all series; the first is the default */

@@ -35,7 +35,8 @@ struct list {
     const struct kd_picture *picture;
     struct kd_sky_rays rays;
     struct kd_star_name names[KD_STAR_NAMES];
-    double most[KD_STAR_NAMES]; /* for each star the largest solid angle of a pixel, sr, at which it is visible */
+    /* for each star, the largest solid angle of a pixel, in sr, at which the star is visible */
+    double most[KD_STAR_NAMES];
     struct kd_vec places[KD_STAR_NAMES]; /* directions of the stars in the frame of the lens map */
     size_t n_stars;
     struct image *images;
@@ -142,8 +143,9 @@ static bool is_there(const struct list *list, const struct kd_star_image *image)
     return false;
 }
 
-/* Converts a place of the map to a place of the picture; false if it is outside. The map of a picture of all directions
- * has one column and two rows more (find()). An image beyond a pole is in the picture at the equivalent place. */
+/* Converts a place of the map to a place of the picture. Returns false if that place is outside the picture. The map
+ * of a picture of all directions has one column and two rows more (find()). An image beyond a pole is in the picture
+ * at the equivalent place. */
 static bool place_of(const struct list *list, struct kd_star_image *image)
 {
     const double width = list->picture->frame->width, height = list->picture->frame->height, edge = 0.5;

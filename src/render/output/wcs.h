@@ -19,7 +19,7 @@ struct kd_wcs {
     /* for a distant observer: angles on the sky, east to the left, from the hole's mass and distance. For a near one:
      * angles to the right of the camera's axis and above it */
     struct kd_wcs_axis at[2];
-    bool far;                     /* the observer is distant, and `impact` is valid as well */
+    bool far;                     /* true if the observer is distant; `impact` is then valid as well */
     struct kd_wcs_axis impact[2]; /* the same places as impact parameters alpha and beta, M */
     double turn[2][2];            /* PCi_j of both pairs of axes: from pixels to steps of the axes when the camera is
                                    * rolled */

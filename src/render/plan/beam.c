@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-/* width in pixels. A narrower beam changes nothing, because a neighbouring pixel gets less than exp(-50) of the weight
- * of the pixel itself */
+/* full width at half maximum of a Gaussian, in standard deviations: 2 sqrt(2 ln 2) */
 #define FWHM 2.3548200450309493
 /* width in pixels: a narrower beam gives a neighbouring pixel less than exp(-50) of the weight of the pixel itself */
 #define LEAST 0.1

@@ -18,13 +18,14 @@
 struct kd_bloom {
     uint32_t columns, rows;      /* size of the finest grid, multiples of 2^(levels - 1) */
     uint32_t levels;             /* number of grids; 0: no light is spread */
-    bool around;                 /* the picture shows all directions, so its left and right edges adjoin */
+    bool around;                 /* true if the picture shows all directions, so that its left and right edges adjoin */
     double strength;             /* fraction of the light above white that is spread */
     double share;                /* fraction of the spread light on each grid: equal for each octave of the angle */
     uint32_t block_x, block_y;   /* sides in pixels of the blocks whose light is summed first */
     uint32_t blocks_x, blocks_y; /* number of blocks */
-    /* Offsets in one buffer, each a multiple of 256. light: of each grid. sums: of the sum of each grid with the
-     * coarser grids. blocks: of the blocks. bytes: the buffer's size. */
+    /* Offsets in one buffer, each a multiple of 256. light: offset of the first cell of each grid. sums: offset of
+     * the first cell of the sum of each grid with the coarser grids. blocks: offset of the first block. bytes: size
+     * of the buffer. */
     uint64_t light[KD_BLOOM_LEVELS], sums[KD_BLOOM_LEVELS], blocks, bytes;
 };
 

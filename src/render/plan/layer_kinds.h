@@ -42,7 +42,8 @@ static inline bool kd_layer_is_polarized(int kind)
 /* A layer of a plan. order: its image order; -1: the order of the first crossing on the disk. */
 struct kd_plan_layer { int16_t kind, order; };
 
-/* The layers of image.layers except "rgb", in their order; returns their number. *rgb: whether "rgb" is among them. */
+/* The layers of image.layers except "rgb", in their order; returns their number. *rgb: true if "rgb" is among the
+ * words of image.layers. */
 size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WORDS_MOST], bool *rgb);
 /* KD_LENS_... quantities that all layers of image.layers need together. */
 uint32_t kd_layers_needs(const struct kd_scene *scene);

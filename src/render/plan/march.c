@@ -69,7 +69,7 @@ static double of_matter(const struct kd_scene *scene)
     return of[scene->volume.model];
 }
 
-/* Measured by lavapipe: an octave of noise in three dimensions takes a quarter of the time of everything else at a
+/* Measured with lavapipe: an octave of noise in three dimensions takes a quarter of the time of everything else at a
  * sample. */
 static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t fine)
 {

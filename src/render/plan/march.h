@@ -27,14 +27,14 @@ struct kd_march {
     /* octaves of noise are left out if their amplitude, reduced by the local gas and the ray's footprint, is less than
      * this fraction of the first octave's */
     double unseen;
-    bool sketched; /* the march is a sketch, coarser than with any profile (kd_march_sketch) */
+    bool sketched; /* true if the march is a sketch, coarser than with any profile (kd_march_sketch) */
     struct kd_march_sample
         sample; /* pixels whose rays are followed twice more, to measure the error (frame/march_error.c) */
 };
 /* the target of a sketch for the error, without the error due to the octaves that it leaves out */
 #define KD_MARCH_SKETCHED 0.05
 #define KD_MARCH_HOLDS 5e-5  /* the smallest tolerance that can be requested; this error is met even in turbulence */
-#define KD_MARCH_SAMPLED 256 /* pixels of the sample, at most */
+#define KD_MARCH_SAMPLED 256 /* largest number of pixels of the sample */
 #define KD_MARCH_FINER 2     /* factor by which the reference for measuring the error has more steps and stretches */
 #define KD_MARCH_DARK 1e-3   /* fraction of the brightest ray: errors of darker rays are relative to this */
 

@@ -56,7 +56,7 @@ static struct kd_pass_cost transfer(const struct kd_plan *plan, const struct kd_
                                    kd_plan_light_figure(&plan->light) };
 }
 
-/* All volumes share one figure, so it is measured only on volumes of the usual weight. */
+/* All volumes share one figure. So the figure is measured only on volumes of the usual weight. */
 static struct kd_pass_cost march(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const bool usual = fabs(plan->light.march.weight - 1) < 1e-9;
@@ -103,8 +103,8 @@ static struct kd_pass_cost post(const struct kd_plan *plan, const struct kd_capa
                                    plan->picture.bloom.levels ? KD_NS_NONE : KD_NS_PIXEL_POST };
 }
 
-/* Measured by lavapipe: gathering and interpolation take three times as long as post. Each weight of the two blurs, and
- * of two more sums if cells are large, takes a seventh of post's time. */
+/* Measured with lavapipe: gathering and interpolation take three times as long as post. Each weight of the two blurs,
+ * and of two more sums if cells are large, takes a seventh of post's time. */
 static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const struct kd_beam_grid *b = &plan->picture.beam;

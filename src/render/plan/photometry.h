@@ -31,7 +31,7 @@ struct kd_light {
 
 struct kd_light_report {
     bool measured;              /* true if the plan requested it (kd_plan_light.photometry) */
-    bool polarized, circular;   /* polarized: whether there are Q and U; circular: whether there is V */
+    bool polarized, circular;   /* polarized: true if there are Q and U; circular: true if there is V */
     struct kd_light all, spots; /* all: light of the whole picture; spots: light of its hot spots */
 };
 

@@ -15,8 +15,8 @@ struct kd_plan_report {
     bool measured, accuracy_measured; /* same meaning as in kd_capacity */
     struct kd_approximation approximations[KD_PLAN_MAX_APPROXIMATIONS];
     size_t n_approximations;
-    /* The caller sets `on` to request a description of the light of this pixel's middle ray (frame/probe.h). It sets
-     * `steps` to have the engine's steps recorded as well. */
+    /* The caller sets `on` to request a description of the light of this pixel's middle ray (frame/probe.h). The
+     * caller sets `steps` to have the engine's steps recorded as well. */
     struct {
         bool on, steps;
         uint32_t x, y;

@@ -245,7 +245,7 @@ size_t kd_rays_stream_size(const struct kd_rays_stream *stream)
     return stream->head.size + stream->answer->n * (2 + 8 * (3 + 4 * (size_t)p->orders + (p->observer ? 1 : 0)));
 }
 
-/* Writes the next ray, or the end of the list, to stream->row. False at the end. */
+/* Writes the next ray, or the end of the list, to stream->row. Returns false after the end. */
 static bool refill(struct kd_rays_stream *stream)
 {
     static const char tail[] = "]}\n";

@@ -17,7 +17,7 @@
 
 _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");
 
-/* What all rays of a list have in common. */
+/* The part of a ray's description that is the same for all rays of a list. */
 static struct kd_null_ray common_of(const struct kd_rays_params *p)
 {
     return (struct kd_null_ray) { .hole = kd_rays_hole(p),

@@ -13,15 +13,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few rays,
- * and later ones as many as take TARGET_MS. A ray's cost varies by a factor of a million between the fastest engine on
- * a GPU and Tao's with the most steps on one core. A slice is submitted in parts of at most CHUNK rays. The device
- * traces one part while the host unpacks the part before. */
+/* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few rays.
+ * Later slices have as many rays as are traced in TARGET_MS. A ray's cost varies by a factor of a million between the
+ * fastest engine on a GPU and Tao's with the most steps on one core. A slice is submitted in parts of at most CHUNK
+ * rays. The device traces one part while the host unpacks the part before. */
 #define LEAST 32u
 #define MOST (1u << 20)
 #define CHUNK 65536u
 #define TARGET_MS 40.0
-/* Numbers before the list in rays.comp. rays_kerr_schild.comp has four less. */
+/* Numbers before the list in rays.comp. rays_kerr_schild.comp has four fewer. */
 #define F(name) +1
 enum { HEADER = 7 KD_HOLE_MORE_FIELDS_(F) };
 #undef F
@@ -30,7 +30,7 @@ struct work {
     struct kd_renderer *r;
     const struct kd_rays_params *params;
     bool wide;        /* double precision */
-    bool kerr_schild; /* the engine uses Kerr-Schild coordinates */
+    bool kerr_schild; /* true if the engine uses Kerr-Schild coordinates */
     uint32_t per_ray;
     /* least radius: the float next above the horizon's */
     double least;
@@ -74,9 +74,8 @@ static double get(const struct work *w, const void *at, size_t i)
 }
 
 /* Radius from which a Cartesian ray from infinity starts. A larger radius would lose digits of b, and in Tao's method
- * also phase. A smaller radius would give smaller errors (from 100 M, single precision has a sixth of the error). But
- * the errors would be smaller only because start.c would then trace more of the ray in Mino time, and this engine less
- * of it. */
+ * also phase. A smaller radius would give smaller errors: from 100 M, single precision has a sixth of the error. But
+ * this is only because start.c then traces more of the ray in Mino time, and this engine less of it. */
 #define FAR 1e3
 /* The radius at which a ray counts as escaped: there its momentum has reached its limit within M b/r^2. Further out the
  * direction in single precision does not become more accurate, and the copies of Tao's method diverge. */

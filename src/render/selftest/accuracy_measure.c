@@ -134,9 +134,9 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Measures the seconds a ray: the best of several runs, because other work on the machine only slows them. Each run has
- * a share of the time, in which it traces the list repeatedly. A list that takes longer than this share is shortened.
- * *s: on entry, the time that the list takes. */
+/* Measures the time per ray in seconds. It is the shortest of several runs, because other work on the machine only
+ * slows them. Each run has a share of the time, in which it traces the list repeatedly. A list that takes longer than
+ * this share is shortened. *s: on entry, the time that the list takes. */
 static enum kd_status time_view(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t, double share,
                                 double *s)
 {

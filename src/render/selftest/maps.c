@@ -119,7 +119,7 @@ done:
 }
 
 /* Converts the reference's Boyer-Lindquist azimuths to the azimuths of the map, which are relative to a falling
- * observer's ingoing azimuth. They are larger by the integral of a/Delta from r to infinity. */
+ * observer's ingoing azimuth. The azimuths of the map are larger by the integral of a/Delta from r to infinity. */
 static struct kd_selftest_ray by_own_azimuth(const struct kd_selftest_camera *camera)
 {
     struct kd_selftest_ray ray = camera->ray;

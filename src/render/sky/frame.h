@@ -7,7 +7,7 @@
 #include "scene/scene.h"
 
 struct kd_vec { double x, y, z; };
-struct kd_rotation { double m[3][3]; }; /* rows: out = m in */
+struct kd_rotation { double m[3][3]; }; /* m[i]: row i of the matrix; out = m in */
 
 struct kd_vec kd_sky_direction(double longitude, double latitude); /* radians */
 struct kd_vec kd_rotate(const struct kd_rotation *by, struct kd_vec v);

@@ -14,7 +14,7 @@
 #include <string.h>
 
 #define DEGREE ((float)M_PI / 180)
-enum { SIDE = 64 }; /* lattice points, after which noise repeats */
+enum { SIDE = 64 }; /* number of lattice points along each axis; beyond them the noise repeats */
 
 struct clouds { float *lattice; }; /* SIDE^3 numbers in [-1, 1] */
 
@@ -128,7 +128,7 @@ static void starlight(const struct clouds *c, const float n[3], const float smoo
         b->contrast > 0.1f
             ? expf(b->contrast * (smooth[CLOUDS] + octaves(c, n, &more_clouds)) - 0.17f * b->contrast * b->contrast)
             : 1;
-    /* smaller than 1e-7 where it is cut off */
+    /* the bulge is smaller than 1e-7 where it is cut off */
     const float bulge = bulge2 < 40 ? 1.25f * expf(-powf(bulge2, 0.75f)) : 0;
     for (int k = 0; k < 3; k++)
         rgb[k] = band[k] * (thin * star_clouds + b->halo) + old[k] * bulge * (0.6f + 0.4f * star_clouds);

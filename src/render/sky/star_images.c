@@ -108,7 +108,8 @@ struct cell {
     struct corner c[4];
     double side[4], across, size, pixels;
     bool folds;
-    double area, beside[2][2]; /* if the cell folds: its largest area, and one place on each side of the fold */
+    /* if the map folds in the cell. area: the cell's largest area; beside: one place on each side of the fold */
+    double area, beside[2][2];
 };
 
 /* True if a star may be bright enough where the map takes a cell to a solid angle `area`. */
@@ -239,7 +240,7 @@ static void find_near(struct search *s, struct cell *cell, size_t first, double 
     }
 }
 
-/* Sets everything in a cell except its corners. False: no star is near. */
+/* Sets everything in a cell except its corners. Returns false if no star is near. */
 static bool measure(struct search *s, const struct rows *rows, uint32_t x, struct cell *cell)
 {
     double low = INFINITY, high = -INFINITY;

@@ -36,7 +36,7 @@ double kd_camera_pixel(const struct kd_scene *scene);
  * positive, but azimuth and time run backwards. */
 struct kd_camera_label {
     double alpha, beta;
-    bool outward;  /* at a finite radius: whether the traced ray starts away from the hole */
+    bool outward;  /* true if the traced ray of an observer at a finite radius starts away from the hole */
     double energy; /* energy at infinity, in units of the energy that the observer measures; not 0 */
 };
 /* Direction from which the ray at (x, y) arrives, in the observer's frame: a unit vector along e_r, e_theta, e_phi.
@@ -47,7 +47,8 @@ void kd_camera_direction(const struct kd_camera_exact *camera, double x, double 
 void kd_camera_look(const struct kd_camera_exact *camera, double x, double y, double out[3]);
 
 /* The place in the picture at which the camera sees a direction. The place is in rays, as in kd_camera_direction. The
- * direction may have any length; at infinity it is alpha and beta. False if the direction is behind a pinhole. */
+ * direction may have any length; at infinity it is alpha and beta. Returns false if the direction is behind a
+ * pinhole. */
 bool kd_camera_seen(const struct kd_camera_exact *camera, const double direction[3], double *x, double *y);
 
 /* Labels from E, L/sin(theta), and beta |E|. */

@@ -20,16 +20,16 @@ struct work {
     struct kd_camera_exact camera;
     /* size of the rendered part: width and height in pixels, across and down in tiles */
     uint32_t width, height, across, down;
-    uint32_t whole;      /* columns of the whole picture */
-    struct tile **tiles; /* row by row; NULL: nothing is marked there */
-    size_t n;            /* pixels that are marked */
+    uint32_t whole;      /* number of columns of the whole picture */
+    struct tile **tiles; /* tiles, row by row; NULL: no pixel of the tile is marked */
+    size_t n;            /* number of marked pixels */
     bool no_memory;
 };
 
 /* A point of the curve in the picture, in pixels. */
 struct spot {
     double x, y;
-    bool seen; /* the point is in front of the camera */
+    bool seen; /* true if the point is in front of the camera */
 };
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }

@@ -52,8 +52,8 @@ struct kd_rim {
 
 /* True if the scene may have a rim; a cheap test. */
 bool kd_rim_may_be(const struct kd_scene *scene);
-/* Makes the rim; false if there is none. There is one if the observer is outside the photon orbits and sees all of
- * the curve within 80 degrees of its middle. About 0.3 ms. */
+/* Makes the rim. Returns false if there is none. There is one if the observer is outside the photon orbits and sees
+ * all of the curve within 80 degrees of its middle. Takes about 0.3 ms. */
 bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out);
 
 /* The place on the plane at turn u (any real number) and relative distance `off` from the curve. */

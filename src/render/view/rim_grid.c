@@ -190,7 +190,7 @@ static void choose_cells(struct layout *o, double faintest)
         }
 }
 
-/* Shrinks a part to the cells that are wanted; false if no cell is. */
+/* Shrinks a part to the cells that are wanted. Returns false if no cell is wanted. */
 static bool tighten(const struct layout *o, struct part *p)
 {
     struct part t = { ROUND, 0, ACROSS, 0 };
@@ -254,7 +254,7 @@ static double cost_of(const struct layout *o, struct part halves[2])
     return sum;
 }
 
-/* The best cut of a part in two; false if no cut helps. */
+/* Finds the best cut of a part in two. Returns false if no cut lowers the cost by a twentieth or more. */
 static bool cut(const struct layout *o, const struct part *p, struct part best[2])
 {
     double least = 0.95 * cost(o, p);
@@ -415,7 +415,8 @@ static void set_columns(struct kd_rim_grid *g, const bool lit[], int columns, do
         g->x[0] = a, g->x[1] = b;
 }
 
-/* Sets the ranges of the grid's rays whose images may light some of the rectangle; false if there are none. */
+/* Sets the ranges of the grid's rays whose images may light some of the rectangle. Returns false if there are no such
+ * rays. */
 static bool set_spans(const struct kd_rim *rim, const struct kd_camera_exact *camera, const struct rectangle *r,
                       double spread, struct kd_rim_grid *g)
 {

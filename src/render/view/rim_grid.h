@@ -37,7 +37,7 @@ struct kd_rim_grid {
     double low_u, high_u, low_l, high_l;
     /* columns and rows in which images are searched; all, unless kd_rim_grids_keep set them. x[1] may be empty. */
     struct kd_rim_span x[2], y;
-    uint32_t first, table; /* offsets of its rays and of its table in the buffer, counted in numbers */
+    uint32_t first, table; /* offsets of the grid's rays and of its table in the buffer, counted in numbers */
 };
 
 struct kd_rim_grids {
@@ -49,7 +49,7 @@ struct kd_rim_grids {
     struct kd_rim_grid of[KD_RIM_GRIDS];
 };
 
-/* Makes the grids; n is 0 if there is no rim or no part of it is seen. 3 to 15 ms. */
+/* Makes the grids; n is 0 if there is no rim or no part of it is seen. Takes 3 to 15 ms. */
 void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *out);
 
 /* Keeps the grids whose images may light pixels of the scene's tile, and drops the others. In the grids that remain,
