@@ -50,7 +50,7 @@ struct kd_accuracy_table {
     char machine[256], device[800]; /* machine: processor and system; device: the Vulkan device with its driver */
     /* description of the tests that were skipped because of this device's limits; "" if there were none */
     char skipped[400];
-    uint32_t cores;                 /* cores that the device computes on; 0 if it is not a CPU */
+    uint32_t cores; /* cores that the device computes on; 0 if it is not a CPU */
     bool device_clock, quick;
     double seconds; /* device time of one speed measurement; it is shorter if a million rays take less time */
     uint32_t n;

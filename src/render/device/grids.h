@@ -22,7 +22,7 @@ struct kd_grids {
     struct kd_cached_grid entries[KD_GRIDS];
     struct kd_matter_grid made; /* grid made by the reader's thread, which then caches it */
     uint64_t used;
-    char uploaded[KD_ASSET_NAME];   /* hash of the grid that was last found on the device; "": no grid */
+    char uploaded[KD_ASSET_NAME]; /* hash of the grid that was last found on the device; "": no grid */
     /* Starts reading the grid of a scene, if the scene has a grid that is neither cached nor on the device. Returns
      * whether the reading is in progress. A waiting client calls this function repeatedly; if the grid was evicted
      * meanwhile, it is read once more. */

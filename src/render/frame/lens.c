@@ -257,8 +257,8 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     own[KD_OWN_point_light] =
         /* stars.c makes the light of stars, band by band */
         j->plan->light.points ? j->lens->star_light.buffers[band] : NULL;
-    for (int i = 0; i < KD_OWN_COUNT; i++)                                /* any buffer can be bound where none is
-                                                                           * used */
+    for (int i = 0; i < KD_OWN_COUNT; i++) /* any buffer can be bound where none is
+                                            * used */
         d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
     if (makes >= 0) {
         d.bindings[3].buffer = j->store->layers.buffers[band];
