@@ -10,7 +10,7 @@
 struct kd_vk_span { uint64_t begin, end; };
 
 struct kd_vk_arena {
-    struct kd_vk_span *free; /* sorted; no two of them touch */
+    struct kd_vk_span *free; /* the gaps, sorted by offset; no two of them touch */
     size_t n_free, capacity;
     size_t live; /* number of allocations */
     uint64_t size;

@@ -117,9 +117,9 @@ enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice devic
 enum kd_status kd_vk_functions_load_own(struct kd_vk_functions *fn, const char *path, struct kd_error *error);
 
 /* Every thread holds this lock while it creates or destroys an instance or a device, loads its functions, or names an
- * object. Vulkan permits an application to make these calls at the same time on different devices. The loader does not
- * support that: without a lock it changes its one list of all devices of the process (KhronosGroup/Vulkan-Loader issue
- * 2018, up to 1.4.341 at least). */
+ * object. Vulkan permits an application to make these calls at the same time on different devices. The loader does
+ * not support that: it has one list of all devices of the process, and changes this list without a lock
+ * (KhronosGroup/Vulkan-Loader issue 2018, up to 1.4.341 at least). */
 void kd_vk_loader_lock(void);
 void kd_vk_loader_unlock(void);
 

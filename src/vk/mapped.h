@@ -1,6 +1,7 @@
-/* Flushes and invalidates mapped memory that is not coherent. A flush makes the host's writes visible to the device; an
- * invalidation makes the device's writes visible to the host. Buffers that a submission reads are flushed before it.
- * Buffers that it writes are invalidated when it has finished. If the memory is coherent, the list is empty. */
+/* Flushes and invalidates mapped memory that is not coherent. A flush makes the host's writes visible to the device;
+ * an invalidation makes the device's writes visible to the host. Buffers that a submission reads are flushed before
+ * the submission. Buffers that a submission writes are invalidated when it has finished. If the memory is coherent,
+ * the list is empty. */
 #ifndef KD_VK_MAPPED_H
 #define KD_VK_MAPPED_H
 

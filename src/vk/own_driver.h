@@ -14,7 +14,8 @@
 bool kd_vk_own_driver(char path[KD_VK_PATH]);
 /* True if the program runs within the driver's C library. */
 bool kd_vk_own_entered(void);
-/* Names in the driver's folder: of the dynamic linker of its C library, glibc 2.36, and of the driver. */
+/* Names in the driver's folder. KD_VK_OWN_LINKER: dynamic linker of the driver's C library, glibc 2.36;
+ * KD_VK_OWN_FILE: the driver. */
 #define KD_VK_OWN_GLIBC "2.36" /* as in scripts/driver */
 #define KD_VK_OWN_LINKER "/glibc-" KD_VK_OWN_GLIBC "/ld.so"
 #define KD_VK_OWN_FILE "/libvulkan_lvp.so"

@@ -1,9 +1,9 @@
 /* Adds up device time by the name of a pass.
  *
  * A submission is divided into spans: consecutive commands of one pass. A timestamp is written at the beginning and
- * after each span. It is always written at the bottom of the pipe, which means: when all previous work has finished. So
- * spans never overlap, and their sum is the time during which the device was busy. Idle time between submissions is not
- * counted. */
+ * after each span. Timestamps are written at the bottom of the pipe, that is, when all previous work has finished. So
+ * spans never overlap, and their sum is the time during which the device was busy. Idle time between submissions is
+ * not counted. */
 #ifndef KD_VK_TIMING_H
 #define KD_VK_TIMING_H
 

@@ -59,8 +59,8 @@ struct kd_vk_params {
     uint32_t deadline_ms;
 };
 
-/* Lists all devices of this machine, usable or not, in the order of their indices. *out is malloc'd. If there is no
- * loader, driver or device it returns KD_EDEVICE with the reason, so *count is never 0 on KD_OK. */
+/* Lists all devices of this machine, usable or not, in the order of their indices. *out is malloc'd. Returns
+ * KD_EDEVICE with the reason if there is no loader, driver or device, so that *count is never 0 on KD_OK. */
 enum kd_status kd_vk_list(struct kd_vk_info **out, size_t *count, struct kd_error *error);
 
 enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **out, struct kd_error *error);
@@ -72,9 +72,10 @@ bool kd_vk_hangs(const struct kd_vk *vk); /* true if a submission has missed its
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device was chosen */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* number of warnings and errors so far */
-/* When the driver compiles a kernel. EARLY: when its pipeline is created. LATE: at its first dispatch, on the device's
- * queue; the driver then stores it in files for other devices of the process, as lavapipe does. LATE_KEEPS_NOTHING: as
- * LATE, but the driver stores nothing. dir: the folder of these files, "" if it is unknown. Any thread. */
+/* When the driver compiles a kernel. EARLY: when the kernel's pipeline is created. LATE: at the kernel's first
+ * dispatch, on the device's queue; the driver then stores the compiled kernel in files for other devices of the
+ * process, as lavapipe does. LATE_KEEPS_NOTHING: like LATE, but the driver stores nothing. dir: the folder of these
+ * files, "" if it is unknown. Any thread. */
 enum kd_vk_compiling { KD_VK_COMPILES_EARLY, KD_VK_COMPILES_LATE, KD_VK_COMPILES_LATE_KEEPS_NOTHING };
 enum kd_vk_compiling kd_vk_compiling(const struct kd_vk *vk, char dir[4096]);
 /* Identifies the folders in which the driver stores compiled kernels. The result changes if the folders are removed and
@@ -138,7 +139,7 @@ void kd_vk_pipeline_destroy(struct kd_vk *vk, struct kd_vk_pipeline *pipeline);
  * timed. The times of passes with the same name add up over dispatches and submissions. */
 struct kd_vk_binding {
     struct kd_vk_buffer *buffer;
-    /* size 0: to the end of the buffer, for texels only complete ones; offset: a multiple of 256 */
+    /* size 0: up to the end of the buffer, or up to its last complete texel; offset: a multiple of 256 */
     uint64_t offset, size;
     bool write; /* true if the shader writes the buffer, and may read it; storage only */
 };
@@ -148,8 +149,8 @@ struct kd_vk_dispatch {
     struct kd_vk_binding bindings[KD_VK_MAX_BINDINGS];
     const void *push;
     uint32_t groups[3]; /* 0 counts as 1 */
-    /* If not NULL, it replaces `groups` by three words in this buffer, at this offset, which is a multiple of 4.
-     * Earlier kernels have written the words, within the device's limits. If one of them is 0, nothing is
+    /* If not NULL, three words in this buffer replace `groups`. The words begin at this offset, a multiple of 4.
+     * Earlier kernels have written the words, within the device's limits. If one of the words is 0, nothing is
      * dispatched. */
     struct kd_vk_buffer *counts;
     uint64_t counts_at;

@@ -29,7 +29,7 @@ const char *kd_engine_name(
     enum kd_engine engine); /* "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
 const char *kd_precision_name(enum kd_precision precision); /* "f32", "f64" */
 
-#define KD_STEPS_MAX 2048 /* limit of steps for any engine; some engines have a lower one */
+#define KD_STEPS_MAX 2048 /* largest number of steps of any engine; some engines have a lower limit */
 
 /* Default number of steps of an engine. */
 uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision);
@@ -70,13 +70,13 @@ struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene);
 /* True if the request needs a device. If not, the closed form on the CPU serves the request. */
 bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy);
 
-/* Resolves a request. Without a tolerance, the profile supplies the engine, the precision and the number of steps that
- * the request does not name. Without a profile, the setting is the closed form in double precision. With a tolerance,
- * the function picks the fastest row of the table that meets the tolerance, among the permitted engines and precisions.
- * The request must then not name steps. The closed form is used if no row meets the tolerance, and if a profile needs
- * double precision that the device lacks. float64: whether the device has double precision. Returns KD_EINVAL at
- * /accuracy/... for a contradiction, a tolerance that cannot be met, or a setting that this device does not support.
- * table may be NULL if no tolerance is requested. */
+/* Resolves a request to a setting. Without a tolerance, the profile supplies the engine, the precision and the number
+ * of steps, unless the request names them. If there is no profile either, the setting is the closed form in double
+ * precision. With a tolerance, the function picks the fastest row of the table that meets the tolerance, among the
+ * permitted engines and precisions. The request must then not name steps. The closed form is used in two cases: no
+ * row meets the tolerance, or a profile needs double precision and the device lacks it. float64: true if the device
+ * has double precision. Returns KD_EINVAL at /accuracy/... for a contradiction, a tolerance that cannot be met, or a
+ * setting that this device does not support. table may be NULL if no tolerance is requested. */
 enum kd_status kd_setting_of(const struct kd_accuracy_request *asked_accuracy, const struct kd_accuracy_table *table,
                              bool float64, struct kd_setting *out, struct kd_error *error);
 

@@ -95,8 +95,8 @@ static double figure(const cJSON *object, const char *name)
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
-/* Reads a whole number of the document. Anything else, or a number that is too large, becomes UINT32_MAX, which no
- * reader accepts. */
+/* Reads a whole number of the document. Any other value, and a number that is too large, becomes UINT32_MAX. No
+ * reader accepts that number. */
 static uint32_t whole(const cJSON *object, const char *name)
 {
     double value = figure(object, name);

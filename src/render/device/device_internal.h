@@ -43,17 +43,18 @@ struct kd_renderer {
     struct kd_prepared prepared;
     struct kd_background_render background_renders[KD_BACKGROUND_RENDERS];
     uint64_t backgrounds_used;
-    /* buffers of rays/device.c, reused for the next list: the list, its results, and both on the host */
+    /* reused for the next list of rays (rays/device.c): buffers for the list and for its results, and a buffer on the
+     * host for both */
     struct kd_vk_buffer *rays[2][3];
     struct kd_rays_pace {
         enum kd_engine engine;
         enum kd_precision precision;
         uint32_t steps, orders, size;
     } rays_pace;
-    bool passing; /* this member and the next two have the meaning that they have in kd_renderer_params */
+    bool passing; /* `passing`, `lacks` and `lacks_user` have the same meaning as in kd_renderer_params */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
-    struct kd_emit_state *emit; /* numbers and tables of the emitters, as the last frame left them */
+    struct kd_emit_state *emit; /* numbers and tables of the emitters after the last frame */
     struct kd_panoramas panoramas;
     struct kd_grids grids;
     struct kd_normalised normalised;
@@ -65,8 +66,8 @@ struct kd_renderer {
     _Atomic uint64_t opened_bytes;                /* bytes that were resident after the device was last opened */
     _Atomic uint64_t started_bytes, started_heap; /* values after the device was first opened: resident bytes, and
                                                    * heap bytes in use */
-    struct kd_accuracy_table *accuracy; /* accuracy table of this device, as on disk when the renderer was created;
-                                         * NULL: none */
+    /* accuracy table of this device, read from disk when the renderer was created; NULL: none */
+    struct kd_accuracy_table *accuracy;
     struct kd_verdict verdict;
     struct kd_capacity stored;       /* capacity as it is stored in the file */
     struct kd_slice_pace slice_pace; /* pace of pictures that release the device between slices */

@@ -427,8 +427,8 @@ static void *make_wishes(void *user)
     return NULL;
 }
 
-/* Sorts by SPIR-V length, longest first, because the longest kernel takes longest to make. If it were started last, one
- * thread would work on it while the others are idle. */
+/* Sorts by SPIR-V length, longest first, because the longest kernel takes longest to make. If that kernel were
+ * started last, one thread would still work on it when all others are idle. */
 static int longer_first(const void *a, const void *b)
 {
     const size_t x = ((const struct kd_kernel_request *)a)->source->spirv_bytes,

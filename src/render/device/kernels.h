@@ -91,7 +91,7 @@ struct kd_kernel_requests {
 };
 struct kd_kernels {
     struct kd_kernel_entry entries[KD_KERNELS_KEPT];
-    size_t limit; /* number of entries that may be used; 0: all. A test sets it before the first request */
+    size_t limit; /* number of entries that may be used; 0: all. A test sets this limit before the first request */
     uint64_t clock;
     bool noting;
     struct kd_kernel_requests wishes;
@@ -112,14 +112,15 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
  * most four. If a kernel fails, the next kd_kernels_get reports its error. */
 void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
-/* kd_kernels_make in three steps. The first function ends recording and returns the noted kernels. The second makes
- * them. The third adds them to the cache. The second may run on any thread while another thread uses the device, as
- * long as the device stays open. */
+/* These three functions are the steps of kd_kernels_make. kd_kernels_noted ends recording and returns the noted
+ * kernels. The second function makes them. The third function adds them to the cache. The second may run on any
+ * thread while another thread uses the device, as long as the device stays open. */
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
 void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);
 /* True if the device should read the radiance of this many pixels as texels of four floats. A software device reads
- * texels in a third of the time that a storage buffer takes. Devices differ in how many texels they can bind. */
+ * texels in a third of the time that it needs for a storage buffer. The number of texels that can be bound differs
+ * between devices. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
 /* like kd_kernels_texels, for this number of bytes of any data */
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes);

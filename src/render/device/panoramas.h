@@ -1,6 +1,7 @@
-/* Panoramas of the sky on the host. A panorama is the procedural Milky Way of some seed, or sky.image. The renderer
- * caches the last KD_PANORAMAS, up to 45 MB each. A thread makes them (asset_reader.h). The first Milky Way of a
- * process is cached in a file for later ones (render/sky/milky_way_file.h). Any thread, unless stated otherwise. */
+/* Panoramas of the sky on the host. A panorama is sky.image, or the procedural Milky Way of some seed. The renderer
+ * caches the last KD_PANORAMAS panoramas, up to 45 MB each. A thread makes them (asset_reader.h). The first Milky Way
+ * of a process is stored in a file for later processes (render/sky/milky_way_file.h). Any thread, unless stated
+ * otherwise. */
 #ifndef KD_RENDER_DEVICE_PANORAMAS_H
 #define KD_RENDER_DEVICE_PANORAMAS_H
 
@@ -46,9 +47,9 @@ bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *sc
  * if another request is in progress. A panorama read in advance is evicted first. An error is not reported here, but
  * to the caller that requests the panorama. */
 void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
-/* Gets the panorama of a scene that has one, and waits for it if necessary. A Milky Way takes some tenths of a second,
- * a large picture a second. The panorama is valid until the next call. Render thread only. Returns KD_EINVAL at
- * /sky/image if the asset is gone or is not a valid picture, or KD_ENOMEM. */
+/* Gets the panorama of a scene that has one. Waits until the panorama is made, some tenths of a second for a Milky
+ * Way and a second for a large picture. The panorama is valid until the next call. Render thread only. Returns
+ * KD_ENOMEM, or KD_EINVAL at /sky/image if the asset is gone or is not a valid picture. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene,
                               const struct kd_panorama **out, struct kd_error *error);
 /* Waits for the panorama in progress and drops all other requests. `made` is not called again before a new request. */

@@ -175,7 +175,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     free(renderer);
 }
 
-/* True if two descriptions are of the same device. A new driver version counts as another device, because pictures
+/* True if both descriptions are of the same device. A new driver version counts as another device, because pictures
  * and measured values may differ. */
 static bool is_same(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {

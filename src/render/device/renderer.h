@@ -1,5 +1,5 @@
-/* A renderer: one device, and what is cached for it between pictures. One thread at a time owns a struct
- * kd_renderer, and passes it on under a lock. Other threads may call only functions marked "any thread". */
+/* A renderer: one device, and the data that are cached for it between pictures. A struct kd_renderer is owned by one
+ * thread at a time, and is passed on under a lock. Other threads may call only functions marked "any thread". */
 #ifndef KD_RENDER_DEVICE_RENDERER_H
 #define KD_RENDER_DEVICE_RENDERER_H
 
@@ -26,13 +26,13 @@ struct kd_renderer_params {
     /* called on another thread when kd_renderer_assets_begin may have a new result; may be NULL */
     void (*asset_read)(void *user);
     void *asset_read_user;
-    /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. background: the
-     * picture is rendered by kd_render_in_background, so others may use the renderer before this returns. If the
-     * function returns false, the picture is abandoned with KD_ECANCELLED. If `lacks` is NULL, the thread that owns the
-     * device makes the kernels. */
+    /* Called when a picture needs kernels that are not yet compiled; takes ownership of the compilation. background:
+     * true if the picture is rendered by kd_render_in_background, so that others may use the renderer before this
+     * function returns. If the function returns false, the picture is abandoned with KD_ECANCELLED. If `lacks` is
+     * NULL, the thread that owns the device makes the kernels. */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
-    bool passing;          /* another renderer uses the same device, so measured speeds are not stored */
+    bool passing;          /* true if another renderer uses the same device, so that measured speeds are not stored */
     bool compiles_only;    /* as in kd_vk_params: pictures are black, and no Milky Way is made */
     uint32_t deadline_ms;  /* same meaning as in kd_vk_params */
     uint64_t memory_bytes; /* memory limit for all pictures, including those in the background; 0: the device and the
@@ -54,9 +54,9 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer);
 /* A copy of the present capacity, for kd_plan_make. The accuracy table in the copy still belongs to the renderer. Any
  * thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
-/* Starts reading a scene's sky.image and volume.grid unless they are cached. Reading takes up to some seconds. Returns
- * whether the reading is in progress. A render would hold the device while it waits for the reading. So a client should
- * poll this function until the reading is done, and render then. Others can use the device meanwhile. Any thread. */
+/* Starts reading a scene's sky.image and volume.grid unless they are cached. Reading takes up to some seconds.
+ * Returns whether the reading is in progress. A render that waits for the reading would hold the device meanwhile. So
+ * a client should call this function repeatedly until the reading is done, and only then render. Any thread. */
 bool kd_renderer_assets_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky (panoramas.h). Any thread. */
 void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash);
@@ -87,7 +87,7 @@ struct kd_accuracy_report {
     uint64_t traced, interpolated;
     /* sampled: number of rays that were traced again; crossings: number of crossings that were compared */
     uint32_t sampled, crossings;
-    /* number of crossings that only one of the two results has, plus the number of rays with different fates */
+    /* number of crossings that only one of the two methods finds, plus the number of rays with different fates */
     uint32_t differ;
     double median, worst; /* relative error of the crossing radius: median and maximum over the sample */
     uint64_t followed;    /* number of rays that refinement traced in addition to those of the plan */
@@ -95,13 +95,15 @@ struct kd_accuracy_report {
      * of pixels with interpolated rays */
     uint64_t refined, between;
     uint32_t pixel_sampled; /* number of pixels that were compared with 64 rays each */
-    /* difference of displayed values at these pixels, as a fraction of white. pixel_error: root mean square,
-     * extrapolated to the whole picture; pixel_error_worst: largest in the sample */
+    /* differences between displayed values and values of 64 rays at these pixels, as a fraction of white.
+     * pixel_error: root mean square, extrapolated to the whole picture; pixel_error_worst: largest difference in the
+     * sample */
     double pixel_error, pixel_error_worst;
     /* for scenes with volumes: number of rays that were traced again with steps KD_MARCH_FINER times as fine */
     uint32_t volume_sampled;
-    /* relative change of the light of these rays; the divisor is at least KD_MARCH_DARK times the brightest light.
-     * volume_error: 90th percentile; volume_error_worst: largest. 1 if light is not finite or a ray has no end */
+    /* relative change of the light of these rays when they are traced again; the divisor is at least KD_MARCH_DARK
+     * times the brightest light. volume_error: 90th percentile; volume_error_worst: largest change. A ray counts as 1
+     * if its light is not finite or if it has no end */
     double volume_error, volume_error_worst;
     /* number of rays that were given up in volumes (magenta in the displayed picture), plus number of pixels whose
      * light is not finite */

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-/* Weights of a new measurement in the smoothed slowness. When the device becomes slower, submissions become shorter
- * within one or two submissions. When it becomes faster, submissions become longer over some ten of them. This
- * change is slow because a submission that is too long does more harm than one that is too short. */
+/* Weights of a new measurement in the smoothed slowness. When the device becomes slower, submissions are shortened
+ * within one or two submissions. When the device becomes faster, submissions are lengthened over some ten of them.
+ * This is slow because a submission that is too long does more harm than one that is too short. */
 #define FALLS 0.5
 #define RISES 0.1
 

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define REFERENCE 1000.0 /* M^2: the area over which one body's debris has the optical depth `depth` */
+#define REFERENCE 1000.0 /* the area in M^2 over which one body's debris has the optical depth `depth` */
 
 static const struct kd_dynamic_bodies_debris *of(const struct kd_scene *scene) { return &scene->dynamic.at->debris; }
 

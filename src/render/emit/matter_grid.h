@@ -35,7 +35,7 @@ enum {
     KD_MATTER_FLOATS = 8,      /* floats of a node; a packed node has half as many words */
     /* limit for the number of angles theta, if each pair of row and column has an angle of its own */
     KD_MATTER_ANGLES = 1 << 21,
-    KD_MATTER_PLACES = 1 << 20 /* limit for the cells of `places`, of four floats each */
+    KD_MATTER_PLACES = 1 << 20 /* limit for the number of cells of `places`; a cell has four floats */
 };
 
 struct kd_matter_grid {
@@ -61,9 +61,9 @@ struct kd_matter_grid {
     bool packed, whole; /* whole: true if the file requests nodes that are not packed */
     double least[2], range[2], speed;
     /* For columns that are not evenly spaced: a table that gives the column at theta, as a number with a fraction, by
-     * bilinear interpolation. The table has `steps` cells in theta from 0 to pi for each pair of adjacent rows, or one
-     * such set of cells for all rows. A cell has four floats: the column at the cell's beginning and at its end, each
-     * in one row and in the next row. NULL: the columns are evenly spaced. */
+     * bilinear interpolation. The table has `steps` cells in theta from 0 to pi for each pair of adjacent rows. If
+     * all rows have the same angles, it has only one such set of cells. A cell has four floats: the column at the
+     * cell's beginning and at its end, each in both adjacent rows. NULL: the columns are evenly spaced. */
     float *places;
     uint32_t steps, place_rows;
 };

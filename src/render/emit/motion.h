@@ -8,7 +8,7 @@
 
 enum kd_varies {
     KD_MOVES_WITH_TIME = 1, /* something moves */
-    KD_DIMS_WITH_TIME = 2,  /* only the brightness changes; each pixel keeps showing the same object */
+    KD_DIMS_WITH_TIME = 2,  /* only the brightness changes with time; each pixel keeps showing the same object */
     KD_MOVES_WITH_AZIMUTH = 4,
     KD_MOVES_BY_FALL = 8, /* the camera falls, so its radius changes; independent of emitters */
 };

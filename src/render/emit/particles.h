@@ -28,9 +28,9 @@
 
 struct kd_particles_push; /* push constants of particles.comp: render/view/layout.h */
 
-/* number of guiding orbits if there are at least as many particles; 35 orbits to a row of the default grid */
+/* number of guiding orbits if there are at least as many particles; a row of the default grid then has 35 orbits */
 #define KD_PARTICLE_RADII 4096u
-/* largest number of orbits, used if there are many rows or some are nearly empty */
+/* largest number of orbits. So many are used if there are many rows or if some rows are nearly empty */
 #define KD_PARTICLE_RADII_MAX 65536u
 #define KD_PARTICLE_ROWS 4096u
 
@@ -66,11 +66,11 @@ struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_
 
 /* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has such gas. A particle has the same
  * opacity inside and outside the ISCO. So the optical depth is proportional to the surface density of the gas in its
- * own frame, relative to that of the disk just outside the ISCO. */
+ * own frame. It is normalised to the optical depth of the disk just outside the ISCO. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
-/* The time before scene->top.time for which the grid is computed: about the light delay of a near camera, so that the
- * remaining delay is short. */
+/* The grid is computed for a time before scene->top.time; returns the difference. It is about the light delay of a
+ * near camera, so that the remaining delay is short. */
 double kd_particle_delay(const struct kd_scene *scene);
 
 /* A particle's position: Boyer-Lindquist r in M, phi in units of 2^-32 turn, latitude in radians. */
@@ -83,7 +83,7 @@ struct kd_particle_place {
 };
 
 /* Sizes of the kernel's buffers. One buffer has the guiding orbits, followed by the expected numbers for the rows of
- * both grids. The other has the grids in 32-bit words. */
+ * both grids. The other buffer has both grids in 32-bit words. */
 #define KD_PARTICLE_EXPECTED_BYTES (4 * (KD_PARTICLE_ROWS + 64))
 uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *grid);
 uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *grid);

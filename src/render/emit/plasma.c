@@ -60,7 +60,7 @@ static void reach(const struct kd_scene *scene, double radii[2])
         radii[1] = fmin(radii[1], kd_torus_of(kd_scene_hole(scene), radii[0], scene->volume.torus_radius).outer);
 }
 
-/* cos(theta) at which a layer becomes too thin to count: there x = steep u, or steep u/sin(theta), equals
+/* cos(theta) at which a layer becomes too thin to be visible. There x = steep u, or x = steep u/sin(theta), equals
  * KD_PLASMA_SEEN. */
 static double height(const struct kd_scene *scene)
 {
@@ -102,8 +102,8 @@ static uint64_t device_bytes(const struct kd_scene *scene)
            : is_grid(scene)   ? nodes_of(scene) * node_bytes(scene) + KD_MATTER_PLACES * 4 * sizeof(float)
                               : 0;
 }
-/* Host memory: the nodes before they are packed, and one array of the file. If the nodes stay unpacked, also the
- * file's arrays and the upload. */
+/* Host memory for the nodes before they are packed, and for one array of the file. If the nodes stay unpacked, also
+ * for the file's arrays and for the upload. */
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     return is_grid(scene) && *scene->volume.grid

@@ -293,7 +293,7 @@ enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_s
     const struct kd_scene tile =
         kd_scene_tile(scene, (struct kd_window) { plan->report.probe.x, plan->report.probe.y, 1, 1 });
     struct kd_needs needs = kd_needs_of(scene);
-    struct kd_error why = { 0 }; /* it is not an error if the pixel needs the whole picture */
+    struct kd_error why = { 0 }; /* a pixel that needs the whole picture is not an error */
     struct kd_window cut;
     struct kd_plan narrow;
     if (kd_tile_check(&tile, &needs, &why))

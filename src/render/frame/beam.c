@@ -101,7 +101,7 @@ done:
     return status;
 }
 
-/* Rows of one submission, a multiple of four, with `weights` weights each. */
+/* Returns the number of rows of one submission, a multiple of four. Each row has `weights` weights. */
 static uint32_t rows_at_once(double weights, uint32_t rows)
 {
     return 4 * (uint32_t)fmin(fmax(SUBMISSION / weights / 4, 1), (rows + 3) / 4);

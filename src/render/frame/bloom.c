@@ -141,8 +141,8 @@ static enum kd_status down(struct kd_frame_job *j, uint32_t level)
     return make(j, KD_KERNEL_BLOOM_DOWN, level, 0, 0, bindings);
 }
 
-/* Adds the light of one grid to the sum of all coarser grids. For the coarsest grid there is no such sum, so its own
- * light is bound in that place, with weight 0. */
+/* Adds the light of one grid to the sum of all coarser grids. The coarsest grid has no such sum. So its own light is
+ * bound in the place of the sum, with weight 0. */
 static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 {
     const struct kd_bloom *b = &j->plan->picture.bloom;

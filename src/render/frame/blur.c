@@ -45,7 +45,7 @@ enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_ca
     return KD_OK;
 }
 
-/* Progress of one picture as a part of the whole. */
+/* Progress of one picture as a fraction of the whole work. */
 struct part {
     const struct kd_blurred *blurred;
     unsigned done;

@@ -71,7 +71,7 @@ static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_cho
     return status;
 }
 
-/* The threshold of second differences. It is at most `least`, and low enough that pixels below it have at most
+/* The threshold of second differences. It is at most `least`. It is low enough that the pixels below it have at most
  * KD_CHOOSE_LEFT of the sum of squares. */
 static double threshold(const struct kd_choice *c, double floor, double least, double sum)
 {

@@ -115,7 +115,7 @@ static void *rehearse(void *user)
     if (own && kd_renderer_hangs(own))
         return NULL; /* not closed, because a hanging device can never be closed */
     if (c->status == KD_EDEVICE)
-        c->status = KD_EIO; /* this is not KD_EDEVICE, because the picture's own device may be working */
+        c->status = KD_EIO; /* not KD_EDEVICE, because the picture's own device may still work */
     if (own)
         kd_renderer_assets_stop(own);
     kd_renderer_destroy(own);

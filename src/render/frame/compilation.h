@@ -12,11 +12,11 @@
 
 struct kd_compilation;
 
-/* Requests kernels exactly as the work that needs them will (kd_kernels_note). */
+/* Requests the same kernels that the work will need (kd_kernels_note). */
 typedef enum kd_status (*kd_kernels_ask_fn)(struct kd_renderer *renderer, const void *user);
 
-/* Makes a compilation of the requested kernels that the device lacks; NULL if the device has all of them. Only the
- * thread that owns the device. */
+/* Makes a compilation of the requested kernels that the device lacks; NULL if the device has all of them. Called only
+ * by the thread that owns the device. */
 struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernels_ask_fn ask, const void *user);
 /* Like kd_compilation_of, for the kernels of a picture that take long to compile. */
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
@@ -36,7 +36,7 @@ enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_f
 
 void kd_compilation_drop(struct kd_compilation *compilation); /* frees a compilation that was not run; any thread */
 
-/* True if compiling in advance helps with this device. If it does not help but the user can change that, the log
+/* True if compiling in advance is of use with this device. If it is of no use but the user can change that, the log
  * says how. */
 bool kd_compilation_helps(const struct kd_renderer *renderer);
 

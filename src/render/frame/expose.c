@@ -33,7 +33,8 @@ done:
     return status;
 }
 
-/* The log2 luminance that only the brightest pixels exceed; `share` is their fraction of the pixels with light. */
+/* The log2 luminance that only the brightest pixels exceed. `share` is the number of these pixels, as a fraction of
+ * the pixels with light. */
 static double luminance_quantile(const uint32_t *counts, double share)
 {
     uint64_t lit = 0, above = 0;

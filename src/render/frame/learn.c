@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Updates the cost of an item of a pass, both in general and for the picture's class. */
+/* Updates the cost of an item of a pass: the general figure, and the figure of the picture's class. */
 static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const struct kd_plan_pass *pass, double ms)
 {
     const double ns = ms * 1e6 / (double)pass->invocations;

@@ -281,8 +281,8 @@ static struct slice complete(const struct kd_frame_job *j, const struct slice *s
     return (struct slice) { s->band, from, (end == first + kd_frame_band_rows(j, s->band) ? end : to) - from };
 }
 
-/* Makes footprints. s: rows that can be completed; traced: those of them that were just traced. In a sampled map,
- * footprints are made for rays traced singly, and for marked rays in rows that had to wait. */
+/* Makes footprints. s: rows that can be completed; traced: the rows among them that were just traced. In a sampled
+ * map, footprints are made for rays traced singly, and for marked rays in rows that had to wait. */
 static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s, const struct slice *traced)
 {
     const struct kd_plan *p = j->plan;
@@ -386,8 +386,9 @@ static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
     return kd_frame_follow_lost(j, &d, &push, &on_grid, turns);
 }
 
-/* Lights rows whose map is recorded or made, and reports their progress. A slice of a sampled map has at least the rows
- * of a block. So its light may take several submissions. map_ns and light_ns: times of a row of pixels. */
+/* Lights rows whose map is recorded or made, and reports their progress. A slice of a sampled map has at least the
+ * rows of a block. So its light may take several submissions. map_ns, light_ns: time for the map and for the light of
+ * a row of pixels, in ns. */
 static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *whole, double map_ns, double light_ns)
 {
     struct slice part = *whole;

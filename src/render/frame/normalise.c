@@ -145,8 +145,8 @@ done:
     return status;
 }
 
-/* Reduces the scene to the parts that determine the flux. For a series, the time is set to its middle, so that one
- * density serves all times. */
+/* Reduces the scene to the parts that determine the flux. For a series of grids, the time is set to the middle of the
+ * series, so that one density serves all times. */
 static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;

@@ -336,7 +336,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     kd_rays_steps_finish(told->steps);
     free(told->steps);
     told->steps = NULL;
-    if (status == KD_EINVAL) /* the labels are rounded, so they may lie outside the range that light can have */
+    if (status == KD_EINVAL) /* the labels are rounded, so they may lie outside the range of possible labels */
         return say_no_steps(told, error.message);
     if (j->error)
         *j->error = error;

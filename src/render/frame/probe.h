@@ -15,7 +15,7 @@
 /* Light of one emitter at a place. */
 struct kd_probed_glow {
     uint32_t emitter; /* index in kd_emitters */
-    float light[3];   /* light with the emitter's opacity applied, before absorption in front of it */
+    float light[3];   /* light with the emitter's opacity applied, before absorption by matter in front of the place */
     float opacity;
     /* fraction of this light that reaches the observer, including factors that apply to all light at the place */
     float through;
@@ -26,8 +26,8 @@ struct kd_probed_glow {
 struct kd_probed_place {
     uint32_t order;                 /* image order of the crossing */
     float w, phi, slope, footprint; /* values of the lens map; 0 if the map does not hold the quantity */
-    /* Properties that gas at the place has or would have. g: redshift factor. temperature: in K. angle: angle between
-     * light and normal in the frame of the gas, in radians */
+    /* Properties of gas at the place, or those that gas there would have. g: redshift factor. temperature: in K.
+     * angle: angle between light and normal in the frame of the gas, in radians */
     float g, temperature, angle;
     float through;  /* transmission of all matter in front of the place */
     bool polarized; /* true if the light is polarised; the next members are then Q/I and U/I */
@@ -36,19 +36,19 @@ struct kd_probed_place {
     size_t n_glows;
 };
 
-/* A stretch of the ray through volumes, for all volumes together. It is a part of a step of the march, or several
- * adjacent parts if there are many. */
+/* A stretch of the ray through volumes, for all volumes together. It is a part of a step of the march. If there are
+ * many parts, it is several adjacent ones. */
 struct kd_probed_stretch {
     uint32_t order;   /* order of the next crossing, if there is one */
     float w[2], u[2]; /* 1/r and cos(theta) at both ends of the stretch */
     float delay[2];   /* delays of the light from both ends, as for a crossing; meaningless for an observer inside the
                        * horizon */
     float light[3];   /* contribution of the stretch to the arriving light */
-    float through[2]; /* transmission of all matter in front, without and with this stretch */
+    float through[2]; /* transmission of all matter in front of the stretch, then with the stretch included */
 };
 #define KD_PROBED_STRETCHES 256
 
-/* Contribution of one volume along the whole ray, as far as the ray was traced. */
+/* Contribution of one volume along the whole ray, or as far as the ray was traced. */
 struct kd_probed_volume {
     uint32_t emitter;
     float light[3]; /* the volume's light as it arrives */
@@ -73,7 +73,7 @@ struct kd_probed_ray {
     struct kd_probed_place places[KD_PROBED_PLACES];
     struct kd_probed_stretch stretches[KD_PROBED_STRETCHES];
     struct kd_probed_volume volumes[KD_PLAN_EMITTERS];
-    uint32_t steps, samples; /* number of integration steps of the march, and number of its samples */
+    uint32_t steps, samples; /* steps: number of integration steps of the march; samples: number of its samples */
     struct kd_probed_met met;
     size_t n_places, n_stretches, n_volumes, lost; /* lost: number of records that did not fit */
     bool transfers; /* true if volumes transfer polarised light; `stokes` is then Stokes Q, U and V as they arrive */

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The displayed picture now, and before this round. */
+/* now: the displayed picture; before: the displayed picture before this round */
 struct work { uint16_t *now, *before; };
 
 static void finish(struct work *w)

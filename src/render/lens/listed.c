@@ -112,7 +112,7 @@ static void fill_delays(const struct work *w, uint32_t order, float *to)
         to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->lens.orders + order].delay : 0;
 }
 
-/* Fills a plane with slopes. The light of falling gas depends on them, and so do emission angles. */
+/* Fills a plane with slopes, which determine the light of falling gas and all emission angles. */
 static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
 {
     const struct kd_rays_params params = params_of(scene, &w->plan->lens, &w->plan->lens.setting);
@@ -254,7 +254,8 @@ done:
     return status;
 }
 
-/* fraction of the horizon's radius. Crossings from outside that are nearer to the horizon count as crossings on it */
+/* fraction of the horizon's radius. A crossing from outside that is nearer to the horizon than this counts as on the
+ * horizon */
 #define NEAR 1e-4
 enum { PLACES = 2048 };
 

@@ -90,8 +90,8 @@ struct kd_governor_params {
 #define kd_governor_params(...) (&(struct kd_governor_params) { KD_GOVERNOR_DEFAULTS __VA_ARGS__ })
 
 /* The parts of a frame's time. total_ms is compared with the target. It is the longest stage if stages overlap,
- * otherwise the sum of all stages. Time that is in none of the parts (waiting and submitting) may or may not shrink
- * with the picture. If all parts are 0, this is the whole time. */
+ * otherwise the sum of all stages. Part of total_ms may be in none of the other members (waiting and submitting);
+ * this part may or may not shrink with the picture. If all other members are 0, this part is all of total_ms. */
 struct kd_frame_cost {
     double fixed_ms;  /* independent of the picture's size: particles, audit */
     double rays_ms;   /* passes over rays: trace, transfer */
@@ -103,7 +103,7 @@ struct kd_frame_cost {
 struct kd_frame_decision {
     /* quality of the frame to render now; if nothing is to be rendered, quality of the picture shown */
     struct kd_quality quality;
-    /* 0: render now. Otherwise the time for which there is nothing to render; INFINITY: the session rests */
+    /* 0: render now. Otherwise the time in which nothing needs to be rendered; INFINITY: the session rests */
     double wait_ms;
     bool refining; /* true if the scene rests and this frame is a step up the ladder */
     /* 1 or 4: one in this many of the sampled rays is audited. The audit runs on one core and takes a third of a
@@ -130,7 +130,7 @@ struct kd_pace {
     double widest, failed_target;
     bool climbed;       /* true if the last change was upwards */
     uint32_t held;      /* a rung that was left because other sessions began */
-    double held_target; /* the target at which frames of that rung were in time; 0: there is no such rung */
+    double held_target; /* the target at which frames of the rung `held` were in time; 0: there is no such rung */
     /* the rung before the present one; rays 0: that rung is unknown, or was used for an estimate already */
     struct kd_rung other;
     double other_ms; /* time of the rays of a frame on the rung `other` */
@@ -143,7 +143,7 @@ struct kd_governor {
     struct kd_governor_params params;
     double share;
     struct kd_scene asked;
-    /* properties of the scene that determine the cost of frames, besides their size, when measurements began */
+    /* properties of the scene, except its size, that determined the cost of frames when measurements began */
     struct kd_work work;
     struct kd_ladder ladder;
     uint32_t ladders, revision;
@@ -152,7 +152,7 @@ struct kd_governor {
      * change of the lens is no longer recent */
     double changed_at, lens_at, hold_ms;
     struct kd_frame_cost traced; /* latest average cost of frames that trace */
-    struct kd_rung traced_on;    /* the rung of these frames; rays 0: no frame yet */
+    struct kd_rung traced_on;    /* rung of the frames of `traced`; rays 0: no frame yet */
     /* blind_until: until this time lens maps are assumed not to be cached, even if only time advances. blind_ms:
      * length of the next such period */
     double blind_until, blind_ms;

@@ -89,7 +89,7 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
         if (scales[i] >= bounds->scale && asked->image.width * scales[i] >= bounds->width &&
             add_rung(out, make_rung(asked, scales[i], samples, orders, -1)))
             scale = scales[i];
-    /* in a picture of stacked photon rings the higher orders are what is shown, so they are kept */
+    /* a picture of stacked photon rings shows the higher orders, so they are kept */
     const int32_t least = asked->camera.projection == KD_PROJECTION_RING ? orders : bounds->orders;
     while (orders > least) {
         orders = (orders + 1) / 2 > least ? (orders + 1) / 2 : least;

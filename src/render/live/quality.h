@@ -50,8 +50,8 @@ struct kd_ladder {
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
     /* The ladder upwards for a scene at rest. It begins with full resolution and one ray a pixel. The next steps have
-     * more rays; all of these have at most the profile "balanced". The last step is the requested quality. Each step
-     * takes more work than the one before. */
+     * more rays, with at most the profile "balanced". The last step is the requested quality. Each step takes more
+     * work than the one before. */
     struct kd_rung steps[KD_LADDER_STEPS];
     size_t n_steps;
 };

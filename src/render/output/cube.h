@@ -42,11 +42,12 @@ struct kd_cube {
     struct kd_cube_texts {
         char *at[KD_CUBE_TEXTS];
         size_t n;
-    } sentences, credits, devices;  /* each different text once: approximations, credits and devices of all scenes */
-    char *rows;                     /* KD_CUBE_ROW bytes for each scene */
-    uint32_t texts_sum, fluxes_sum; /* kd_fits_sum of the scenes' hashes and accuracies; kd_fits_sum of their fluxes */
-    bool flux;                      /* true if any scene has a flux; the file then contains fluxes */
-    uint8_t *piece;                 /* buffer of at least KD_GATHER_PIECE bytes, with room for a row of numbers */
+    } sentences, credits, devices; /* each different text once: approximations, credits and devices of all scenes */
+    char *rows;                    /* KD_CUBE_ROW bytes for each scene */
+    /* texts_sum: kd_fits_sum of the scenes' hashes and accuracies; fluxes_sum: kd_fits_sum of their fluxes */
+    uint32_t texts_sum, fluxes_sum;
+    bool flux;      /* true if any scene has a flux; the file then contains fluxes */
+    uint8_t *piece; /* buffer of at least KD_GATHER_PIECE bytes, with room for a row of numbers */
     size_t piece_bytes;
 };
 

@@ -14,7 +14,7 @@
 
 struct writer {
     struct kd_cube cube;
-    size_t unit;    /* current HDU: layers, then axes, then scenes */
+    size_t unit;    /* index of the current HDU, in the order layers, axes, scenes */
     bool begun;     /* the header of the current HDU is written */
     unsigned scene; /* the HDU's next scene */
     uint64_t at, written;

@@ -57,7 +57,8 @@ done:
     return status;
 }
 
-/* Name of the Stokes parameter, for all light, that the layer of this name contains. NULL: the layer contains none. */
+/* Name of the Stokes parameter of all light that the layer of this name contains. NULL: the layer contains no such
+ * parameter. */
 static const char *stokes_of(const char *name)
 {
     static const char *const known[][2] = { { "intensity", "I" },    { "specific_intensity", "I" },

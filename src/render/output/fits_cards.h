@@ -7,7 +7,7 @@
 #include "render/output/wcs.h"
 #include "scene/sweep.h"
 
-/* keyword of the card with a picture's flux, a number; a picture without a flux has no such card */
+/* keyword of the card that has a picture's flux, a number; if a picture has no flux, the card is absent */
 #define KD_FITS_FLUX "FLUX_JY"
 
 /* The cards of a layer's HDU. wcs: NULL if the frames have different world coordinates. */

@@ -29,7 +29,7 @@ const struct kd_format *kd_format_live(void)
     return kd_formats[i];
 }
 
-/* A picture has a single layer: the picture itself, or one map. */
+/* The file of a picture holds a single layer: the picture itself, or one map. */
 static enum kd_status check_layers(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->image.layers.count <= 1 || format->carries & KD_CARRIES_LAYERS)

@@ -13,7 +13,7 @@
 #include "render/output/format.h"
 #include "scene/sweep.h"
 
-#define KD_GATHER_PIECE (256u << 10) /* approximate bytes that one call produces */
+#define KD_GATHER_PIECE (256u << 10) /* approximate number of bytes that one call produces */
 
 /* The frames' files, all of which must exist. The struct must outlive the gather. */
 struct kd_gather_source {
@@ -22,7 +22,8 @@ struct kd_gather_source {
     const struct kd_format *frame; /* format of the files */
     unsigned n;
     unsigned rate; /* frames a second of a film */
-    /* if it is not NULL, a format with `counts` adds the frames' bytes to this number instead of producing them */
+    /* If not NULL, a format with `counts` adds the number of the frames' bytes to *counted instead of producing these
+     * bytes. */
     uint64_t *counted;
     bool (*size)(void *user, unsigned frame, uint64_t *out);
     /* reads exactly `size` bytes, or returns false */

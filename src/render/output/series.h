@@ -19,7 +19,7 @@ struct kd_table_format {
 struct kd_series {
     const char *name; /* "light-curve": value of a job's "output" */
     const char *noun; /* "light curve": for sentences */
-    const char *each; /* "the rows of a light curve": the series' frames, for sentences */
+    const char *each; /* name of the series' frames, for sentences: "the rows of a light curve" */
     /* format of each frame; for a table, the format of a row, which cannot be requested by itself */
     const struct kd_format *frame;
     size_t row_bytes;                     /* size of a row; 0: the frames are files */

@@ -20,11 +20,11 @@ struct kd_beam_grid {
     uint32_t cell; /* pixels along the side of a cell; 0: there is no beam, or it is too narrow to be visible */
     /* size of the grid. If cells are larger than pixels, the grid has one more cell on each side of the picture */
     uint32_t columns, rows;
-    /* number of rows of the picture. Each row of pixels first has a row of cells of its own; these are then summed to
+    /* number of rows of the picture. First each row of pixels has its own row of cells; these rows are then summed to
      * the rows of the grid */
     uint32_t height;
     double sigma;   /* standard deviation of the blur, in cells */
-    uint32_t reach; /* radius of the blur, in cells: 5 sigma, beyond which lies 6e-7 of its weight */
+    uint32_t reach; /* radius of the blur, in cells: 5 sigma. Only 6e-7 of the weight lies beyond it */
 };
 
 /* The grid for a valid scene's picture. */

@@ -17,8 +17,8 @@ struct kd_capacity {
     const char *memory_by;
     bool host_memory;              /* true if device memory is host memory, so that pixels on the host count as well */
     uint64_t host_bytes;           /* if device memory is not host memory: memory for pixels on the host; 0: unknown */
-    uint64_t max_allocation_bytes; /* limit of one buffer; 0: 2^30, the least that Vulkan 1.2 guarantees */
-    /* workgroups of one dispatch; 0: 65535, the least that Vulkan guarantees */
+    uint64_t max_allocation_bytes; /* limit of one buffer; 0 stands for 2^30, the least that Vulkan 1.2 guarantees */
+    /* limits of the workgroups of one dispatch; 0 stands for 65535, the least that Vulkan guarantees */
     uint32_t max_groups_x, max_groups_y;
     double ns[KD_FIGURE_COUNT]; /* cost of an item for each KD_NS_... of pass.h */
     struct kd_class_cost {
@@ -28,9 +28,10 @@ struct kd_capacity {
         double ns[KD_PASS_COUNT];
     } classes[KD_COST_CLASSES]; /* cost of an item in pictures of a class */
     uint64_t learned;           /* number of measurements of classes so far */
-    bool measured;              /* false: the figures are defaults for this type of device */
-    bool float64;               /* true if the device has double precision */
-    unsigned cores;             /* cores of the host, on which the closed form in double runs */
+    /* true if the figures were measured; false: they are defaults for this type of device */
+    bool measured;
+    bool float64;   /* true if the device has double precision */
+    unsigned cores; /* number of cores of the host, on which the closed form in double runs */
     /* the device's table, or the built-in one; valid as long as the renderer */
     const struct kd_accuracy_table *accuracy;
     bool accuracy_measured; /* false: built in */

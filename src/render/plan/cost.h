@@ -23,8 +23,8 @@ struct kd_plan_cost {
     /* estimate_ms: estimated time of all passes; trace_ns: estimated time of tracing one ray */
     double estimate_ms, trace_ns;
     uint64_t class; /* cost class of the plan (cost_class.h) */
-    /* additional time for compiling missing kernels, estimated by server/render/queue.h; 0: none are missing, or it
-     * is not known */
+    /* additional time for compiling missing kernels, estimated by server/render/queue.h; 0: no kernel is missing, or
+     * the time is not known */
     double kernels_ms;
 };
 

@@ -44,8 +44,8 @@ struct kd_plan_lens {
 
 #define KD_AUDIT_RAYS 768 /* largest number of audited rays, on a grid of 16 x 48 */
 
-/* Number of buffers for the lens map of the pixels at the critical curve. kd_plan_critical_bytes: bytes of one
- * buffer. */
+/* kd_plan_critical_parts: number of buffers for the lens map of the pixels at the critical curve.
+ * kd_plan_critical_bytes: bytes of one such buffer. */
 static inline uint32_t kd_plan_critical_parts(const struct kd_plan_lens *lens)
 {
     return lens->critical ? (uint32_t)((lens->critical_pixels + lens->critical_part - 1) / lens->critical_part) : 0;

@@ -14,7 +14,7 @@
 #define KD_PLAN_EMITTERS 18
 
 struct kd_plan_light {
-    uint32_t traits[KD_PLAN_EMITTERS]; /* traits of the emitters; 0 for those that the scene does not have */
+    uint32_t traits[KD_PLAN_EMITTERS]; /* traits of the emitters; 0 for emitters that the scene does not have */
     bool points;                       /* true if some emitter consists of points of light */
     /* true if only bright images of points are made, and none next to the critical curve */
     bool bright;
@@ -39,7 +39,8 @@ struct kd_plan_light {
  * it has only points of light, such as stars. */
 bool kd_plan_is_spread(const struct kd_plan_light *light);
 
-/* The pass that computes the light of rays, and its time for one ray, ns. */
+/* kd_plan_light_pass: the pass that computes the light of rays. kd_plan_light_ns: the time of that pass for one ray,
+ * in ns. */
 static inline enum kd_pass_id kd_plan_light_pass(const struct kd_plan_light *light)
 {
     return light->march.steps ? KD_PASS_MARCH : KD_PASS_TRANSFER;

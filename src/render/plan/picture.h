@@ -43,8 +43,8 @@ struct kd_plan_picture {
     struct {
         unsigned samples;
         double shutter;
-        /* motion blur: light is the mean of this many pictures (frame/blur.h) within this fraction of a frame's time;
-         * 0: off */
+        /* motion blur (frame/blur.h): light is the mean of `samples` pictures within the fraction `shutter` of a
+         * frame's time; samples 0: no blur */
     } blur;
 };
 

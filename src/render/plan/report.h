@@ -9,7 +9,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_PLAN_MAX_APPROXIMATIONS 136 /* a test compares it with the number of approximations */
+#define KD_PLAN_MAX_APPROXIMATIONS 136 /* a test compares this limit with the number of approximations */
 
 struct kd_plan_report {
     bool measured, accuracy_measured; /* same meaning as in kd_capacity */

@@ -4,7 +4,7 @@
 
 #include "render/plan/plan.h"
 
-/* The blocks that cover some rows of rays. They are aligned to the whole picture. */
+/* The blocks that cover some rows of rays. Blocks are aligned to the whole picture. */
 struct kd_sample_grid {
     int32_t origin_x, origin_y; /* place of the first block, in rays from the first ray of the picture or tile */
     uint32_t blocks_x, blocks_y;

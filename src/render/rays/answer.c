@@ -130,8 +130,8 @@ bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, st
     for (size_t i = 0; i < sizeof approximations / sizeof *approximations; i++)
         if ((!params || !approximations[i].in_force || approximations[i].in_force(params)) && !index--)
             return *out = approximations[i].is, true;
-    /* without params no approximation of the hole is added: the page of all approximations lists these with the
-     * approximations of pictures */
+    /* without params no approximation of the hole is added, because the page of all approximations lists these with
+     * the approximations of pictures */
     const struct kd_hole_sentence *of_hole = params ? kd_hole_sentence(kd_hole_given(params), index) : NULL;
     if (of_hole)
         *out = (struct kd_approximation) { of_hole->name, of_hole->text };

@@ -26,7 +26,7 @@ struct kd_rays_answer {
     double *alpha_beta; /* this member and the next two are malloc'd */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
-    size_t undecided; /* kd_rays_answer_summarise sets this member and all that follow */
+    size_t undecided; /* kd_rays_answer_summarise sets this member and all members below it */
     /* Members used with a tolerance. followed_again: number of rays that were traced again to meet the tolerance;
      * beyond: number of rays that exceed the tolerance nevertheless, including undecided rays. */
     size_t followed_again, beyond;

@@ -35,7 +35,7 @@ static struct kd_null_ray ray_of(const struct kd_null_ray *common, const double 
     return ray;
 }
 
-/* The redshift factor at a crossing. outwards: whether the real photon moves outwards when it leaves the gas. */
+/* The redshift factor at a crossing. outwards: true if the real photon moves outwards when it leaves the gas. */
 static double redshift(const struct kd_rays_params *p, const double *alpha_beta, double r, bool outwards)
 {
     const struct kd_hole hole = kd_rays_hole(p);
@@ -186,7 +186,8 @@ void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_l
         }
 }
 
-/* Uses w'^2 = W^2 - D K w^2 as in shaders/ray/radial_step.glsl, a form that keeps its precision next to the horizon. */
+/* Uses w'^2 = W^2 - D K w^2, as shaders/ray/radial_step.glsl does. This form keeps its precision next to the horizon.
+ */
 double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r)
 {

@@ -77,8 +77,9 @@ static double get(const struct work *w, const void *at, size_t i)
  * also phase. A smaller radius would give smaller errors: from 100 M, single precision has a sixth of the error. But
  * this is only because start.c then traces more of the ray in Mino time, and this engine less of it. */
 #define FAR 1e3
-/* The radius at which a ray counts as escaped: there its momentum has reached its limit within M b/r^2. Further out the
- * direction in single precision does not become more accurate, and the copies of Tao's method diverge. */
+/* The radius at which a ray counts as escaped. At this radius its momentum differs from the limit by at most M b/r^2.
+ * Further out the direction in single precision does not become more accurate, and the copies of Tao's method
+ * diverge. */
 static double escape(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e7 : 1e4; }
 
 static void upload_states(const struct work *w, const struct set *set, const struct kd_ray_labels *rays)
@@ -286,9 +287,9 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
 }
 
 /* Number of rays of the next slice. The last slice had m rays and took `ms`. least_ms: time of the smallest slices so
- * far. On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a slice
- * is doubled while its time is within 1.25 times least_ms, and may otherwise take 1.5 times least_ms if that exceeds
- * TARGET_MS. */
+ * far. On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a
+ * slice is doubled while its time is within 1.25 times least_ms. Otherwise its time may be at most TARGET_MS, or 1.5
+ * times least_ms if that is longer. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
     double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms),

@@ -64,10 +64,10 @@ struct kd_ray_end {
     uint32_t n_crossings; /* number of the requested orders that exist outside the horizon */
     double theta, phi;    /* direction of an escaping ray: polar angle and azimuth, source minus observer */
     /* Estimated relative error of the worst crossing radius; for a ray without a crossing, the error of its direction
-     * in radians. It is an upper bound for at least 999 of 1000 rays. With every engine it is NaN for a ray that has
-     * neither a crossing nor a direction. The meaning of a value of 1 or more depends on the engine. Mino engines and
-     * closed form: next to the horizon or very far out, the number of crossings may be wrong by one. Kerr-Schild
-     * engines: the number or the fate differs from the closed form's. */
+     * in radians. It is an upper bound for at least 999 of 1000 rays. If a ray has neither a crossing nor a
+     * direction, it is NaN with every engine. The meaning of a value of 1 or more depends on the engine. Mino engines
+     * and closed form: next to the horizon or very far out, the number of crossings may be wrong by one. Kerr-Schild
+     * engines: the number of crossings or the fate differs from the closed form's. */
     double error;
     /* energy at infinity, in units of the energy that the observer measures; only if the observer's motion is
      * given */

@@ -56,8 +56,8 @@ static double drag(const struct kd_hole *hole, double r)
     return root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : a / (r - 1);
 }
 
-/* Unpacks a record in Kerr-Schild coordinates, with the Hamiltonian of rays_kerr_schild.comp implemented again.
- * momentum: L at the start. */
+/* Unpacks a record in Kerr-Schild coordinates. The Hamiltonian of rays_kerr_schild.comp is implemented here a second
+ * time. momentum: L at the start. */
 static void kerr_schild(const struct kd_hole *hole, double momentum, const struct record *record,
                         struct kd_rays_step *s)
 {
@@ -76,7 +76,7 @@ static void kerr_schild(const struct kd_hole *hole, double momentum, const struc
 
 static bool is_kerr_schild(const struct kd_rays_params *p) { return p->engine >= KD_ENGINE_KS_EULER; }
 
-/* Sets the stages and numbers of the records, which are in the order of the path, and the crossings from the end
+/* Sets the stages and numbers of the records, which are in the order of the path. Sets the crossings from the end
  * points. */
 static void tell(struct kd_rays_steps *out, const struct constants *c, const struct record *records)
 {

@@ -15,8 +15,8 @@
 
 enum { ORDERS = KD_ACCURACY_ORDERS, WARM_UP = 64, RUNS = 5, BATCH = 1 << 18, RAYS = 4096, RAYS_QUICK = 256 };
 
-/* Numbers of steps double from first to last. Below the first an engine is useless. Above the last rounding dominates,
- * or another engine is better at the same cost. */
+/* The numbers of steps to be measured, which double from first to last. With fewer steps an engine is useless. With
+ * more steps rounding dominates, or another engine is better at the same cost. */
 static const struct span {
     enum kd_engine engine;
     uint32_t first, last;

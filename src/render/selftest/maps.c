@@ -1,4 +1,4 @@
-/* Self-test of the lens map's kernels, with known rays: each is the only ray of a picture of one pixel. */
+/* Self-test of the lens map's kernels with known rays. Each ray is the only ray of a picture of one pixel. */
 #include "render/selftest/parts.h"
 
 #include "interface.h"

@@ -1,10 +1,11 @@
-/* The procedural Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, from noise with a seed.
+/* The procedural Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, from noise with a
+ * seed.
  *
- * The profiles are fits by eye to photographs. The optical depth of the dust for blue light is 1.35 times that for
- * green light, and for red light 0.72 times (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as
- * bright as the real one. At its brightest place it has some 21 magnitudes per square arcsecond, and 30 degrees from
- * there it is a tenth as bright (C. Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture
- * correspond to nothing in the real sky. */
+ * The profiles are fits by eye to photographs. The optical depth of the dust relative to green light is 1.35 for blue
+ * light and 0.72 for red light (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as the
+ * real one. At its brightest place it has some 21 magnitudes per square arcsecond, and 30 degrees from there it is a
+ * tenth as bright (C. Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture correspond to nothing
+ * in the real sky. */
 #include "render/sky/panorama.h"
 
 #include "base/random.h"
@@ -65,7 +66,7 @@ static float octaves(const struct clouds *c, const float n[3], const struct octa
     return sum;
 }
 
-/* Values shared by all directions of one longitude, or of one latitude; degrees. */
+/* Values that all directions of one longitude, or of one latitude, share. Angles are in degrees. */
 struct along { float l, cos, sin, inwards, inner; };
 struct across { float b, cos, sin, near, far, contrast, halo; };
 
@@ -94,7 +95,7 @@ static struct across across_of(float b)
  * filaments, before `ridge`. */
 enum { STEP = 4, FEW = 2, NODES = KD_MILKY_WAY_WIDTH / STEP };
 enum smooth { CLOUDS, BENT, WARP_X, WARP_Y, PATCHES, FIRST, SECOND, SMOOTH };
-#define DUSTY 32.0f /* degrees from the plane: there is no dust beyond */
+#define DUSTY 32.0f /* distance from the plane, in degrees, beyond which there is no dust */
 #define FALLS 0.66f /* amplitude ratio of the filaments' octaves */
 static const struct octaves few_clouds = { 7, 0.62f, 0, FEW, false }, more_clouds = { 7, 0.62f, FEW, 5, false };
 static const struct octaves filaments[] = { { 5, 1, 0, 1, false },

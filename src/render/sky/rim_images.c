@@ -140,8 +140,8 @@ static bool between(const void *of, double column, double row, struct kd_sky_tan
     return true;
 }
 
-/* True if a place is at a border or beyond it. The tolerance exceeds the difference between the two places that
- * Newton's method finds when it starts on either side of the border. */
+/* True if a place is at a border or beyond it. From either side of the border, Newton's method finds slightly
+ * different places for the same image. The tolerance exceeds their difference. */
 static bool is_from(double place, double border) { return place > border - 1e-8; }
 
 /* True if a place is in the grid's own part, and in the picture or close to it. */

@@ -27,8 +27,8 @@ double kd_camera_ahead(uint32_t sight, double turn_x, double turn_y, double *x, 
 /* Boyer-Lindquist azimuth of the observer minus camera.azimuth_deg. */
 double kd_camera_twist(const struct kd_scene *scene);
 
-/* Distance between neighbouring pixels: in M on the image plane; for a pinhole as a fraction of the picture's
- * distance. Only for these two projections. */
+/* Distance between neighbouring pixels: in M for the image plane; as a fraction of the picture's distance for a
+ * pinhole. Defined only for these two projections. */
 double kd_camera_pixel(const struct kd_scene *scene);
 
 /* The labels (render/rays/rays.h) of the ray at (x, y), computed in double as shaders/ray/camera.glsl does. In the

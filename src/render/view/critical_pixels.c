@@ -107,7 +107,7 @@ static void mark(struct work *w, struct spot a, struct spot b)
         }
 }
 
-/* True if the curve between two spots may enter the picture, given that this piece is not much longer than the
+/* True if the curve between two spots may enter the picture. The piece of the curve must not be much longer than the
  * distance between the spots. */
 static bool meets(const struct work *w, struct spot a, struct spot b)
 {
@@ -116,7 +116,7 @@ static bool meets(const struct work *w, struct spot a, struct spot b)
            fmin(a.y, b.y) - room <= w->height;
 }
 
-/* Draws the curve between two parameters in short, straight pieces. They must be short because mark examines their
+/* Draws the curve between two parameters in short, straight pieces. They must be short because mark() examines their
  * bounding boxes. */
 static void draw(struct work *w, double half, double from, struct spot a, double to, struct spot b, int depth)
 {

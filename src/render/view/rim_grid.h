@@ -14,7 +14,7 @@
 
 #define KD_RIM_STEP 0.1      /* rad */
 #define KD_RIM_STEP_MOST 0.3 /* step for pictures in which KD_RIM_STEP would take more than KD_RIM_RAYS */
-/* limit of rays in all grids together; if even KD_RIM_STEP_MOST exceeds it, only brighter images are searched */
+/* limit of rays in all grids together; if even KD_RIM_STEP_MOST needs more rays, only brighter images are searched */
 #define KD_RIM_RAYS (1u << 19)
 #define KD_RIM_GRIDS 192            /* largest number of grids */
 #define KD_RIM_GRID_RAYS (1u << 16) /* limit of rays of one grid */

@@ -105,7 +105,7 @@ static bool follow_on(const struct follower *f, bool along_u, double place, doub
     return along_u ? follow(f, place, line, out) : follow(f, line, place, out);
 }
 
-/* Tests whether n intervals are accurate enough along a line. Returns 1 if they are, 0 if not, -1 if rays do not
+/* Tests whether n intervals are accurate enough along a line. Returns 1 if so, 0 if not, and -1 if a ray does not
  * escape. */
 static int serves(const struct follower *f, const struct side *s, int n, bool along_u, double line)
 {
@@ -147,7 +147,7 @@ static void try_line(void *user, size_t k)
 }
 
 /* Finds how many intervals are enough along one side. Tests this on lines at both ends of the other side and between
- * them. The result exceeds MOST if even MOST are too few. Returns false if a ray does not escape. */
+ * its ends. If even MOST intervals are too few, the result exceeds MOST. Returns false if a ray does not escape. */
 static bool enough(const struct follower *f, struct side *s, const struct side *other, bool along_u)
 {
     struct trial trial = { .f = f, .side = s, .other = other, .along_u = along_u };

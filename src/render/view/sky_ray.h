@@ -11,7 +11,7 @@ struct kd_sky_rays {
     struct kd_vantage at;
 };
 
-/* Places count from the whole picture, also when the scene renders a tile of it. */
+/* Places are counted in the whole picture, even if the scene renders a tile of it. */
 struct kd_sky_rays kd_sky_rays_of(const struct kd_scene *scene);
 
 /* look: direction along e_r, e_theta, e_phi, of any length; for an observer at infinity (alpha, beta). Returns false
