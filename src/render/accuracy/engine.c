@@ -48,8 +48,8 @@ enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, stru
                           steps, kd_engine_name(engine), kd_engine_most_steps(engine));
 }
 
-/* In a scene, the list of words starts with "auto". The other words are the names of our enum's values, in the same
- * order (tests/unit/engine.c). */
+/* Each of these fields of a scene has "auto" as its first word. Its other words are the names of our enum's values, in
+ * the same order (tests/unit/engine.c). */
 struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene)
 {
     const struct kd_accuracy *a = &scene->accuracy;

@@ -54,8 +54,7 @@ struct kd_setting {
     enum kd_engine engine;
     enum kd_precision precision;
     uint32_t steps; /* number of steps; 0 for the closed form */
-    /* relative error of the crossing radii that the table lists for this setting; NaN: the request names no tolerance
-     */
+    /* relative error of the crossing radii that the table lists for this setting; NaN: no tolerance is requested */
     double holds;
 };
 

@@ -24,7 +24,7 @@ struct kd_asset_maker {
     /* evicts objects before `make`; called with the lock */
     void (*make_room)(void *owner);
     /* Makes the object; called without the lock. *invalid is false when the function is called. The function sets
-     * *invalid if the asset can never be valid, so that it is not read again. */
+     * *invalid if the asset can never be valid, so that the asset is not read again. */
     enum kd_status (*make)(void *owner, const struct kd_asset_request *request, bool *invalid, struct kd_error *error);
     /* caches what `make` made; called with the lock */
     void (*keep)(void *owner, const struct kd_asset_request *request);

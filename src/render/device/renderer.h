@@ -33,7 +33,7 @@ struct kd_renderer_params {
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
     bool passing;          /* true if another renderer uses the same device, so that measured speeds are not stored */
-    bool compiles_only;    /* as in kd_vk_params: pictures are black, and no Milky Way is made */
+    bool compiles_only;    /* as in kd_vk_params; if true, pictures are black, and no Milky Way is made */
     uint32_t deadline_ms;  /* same meaning as in kd_vk_params */
     uint64_t memory_bytes; /* memory limit for all pictures, including those in the background; 0: the device and the
                             * host set the limit */

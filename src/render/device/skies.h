@@ -17,7 +17,7 @@ struct kd_sky_buffers {
     uint32_t n; /* number of entries: a star may be in up to three fine cells, and in up to three coarse cells */
     struct kd_vk_buffer *cells; /* the indices in `stars` at which the cells of faces.h begin */
     struct kd_sky of;           /* the sky whose data the buffers have; valid if `there` is true */
-    bool there;                 /* the buffers hold a sky */
+    bool there;                 /* true if the buffers hold a sky */
 };
 
 #endif

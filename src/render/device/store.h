@@ -24,7 +24,7 @@ struct kd_bands {
  * advances. */
 struct kd_star_key {
     char lens[65];
-    bool visible; /* brightness is weighted by the eye's sensitivity */
+    bool visible; /* true if brightness is weighted by the eye's sensitivity */
     bool bright;  /* same meaning as kd_plan_light.bright */
     struct kd_sky sky;
     struct kd_sky_block block;

@@ -146,7 +146,7 @@ static bool read_unit(const struct kd_buffer *head, size_t size, struct unit *ou
            channels > 0 && channels <= 4;
 }
 
-/* Checks one layer of a scene. All scenes must have the same layers as the first scene. */
+/* Checks one layer of a scene. Its properties must be those of the same layer of the first scene. */
 static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct unit *unit, unsigned scene,
                             struct kd_error *error)
 {

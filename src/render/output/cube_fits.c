@@ -15,8 +15,8 @@
 struct writer {
     struct kd_cube cube;
     size_t unit;    /* index of the current HDU, in the order layers, axes, scenes */
-    bool begun;     /* the header of the current HDU is written */
-    unsigned scene; /* the HDU's next scene */
+    bool begun;     /* true if the header of the current HDU is written */
+    unsigned scene; /* next scene of the current HDU */
     uint64_t at, written;
 };
 

@@ -26,7 +26,7 @@ struct kd_plan_light {
                             * lens map alone */
     bool meets;            /* true if the scene has bodies */
     bool photometry;       /* true if flux and centroid are measured */
-    /* for a scene that names the flux of matter: a density that was found from another viewpoint may be reused
+    /* for a scene that names the flux of matter: true if a density found from another viewpoint may be reused
      * (frame/normalise.h) */
     bool reuse_normalisation;
     struct {

@@ -180,8 +180,8 @@ done:
 /* Four rows of rays; the cells are between the middle two. NULL: the row does not exist. */
 struct rows { const struct kd_vec *of[4]; };
 
-/* The difference between the two neighbours of a ray, which are two steps apart. If one neighbour is missing, it is
- * replaced by twice the difference between the ray and the other neighbour. */
+/* The difference between the two neighbours of a ray, which are two steps apart. If one neighbour is missing,
+ * the result is twice the difference between the ray and the other neighbour. */
 static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
 {
     const bool has_before = before && isfinite(before->x), has_after = after && isfinite(after->x);
