@@ -7,8 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* FIRST, CLOSE: pixels along a side of the first pictures and of the later pictures; MOST: largest number of pictures
- */
+/* FIRST, CLOSE: pixels along a side of the first and of the later pictures; MOST: largest number of pictures */
 enum { FIRST = 48, CLOSE = 128, MOST = 60 };
 /* upper bound of the relative difference between the fluxes of a picture of 48 pixels and one of 128 */
 #define NEAR 1e-3

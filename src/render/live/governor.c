@@ -19,8 +19,7 @@ static const double COOLDOWN_MS = 1000;                   /* least time on a run
 /* time before climbing again to a rung that was too slow; doubled at each failure */
 static const double RETRY_MS = 3000;
 static const double SETTLE_MS = 50; /* time in which a user reacts to a frame with the next change */
-/* HOLD_MS: pause up to which changes belong to one drag; HOLD_MAX_MS: largest value to which this pause is lengthened
- */
+/* HOLD_MS: pause up to which changes belong to one drag; HOLD_MAX_MS: largest value of this pause */
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
 /* time for which lens maps are assumed not to be cached; doubled at each repetition */
 static const double BLIND_MS = 2000;

@@ -15,8 +15,7 @@ struct writer {
     struct kd_cube cube;
     struct kd_zip *zip;     /* NULL: not started */
     struct kd_buffer bytes; /* output of the ZIP so far */
-    /* index of the current member, in this order: axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json
-     */
+    /* index of the current member in the order axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json */
     size_t member;
     bool begun;
     unsigned scene, row; /* next scene and next row of the current member; rows are counted from the top */

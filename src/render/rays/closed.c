@@ -186,8 +186,7 @@ void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_l
         }
 }
 
-/* Uses w'^2 = W^2 - D K w^2, as shaders/ray/radial_step.glsl does. This form keeps its precision next to the horizon.
- */
+/* Uses w'^2 = W^2 - D K w^2, as shaders/ray/radial_step.glsl does. This form is precise next to the horizon. */
 double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r)
 {
