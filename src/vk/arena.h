@@ -18,7 +18,7 @@ struct kd_vk_arena {
 
 bool kd_vk_arena_init(struct kd_vk_arena *arena, uint64_t size); /* returns false when out of host memory */
 void kd_vk_arena_finish(struct kd_vk_arena *arena);
-/* Takes a range. alignment is a power of two. Returns false if no gap is large enough, or out of host memory. */
+/* Takes a range. alignment is a power of two. Returns false if no gap is large enough, or if host memory runs out. */
 bool kd_vk_arena_take(struct kd_vk_arena *arena, uint64_t size, uint64_t alignment, uint64_t *offset);
 /* Returns exactly the range that was taken. This cannot fail, because kd_vk_arena_take has reserved room for the
  * span. */

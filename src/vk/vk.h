@@ -148,7 +148,7 @@ struct kd_vk_dispatch {
     const struct kd_vk_pipeline *pipeline;
     struct kd_vk_binding bindings[KD_VK_MAX_BINDINGS];
     const void *push;
-    uint32_t groups[3]; /* 0 counts as 1 */
+    uint32_t groups[3]; /* 0 counts as 1 group */
     /* If not NULL, three words in this buffer replace `groups`. The words begin at the offset counts_at, a multiple
      * of 4. Earlier kernels have written the words, within the device's limits. If one of the words is 0, nothing is
      * dispatched. */

@@ -26,7 +26,7 @@ enum kd_engine {
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
 
 const char *kd_engine_name(
-    enum kd_engine engine); /* "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
+    enum kd_engine engine); /* returns "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4" or "ks-tao6" */
 const char *kd_precision_name(enum kd_precision precision); /* "f32", "f64" */
 
 #define KD_STEPS_MAX 2048 /* largest number of steps of any engine; some engines have a lower limit */

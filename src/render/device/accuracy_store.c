@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define MAKE "`kerrd bench accuracy` makes one"
-#define FILE_MAX (1u << 20) /* a table is about 100 000 bytes */
+#define FILE_MAX (1u << 20) /* largest size of the file; a table has about 100 000 bytes */
 
 char *kd_accuracy_path(const struct kd_renderer *renderer)
 {

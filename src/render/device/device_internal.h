@@ -63,9 +63,9 @@ struct kd_renderer {
     struct kd_memory_watch memory;
     _Atomic uint64_t held; /* bytes of device buffers after the last frame */
     _Atomic uint64_t kept_bytes[KD_N_CACHE_KINDS];
-    _Atomic uint64_t opened_bytes;                /* bytes that were resident after the device was last opened */
-    _Atomic uint64_t started_bytes, started_heap; /* values after the device was first opened: resident bytes, and
-                                                   * heap bytes in use */
+    _Atomic uint64_t opened_bytes; /* bytes that were resident after the device was last opened */
+    /* values when the device had first been opened. started_bytes: resident bytes; started_heap: heap bytes in use */
+    _Atomic uint64_t started_bytes, started_heap;
     /* accuracy table of this device, read from disk when the renderer was created; NULL: none */
     struct kd_accuracy_table *accuracy;
     struct kd_verdict verdict;

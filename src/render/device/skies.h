@@ -10,7 +10,7 @@
 #include <stddef.h>
 
 struct kd_sky_buffers {
-    struct kd_vk_buffer *panorama; /* words as in render/sky/panorama.h; NULL: not made yet */
+    struct kd_vk_buffer *panorama; /* words of the panorama (render/sky/panorama.h); NULL: not made yet */
     /* direction and flux of each star, cell by cell, with the brightest star of a cell first; then the temperatures
      * of all stars */
     struct kd_vk_buffer *stars;

@@ -24,7 +24,8 @@ void kd_slice_begin(struct kd_slice_pace *pace, double now_ms)
 
 void kd_slice_end(struct kd_slice_pace *pace, double now_ms)
 {
-    const double LEAST_MS = 1; /* a shorter time is mostly the cost of the submission itself */
+    /* submissions with a shorter expected time are not measured: most of it is the cost of the submission itself */
+    const double LEAST_MS = 1;
     const double known = fmax(pace->slowness, 1);
     if (!(pace->expected_ms >= LEAST_MS))
         return;

@@ -66,7 +66,7 @@ struct kd_store {
     /* parameters and tables that are read at each crossing: in device memory, uploaded through `staging` */
     struct kd_vk_buffer *transfer, *staging;
     struct kd_emit_data *sent; /* the uploaded data; NULL: none yet */
-    bool sent_whole;           /* false: the uploaded data are unknown, because a frame was given up */
+    bool sent_whole;           /* true if the uploaded data are known; false after a frame was given up */
     /* cameras: KD_CAMERA_BYTES for each camera; cameras_host: staging buffer for the cameras. NULL: not made yet */
     struct kd_vk_buffer *cameras, *cameras_host;
     struct kd_camera_block sent_cameras[KD_CAMERAS];

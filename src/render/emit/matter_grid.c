@@ -24,7 +24,7 @@
 #define STEADY 1e-2
 #define LATEST 1e12 /* largest time, M; the same limit as that of the scene's time */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
-#define UNIT 1e-2   /* tolerance of |u.u + 1| */
+#define UNIT 1e-2   /* largest accepted |u.u + 1| */
 /* largest number of rows per factor of e in r; it bounds the work of the march, whose stretches are two cells long */
 #define FINEST 1024
 #define PARTS 64 /* largest permitted k of a grid that covers 1/k of a turn */
@@ -49,7 +49,7 @@ _Static_assert(sizeof kinds / sizeof *kinds == KD_MATTER_FLOATS, "a float for ea
 struct kd_matter_reader {
     struct kd_unzip zip;
     struct kd_matter_grid grid;
-    double *r, *theta;            /* theta: the angle of each column, or of each node of a layer */
+    double *r, *theta;            /* r: radius of each row; theta: angle of each column, or of each node of a layer */
     size_t theta_rows;            /* number of rows if each row has its own angles; otherwise 1 */
     bool look;                    /* true if the numbers are only checked, and not prepared for a renderer */
     struct kd_matter_array array; /* the current array */

@@ -40,7 +40,7 @@ enum {
 
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
-    uint32_t frames;                /* frames in time; 1: the grid has no times */
+    uint32_t frames;                /* number of frames in time; 1: the grid has no times */
     double time[2];                 /* times of the first and the last frame, M */
     bool late;                      /* true if the frames are slices of constant ingoing Kerr-Schild time */
     KD_HOLE_MEMBERS
@@ -82,7 +82,7 @@ enum kd_status kd_matter_grid_look(const void *data, size_t size, struct kd_asse
 /* Number of bytes that the nodes take on the device. */
 size_t kd_matter_grid_bytes(const struct kd_matter_grid *grid);
 struct kd_asset_grid kd_matter_grid_told(const struct kd_matter_grid *grid);
-/* floats of `places`; 0: the columns are evenly spaced */
+/* number of floats of `places`; 0: the columns are evenly spaced */
 size_t kd_matter_grid_places(const struct kd_matter_grid *grid);
 void kd_matter_grid_finish(struct kd_matter_grid *grid);
 

@@ -209,7 +209,7 @@ static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, cons
  * within one row of the node. The particle's weight depends on its distance from the node. */
 static void fill_expected(float *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
 {
-    enum { PARTS = 8 }; /* parts into which each side of the triangular weight is divided */
+    enum { PARTS = 8 }; /* number of parts into which each side of the triangular weight is divided */
     double rows = rows_of(scene, grid), weight = (double)(grid->count - grid->plunging) * grid->unit / grid->columns;
     for (uint32_t i = 0; i <= grid->rows; i++) {
         double sum = 0;

@@ -83,8 +83,8 @@ static double knot(const struct kd_scene *scene)
     return falls && kd_scene_volume_inner(scene) < isco && isco < scene->volume.outer ? isco : 0;
 }
 
-/* Number of nodes of the scene's grid. If the grid's file has not been found yet, the largest number that is not
- * packed. */
+/* Number of nodes of the scene's grid. If the grid's file has not been found yet, returns the largest number of nodes
+ * that are not packed. */
 static uint64_t nodes_of(const struct kd_scene *scene)
 {
     return scene->matter.nodes ? scene->matter.nodes : KD_MATTER_WHOLE;

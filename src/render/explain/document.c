@@ -99,7 +99,7 @@ static void put_glow(struct kd_json *json, const struct kd_probed_glow *g, bool 
     kd_json_end(json);
 }
 
-/* Writes the emitters and absorbers at a place, as in the picture. */
+/* Writes the emitters and absorbers at a place, as the picture's kernel has reported them. */
 static void put_place(struct kd_json *json, const struct kd_explained *x, const struct kd_probed_place *p)
 {
     double left = 1;

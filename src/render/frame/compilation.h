@@ -22,11 +22,12 @@ struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernel
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
                                             const struct kd_plan *plan);
 /* Compiles the kernels. Any thread; the renderer must not be closed or reopened meanwhile. An error of a kernel is
- * reported by the render that needs the kernel. progress returns false to stop soon. Returns KD_EDEVICE if the second
- * device hangs, as in kd_renderer_hangs. */
+ * reported by the render that needs the kernel. If progress returns false, the compilation stops soon. Returns
+ * KD_EDEVICE if the second device hangs, as in kd_renderer_hangs. */
 enum kd_status kd_compilation_run(struct kd_compilation *compilation, kd_progress_fn progress, void *user,
                                   struct kd_error *error);
-/* Adds the kernels to the renderer's cache, and frees the compilation. Only the thread that owns the device. */
+/* Adds the kernels to the renderer's cache, and frees the compilation. Called only by the thread that owns the
+ * device. */
 void kd_compilation_end(struct kd_compilation *compilation);
 
 /* Has missing kernels compiled through kd_renderer_params.lacks. Called during a picture, while nothing is recorded.

@@ -14,9 +14,9 @@ struct kd_frame_job {
     struct kd_store *store;
     struct kd_prepared *prepared;
     bool background;                           /* true if other pictures may be rendered during `progress` */
-    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* if `background`: device times of finished work */
+    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* if `background` is true: device times of finished work */
     size_t n_times;
-    double away_ms; /* time spent in progress */
+    double away_ms; /* time spent in calls of `progress` */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     const struct kd_light_sum *others; /* pictures with which the light is averaged; NULL: none */

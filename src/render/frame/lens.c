@@ -396,7 +396,7 @@ static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *who
     enum kd_status status;
     do {
         const uint32_t most = left ? kd_frame_slice(j, light_ns, left) : 1, parts = (left + most - 1) / most;
-        part.count = parts ? (left + parts - 1) / parts : 0; /* the parts have equal sizes */
+        part.count = parts ? (left + parts - 1) / parts : 0; /* the rest is divided into parts of equal size */
         j->r->slice_pace.expected_ms = 1e-6 * (light_ns * part.count + (left == whole->count ? map_ns * left : 0));
         KD_TRY(light_slice(j, &part));
         part.first += part.count;

@@ -143,7 +143,8 @@ static enum kd_status fill(struct run *run, bool of_sky)
  * the whole deadline of a submission. */
 static enum kd_status submit_new(struct kd_frame_job *j) { return kd_vk_submit(j->r->vk, NULL, j->error); }
 
-/* Initialises the map so that all rays cross nothing and are captured. Kernels overwrite all other rays. */
+/* Initialises the map so that all rays cross nothing and are captured. Kernels then overwrite the rays to which this
+ * does not apply. */
 static enum kd_status fill_nothing(struct run *run)
 {
     const struct kd_plan *p = run->j->plan;

@@ -1,4 +1,4 @@
-/* Settles undecided rays, whose fate or number of crossings single precision cannot determine. There are only few.
+/* Settles undecided rays, whose fate or number of crossings single precision cannot determine. Such rays are few.
  * The host traces them again in closed form in double precision. It writes the results into the lens map before the
  * map is read. */
 #include "render/frame/lens.h"

@@ -241,7 +241,8 @@ static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t fi
     part.push.column0 = window.left * p->lens.side;
     set_light(&part.push, j, to);
     uint32_t step = KD_PLAN_STAR_RAYS / width;
-    step = step > KD_STAR_TILE ? step / KD_STAR_TILE * KD_STAR_TILE : step ? step : 1; /* a multiple of the tile */
+    /* rounded down to a multiple of the tile */
+    step = step > KD_STAR_TILE ? step / KD_STAR_TILE * KD_STAR_TILE : step ? step : 1;
     enum kd_status status = KD_OK;
     for (uint32_t row = first * p->lens.side; row < end * p->lens.side && !status; row += step) {
         part.push.first = row;
@@ -324,7 +325,7 @@ static struct kd_star_key key_of(const struct kd_frame_job *j)
     key.bright = j->plan->light.bright;
     key.visible = j->scene->disk.band == KD_BAND_VISIBLE;
     key.sky = j->scene->sky;
-    key.block = j->r->emit->data.emission.sky; /* includes the sky's orientation */
+    key.block = j->r->emit->data.emission.sky; /* this block includes the sky's orientation */
     return key;
 }
 

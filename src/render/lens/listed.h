@@ -11,7 +11,7 @@ struct kd_lens_rows {
     uint32_t first, count; /* range of rows of rays of the picture; if `pixels` is set, range of indices in `pixels` */
     const struct kd_pixel *pixels;
     const struct kd_critical_lattice *lattice; /* lattice of the rays in each pixel */
-    struct kd_vk_buffer *to;                   /* planes of the band */
+    struct kd_vk_buffer *to;                   /* buffer with the planes of the band */
     /* offset: index of the first ray in a plane; stride: number of rays in a plane */
     uint64_t offset, stride;
 };

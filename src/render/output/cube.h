@@ -35,7 +35,7 @@ struct kd_cube {
     unsigned width, height;
     struct kd_cube_layer layers[KD_WORDS_MOST];
     size_t n_layers;
-    unsigned seen;     /* scenes scanned so far */
+    unsigned seen;     /* number of scenes scanned so far */
     uint64_t *places;  /* offsets of the layers' numbers in the scenes' files: n_layers for each scene */
     struct kd_wcs wcs; /* world coordinates of the first scene */
     bool wcs_differ;   /* true if any scene has other world coordinates */

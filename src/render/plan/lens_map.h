@@ -38,8 +38,9 @@ struct kd_plan_lens {
     uint32_t orders;           /* number of crossings that are recorded for each ray */
     uint32_t planes;           /* number of 4-byte values of each ray in the lens map */
     bool cacheable;            /* true if the whole lens map fits in memory and can be cached */
-    uint32_t audit; /* rays of the lens map that are traced again in closed form, at most KD_AUDIT_RAYS; 0: none */
-    char key[65];   /* hash of everything that the lens map depends on */
+    /* number of rays of the lens map that are traced again in closed form, at most KD_AUDIT_RAYS; 0: none */
+    uint32_t audit;
+    char key[65]; /* hash of everything that the lens map depends on */
 };
 
 #define KD_AUDIT_RAYS 768 /* largest number of audited rays, on a grid of 16 x 48 */
@@ -86,7 +87,7 @@ static inline bool kd_plan_is_radii(const struct kd_plan_lens *lens)
     return lens->path == KD_LENS_CLOSED && !(lens->quantities & ~(uint32_t)KD_LENS_W);
 }
 
-/* All rays that are traced or interpolated. */
+/* Number of rays that are traced or interpolated. */
 static inline uint64_t kd_plan_rays(const struct kd_plan_lens *lens)
 {
     return lens->rays + lens->critical * lens->critical_pixels;

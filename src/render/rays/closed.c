@@ -105,7 +105,7 @@ struct share {
     _Atomic bool stop;
 };
 
-/* Traces the next slice; false if none is left. */
+/* Traces the next slice. Returns false if none is left. */
 static bool trace_slice(struct share *share)
 {
     const struct kd_ray_labels *rays = share->rays;

@@ -32,7 +32,7 @@ struct work {
     bool wide;        /* double precision */
     bool kerr_schild; /* true if the engine uses Kerr-Schild coordinates */
     uint32_t per_ray;
-    /* least radius: the float next above the horizon's */
+    /* least radius of a crossing: the float next above the horizon's radius */
     double least;
     struct set { struct kd_vk_buffer *rays, *ends, *host; } sets[2]; /* buffers that successive parts use alternately */
     struct kd_vk_buffer *told;                                       /* buffer for the records of trace.glsl, or NULL */
@@ -297,8 +297,8 @@ static uint32_t next_size(uint32_t m, double ms, double least_ms)
     return n < LEAST ? LEAST : n > MOST ? MOST : (uint32_t)n;
 }
 
-/* Size of a list's first slice. A list with the settings of the list before starts with half of that list's last
- * slice. */
+/* Size of a list's first slice. If the list has the settings of the previous list, it starts with half of that list's
+ * last slice. */
 static uint32_t first_size(const struct work *w)
 {
     const struct kd_rays_params *p = w->params;

@@ -162,7 +162,7 @@ static struct across row_at(uint32_t y)
     return across_of((float)M_PI * (0.5f - ((float)y + 0.5f) / KD_MILKY_WAY_HEIGHT));
 }
 
-/* Computes the nodes of a row; the last repeats the first. */
+/* Computes the nodes of a row; the last node repeats the first. */
 static void make_nodes(const struct clouds *c, const struct along *columns, uint32_t y, float nodes[NODES + 1][SMOOTH])
 {
     const struct across b = row_at(y);

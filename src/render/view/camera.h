@@ -51,7 +51,7 @@ void kd_camera_look(const struct kd_camera_exact *camera, double x, double y, do
  * pinhole. */
 bool kd_camera_seen(const struct kd_camera_exact *camera, const double direction[3], double *x, double *y);
 
-/* Labels from E, L/sin(theta), and beta |E|. */
+/* Computes labels from E, L/sin(theta), and beta |E|. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out);
 /* kd_camera_label_towards: direction of any length; the camera must be at a finite radius */
 void kd_camera_label_towards(const struct kd_camera_exact *camera, const double direction[3],

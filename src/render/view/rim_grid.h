@@ -13,13 +13,13 @@
 #include "render/view/rim.h"
 
 #define KD_RIM_STEP 0.1      /* rad */
-#define KD_RIM_STEP_MOST 0.3 /* step for pictures in which KD_RIM_STEP would take more than KD_RIM_RAYS */
+#define KD_RIM_STEP_MOST 0.3 /* step that is used if KD_RIM_STEP would take more than KD_RIM_RAYS rays */
 /* limit of rays in all grids together; if even KD_RIM_STEP_MOST needs more rays, only brighter images are searched */
 #define KD_RIM_RAYS (1u << 19)
 #define KD_RIM_GRIDS 192            /* largest number of grids */
 #define KD_RIM_GRID_RAYS (1u << 16) /* limit of rays of one grid */
 #define KD_RIM_TILE_RAYS 3          /* side of a tile of the star search on a grid */
-#define KD_RIM_HALO 3               /* extra rays on each side of the part */
+#define KD_RIM_HALO 3               /* number of extra rays on each side of the part */
 /* largest distance, in steps, from a ray to an image that it finds (star_images.comp, share) */
 #define KD_RIM_REACH 0.601
 #define KD_RIM_SHARED_U 0.5

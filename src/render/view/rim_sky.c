@@ -11,7 +11,7 @@
 enum {
     LEAST = 9, /* least number of intervals along a side of a grid */
     MOST = 96,
-    ASIDE = 4, /* lines across the grid on which a number of intervals is tried */
+    ASIDE = 4, /* number of lines across the grid on which a number of intervals is tried */
     /* if there are at most this many grids, all threads work on one grid at a time. If there are more, each thread
      * takes whole grids */
     SHARED = 4

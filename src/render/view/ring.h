@@ -16,7 +16,7 @@ struct kd_ring {
     struct kd_critical curve;
     double middle;          /* angle                      */
     double most, least;     /* decades                    */
-    uint32_t width, height; /* rays across and down       */
+    uint32_t width, height; /* number of rays across and down */
 };
 
 struct kd_ring kd_ring_of(const struct kd_scene *scene);
