@@ -15,8 +15,7 @@ struct kd_quality {
     int32_t samples;        /* rays along each side of a pixel */
     int32_t orders;         /* recorded crossings a ray */
     int32_t critical;       /* limit for image.critical_factor; 0: as requested */
-    /* value of enum kd_profile, which replaces all of accuracy.* except the engine; -1: accuracy.* stays as requested
-     */
+    /* enum kd_profile: a profile that replaces all of accuracy.* except the engine; -1: accuracy.* as requested */
     int32_t profile;
     bool sketch; /* true if volumes are marched more coarsely than with any profile: render/plan/march.h */
     bool bright; /* true if only the bright images of stars are shown: plan.bright of render/plan/plan.h */
