@@ -10,7 +10,7 @@
 struct kd_vk_span { uint64_t begin, end; };
 
 struct kd_vk_arena {
-    struct kd_vk_span *free; /* sorted; no two of them touch */
+    struct kd_vk_span *free; /* the gaps, sorted by offset; no two of them touch */
     size_t n_free, capacity;
     size_t live; /* number of allocations */
     uint64_t size;
@@ -18,7 +18,7 @@ struct kd_vk_arena {
 
 bool kd_vk_arena_init(struct kd_vk_arena *arena, uint64_t size); /* returns false when out of host memory */
 void kd_vk_arena_finish(struct kd_vk_arena *arena);
-/* Takes a range. alignment is a power of two. Returns false if no gap is large enough, or out of host memory. */
+/* Takes a range. alignment is a power of two. Returns false if no gap is large enough, or if host memory runs out. */
 bool kd_vk_arena_take(struct kd_vk_arena *arena, uint64_t size, uint64_t alignment, uint64_t *offset);
 /* Returns exactly the range that was taken. This cannot fail, because kd_vk_arena_take has reserved room for the
  * span. */

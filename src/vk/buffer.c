@@ -18,7 +18,7 @@ static void buffer_free(struct kd_vk *vk, struct kd_vk_retired *object)
     free(buffer);
 }
 
-/* Takes memory; if there is none, once more with the memory of retired buffers. */
+/* Takes memory. If there is none, tries once more with the memory of retired buffers. */
 static enum kd_status take_memory(struct kd_vk *vk, struct kd_vk_buffer *buffer, const VkMemoryRequirements *needs,
                                   struct kd_error *error)
 {
@@ -82,7 +82,8 @@ enum kd_status kd_vk_buffer_create(struct kd_vk *vk, uint64_t size, enum kd_vk_m
     buffer->views = (struct kd_vk_views) { .buffer = buffer->handle, .name = buffer->name };
     if (!buffer->slice.block->coherent && kd_vk_buffer_map(buffer))
         kd_vk_mapped_enter(&vk->mapped, &buffer->mapped);
-    if (vk->core.compiles_only && memory == KD_VK_READBACK) /* zeros, because no kernel will write it */
+    /* filled with zeros, because no kernel will write this buffer */
+    if (vk->core.compiles_only && memory == KD_VK_READBACK)
         memset(kd_vk_buffer_map(buffer), 0, size);
     *out = buffer;
     return KD_OK;

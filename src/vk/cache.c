@@ -60,7 +60,7 @@ static char *path_of(const struct kd_vk_core *core, const char *dir)
     return path;
 }
 
-/* Returns the driver's data in the file, or NULL if it is damaged. */
+/* Returns the driver's data in the file, or NULL if the file is damaged. */
 static const uint8_t *open_envelope(const struct kd_vk_core *core, const struct kd_buffer *file, size_t *size)
 {
     struct envelope envelope;

@@ -13,7 +13,7 @@ static void list_names(const struct kd_vk_info *infos, size_t count, char *out, 
                                  infos[i].missing[0] ? " (unusable)" : "");
 }
 
-/* True if a is better than b, which has the same type: double precision first, then the wider subgroup. */
+/* True if a is better than b, which has the same type. Double precision counts first, then the subgroup width. */
 static bool better(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {
     if (a->type != b->type)

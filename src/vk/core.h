@@ -16,7 +16,7 @@ struct kd_vk_core {
     VkDevice device;
     VkQueue queue;
     char lost[256]; /* the reason why the device is lost; "" if it is not lost */
-    bool hangs;     /* the device is lost because a deadline has passed: work under way may never end */
+    bool hangs;     /* true if the device is lost because a deadline has passed: work under way may never end */
 };
 
 /* Returns KD_EDEVICE with the reason if the device is lost. */

@@ -2,8 +2,8 @@
 
 #include <stdlib.h>
 
-/* Adds a pool. Each pool has room for KD_VK_SETS_PER_POOL sets of the largest size. So it is full when it has that
- * number of sets, whatever their size. */
+/* Adds a pool. Each pool has room for KD_VK_SETS_PER_POOL sets of the largest size. So a pool is full when it has
+ * that number of sets, whatever their size. */
 static enum kd_status grow(const struct kd_vk_core *core, struct kd_vk_descriptors *descriptors, struct kd_error *error)
 {
     enum kd_status status;

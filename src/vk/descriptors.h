@@ -9,7 +9,7 @@
 #define KD_VK_SETS_PER_POOL 64
 
 struct kd_vk_descriptors {
-    VkDescriptorPool *pools; /* enough for the largest submission so far */
+    VkDescriptorPool *pools; /* pools for the largest submission so far */
     size_t n_pools, used;    /* used: number of sets in all pools */
 };
 

@@ -41,12 +41,14 @@ struct kd_vk {
     VkSemaphore timeline;
     struct kd_vk_slot slots[KD_VK_SLOTS];
     bool recording;
-    /* timeline values: of the latest submission, and of the latest that is known to be finished */
+    /* timeline values. submitted: of the latest submission; done: of the latest submission that is known to be
+     * finished */
     uint64_t submitted, done;
     /* time at which `done` last increased; the deadline of the next submission counts from this time */
     uint64_t progress_ns;
     uint64_t deadline_ns;
-    struct kd_vk_hazards hazards, hazards_before; /* present state, and the state when recording began */
+    /* hazards: present state; hazards_before: state when recording began */
+    struct kd_vk_hazards hazards, hazards_before;
     struct kd_vk_timing timing;
 
     struct kd_vk *next_lost;

@@ -117,13 +117,14 @@ enum kd_status kd_vk_functions_device(struct kd_vk_functions *fn, VkDevice devic
 enum kd_status kd_vk_functions_load_own(struct kd_vk_functions *fn, const char *path, struct kd_error *error);
 
 /* Every thread holds this lock while it creates or destroys an instance or a device, loads its functions, or names an
- * object. Vulkan permits an application to make these calls at the same time on different devices. The loader does not
- * support that: without a lock it changes its one list of all devices of the process (KhronosGroup/Vulkan-Loader issue
- * 2018, up to 1.4.341 at least). */
+ * object. Vulkan permits an application to make these calls at the same time on different devices. The loader does
+ * not support that: it has one list of all devices of the process, and changes this list without a lock
+ * (KhronosGroup/Vulkan-Loader issue 2018, up to 1.4.341 at least). */
 void kd_vk_loader_lock(void);
 void kd_vk_loader_unlock(void);
 
-/* For tests only, otherwise NULL. It is called after each step, and may replace members (tests/gpu/fake_device.h). */
+/* Hook for tests; otherwise NULL. It is called after each step of loading, and may replace members of the table
+ * (tests/gpu/fake_device.h). */
 extern void (*kd_vk_functions_hook)(struct kd_vk_functions *fn);
 
 const char *kd_vk_result_name(VkResult result); /* such as "VK_ERROR_DEVICE_LOST"; never NULL */

@@ -38,8 +38,8 @@ static struct kd_vk_barrier everything(const struct kd_vk_hazards *hazards)
     return barrier;
 }
 
-/* Extends an entry that touches the access, or appends a new one. If ranges touch, their union is exact, so that tiles
- * written side by side remain one entry. */
+/* Extends an entry whose range touches that of the access, or appends a new entry. If ranges touch, their union is
+ * exact, so that tiles written side by side remain one entry. */
 static void enter(struct kd_vk_hazards *hazards, const struct kd_vk_access *access)
 {
     for (size_t i = 0; i < hazards->count; i++) {

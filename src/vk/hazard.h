@@ -19,8 +19,8 @@ struct kd_vk_access {
     uint64_t buffer;            /* number that identifies the buffer; never reused */
     uint64_t begin, end;        /* range in bytes */
     VkPipelineStageFlags stage; /* one bit: compute shader, transfer or indirect dispatch */
-    bool write;                 /* the command writes the buffer, and may also read it */
-    bool host;                  /* the memory is mapped by the host */
+    bool write;                 /* true if the command writes the buffer; it may also read it */
+    bool host;                  /* true if the memory is mapped by the host */
 };
 
 /* limit of separate ranges in the list; beyond it a barrier is recorded, which empties the table */

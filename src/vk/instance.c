@@ -120,8 +120,7 @@ static enum kd_status make(struct kd_vk_instance *instance, bool validate, struc
     const VkApplicationInfo application = { .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                             .pApplicationName = "kerrd",
                                             .apiVersion = VK_API_VERSION_1_2 };
-    /* Because it is chained here, the messenger also receives the messages of vkCreateInstance and
-     * vkDestroyInstance. */
+    /* The messenger is chained here, so that it also receives messages of vkCreateInstance and vkDestroyInstance. */
     VkDebugUtilsMessengerCreateInfoEXT messenger = kd_vk_debug_messenger(&instance->debug);
     const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
     const VkValidationFeaturesEXT features = { .sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,

@@ -9,7 +9,8 @@ struct kd_vk_instance {
     struct kd_vk_functions fn;
     VkInstance handle;
     struct kd_vk_debug debug;
-    bool own_driver; /* the system has no device of Vulkan 1.2; this driver is installed with the program */
+    /* true if the driver installed with the program is used, because the system has no device of Vulkan 1.2 */
+    bool own_driver;
 };
 
 /* Returns KD_EDEVICE if validate is true and no layer is installed. Otherwise the absence of messages would be taken

@@ -1,6 +1,7 @@
-/* Flushes and invalidates mapped memory that is not coherent. A flush makes the host's writes visible to the device; an
- * invalidation makes the device's writes visible to the host. Buffers that a submission reads are flushed before it.
- * Buffers that it writes are invalidated when it has finished. If the memory is coherent, the list is empty. */
+/* Flushes and invalidates mapped memory that is not coherent. A flush makes the host's writes visible to the device;
+ * an invalidation makes the device's writes visible to the host. Buffers that a submission reads are flushed before
+ * the submission. Buffers that a submission writes are invalidated when it has finished. If the memory is coherent,
+ * the list is empty. */
 #ifndef KD_VK_MAPPED_H
 #define KD_VK_MAPPED_H
 
@@ -12,8 +13,9 @@ struct kd_vk_mapped {
     struct kd_vk_mapped *next;
     const struct kd_vk_slice *slice;
     enum kd_vk_memory memory;
-    uint64_t read, written; /* the last submissions that read and write the buffer, recorded or submitted */
-    uint64_t seen;          /* the host sees what was written up to this submission */
+    /* numbers of the last submissions that read and that write the buffer, recorded or submitted */
+    uint64_t read, written;
+    uint64_t seen; /* number of the submission up to which the host sees what was written */
 };
 
 /* kd_vk_mapped_enter adds a buffer's memory to a list. kd_vk_mapped_forget removes it, if it is there, before the

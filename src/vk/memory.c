@@ -157,8 +157,8 @@ static bool take(struct kd_vk_heap *heap, uint32_t type, uint64_t size, uint64_t
     return false;
 }
 
-/* Takes a slice from a block with room, else from a new block of the usual size. If that cannot be allocated, the new
- * block has just the size that is needed. */
+/* Takes a slice from a block with room, or from a new block of the usual size if there is no such block. If a block
+ * of that size cannot be allocated, the new block has just the size that is needed. */
 static enum kd_status take_or_grow(struct kd_vk_heap *heap, const struct kd_vk_core *core, uint32_t type, uint64_t size,
                                    uint64_t alignment, struct kd_vk_slice *out, struct kd_error *error)
 {

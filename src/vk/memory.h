@@ -9,8 +9,9 @@
 /* Vulkan guarantees 4096 allocations. With blocks of this size far fewer are needed. A larger buffer gets a block of
  * its own. */
 #define KD_VK_BLOCK_BYTES (UINT64_C(64) << 20)
-/* Not less than any nonCoherentAtomSize (Vulkan 1.2, table 53), so that no two buffers share an atom. Not less than any
- * min{Storage,Uniform,Texel}BufferOffsetAlignment either, so that bindings of all kinds may start at each multiple. */
+/* Not less than any nonCoherentAtomSize (Vulkan 1.2, table 53), so that no two buffers share an atom. Also not less
+ * than any min{Storage,Uniform,Texel}BufferOffsetAlignment, so that bindings of all kinds may start at each multiple
+ * of this number. */
 #define KD_VK_ALIGNMENT 256
 #define KD_VK_BUFFER_USAGE \
     (VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | \

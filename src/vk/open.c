@@ -127,7 +127,7 @@ done:
     return status;
 }
 
-/* number of attempts when out of memory, because a device that stays open would leak all its memory */
+/* number of attempts if memory runs out; several are made because a device that stays open leaks all its memory */
 #define IDLE_TRIES 3
 
 /* True if the objects may be destroyed. By the specification, objects of a lost device may be destroyed once

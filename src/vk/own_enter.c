@@ -42,5 +42,5 @@ void kd_vk_own_enter(int argc, char **argv)
     memcpy(words, first, sizeof first);
     memcpy(words + 6, argv + 1, (size_t)argc * sizeof *argv); /* copies the arguments and the NULL that ends them */
     execv(linker, words);
-    free(words); /* the driver will not be opened, and the message says why */
+    free(words); /* the driver will not be opened; a later message says why */
 }

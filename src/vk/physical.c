@@ -152,8 +152,8 @@ static void read_file_limit(struct kd_vk_physical *device)
     lacks(&device->info, text);
 }
 
-/* VK_KHR_portability_subset must be enabled if a device lists it. Layered drivers do, such as those for Vulkan on top
- * of Metal. */
+/* VK_KHR_portability_subset must be enabled if a device lists it. Layered drivers list it, such as those for Vulkan
+ * on top of Metal. */
 static void read_extensions(const struct kd_vk_functions *fn, struct kd_vk_physical *device)
 {
     uint32_t n = 0;

@@ -15,10 +15,10 @@ struct kd_vk_physical {
     uint32_t family;         /* queue family for submissions */
     uint32_t timestamp_bits; /* number of valid bits of a timestamp; 0: there are no timestamps */
     bool int64, host_query_reset, subgroup_extended_types;
-    bool portability_subset, memory_budget; /* the device lists this extension */
+    bool portability_subset, memory_budget; /* true if the device lists the extension of this name */
 };
 
-/* Lists the physical devices of the instance; *out is malloc'd. KD_EDEVICE if there is none. */
+/* Lists the physical devices of the instance; *out is malloc'd. Returns KD_EDEVICE if there is none. */
 enum kd_status kd_vk_physical_list(const struct kd_vk_instance *instance, struct kd_vk_physical **out, size_t *count,
                                    struct kd_error *error);
 

@@ -9,7 +9,7 @@ struct kd_vk;
 
 /* The first member of each object that can be retired. */
 struct kd_vk_retired {
-    uint64_t ticket; /* the last submission that uses the object, recorded or submitted; 0: none */
+    uint64_t ticket; /* number of the last submission that uses the object, recorded or submitted; 0: none */
     struct kd_vk_retired *next;
     void (*free)(struct kd_vk *vk, struct kd_vk_retired *object);
 };

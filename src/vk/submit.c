@@ -100,7 +100,7 @@ static uint64_t processor_ns(void)
 
 /* Waits once. The threads of a software device belong to this process. On a busy machine such a device may need more
  * than a deadline to compile a kernel. Therefore a deadline does not count if the process had the processor for less
- * than half of it. At most STARVED deadlines are ignored in this way. */
+ * than half of the deadline. At most STARVED deadlines are ignored in this way. */
 static VkResult wait_for(struct kd_vk *vk, const VkSemaphoreWaitInfo *info, uint64_t timeout)
 {
     VkResult result = VK_TIMEOUT;

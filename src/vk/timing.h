@@ -1,9 +1,9 @@
 /* Adds up device time by the name of a pass.
  *
  * A submission is divided into spans: consecutive commands of one pass. A timestamp is written at the beginning and
- * after each span. It is always written at the bottom of the pipe, which means: when all previous work has finished. So
- * spans never overlap, and their sum is the time during which the device was busy. Idle time between submissions is not
- * counted. */
+ * after each span. Timestamps are written at the bottom of the pipe, that is, when all previous work has finished. So
+ * spans never overlap, and their sum is the time during which the device was busy. Idle time between submissions is
+ * not counted. */
 #ifndef KD_VK_TIMING_H
 #define KD_VK_TIMING_H
 
@@ -14,12 +14,12 @@
 
 /* The timestamps of one submission. */
 struct kd_vk_stamps {
-    /* enough for the largest submission so far */
+    /* query pools for the largest submission so far */
     VkQueryPool *pools;
     size_t n_pools, n;                                           /* n: number of timestamps written */
     struct kd_vk_stamp_span { uint32_t pass, commands; } *spans; /* span i lies between stamps i and i + 1 */
     size_t n_spans, capacity;
-    bool broken; /* out of memory, so this submission is not timed */
+    bool broken; /* true if this submission is not timed, because memory ran out */
 };
 
 struct kd_vk_timing {

@@ -12,7 +12,7 @@ struct kd_vk_view {
     VkBufferView handle;
     VkFormat format;
     uint64_t offset, range;
-    uint64_t ticket; /* the last submission that uses the view, recorded or submitted */
+    uint64_t ticket; /* number of the last submission that uses the view, recorded or submitted */
 };
 
 struct kd_vk_views {
@@ -21,7 +21,7 @@ struct kd_vk_views {
     const char *name; /* of the buffer */
 };
 
-/* If a buffer has this many views, a new one replaces one that is idle. */
+/* If a buffer has this many views, a new view replaces an idle one. */
 #define KD_VK_VIEWS_KEPT 8
 
 /* Returns a view of these bytes for the submission with this number. Submissions up to `done` have finished. */

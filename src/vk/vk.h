@@ -36,7 +36,7 @@ struct kd_vk_info {
     uint64_t max_allocation_bytes;
     uint32_t max_push_bytes, subgroup_size, max_groups_x, max_groups_y, max_workgroup;
     bool float64, timestamps;
-    /* the device's driver is the one that is installed with the program, because the system has none */
+    /* true if the device's driver is the one that is installed with the program, because the system has none */
     bool own_driver;
     uint8_t uuid[16];        /* UUID of the device; it is the same with every driver and in every process */
     uint32_t driver_version; /* version in the driver's own encoding */
@@ -48,19 +48,19 @@ struct kd_vk_params {
     const char *cache_dir; /* folder of the pipeline cache; NULL: $XDG_CACHE_HOME/kerrd; "": none */
     /* enables the Khronos layer with synchronisation validation; KERRD_VALIDATE=1 does the same */
     bool validate;
-    /* Dispatches have no workgroups, and copies to the host give zeros. So nothing is computed, but drivers that
-     * compile kernels at their first dispatch still compile them. */
+    /* If true, dispatches have no workgroups, and copies to the host give zeros. So nothing is computed, but drivers
+     * that compile kernels at their first dispatch still compile them. */
     bool compiles_only;
-    /* There are no memory and no submissions, only pipelines. So a driver that lacks its hardware is enough (RADV with
-     * RADV_FORCE_FAMILY). */
+    /* If true, there are no memory and no submissions, only pipelines. So a driver that lacks its hardware is enough
+     * (RADV with RADV_FORCE_FAMILY). */
     bool pipelines_only;
     /* Deadline of one submission, after which it fails with KD_EDEVICE; 0: 60000. A software device that gets little
      * processor time may take up to 8 times as long. */
     uint32_t deadline_ms;
 };
 
-/* Lists all devices of this machine, usable or not, in the order of their indices. *out is malloc'd. If there is no
- * loader, driver or device it returns KD_EDEVICE with the reason, so *count is never 0 on KD_OK. */
+/* Lists all devices of this machine, usable or not, in the order of their indices. *out is malloc'd. Returns
+ * KD_EDEVICE with the reason if there is no loader, driver or device, so that *count is never 0 on KD_OK. */
 enum kd_status kd_vk_list(struct kd_vk_info **out, size_t *count, struct kd_error *error);
 
 enum kd_status kd_vk_create(const struct kd_vk_params *params, struct kd_vk **out, struct kd_error *error);
@@ -72,9 +72,10 @@ bool kd_vk_hangs(const struct kd_vk *vk); /* true if a submission has missed its
 const struct kd_vk_info *kd_vk_info(const struct kd_vk *vk);
 const char *kd_vk_choice(const struct kd_vk *vk);           /* one sentence: why this device was chosen */
 uint32_t kd_vk_validation_messages(const struct kd_vk *vk); /* number of warnings and errors so far */
-/* When the driver compiles a kernel. EARLY: when its pipeline is created. LATE: at its first dispatch, on the device's
- * queue; the driver then stores it in files for other devices of the process, as lavapipe does. LATE_KEEPS_NOTHING: as
- * LATE, but the driver stores nothing. dir: the folder of these files, "" if it is unknown. Any thread. */
+/* When the driver compiles a kernel. EARLY: when the kernel's pipeline is created. LATE: at the kernel's first
+ * dispatch, on the device's queue; the driver then stores the compiled kernel in files for other devices of the
+ * process, as lavapipe does. LATE_KEEPS_NOTHING: like LATE, but the driver stores nothing. dir: the folder of these
+ * files, "" if it is unknown. Any thread. */
 enum kd_vk_compiling { KD_VK_COMPILES_EARLY, KD_VK_COMPILES_LATE, KD_VK_COMPILES_LATE_KEEPS_NOTHING };
 enum kd_vk_compiling kd_vk_compiling(const struct kd_vk *vk, char dir[4096]);
 /* Identifies the folders in which the driver stores compiled kernels. The result changes if the folders are removed and
@@ -111,7 +112,7 @@ enum kd_vk_kind {
     KD_VK_TEXELS_QUAD, /* uniform utextureBuffer of R32G32B32A32_UINT, four words in each texel */
 };
 #define KD_VK_MAX_BINDINGS 12
-#define KD_VK_MAX_STORAGE 8 /* limit of storage bindings among these; a usable device permits that many */
+#define KD_VK_MAX_STORAGE 8 /* largest number of storage bindings of a kernel; a usable device permits that many */
 
 /* Pipelines. Set 0 has one buffer for each binding 0..n_buffers-1; it is storage unless `kinds` says otherwise. There
  * are push constants, and specialisation constants of 4 bytes. */
@@ -132,24 +133,24 @@ enum kd_status kd_vk_pipeline_create(struct kd_vk *vk, const struct kd_vk_pipeli
                                      struct kd_vk_pipeline **out, struct kd_error *error);
 void kd_vk_pipeline_destroy(struct kd_vk *vk, struct kd_vk_pipeline *pipeline);
 
-/* To run work, record it with the functions below, then call kd_vk_submit. Commands run in the order of recording. From
- * the declared accesses, the layer derives barriers and inserts them. They stand between commands that touch the same
- * buffer if one of them writes, before reads by the host, and after earlier submissions. Passes are timed. The times of
- * passes with the same name add up over dispatches and submissions. */
+/* To run work, record it with the functions below, then call kd_vk_submit. Commands run in the order of recording.
+ * From the declared accesses, the layer derives barriers and inserts them. The barriers stand between commands that
+ * touch the same buffer if one of them writes, before reads by the host, and after earlier submissions. Passes are
+ * timed. The times of passes with the same name add up over dispatches and submissions. */
 struct kd_vk_binding {
     struct kd_vk_buffer *buffer;
-    /* size 0: to the end of the buffer, for texels only complete ones; offset: a multiple of 256 */
+    /* size 0: up to the end of the buffer, or up to its last complete texel; offset: a multiple of 256 */
     uint64_t offset, size;
-    bool write; /* the shader writes the buffer, and may read it; storage only */
+    bool write; /* true if the shader writes the buffer, and may read it; storage only */
 };
 struct kd_vk_dispatch {
     const char *pass; /* must outlive the submission, for example a literal */
     const struct kd_vk_pipeline *pipeline;
     struct kd_vk_binding bindings[KD_VK_MAX_BINDINGS];
     const void *push;
-    uint32_t groups[3]; /* 0 counts as 1 */
-    /* If not NULL, it replaces `groups` by three words in this buffer, at this offset, which is a multiple of 4.
-     * Earlier kernels have written the words, within the device's limits. If one of them is 0, nothing is
+    uint32_t groups[3]; /* 0 counts as 1 group */
+    /* If not NULL, three words in this buffer replace `groups`. The words begin at the offset counts_at, a multiple
+     * of 4. Earlier kernels have written the words, within the device's limits. If one of the words is 0, nothing is
      * dispatched. */
     struct kd_vk_buffer *counts;
     uint64_t counts_at;
@@ -161,7 +162,7 @@ enum kd_status kd_vk_fill(struct kd_vk *vk, const char *pass, struct kd_vk_buffe
                           uint64_t size, uint32_t value, struct kd_error *error);
 
 /* Submits what was recorded, if anything, and returns at once. *ticket is the timeline value; ticket may be NULL. If
- * KD_VK_IN_FLIGHT submissions are under way it waits for the oldest. */
+ * KD_VK_IN_FLIGHT submissions are under way, kd_vk_submit waits for the oldest. */
 #define KD_VK_IN_FLIGHT 4
 enum kd_status kd_vk_submit(struct kd_vk *vk, uint64_t *ticket, struct kd_error *error);
 /* Waits for a ticket (0: everything submitted). Returns KD_EDEVICE if the deadline passes; the device is then lost. */
@@ -169,9 +170,9 @@ enum kd_status kd_vk_wait(struct kd_vk *vk, uint64_t ticket, struct kd_error *er
 /* Drops what was recorded but not submitted. */
 void kd_vk_discard(struct kd_vk *vk);
 
-/* Device time by the name of the pass, since the last reset. Only submissions count that kd_vk_submit or kd_vk_wait has
- * found finished. pass: a copy of the caller's name, valid while the device lives. Beyond KD_VK_MAX_PASSES names, the
- * others are added up as "other". There are no times if the device has no timestamps. */
+/* Device time by the name of the pass, since the last reset. Only finished submissions count, as far as kd_vk_submit
+ * or kd_vk_wait has found them finished. pass: a copy of the caller's name, valid while the device lives. Beyond
+ * KD_VK_MAX_PASSES names, the others are added up as "other". There are no times if the device has no timestamps. */
 struct kd_vk_time {
     const char *pass;
     double ms;

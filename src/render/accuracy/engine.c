@@ -4,11 +4,11 @@
 
 enum { PROFILES = KD_PROFILE_REFERENCE + 1 };
 
-/* Default number of steps of each engine; docs/accuracy.md has the engines' errors. */
+/* Default number of steps of each engine. docs/accuracy.md lists the errors of the engines. */
 static const struct {
     const char *name;
-    uint32_t steps[2]; /* default by precision, for requests without steps and without a profile */
-    /* default by precision, for each of the profiles draft, interactive, balanced, high, reference */
+    uint32_t steps[2]; /* number of steps for each precision, if the request names neither steps nor a profile */
+    /* number of steps for each precision and each profile: draft, interactive, balanced, high, reference */
     uint32_t profile[2][PROFILES];
 } engines[KD_ENGINE_COUNT] = {
     [KD_ENGINE_CLOSED] = { .name = "closed" },
@@ -31,10 +31,11 @@ uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision)
     return engines[engine].steps[precision];
 }
 
-/* The largest number of steps that can be requested, so that every ray is completed. The limit exists because llvmpipe
- * silently ends a kernel's loops after 65535 rounds, counted over all loops together. In Mino time a ray takes at most
- * 12 + KD_RAYS_MAX_ORDERS half periods, each of this many steps. For the Kerr-Schild engines, rays_kerr_schild.comp
- * counts the rounds. Tao's engine has a lower limit, because each of its steps has an inner loop. */
+/* Largest number of steps that a request may name. With this limit every ray is traced to its end, although llvmpipe
+ * silently ends the loops of a kernel after 65535 rounds, counted over all loops together. In Mino time a ray takes
+ * at most 12 + KD_RAYS_MAX_ORDERS half periods, each of this many steps. For the Kerr-Schild engines,
+ * rays_kerr_schild.comp counts the rounds. Tao's engine has a lower limit, because each of its steps contains an
+ * inner loop. */
 uint32_t kd_engine_most_steps(enum kd_engine engine)
 {
     return engine == KD_ENGINE_KS_TAO6 ? 512 : engine >= KD_ENGINE_KS_EULER ? 1024 : KD_STEPS_MAX;
@@ -47,8 +48,8 @@ enum kd_status kd_engine_steps_error(enum kd_engine engine, uint32_t steps, stru
                           steps, kd_engine_name(engine), kd_engine_most_steps(engine));
 }
 
-/* In a scene's enumeration the first word is "auto". The other words are the names of our enum's values, in the same
- * order (tests/unit/engine.c). */
+/* Each of these fields of a scene has "auto" as its first word. Its other words are the names of our enum's values, in
+ * the same order (tests/unit/engine.c). */
 struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene)
 {
     const struct kd_accuracy *a = &scene->accuracy;
@@ -100,7 +101,7 @@ static struct kd_setting by_profile(const struct kd_accuracy_request *asked_accu
     s.precision = asked_accuracy->precision >= 0         ? (enum kd_precision)asked_accuracy->precision
                   : s.engine == KD_ENGINE_CLOSED || fine ? KD_PRECISION_F64
                                                          : KD_PRECISION_F32;
-    /* A precision or an engine may be replaced if it comes from the profile and not from the request. */
+    /* A precision or an engine that the profile chose may be replaced. One that the request names may not. */
     if (s.precision == KD_PRECISION_F64 && !float64 && asked_accuracy->precision < 0 && asked_accuracy->engine < 0 &&
         !asked_accuracy->steps)
         s.engine = KD_ENGINE_CLOSED;

@@ -11,24 +11,25 @@
 #include <stdint.h>
 
 enum kd_engine {
-    /* elliptic functions. On the CPU in double precision (the reference), or on the device in single precision for rays
-     * outside the photon orbits */
+    /* closed form with elliptic functions: on the CPU in double precision (the reference), or on the device in single
+     * precision for rays outside the photon orbits */
     KD_ENGINE_CLOSED,
     KD_ENGINE_MINO_RKN4, /* Mino time on the device: Nystroem's method of order 4 */
     KD_ENGINE_MINO_RKN6, /* Mino time on the device: Albrecht's Nystroem method of order 6 */
     KD_ENGINE_KS_EULER,  /* the Kerr-Schild Hamiltonian on the device: symplectic Euler */
     KD_ENGINE_KS_RK4,    /* the Kerr-Schild Hamiltonian on the device: classical Runge-Kutta */
-    KD_ENGINE_KS_TAO6, /* the Kerr-Schild Hamiltonian in Tao's extended phase space, on the device: Yoshida's method of
-                          order 6. No engine named KS gives the delay */
+    /* the Kerr-Schild Hamiltonian in Tao's extended phase space, on the device: Yoshida's method of order 6. None of
+       the three Kerr-Schild engines computes the delay */
+    KD_ENGINE_KS_TAO6,
     KD_ENGINE_COUNT
 };
 enum kd_precision { KD_PRECISION_F32, KD_PRECISION_F64 };
 
 const char *kd_engine_name(
-    enum kd_engine engine); /* "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4", "ks-tao6" */
+    enum kd_engine engine); /* returns "closed", "mino-rkn4", "mino-rkn6", "ks-euler", "ks-rk4" or "ks-tao6" */
 const char *kd_precision_name(enum kd_precision precision); /* "f32", "f64" */
 
-#define KD_STEPS_MAX 2048 /* limit of steps for any engine; some engines have a lower one */
+#define KD_STEPS_MAX 2048 /* largest number of steps of any engine; some engines have a lower limit */
 
 /* Default number of steps of an engine. */
 uint32_t kd_engine_steps(enum kd_engine engine, enum kd_precision precision);
@@ -40,12 +41,12 @@ struct kd_accuracy_table;
 
 /* A request for accuracy, as given by accuracy.* of a scene or of a list of rays. */
 struct kd_accuracy_request {
-    int profile;    /* enum kd_profile; -1: none was named */
-    int engine;     /* enum kd_engine; -1: any */
-    int precision;  /* enum kd_precision; -1: any */
+    int profile;    /* value of enum kd_profile; -1: the request names no profile */
+    int engine;     /* value of enum kd_engine; -1: any engine */
+    int precision;  /* value of enum kd_precision; -1: any precision */
     uint32_t steps; /* number of steps per half period, a multiple of 4; 0: the profile or the engine sets it */
-    /* largest relative error of the crossing radii according to the table; INFINITY: no tolerance was requested, so
-     * the profile decides */
+    /* largest permitted relative error of the crossing radii, as the accuracy table lists it; INFINITY: the request
+     * names no tolerance, so the profile decides */
     double tolerance;
 };
 
@@ -53,12 +54,12 @@ struct kd_setting {
     enum kd_engine engine;
     enum kd_precision precision;
     uint32_t steps; /* number of steps; 0 for the closed form */
-    /* relative error of the crossing radii that the table gives for this setting; NaN: no tolerance was requested */
+    /* relative error of the crossing radii that the table lists for this setting; NaN: no tolerance is requested */
     double holds;
 };
 
-/* The closed form's own error estimate is within this tolerance for 99 of 100 rays (docs/accuracy.md). If no row of
- * the table meets a tolerance, the closed form is used. */
+/* Tolerance that the closed form meets: for 99 of 100 rays its own error estimate is smaller (docs/accuracy.md). The
+ * closed form is used if no row of the table meets the requested tolerance. */
 #define KD_CLOSED_HOLDS 1e-12
 
 #define KD_WISH_NONE { .profile = -1, .engine = -1, .precision = -1, .tolerance = INFINITY }
@@ -68,13 +69,13 @@ struct kd_accuracy_request kd_accuracy_request_of(const struct kd_scene *scene);
 /* True if the request needs a device. If not, the closed form on the CPU serves the request. */
 bool kd_accuracy_request_needs_device(const struct kd_accuracy_request *asked_accuracy);
 
-/* Resolves a request. Without a tolerance, the profile supplies the engine, the precision and the number of steps that
- * the request does not name. Without a profile, the setting is the closed form in double precision. With a tolerance,
- * the function picks the fastest row of the table that meets the tolerance, among the permitted engines and precisions.
- * The request must then not name steps. The closed form is used if no row meets the tolerance, and if a profile needs
- * double precision that the device lacks. float64: whether the device has double precision. Returns KD_EINVAL at
- * /accuracy/... for a contradiction, a tolerance that cannot be met, or a setting that this device does not support.
- * table may be NULL if no tolerance is requested. */
+/* Resolves a request to a setting. Without a tolerance, the profile supplies the engine, the precision and the number
+ * of steps, unless the request names them. If there is no profile either, the setting is the closed form in double
+ * precision. With a tolerance, the function picks the fastest row of the table that meets the tolerance, among the
+ * permitted engines and precisions. The request must then not name steps. The closed form is used in two cases: no
+ * row meets the tolerance, or a profile needs double precision and the device lacks it. float64: true if the device
+ * has double precision. Returns KD_EINVAL at /accuracy/... for a contradiction, a tolerance that cannot be met, or a
+ * setting that this device does not support. table may be NULL if no tolerance is requested. */
 enum kd_status kd_setting_of(const struct kd_accuracy_request *asked_accuracy, const struct kd_accuracy_table *table,
                              bool float64, struct kd_setting *out, struct kd_error *error);
 

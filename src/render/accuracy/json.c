@@ -49,7 +49,7 @@ static void add_row(struct kd_json *json, const struct kd_accuracy_table *table,
     kd_json_string(json, "engine", kd_engine_name(row->engine));
     kd_json_string(json, "precision", kd_precision_name(row->precision));
     kd_json_number(json, "steps", row->steps);
-    /* written for readers only; it is derived from the row's other numbers */
+    /* for human readers only; computed from the row's other numbers */
     add_figure(json, "holds", kd_accuracy_holds(row));
     kd_json_object(json, "sets");
     for (int k = 0; k < KD_ACCURACY_SETS; k++)
@@ -95,8 +95,8 @@ static double figure(const cJSON *object, const char *name)
     return cJSON_IsNumber(item) ? item->valuedouble : NAN;
 }
 
-/* Reads a whole number of the document. Anything else, or a number that is too large, becomes UINT32_MAX, which no
- * reader accepts. */
+/* Reads a whole number of the document. Any other value, and a number that is too large, becomes UINT32_MAX. No
+ * reader accepts that number. */
 static uint32_t whole(const cJSON *object, const char *name)
 {
     double value = figure(object, name);

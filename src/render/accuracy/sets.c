@@ -41,8 +41,8 @@ uint32_t kd_accuracy_views(enum kd_accuracy_set set, struct kd_accuracy_view out
     }
 }
 
-/* One coordinate, 0 to 1, of point k of the sequence in the unit square. `step` is the sequence's step along that
- * axis. */
+/* One coordinate, 0 to 1, of point k of the sequence in the unit square. `step` is the sequence's step along this
+ * coordinate. */
 static double fraction(size_t k, double step)
 {
     double x = 0.5 + step * (double)(k + 1);

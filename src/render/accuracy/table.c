@@ -31,7 +31,7 @@ static enum kd_status refuse(const struct kd_accuracy_table *table, const struct
         return kd_error_field(error, "/accuracy/tolerance",
                               "the accuracy table of this device has no reliable row for this request; `kerrd bench "
                               "accuracy` makes a new table");
-    /* Rounded up, so that a request for the printed number succeeds. */
+    /* The printed error is rounded up, so that a request with this number as its tolerance succeeds. */
     return kd_error_field(
         error, "/accuracy/tolerance",
         "tolerance is %.3g; %s reaches %.3g at best (%s %s with %u steps), but the engine \"closed\", with which these "

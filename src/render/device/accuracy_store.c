@@ -12,7 +12,7 @@
 #include <string.h>
 
 #define MAKE "`kerrd bench accuracy` makes one"
-#define FILE_MAX (1u << 20) /* a table is about 100 000 bytes */
+#define FILE_MAX (1u << 20) /* largest size of the file; a table has about 100 000 bytes */
 
 char *kd_accuracy_path(const struct kd_renderer *renderer)
 {
@@ -43,7 +43,7 @@ static enum kd_status read_file(const char *path, struct kd_buffer *out, struct 
     return kd_error_set(error, KD_EIO, "the accuracy table of this device cannot be read (%s); " MAKE, strerror(errno));
 }
 
-/* Reads the file's bytes, if they are a valid table. */
+/* Reads the file, and checks that its content is a valid table. */
 static enum kd_status load(const char *path, struct kd_buffer *text, struct kd_accuracy_table *table,
                            struct kd_error *error)
 {

@@ -96,7 +96,7 @@ enum kd_status kd_asset_reader_wait(struct kd_asset_reader *reader, const struct
             pthread_cond_wait(&reader->changed, &reader->lock);
             continue;
         }
-        reader->asked[reader->n_asked++] = *request; /* if no thread runs, the list is empty */
+        reader->asked[reader->n_asked++] = *request; /* no thread runs, so the list was empty before */
         reader->runs = true;                         /* the calling thread does the work of the missing thread */
         while (reader->n_asked)
             make_first(reader);

@@ -1,6 +1,6 @@
-/* A queue of requests for panoramas and grids of matter. These objects are made from assets, which takes too long for
- * the thread that owns the device. A thread makes them one after the other, and ends when there is no request. The
- * owner caches the results. Any thread, unless stated otherwise. */
+/* A queue of requests for panoramas and grids of matter. They are made from assets, which takes too long for the
+ * thread that owns the device. So a thread of the queue makes them one after the other, and ends when there is no
+ * request. The owner caches the results. Any thread, unless stated otherwise. */
 #ifndef KD_RENDER_DEVICE_ASSET_READER_H
 #define KD_RENDER_DEVICE_ASSET_READER_H
 
@@ -13,17 +13,18 @@
 struct kd_asset_request {
     char of[KD_ASSET_NAME]; /* the asset's hash, or another name that the owner chooses */
     int32_t seed;           /* used by the owner only */
-    bool ahead;             /* the object is loaded in advance, and nobody waits for it */
-    bool whole;             /* for the owner: the object itself is needed, and its description is not enough */
+    bool ahead;             /* true if the object is loaded in advance, so that nobody waits for it */
+    bool whole;             /* true if the owner needs the object itself, and not only its description */
 };
 
-/* Callbacks of the owner. Only one call of `make` runs at a time, so the owner can store its result until `keep`. */
+/* Callbacks of the owner. Only one call of `make` runs at a time, so the owner needs to store only one result between
+ * `make` and `keep`. */
 struct kd_asset_maker {
     bool (*is_cached)(void *owner, const struct kd_asset_request *request); /* called with the lock */
     /* evicts objects before `make`; called with the lock */
     void (*make_room)(void *owner);
-    /* Makes the object; called without the lock. *invalid is false at the call. The function sets it if the asset can
-     * never be valid, so that the asset is not read again. */
+    /* Makes the object; called without the lock. *invalid is false when the function is called. The function sets
+     * *invalid if the asset can never be valid, so that the asset is not read again. */
     enum kd_status (*make)(void *owner, const struct kd_asset_request *request, bool *invalid, struct kd_error *error);
     /* caches what `make` made; called with the lock */
     void (*keep)(void *owner, const struct kd_asset_request *request);
@@ -35,11 +36,11 @@ enum { KD_ASSET_REQUESTS = 16 };
 struct kd_asset_reader {
     pthread_mutex_t lock; /* protects all members below, and the owner's cache */
     pthread_cond_t changed;
-    struct kd_asset_request asked[KD_ASSET_REQUESTS]; /* the first one is in progress */
+    struct kd_asset_request asked[KD_ASSET_REQUESTS]; /* requests, oldest first; the first one is in progress */
     unsigned n_asked;
-    bool runs;                  /* the thread is running */
-    char broken[KD_ASSET_NAME]; /* the last request that failed; "": none failed */
-    bool invalid;               /* `broken` failed because the asset is invalid */
+    bool runs;                  /* true if the thread is running */
+    char broken[KD_ASSET_NAME]; /* name of the last request that failed; "": none failed */
+    bool invalid;               /* true if `broken` failed because its asset is invalid */
     struct kd_error why;
     const struct kd_asset_maker *maker;
     void *owner;
@@ -52,9 +53,9 @@ void kd_asset_reader_init(struct kd_asset_reader *reader, const struct kd_asset_
 /* Stops first. */
 void kd_asset_reader_finish(struct kd_asset_reader *reader);
 
-/* Adds a request unless the object is cached. A waiting client calls this again from time to time; an object that was
- * evicted meanwhile is then made once more. Does nothing if no thread can be created. Returns whether the request is in
- * progress. Called with the lock. */
+/* Adds a request unless the object is cached. A waiting client calls this function repeatedly; if the object was
+ * evicted meanwhile, it is made once more. Does nothing if no thread can be created. Returns whether the request is
+ * in progress. Called with the lock. */
 bool kd_asset_reader_begin(struct kd_asset_reader *reader, const struct kd_asset_request *request);
 /* Waits until the object is cached, and makes it on the calling thread if the reader's thread does not run. On failure
  * returns the error of `make`. Called with the lock. */
@@ -65,7 +66,7 @@ bool kd_asset_reader_is_idle(const struct kd_asset_reader *reader);
 /* Waits for the request in progress and drops all others. `made` is not called again before a new request. */
 void kd_asset_reader_stop(struct kd_asset_reader *reader);
 
-/* Takes the bytes of a field's asset; the caller must give them back. Returns KD_EINVAL at `pointer` if the asset's
+/* Gets the bytes of a field's asset; the caller must give them back. Returns KD_EINVAL at `pointer` if the asset's
  * file is missing. */
 enum kd_status kd_asset_reader_take(const struct kd_assets *assets, const char *hash, const char *pointer,
                                     const char *field, struct kd_asset_bytes *out, struct kd_error *error);

@@ -43,17 +43,18 @@ struct kd_renderer {
     struct kd_prepared prepared;
     struct kd_background_render background_renders[KD_BACKGROUND_RENDERS];
     uint64_t backgrounds_used;
-    /* buffers of rays/device.c, reused for the next list: the list, its results, and both on the host */
+    /* reused for the next list of rays (rays/device.c): buffers for the list and for its results, and a buffer on the
+     * host for both */
     struct kd_vk_buffer *rays[2][3];
     struct kd_rays_pace {
         enum kd_engine engine;
         enum kd_precision precision;
         uint32_t steps, orders, size;
     } rays_pace;
-    bool passing; /* this member and the next two have the meaning that they have in kd_renderer_params */
+    bool passing; /* `passing`, `lacks` and `lacks_user` have the same meaning as in kd_renderer_params */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
-    struct kd_emit_state *emit; /* numbers and tables of the emitters, as the last frame left them */
+    struct kd_emit_state *emit; /* numbers and tables of the emitters after the last frame */
     struct kd_panoramas panoramas;
     struct kd_grids grids;
     struct kd_normalised normalised;
@@ -62,16 +63,16 @@ struct kd_renderer {
     struct kd_memory_watch memory;
     _Atomic uint64_t held; /* bytes of device buffers after the last frame */
     _Atomic uint64_t kept_bytes[KD_N_CACHE_KINDS];
-    _Atomic uint64_t opened_bytes;                /* bytes that were resident after the device was last opened */
-    _Atomic uint64_t started_bytes, started_heap; /* values after the device was first opened: resident bytes, and
-                                                   * heap bytes in use */
-    struct kd_accuracy_table *accuracy; /* accuracy table of this device, as on disk when the renderer was created;
-                                         * NULL: none */
+    _Atomic uint64_t opened_bytes; /* bytes that were resident after the device was last opened */
+    /* values when the device had first been opened. started_bytes: resident bytes; started_heap: heap bytes in use */
+    _Atomic uint64_t started_bytes, started_heap;
+    /* accuracy table of this device, read from disk when the renderer was created; NULL: none */
+    struct kd_accuracy_table *accuracy;
     struct kd_verdict verdict;
     struct kd_capacity stored;       /* capacity as it is stored in the file */
     struct kd_slice_pace slice_pace; /* pace of pictures that release the device between slices */
     uint32_t frames;                 /* number of frames so far, counted by learn.c */
-    /* if true, the cost of a pass is the smallest of its measured costs; otherwise it is their mean */
+    /* if true, the cost of a pass is the smallest of its measured costs; if false, the cost is their mean */
     bool probing;
     char name[800]; /* `device` and `driver`, joined */
     char device[256], driver[520];

@@ -258,7 +258,7 @@ static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, 
     to->grid_scale = (float)(1 / KD_MATTER_FIELD);
     to->inner = (float)fmin(inner, outer);
     to->outer = (float)outer;
-    /* if no other volume is present, the march can be limited to the grid's own radii */
+    /* if the scene has no other volume, the march can be limited to the grid's own radii */
     if (kd_scene_is_radio_alone(scene)) {
         out->frame.along_least = (float)(1 / outer);
         out->frame.along_most = (float)fmin(1 / fmin(inner, outer), 1e30);

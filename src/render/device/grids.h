@@ -14,7 +14,7 @@ struct kd_cached_grid {
     struct kd_matter_grid grid; /* nodes and places: up to 80 MiB, present until they are uploaded; otherwise NULL */
     uint64_t used;              /* value of a counter at the last use, to find the least recently used grid */
 };
-/* KD_GRIDS_READ: maximum number of grids whose nodes wait to be uploaded */
+/* KD_GRIDS: number of cached descriptions. KD_GRIDS_READ: maximum number of grids whose nodes wait to be uploaded. */
 enum { KD_GRIDS = 8, KD_GRIDS_READ = 2 };
 
 struct kd_grids {
@@ -22,15 +22,15 @@ struct kd_grids {
     struct kd_cached_grid entries[KD_GRIDS];
     struct kd_matter_grid made; /* grid made by the reader's thread, which then caches it */
     uint64_t used;
-    char uploaded[KD_ASSET_NAME];   /* the grid that was last found on the device; "": no grid */
+    char uploaded[KD_ASSET_NAME];   /* hash of the grid that was last found on the device; "": no grid */
     const struct kd_assets *assets; /* NULL: there are no assets */
     bool blank; /* true on a device that only compiles: no file is read, and every grid has a few empty nodes */
 };
 void kd_grids_init(struct kd_grids *grids, const struct kd_assets *assets, void (*made)(void *user), void *user);
 
 /* Starts reading the grid of a scene, if the scene has a grid that is neither cached nor on the device. Returns whether
- * the reading is in progress. A waiting client calls this again from time to time; a grid that was evicted meanwhile is
- * then read once more. */
+ * the reading is in progress. A waiting client calls this function repeatedly; if the grid was evicted meanwhile, it is
+ * read once more. */
 bool kd_grid_begin(struct kd_grids *grids, const struct kd_scene *scene);
 /* Waits for the grid in progress and drops all other requests. `made` is not called again before a new request. */
 void kd_grids_stop(struct kd_grids *grids);

@@ -89,7 +89,7 @@ _Static_assert(KD_OWN_BINDING + KD_OWN_COUNT <= KD_VK_MAX_BINDINGS && 2 + (0 KD_
 #define KD_KIND_stored KD_VK_STORAGE
 #define KD_KIND_quads KD_VK_STORAGE
 #define KD_KIND_quad_texels KD_VK_TEXELS_QUAD
-/* The bindings of a kernel of light. It reads data as storage buffers where that is possible. */
+/* Bindings of a light kernel that reads its data as storage buffers where that is possible. */
 #define STORED_KINDS \
     { [1] = KD_VK_UNIFORM, \
       [2] = KD_VK_TEXELS_RGBA, \
@@ -427,8 +427,8 @@ static void *make_wishes(void *user)
     return NULL;
 }
 
-/* Sorts by SPIR-V length, longest first, because the longest kernel takes longest to make. If it were started last, one
- * thread would work on it while the others are idle. */
+/* Sorts by SPIR-V length, longest first, because the longest kernel takes longest to make. If that kernel were
+ * started last, one thread would still work on it when all others are idle. */
 static int longer_first(const void *a, const void *b)
 {
     const size_t x = ((const struct kd_kernel_request *)a)->source->spirv_bytes,

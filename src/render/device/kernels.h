@@ -19,7 +19,7 @@ enum kd_kernel {
     KD_KERNEL_RAYS_F64,
     KD_KERNEL_RAYS_KS_F32,
     KD_KERNEL_RAYS_KS_F64,
-    KD_KERNEL_RAYS_TRACE_F32, /* the four kernels of rays above, in variants that also record each step */
+    KD_KERNEL_RAYS_TRACE_F32, /* variants of the four ray kernels above that also record each step */
     KD_KERNEL_RAYS_TRACE_F64,
     KD_KERNEL_RAYS_KS_TRACE_F32,
     KD_KERNEL_RAYS_KS_TRACE_F64,
@@ -31,7 +31,8 @@ enum kd_kernel {
     KD_KERNEL_STAR_IMAGES_TEXELS,
     KD_KERNEL_TRANSFER,
     KD_KERNEL_TRANSFER_TEXELS, /* the transfer kernel; it reads texels */
-    /* transfer kernel for a single ray, with a report of each emitter; the next one is for rays through volumes */
+    /* transfer kernel for a single ray, with a report of each emitter; the kernel after it does the same for rays
+     * through volumes */
     KD_KERNEL_TRANSFER_PROBE,
     KD_KERNEL_MARCH_PROBE,
     KD_KERNEL_LAYERS,
@@ -40,7 +41,7 @@ enum kd_kernel {
     KD_KERNEL_LAYERS_MARCH,
     KD_KERNEL_PHOTOMETRY,
     KD_KERNEL_EXPOSE,
-    KD_KERNEL_BLOOM_BRIGHT, /* each bloom and beam kernel is followed by its variant for texels */
+    KD_KERNEL_BLOOM_BRIGHT, /* each bloom and beam kernel is followed by its variant that reads texels */
     KD_KERNEL_BLOOM_BRIGHT_TEXELS,
     KD_KERNEL_BLOOM_GATHER,
     KD_KERNEL_BLOOM_GATHER_TEXELS,
@@ -57,7 +58,7 @@ enum kd_kernel {
     KD_KERNEL_BEAM_SPREAD,
     KD_KERNEL_BEAM_SPREAD_TEXELS,
     KD_KERNEL_POST,
-    KD_KERNEL_POST_TEXELS, /* the variant of the kernel above for texels; kd_kernel_post chooses between the two */
+    KD_KERNEL_POST_TEXELS, /* variant of the kernel above that reads texels; kd_kernel_post chooses between the two */
     KD_KERNEL_POST_BLOOM,
     KD_KERNEL_POST_BLOOM_TEXELS,
     KD_KERNEL_POST_HEAT,
@@ -90,7 +91,7 @@ struct kd_kernel_requests {
 };
 struct kd_kernels {
     struct kd_kernel_entry entries[KD_KERNELS_KEPT];
-    size_t limit; /* number of entries that may be used; 0: all. A test sets it before the first request */
+    size_t limit; /* number of entries that may be used; 0: all. A test sets this limit before the first request */
     uint64_t clock;
     bool noting;
     struct kd_kernel_requests wishes;
@@ -111,14 +112,15 @@ enum kd_status kd_kernels_get_of(struct kd_kernels *kernels, struct kd_vk *vk,
  * most four. If a kernel fails, the next kd_kernels_get reports its error. */
 void kd_kernels_note(struct kd_kernels *kernels);
 void kd_kernels_make(struct kd_kernels *kernels, struct kd_vk *vk);
-/* kd_kernels_make in three steps. The first function ends recording and returns the noted kernels. The second makes
- * them. The third adds them to the cache. The second may run on any thread while another thread uses the device, as
- * long as the device stays open. */
+/* These three functions are the steps of kd_kernels_make. kd_kernels_noted ends recording and returns the noted
+ * kernels. The second function makes them. The third function adds them to the cache. The second may run on any
+ * thread while another thread uses the device, as long as the device stays open. */
 void kd_kernels_noted(struct kd_kernels *kernels, struct kd_kernel_requests *out);
 void kd_kernel_requests_make(struct kd_kernel_requests *wishes, struct kd_vk *vk);
 void kd_kernels_keep(struct kd_kernels *kernels, struct kd_vk *vk, const struct kd_kernel_requests *made);
 /* True if the device should read the radiance of this many pixels as texels of four floats. A software device reads
- * texels in a third of the time that a storage buffer takes. Devices differ in how many texels they can bind. */
+ * texels in a third of the time that it needs for a storage buffer. The number of texels that can be bound differs
+ * between devices. */
 bool kd_kernels_texels(const struct kd_vk *vk, uint64_t pixels);
 /* like kd_kernels_texels, for this number of bytes of any data */
 bool kd_kernels_texels_of(const struct kd_vk *vk, uint64_t bytes);

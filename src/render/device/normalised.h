@@ -7,8 +7,8 @@
 
 enum { KD_NORMALISED = 16 };
 
-/* hash: hash of the flux and of everything in the scene on which the flux depends. matter: the same hash without the
- * camera and the picture's shape. */
+/* hash: hash of the flux and of everything in the scene on which the flux depends. matter: hash of the same data
+ * without the camera and the picture's shape. */
 struct kd_normal {
     char hash[65], matter[65];
     double scale;

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* True if the request names an asset. An asset's name is its hash, which has no space; a Milky Way's name, "seed N",
- * has one. */
+/* True if the request names an asset. The name of an asset is its hash, which contains no space. The name of a Milky
+ * Way, "seed N", contains a space. */
 static bool is_image(const struct kd_asset_request *request) { return !strchr(request->of, ' '); }
 
 static enum kd_status fill(struct kd_panorama *p, struct kd_sky_picture *picture, struct kd_error *error)

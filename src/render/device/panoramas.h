@@ -1,6 +1,7 @@
-/* Panoramas of the sky on the host. A panorama is the procedural Milky Way of some seed, or sky.image. The renderer
- * caches the last KD_PANORAMAS, up to 45 MB each. A thread makes them (asset_reader.h). The first Milky Way of a
- * process is cached in a file for later ones (render/sky/milky_way_file.h). Any thread, unless stated otherwise. */
+/* Panoramas of the sky on the host. A panorama is sky.image, or the procedural Milky Way of some seed. The renderer
+ * caches the last KD_PANORAMAS panoramas, up to 45 MB each. A thread makes them (asset_reader.h). The first Milky Way
+ * of a process is stored in a file for later processes (render/sky/milky_way_file.h). Any thread, unless stated
+ * otherwise. */
 #ifndef KD_RENDER_DEVICE_PANORAMAS_H
 #define KD_RENDER_DEVICE_PANORAMAS_H
 
@@ -12,10 +13,10 @@
 struct kd_panorama {
     char of[KD_ASSET_NAME];     /* the asset's hash, or "seed N"; "": the slot is free */
     uint32_t *words;            /* all levels: render/sky/panorama.h */
-    uint32_t columns, rows;     /* size of the finest level */
+    uint32_t columns, rows;     /* columns and rows of the finest level */
     char credit[KD_SKY_CREDIT]; /* author of the picture; "": unknown */
     uint64_t used;              /* value of a counter at the last use */
-    bool shown;                 /* the panorama was delivered to a request */
+    bool shown;                 /* true if the panorama was delivered to a request */
 };
 enum { KD_PANORAMAS = 3 };
 
@@ -23,7 +24,7 @@ struct kd_panoramas {
     struct kd_asset_reader reader;               /* its lock protects all members below */
     struct kd_panorama at[KD_PANORAMAS], *given; /* given: the last result of kd_panorama_of; it is not evicted */
     struct kd_panorama made;                     /* panorama made by the reader's thread, which then caches it */
-    bool recalled;                               /* `made` was read from the file */
+    bool recalled;                               /* true if `made` was read from the file */
     const struct kd_panorama *fresh;             /* a new Milky Way that must be written to the file, or NULL */
     uint64_t used;
     const struct kd_assets *assets; /* NULL: there are no assets */
@@ -38,17 +39,17 @@ void kd_panoramas_init(struct kd_panoramas *panoramas, const struct kd_assets *a
  * before the first request. */
 void kd_panoramas_keep_at(struct kd_panoramas *panoramas, char *path);
 
-/* Starts making the panorama of a scene, if the scene has one and it is not cached. Returns whether the panorama is in
- * progress. A waiting client calls this again from time to time; a panorama that was evicted meanwhile is then made
+/* Starts making the panorama of a scene, if the scene has one and it is not cached. Returns whether the panorama is
+ * in progress. A waiting client calls this function repeatedly; if the panorama was evicted meanwhile, it is made
  * once more. Panoramas that were not delivered yet are evicted last. */
 bool kd_panorama_begin(struct kd_panoramas *panoramas, const struct kd_scene *scene);
-/* Starts reading an asset that may become a sky, so that later requests wait less. Does so only if a slot is free and
- * nothing else is in progress. Such a panorama is evicted first. An error is not reported here, but to the caller that
- * requests the panorama. */
+/* Starts reading an asset that may become a sky, so that later requests wait less. Does nothing if no slot is free or
+ * if another request is in progress. A panorama read in advance is evicted first. An error is not reported here, but
+ * to the caller that requests the panorama. */
 void kd_panorama_ahead(struct kd_panoramas *panoramas, const char *hash);
-/* Gets the panorama of a scene that has one, and waits for it if necessary. A Milky Way takes some tenths of a second,
- * a large picture a second. The panorama is valid until the next call. Render thread only. Returns KD_EINVAL at
- * /sky/image if the asset is gone or is not a valid picture, or KD_ENOMEM. */
+/* Gets the panorama of a scene that has one. Waits until the panorama is made, some tenths of a second for a Milky
+ * Way and a second for a large picture. The panorama is valid until the next call. Render thread only. Returns
+ * KD_ENOMEM, or KD_EINVAL at /sky/image if the asset is gone or is not a valid picture. */
 enum kd_status kd_panorama_of(struct kd_panoramas *panoramas, const struct kd_scene *scene,
                               const struct kd_panorama **out, struct kd_error *error);
 /* Waits for the panorama in progress and drops all other requests. `made` is not called again before a new request. */

@@ -18,7 +18,7 @@ static uint64_t free_bytes(const struct kd_vk_info *info)
     return info->budget_bytes && info->budget_bytes < share ? info->budget_bytes : share;
 }
 
-/* Costs until something has been measured: orders of magnitude per item for this type of device. */
+/* Costs that are used until some were measured: the order of magnitude per item on this type of device. */
 static struct kd_capacity guess(const struct kd_vk_info *info, uint64_t memory_bytes)
 {
     uint64_t device = free_bytes(info), given = kd_memory_main(memory_bytes);
@@ -175,7 +175,7 @@ void kd_renderer_destroy(struct kd_renderer *renderer)
     free(renderer);
 }
 
-/* True if two descriptions are of the same device. A new driver version counts as another device, because pictures
+/* True if both descriptions are of the same device. A new driver version counts as another device, because pictures
  * and measured values may differ. */
 static bool is_same(const struct kd_vk_info *a, const struct kd_vk_info *b)
 {

@@ -1,5 +1,5 @@
-/* A renderer: one device, and what is cached for it between pictures. One thread at a time owns a struct
- * kd_renderer, and passes it on under a lock. Other threads may call only functions marked "any thread". */
+/* A renderer: one device, and the data that are cached for it between pictures. A struct kd_renderer is owned by one
+ * thread at a time, and is passed on under a lock. Other threads may call only functions marked "any thread". */
 #ifndef KD_RENDER_DEVICE_RENDERER_H
 #define KD_RENDER_DEVICE_RENDERER_H
 
@@ -19,21 +19,21 @@ struct kd_renderer_params {
     const char *device;    /* same meaning as in kd_vk_params */
     const char *cache_dir; /* same meaning as in kd_vk_params */
     bool validate;
-    /* tests a device that is used for the first time, which takes half a second: kd_first_start
-     * (selftest/first_start.h), or NULL for no test */
+    /* test of a device that is used for the first time, which takes half a second: kd_first_start
+     * (selftest/first_start.h); NULL: no test */
     enum kd_status (*prove)(struct kd_renderer *renderer, struct kd_error *error);
     const struct kd_assets *assets; /* assets that scenes name (scene/asset.h); NULL: none */
     /* called on another thread when kd_renderer_assets_begin may have a new result; may be NULL */
     void (*asset_read)(void *user);
     void *asset_read_user;
-    /* Called when a picture needs kernels that were not foreseen; takes ownership of the compilation. background: the
-     * picture is rendered by kd_render_in_background, so others may use the renderer before this returns. If the
-     * function returns false, the picture is abandoned with KD_ECANCELLED. If `lacks` is NULL, the thread that owns the
-     * device makes the kernels. */
+    /* Called when a picture needs kernels that are not yet compiled; takes ownership of the compilation. background:
+     * true if the picture is rendered by kd_render_in_background, so that others may use the renderer before this
+     * function returns. If the function returns false, the picture is abandoned with KD_ECANCELLED. If `lacks` is
+     * NULL, the thread that owns the device makes the kernels. */
     bool (*lacks)(void *user, struct kd_compilation *compilation, bool background);
     void *lacks_user;
-    bool passing;          /* another renderer uses the same device, so measured speeds are not stored */
-    bool compiles_only;    /* as in kd_vk_params: pictures are black, and no Milky Way is made */
+    bool passing;          /* true if another renderer uses the same device, so that measured speeds are not stored */
+    bool compiles_only;    /* as in kd_vk_params; if true, pictures are black, and no Milky Way is made */
     uint32_t deadline_ms;  /* same meaning as in kd_vk_params */
     uint64_t memory_bytes; /* memory limit for all pictures, including those in the background; 0: the device and the
                             * host set the limit */
@@ -54,9 +54,9 @@ bool kd_renderer_hangs(const struct kd_renderer *renderer);
 /* A copy of the present capacity, for kd_plan_make. The accuracy table in the copy still belongs to the renderer. Any
  * thread. */
 void kd_renderer_capacity(struct kd_renderer *renderer, struct kd_capacity *out);
-/* Starts reading a scene's sky.image and volume.grid unless they are cached. Reading takes up to some seconds. Returns
- * whether the reading is in progress. A render would hold the device while it waits for the reading. So a client should
- * poll this function until the reading is done, and render then. Others can use the device meanwhile. Any thread. */
+/* Starts reading a scene's sky.image and volume.grid unless they are cached. Reading takes up to some seconds.
+ * Returns whether the reading is in progress. A render that waits for the reading would hold the device meanwhile. So
+ * a client should call this function repeatedly until the reading is done, and only then render. Any thread. */
 bool kd_renderer_assets_begin(struct kd_renderer *renderer, const struct kd_scene *scene);
 /* Starts reading an asset that may become a sky (panoramas.h). Any thread. */
 void kd_renderer_sky_ahead(struct kd_renderer *renderer, const char *hash);
@@ -77,34 +77,36 @@ uint64_t kd_renderer_held(const struct kd_renderer *renderer);
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix);
 uint32_t kd_renderer_validation_messages(const struct kd_renderer *renderer);
 
-/* Measured accuracy of a picture: errors of crossing radii on a sample of its rays against the closed form in
- * double. sampled is 0 if no error can be measured, because the picture is too large to keep its lens map or has no
- * crossings. */
+/* Measured accuracy of a picture: errors of crossing radii on a sample of its rays, compared with the closed form in
+ * double precision. `sampled` is 0 if the errors cannot be measured. This happens if the picture has no crossings, or
+ * if it is too large to keep its lens map. */
 struct kd_accuracy_report {
     uint64_t undecided; /* rays of the whole picture whose tracing was given up; the picture shows them in magenta */
-    /* Members for an interpolated lens map; 0 for any other. traced: number of rays that were traced for it (a node
-     * that two slices share counts twice); interpolated: number of the pixels' rays in smooth cells */
+    /* Members for an interpolated lens map; 0 for any other map. traced: number of rays that were traced to make the
+     * map (a node that two slices share counts twice); interpolated: number of pixel rays that lie in smooth cells */
     uint64_t traced, interpolated;
     /* sampled: number of rays that were traced again; crossings: number of crossings that were compared */
     uint32_t sampled, crossings;
-    /* number of crossings that only one of the two results has, plus the number of rays with different fates */
+    /* number of crossings that only one of the two methods finds, plus the number of rays with different fates */
     uint32_t differ;
-    double median, worst; /* relative error of the radius over the sample */
-    uint64_t followed;    /* number of rays that refinement traced beyond those of the plan */
-    /* Members for image.samples "auto". refined: pixels with more traced rays; between: pixels with interpolated
-     * rays */
+    double median, worst; /* relative error of the crossing radius: median and maximum over the sample */
+    uint64_t followed;    /* number of rays that refinement traced in addition to those of the plan */
+    /* Members for image.samples "auto". refined: number of pixels with more traced rays than planned; between: number
+     * of pixels with interpolated rays */
     uint64_t refined, between;
-    uint32_t pixel_sampled; /* pixels compared with 64 rays each */
-    /* difference of displayed values at these pixels, as a fraction of white. pixel_error: root mean square,
-     * extrapolated to the whole picture; pixel_error_worst: largest in the sample */
+    uint32_t pixel_sampled; /* number of pixels that were compared with 64 rays each */
+    /* differences between displayed values and values of 64 rays at these pixels, as a fraction of white.
+     * pixel_error: root mean square, extrapolated to the whole picture; pixel_error_worst: largest difference in the
+     * sample */
     double pixel_error, pixel_error_worst;
     /* for scenes with volumes: number of rays that were traced again with steps KD_MARCH_FINER times as fine */
     uint32_t volume_sampled;
-    /* relative change of the light of these rays; the divisor is at least KD_MARCH_DARK times the brightest light.
-     * volume_error: 90th percentile; volume_error_worst: largest. 1 if light is not finite or a ray has no end */
+    /* relative change of the light of these rays when they are traced again; the divisor is at least KD_MARCH_DARK
+     * times the brightest light. volume_error: 90th percentile; volume_error_worst: largest change. A ray counts as 1
+     * if its light is not finite or if it has no end */
     double volume_error, volume_error_worst;
-    /* number of rays that were given up in volumes and are magenta in the displayed picture, plus number of its pixels
-     * whose light is not finite */
+    /* number of rays that were given up in volumes (magenta in the displayed picture), plus number of pixels whose
+     * light is not finite */
     uint64_t lost;
 };
 

@@ -39,8 +39,8 @@ static int64_t cell_on(const struct kd_star *s, int face, int side)
     return ((int64_t)face * side + y) * side + x;
 }
 
-/* Computes at which entry of the list each cell begins, counting from `from`. cells[c + 1] becomes the start of cell c,
- * as `sort` needs it. The last number is the end of the last cell. */
+/* Computes the index in the list, counted from `from`, at which each cell begins. cells[c + 1] becomes the start of
+ * cell c, because `sort` needs this layout. The last number is the end of the last cell. */
 static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_t *cells)
 {
     const size_t n = (size_t)KD_FACE_TABLE(side) - 2;
@@ -56,9 +56,9 @@ static void count(const struct kd_stars *stars, int side, uint32_t from, uint32_
         cells[i] += cells[i - 1];
 }
 
-/* Sorts stars into cells and keeps their order, so that each cell has its brightest star first. During the sort,
+/* Sorts stars into cells. Within a cell the stars keep their order, so that the brightest is first. During the sort,
  * cells[c + 1] advances from the start of cell c to its end, which is the start of the next cell. all: number of
- * entries; the temperatures follow after all entries. */
+ * entries; the temperatures are stored after all entries. */
 static void sort(const struct kd_stars *stars, int side, uint32_t *cells, size_t all, float *rows)
 {
     for (size_t i = 0; i < stars->n; i++)
@@ -142,7 +142,7 @@ done:
 
 static void begin(struct kd_renderer *r, const struct kd_scene *scene) { kd_panorama_begin(&r->panoramas, scene); }
 
-/* Sets the panorama's size, and credits its author. */
+/* Sets the panorama's size, and credits the panorama's author. */
 static enum kd_status tell(struct kd_renderer *r, const struct kd_scene *scene, struct kd_emission *out, char *credit,
                            size_t size, struct kd_error *error)
 {

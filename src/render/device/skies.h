@@ -10,13 +10,14 @@
 #include <stddef.h>
 
 struct kd_sky_buffers {
-    struct kd_vk_buffer *panorama; /* words as in render/sky/panorama.h; NULL: not made yet */
-    struct kd_vk_buffer *stars;    /* direction and flux of each star, cell by cell, with the brightest of a cell first;
-                                    * then all temperatures */
+    struct kd_vk_buffer *panorama; /* words of the panorama (render/sky/panorama.h); NULL: not made yet */
+    /* direction and flux of each star, cell by cell, with the brightest star of a cell first; then the temperatures
+     * of all stars */
+    struct kd_vk_buffer *stars;
     uint32_t n; /* number of entries: a star may be in up to three fine cells, and in up to three coarse cells */
     struct kd_vk_buffer *cells; /* the indices in `stars` at which the cells of faces.h begin */
-    struct kd_sky of;           /* the sky that the buffers hold, if `there` is true */
-    bool there;                 /* the buffers hold a sky */
+    struct kd_sky of;           /* the sky whose data the buffers have; valid if `there` is true */
+    bool there;                 /* true if the buffers hold a sky */
 };
 
 #endif

@@ -2,9 +2,9 @@
 
 #include <math.h>
 
-/* Weights of a new measurement in the smoothed slowness. When the device becomes slower, submissions become shorter
- * within one or two submissions. When it becomes faster, submissions become longer over some ten of them. This
- * change is slow because a submission that is too long does more harm than one that is too short. */
+/* Weights of a new measurement in the smoothed slowness. When the device becomes slower, submissions are shortened
+ * within one or two submissions. When the device becomes faster, submissions are lengthened over some ten of them.
+ * This is slow because a submission that is too long does more harm than one that is too short. */
 #define FALLS 0.5
 #define RISES 0.1
 
@@ -24,7 +24,8 @@ void kd_slice_begin(struct kd_slice_pace *pace, double now_ms)
 
 void kd_slice_end(struct kd_slice_pace *pace, double now_ms)
 {
-    const double LEAST_MS = 1; /* a shorter time is mostly the cost of the submission itself */
+    /* submissions with a shorter expected time are not measured: most of it is the cost of the submission itself */
+    const double LEAST_MS = 1;
     const double known = fmax(pace->slowness, 1);
     if (!(pace->expected_ms >= LEAST_MS))
         return;

@@ -5,10 +5,12 @@
 #define KD_RENDER_DEVICE_SLICE_PACE_H
 
 #define KD_SLICE_MS 40.0 /* time of a submission: short enough for progress, fairness and a driver's watchdog */
-#define KD_SLOWEST 16.0  /* largest factor by which submissions are shortened, because each has a cost of its own */
+/* largest factor by which submissions are shortened; there is a limit because each submission has a fixed cost */
+#define KD_SLOWEST 16.0
 
 struct kd_slice_pace { /* initialise to 0 */
-    /* measured time of a submission divided by its estimate, smoothed, 1 to KD_SLOWEST; 0: none measured yet */
+    /* measured time of a submission divided by its estimated time, smoothed, 1 to KD_SLOWEST; 0: nothing was measured
+     * yet */
     double slowness;
     double expected_ms; /* estimated time of the present submission; 0: unknown */
     double begun_ms;    /* time at which the present submission began */

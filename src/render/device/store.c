@@ -223,7 +223,7 @@ done:
     return status;
 }
 
-/* Makes a beam's buffers. They are as large as the picture, so they are freed when no longer needed. */
+/* Makes a beam's buffers. `beamed` is as large as the picture, so it is freed when a plan has no beam. */
 static enum kd_status make_beam(struct kd_store *store, const struct kd_plan_picture *picture, struct kd_error *error)
 {
     const struct kd_beam_grid *beam = &picture->beam;

@@ -20,12 +20,12 @@ struct kd_bands {
     uint64_t band_bytes;
 };
 
-/* Everything, besides the lens map, that determines the light of stars. The light of stars stays valid while only time
+/* Everything that determines the light of stars, except the lens map. The light of stars stays valid while only time
  * advances. */
 struct kd_star_key {
     char lens[65];
-    bool visible; /* brightness is weighted by the eye's sensitivity */
-    bool bright;  /* the plan's member of the same name */
+    bool visible; /* true if brightness is weighted by the eye's sensitivity */
+    bool bright;  /* same meaning as kd_plan_light.bright */
     struct kd_sky sky;
     struct kd_sky_block block;
 };
@@ -34,10 +34,12 @@ struct kd_lens_map {
     char key[65]; /* "": the map is empty or incomplete */
     struct kd_bands bands;
     struct kd_bands
-        critical; /* the lens maps of the pixels at the critical curve, part by part, each followed by its list */
+        /* lens maps of the pixels at the critical curve, one buffer for each part of the pixels; each map is followed
+         * by the list of its pixels */
+        critical;
     struct kd_critical_pixels pixels;
-    /* the light of stars seen through this map: KD_STAR_LIGHT words for each pixel of a band; no buffers: no frame had
-     * stars */
+    /* the light of stars seen through this map: KD_STAR_LIGHT words for each pixel of a band. No buffers: no frame of
+     * this map had stars */
     struct kd_bands star_light;
     /* the rim of the map's camera, for images of stars of high orders; set if there is a rim and it was requested */
     struct kd_rim rim;
@@ -59,37 +61,40 @@ struct kd_store {
     struct kd_bands radiance;
     /* the layers of numbers in sequence, kd_plan_layer_bytes each; no buffers: no frame had layers */
     struct kd_bands layers;
-    struct kd_vk_buffer *words, *readback; /* packed pixels of one band, on the device and on the host */
+    /* packed pixels of one band: `words` on the device, `readback` on the host */
+    struct kd_vk_buffer *words, *readback;
     /* parameters and tables that are read at each crossing: in device memory, uploaded through `staging` */
     struct kd_vk_buffer *transfer, *staging;
     struct kd_emit_data *sent; /* the uploaded data; NULL: none yet */
-    bool sent_whole;           /* false: the uploaded data are unknown, because a frame was given up */
-    struct kd_vk_buffer *cameras, *cameras_host; /* KD_CAMERA_BYTES for each camera; cameras_host is the staging
-                                                  * buffer; NULL: none yet */
+    bool sent_whole;           /* true if the uploaded data are known; false after a frame was given up */
+    /* cameras: KD_CAMERA_BYTES for each camera; cameras_host: staging buffer for the cameras. NULL: not made yet */
+    struct kd_vk_buffer *cameras, *cameras_host;
     struct kd_camera_block sent_cameras[KD_CAMERAS];
     bool cameras_sent; /* true if the buffer holds sent_cameras */
     struct kd_vk_buffer *histogram, *counts;
     struct kd_vk_buffer *light, *light_host; /* sums of photometry; NULL: not measured yet */
     struct kd_vk_buffer *bloom;              /* grids of bloom; NULL: not made yet */
     struct kd_bands beamed;                  /* radiance after the telescope's beam; no buffers: the plan has no beam */
-    /* intermediate rows of cells, and grids of cells; NULL: not made yet */
+    /* beam_lines: intermediate rows of cells; beam_grids: grids of cells. NULL: not made yet */
     struct kd_vk_buffer *beam_lines, *beam_grids;
-    struct kd_vk_buffer *palette;    /* colours of style.palette, KD_MAP_ENTRIES of four floats; NULL: not made yet */
+    /* colours of style.palette: KD_MAP_ENTRIES colours of four floats each; NULL: not made yet */
+    struct kd_vk_buffer *palette;
     struct kd_vk_buffer *star_pairs; /* pairs of a ray and a star that the ray may see; NULL: no frame had stars */
     struct kd_vk_buffer *star_rays;  /* rays whose stars are searched one by one */
     struct kd_vk_buffer *listed;     /* lens map of listed pixels, overwritten part by part */
-    /* buffers for a sampled map (frame/sample.c): its lists, index and nodes; NULL: no frame had such a map */
+    /* buffers for a sampled map (frame/sample.c): its lists, its index and its nodes; NULL: no frame had such a map */
     struct kd_vk_buffer *sample, *sample_index, *nodes;
-    uint32_t alone;                      /* the rays that are traced singly begin at this offset in the lists */
-    int32_t alone_x, alone_y;            /* the ray from which the places of these rays are counted */
-    struct kd_vk_buffer *sample_head;    /* head of the lists, on the host */
-    struct kd_vk_buffer *undecided;      /* rays that the kernels leave undecided (frame/settle.c): a counter, then the
-                                            places of at most kd_plan_open_most rays */
+    uint32_t alone;                   /* offset in the lists at which the rays that are traced singly begin */
+    int32_t alone_x, alone_y;         /* the ray relative to which the places of these rays are stored */
+    struct kd_vk_buffer *sample_head; /* copy of the head of the lists on the host */
+    /* rays that the kernels leave undecided (frame/settle.c): their number, then the places of at most
+       kd_plan_open_most rays */
+    struct kd_vk_buffer *undecided;
     struct kd_vk_buffer *undecided_host; /* copy of `undecided` on the host */
 };
 
 /* Finds the lens map of the plan; *reused is then true if the map is complete. Otherwise the map's buffers are ready
- * to be written, and kd_store_commit makes the map findable. Least recently used maps are evicted. */
+ * to be written, and after kd_store_commit later frames can find the map. Least recently used maps are evicted. */
 enum kd_status kd_store_lens_map(struct kd_store *store, const struct kd_plan *plan, struct kd_lens_map **out,
                                  bool *reused, struct kd_error *error);
 void kd_store_commit(struct kd_store *store, struct kd_lens_map *map, const struct kd_plan_lens *lens);
@@ -100,12 +105,12 @@ enum kd_status kd_store_frame(struct kd_store *store, const struct kd_plan *plan
 /* Makes *buffer at least this large (NULL: there is none yet). A larger buffer is kept, unless it is much too large. */
 enum kd_status kd_store_at_least(struct kd_vk *vk, struct kd_vk_buffer **buffer, uint64_t size,
                                  enum kd_vk_memory memory, const char *name, struct kd_error *error);
-/* Records copies that update the transfer buffer: parameters and tables, each if it has changed. */
+/* Records copies that update the transfer buffer. Parameters are copied if they have changed, and so are tables. */
 enum kd_status kd_store_send(struct kd_store *store, const struct kd_emit_data *tables, struct kd_error *error);
 /* Records copies that update the cameras, in a buffer that is made when first needed. */
 enum kd_status kd_store_send_cameras(struct kd_store *store, const struct kd_camera_block cameras[KD_CAMERAS],
                                      struct kd_error *error);
-/* Call when a frame is given up, because its uploads may not have happened. */
+/* Call when a frame is given up: its uploads may not have happened. */
 void kd_store_give_up(struct kd_store *store);
 /* Approximate device memory of the store, bytes. */
 uint64_t kd_store_bytes(const struct kd_store *store);

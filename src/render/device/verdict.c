@@ -79,7 +79,7 @@ static void understand(struct kd_renderer *r, const char *text, size_t size)
         if (cJSON_IsNumber(ns) && ns->valuedouble > 1e-6 && ns->valuedouble < 1e9)
             c->ns[i] = ns->valuedouble;
         else
-            speed = NULL; /* all later figures are ignored too, and these passes keep their defaults */
+            speed = NULL; /* all later figures are ignored too, so that these passes keep their default costs */
     }
     c->measured = known && speed;
     cJSON_Delete(root);

@@ -16,7 +16,7 @@ struct kd_verdict {
     char worst[160]; /* the first check that failed; "" if none failed */
 };
 
-/* Loads the cached verdict for a new renderer's device, and the costs of its passes. */
+/* Loads the cached verdict on a new renderer's device, and the costs of passes on that device. */
 void kd_verdict_recall(struct kd_renderer *renderer);
 /* Writes the renderer's verdict. Also writes the costs of passes in `capacity`, if they were measured. */
 void kd_verdict_save(const struct kd_renderer *renderer, struct kd_capacity capacity);

@@ -13,8 +13,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Computes a body's velocity relative to the observer of zero angular momentum at its position. Returns its angular
- * velocity. */
+/* Computes a body's velocity relative to the observer of zero angular momentum at the body's position. Returns the
+ * body's angular velocity. */
 static double motion_of(const struct kd_body *body, const struct kd_vantage *at, double velocity[3])
 {
     const struct kd_observer_motion zamo = kd_observer_motion_of(KD_OBSERVER_ZAMO), motion = kd_body_motion(body);
@@ -165,7 +165,7 @@ static void forget(void *own)
     o->there = NULL;
 }
 
-/* Uploads *words unless the device has them already, and keeps them. */
+/* Uploads *words unless the device has the same words already. Keeps them for the next comparison. */
 static enum kd_status send(const struct kd_emitter_buffers_work *work, float **words, size_t n, struct kd_error *error)
 {
     struct own *o = work->own;

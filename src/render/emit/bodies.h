@@ -22,7 +22,7 @@ struct kd_bodies_view {
     const struct kd_illumination *lit;
 }; /* lit: the disk as a light source; NULL if the disk does not illuminate the bodies */
 
-/* kd_illumination_exists: whether the scene has a thin disk. kd_illumination_of: prepares the disk as a light source
+/* kd_illumination_exists: true if the scene has a thin disk. kd_illumination_of: prepares the disk as a light source
  * for bodies (bodies_illumination.c); returns false if there is no thin disk. */
 enum { KD_LIT_RINGS = 16, KD_LIT_PLACES = 24 };
 struct kd_illumination {
@@ -30,7 +30,8 @@ struct kd_illumination {
 };
 bool kd_illumination_exists(const struct kd_scene *scene);
 bool kd_illumination_of(const struct kd_scene *scene, struct kd_illumination *out);
-/* Computes the light that a body reflects, in the kernels' layout, in 3 us. lapse: at the body's position. */
+/* Computes the light that a body reflects, in the kernels' layout. Takes 3 us. lapse: the lapse at the body's
+ * position. */
 void kd_illumination_body(const struct kd_illumination *lit, const struct kd_seen_body *body, double lapse,
                           float out[12]);
 
@@ -48,7 +49,8 @@ void kd_bodies_bound(const struct kd_seen_body *bodies, size_t n, const struct k
                      struct kd_bodies_block *out);
 #define KD_BODIES_CLEAR 1.02
 
-/* Count and list the bodies of a valid scene: the scene's own at its time, then those of its playground. */
+/* kd_bodies_count counts the bodies of a valid scene; the next function lists them: the scene's own bodies at the
+ * scene's time, then those of its playground. */
 size_t kd_bodies_count(const struct kd_scene *scene);
 size_t kd_bodies_of(const struct kd_scene *scene, struct kd_seen_body *out);
 

@@ -53,7 +53,7 @@ static void add(const struct kd_illumination_ring *ring, double turn, const stru
                 float out[12])
 {
     const double c = cos(turn), s = sin(turn), x = ring->r * c, y = ring->r * s, height = b->r * b->u;
-    /* Cartesian, with the body at azimuth 0. */
+    /* Vector from the body to the place, Cartesian; the body is at azimuth 0. */
     const double to[3] = { x - b->r * b->s, y, -height },
                  d2 = fmax(to[0] * to[0] + y * y + height * height, b->radius * b->radius), d = sqrt(d2);
     double n[3] = { (b->s * to[0] + b->u * to[2]) / d, (b->u * to[0] - b->s * to[2]) / d, y / d };

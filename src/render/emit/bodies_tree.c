@@ -26,8 +26,8 @@ static uint32_t leaves_of(size_t n)
 
 size_t kd_bodies_words(size_t n) { return (8 + KD_BODY_WORDS) * (size_t)leaves_of(n); }
 
-/* The metric at a body's centre (Bardeen, Press & Teukolsky 1972): the lapse, the square roots of g_rr, of g_thetatheta
- * and of g_phiphi/sin^2(theta), and frame dragging. */
+/* The metric at a body's centre (Bardeen, Press & Teukolsky 1972). lapse: the lapse; r, theta, phi: square roots of
+ * g_rr, of g_thetatheta and of g_phiphi/sin^2(theta); omega: frame dragging. */
 struct metric { double lapse, r, theta, phi, omega; };
 
 static struct metric metric_at(const struct kd_hole *hole, const struct kd_seen_body *b)
@@ -55,8 +55,8 @@ static double turn_of(const struct metric *g, const struct kd_seen_body *b)
     return g->phi * b->s * g->omega / g->lapse;
 }
 
-/* Bounding ball of a body. Azimuths are mirrored, as in the traced path. A moving body appears longer than it is
- * wide, because all its light arrives at one time of the observer. */
+/* Bounding ball of a body. Azimuths are mirrored, as along the traced ray. A moving body appears longer than it is
+ * wide, because the observer sees all of its light at one time. */
 static struct ball ball_of(const struct kd_seen_body *b, size_t body, const struct kd_bodies_view *view)
 {
     const struct metric g = metric_at(&view->hole, b);

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define REFERENCE 1000.0 /* M^2: the area over which one body's debris has the optical depth `depth` */
+#define REFERENCE 1000.0 /* the area in M^2 over which one body's debris has the optical depth `depth` */
 
 static const struct kd_dynamic_bodies_debris *of(const struct kd_scene *scene) { return &scene->dynamic.at->debris; }
 
@@ -42,7 +42,7 @@ static size_t words(const struct kd_dynamic_bodies_debris *d) { return KD_CROWD_
 /* Two buffers: `numbers` on the device, and `staging`, through which they are uploaded. */
 static uint64_t device_bytes(const struct kd_scene *scene) { return 2 * sizeof(float) * words(of(scene)); }
 
-/* The area of a node is r^2 (2 pi/turn)^2. */
+/* The area of a node is r^2 (2 pi/turn)^2, where `turn` is the number of nodes in a turn. */
 static void fill(struct kd_emission *out, const struct kd_scene *scene)
 {
     const struct kd_dynamic_bodies_debris *d = of(scene);

@@ -156,7 +156,7 @@ static void reflected_table(struct kd_emit_tables *out, const struct profile *p,
 }
 
 /* Tables over y = sqrt(1 - r_isco/r). As a function of y, T r^(3/4) is smooth and bounded. It is linear at the ISCO,
- * where the flux has a double zero, and finite at infinity, where T falls as r^(-3/4). */
+ * where the flux has a double zero. It is finite at infinity, where T falls as r^(-3/4). */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     const struct profile p = profile_of(scene);

@@ -24,7 +24,8 @@ struct kd_emission { KD_EMIT_BLOCKS(MEMBER) };
 #undef MEMBER
 _Static_assert(sizeof(struct kd_spot_block) % 16 == 0, "elements of an array, by std140");
 
-/* Tables are read as texels, because on lavapipe four floats then cost as much as one word of a storage buffer. */
+/* Tables are read as texels. On lavapipe, reading four floats then costs as much as reading one word of a storage
+ * buffer. */
 typedef float kd_table_row[4];
 #define KD_T(table, rows) kd_table_row table[rows];
 struct kd_emit_tables { KD_EMIT_TABLES };

@@ -242,7 +242,7 @@ static double height_of_all(const struct kd_scene *scene)
     for (int i = 0; i < KD_EMITTER_COUNT; i++)
         if (kinds[i] == ALONG && kd_emit_has(scene, kd_emitters[i]))
             most = fmax(most, kd_emitters[i]->height ? kd_emitters[i]->height(scene) : 1);
-    return most >= 1 ? 2 : most; /* 2 if a volume reaches the axis: then no ray stops at the axis */
+    return most >= 1 ? 2 : most; /* returns 2 if a volume reaches the axis, so that no ray stops at the axis */
 }
 
 /* 1/r of the outermost knot in a volume; 0: none. */

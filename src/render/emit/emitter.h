@@ -1,10 +1,10 @@
 /* Emitters: everything that adds light to a ray, absorbs it or changes it. This is the C side of the table in
- * shaders/shared/emitters.h, with one file for each. Plan, needs of the lens map, motion, device data and
- * approximations iterate over the table. Their code names no emitter.
+ * shaders/shared/emitters.h; each emitter has a file of its own. Plan, needs of the lens map, motion, device data and
+ * approximations iterate over the table, and their code names no emitter.
  *
- * To add an emitter, write its line in that list, and its section in the field table. Write shaders/emit/NAME.glsl, and
- * src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`. Constant data and pure functions of valid scenes;
- * any thread. */
+ * To add an emitter, write its line in that table, and its section in the field table. Write shaders/emit/NAME.glsl,
+ * and src/render/emit/NAME.c with `const struct kd_emitter kd_emit_NAME`. Constant data and pure functions of valid
+ * scenes; any thread. */
 #ifndef KD_RENDER_EMIT_EMITTER_H
 #define KD_RENDER_EMIT_EMITTER_H
 
@@ -35,21 +35,22 @@ struct kd_scene_part { size_t at, size; };
 
 struct kd_emitter {
     const char *name;
-    const char *title; /* its common name without an article: "spots" */
+    const char *title; /* the emitter's common name without an article: "spots" */
     /* Writes one sentence, without quotation marks, about the appearance of the emitter. NULL: the emitter has no
      * such sentence. */
     void (*tell)(const struct kd_scene *scene, char out[KD_EMIT_TOLD]);
     bool (*present)(const struct kd_scene *scene);
-    uint32_t (*traits)(const struct kd_scene *scene); /* KD_TRAIT_... of its GLSL file; NULL: none */
+    /* flags KD_TRAIT_... of the emitter's GLSL file; NULL: no flags */
+    uint32_t (*traits)(const struct kd_scene *scene);
     uint32_t (*needs)(
         const struct kd_scene *scene); /* KD_LENS_... quantities of the lens map that the emitter reads; NULL: none */
-    /* enum kd_varies: the causes that change the emitter's light; NULL: its light never changes */
+    /* flags of enum kd_varies: the causes that change the emitter's light; NULL: its light never changes */
     unsigned (*varies)(const struct kd_scene *scene);
-    /* The emitter's own device buffers, and their bytes. Also the number of invocations of the pass that fills them
-     * before light is computed (KD_PASS_name of its GLSL file). NULL: the emitter has none. If only `invocations` is
-     * NULL, the host fills the buffers. */
+    /* The emitter's own device buffers, their size in bytes, and the number of invocations of the pass that fills
+     * them (KD_PASS_name of its GLSL file). This pass runs before light is computed. NULL: the emitter has no
+     * buffers. If only `invocations` is NULL, the host fills the buffers. */
     const struct kd_emitter_buffers *own;
-    uint32_t quads; /* the emitter reads a buffer of quads if it has any of these traits; 0: it never does */
+    uint32_t quads; /* traits with which the emitter reads a buffer of quads; 0: it never reads one */
     uint64_t (*device_bytes)(const struct kd_scene *scene);
     uint64_t (*making_bytes)(
         const struct kd_scene *scene); /* peak of the host memory needed to make the buffers; NULL: little */
@@ -73,11 +74,11 @@ struct kd_emitter {
     struct kd_scene_part depends[KD_EMITTER_PARTS];
     const struct kd_sentence *sentences;
     size_t n_sentences;
-    const struct kd_emitter *kind; /* an emitter whose approximations also apply to this one; NULL: none */
-    /* another emitter whose numbers and tables this one reads, together with all that the other emitter reads; NULL:
+    const struct kd_emitter *kind; /* another emitter, whose approximations apply to this emitter too; NULL: none */
+    /* another emitter, whose numbers and tables this emitter reads, together with all that the other one reads; NULL:
      * none */
     const struct kd_emitter *reads;
-    /* an emitter that is left out of scenes in which this one is present; NULL: none */
+    /* an emitter that is left out of a scene if this emitter is present; NULL: none */
     const struct kd_emitter *replaces;
 };
 
@@ -98,7 +99,7 @@ void kd_emit_traits(const struct kd_scene *scene, uint32_t out[KD_EMITTER_COUNT]
 /* Sets KD_TRAIT_TEXELS in the words of emitters that read a buffer of quads. Call this for a device that reads the
  * buffer as texels. */
 void kd_emit_as_texels(uint32_t traits[KD_EMITTER_COUNT]);
-/* The needs of the scene's emitters. kd_emit_needs: quantities of the lens map. The other functions are true if there
+/* Needs of the scene's emitters. kd_emit_needs: quantities of the lens map. The functions after it are true if there
  * is light at crossings of the plane, at the ends of rays, with separate luminance, or from points. */
 uint32_t kd_emit_needs(const struct kd_scene *scene);
 bool kd_emit_at_crossings(const struct kd_scene *scene);
@@ -115,9 +116,9 @@ uint64_t kd_emit_device_bytes(const struct kd_scene *scene);
 uint64_t kd_emit_making_bytes(const struct kd_scene *scene);
 /* Invocations of an emitter's own pass; 0 if it has none or the scene does not have the emitter. */
 uint64_t kd_emit_invocations(const struct kd_scene *scene, enum kd_emitter_number number);
-/* Costs of the scene's emitters. kind: hash of the set of emitters, of their traits, and of the quantities of the lens
- * map that they need. log2_of: for each emitter, the logarithms of two numbers: the bytes of its own buffers, and the
- * invocations of its own pass. 0: the emitter has none. */
+/* Costs of the scene's emitters. kind: hash of the set of emitters, of their traits, and of the quantities of the
+ * lens map that they need. log2_of: two logarithms for each emitter: of the bytes of its own buffers, and of the
+ * invocations of its own pass; 0: the emitter has no buffers or no pass. */
 struct kd_work {
     uint64_t kind;
     float log2_of[KD_EMITTER_COUNT][2];
@@ -131,8 +132,8 @@ void kd_emit_sentences(const struct kd_scene *scene, const struct kd_setting *ra
                        void (*take)(void *user, struct kd_approximation approximation), void *user);
 size_t kd_emit_sentence_count(void); /* number of all approximations, in force or not */
 
-/* Numbers and tables of all emitters, and the scenes for which they were computed. {0} before the first use. Not
- * shared between threads. */
+/* Numbers and tables of all emitters, and the scenes for which they were computed. Set to {0} before the first use.
+ * Not shared between threads. */
 struct kd_emit_state {
     struct kd_emit_data data;
     struct kd_scene of[KD_EMITTER_COUNT]; /* scene for which each emitter was last filled */
@@ -145,17 +146,17 @@ struct kd_emit_state {
 void kd_emit_update(struct kd_emit_state *state, const struct kd_scene *scene, uint32_t band_pixels);
 
 extern const struct kd_emitter kd_emit_disk;
-/* Traits of the smooth disk. Emitters that use its numbers and tables share them. */
+/* Traits of the smooth disk, which apply also to emitters that use the disk's numbers and tables. */
 uint32_t kd_disk_traits(const struct kd_scene *scene);
-/* Quantities of the lens map that emitters with the disk's light need. For rays that are not on a grid, Q is
+/* Quantities of the lens map that emitters with the disk's light need. If rays are not on a grid, Carter's Q is
  * computed from their slope. */
 uint32_t kd_disk_needs(const struct kd_scene *scene);
 /* kd_disk_reach: radii of the smooth disk's edges. kd_disk_sentence: a sentence such as "A thin disk from the ISCO
  * to 22 M." for the noun "thin disk". */
 void kd_disk_reach(const struct kd_scene *scene, double radii[2]);
 void kd_disk_tell(const struct kd_scene *scene, const char *noun, char out[KD_EMIT_TOLD]);
-/* Functions that all emitters on orbits share: the KD_TRAIT_... for Doppler shift and redshift; the quantities of the
- * lens map that they need; what changes their light. */
+/* Functions that all emitters on orbits share. They return the KD_TRAIT_... for Doppler shift and redshift, the
+ * quantities of the lens map that are needed, and the causes that change the light. */
 uint32_t kd_orbit_traits(const struct kd_scene *scene);
 uint32_t kd_orbit_needs(const struct kd_scene *scene);
 unsigned kd_orbit_varies(const struct kd_scene *scene);

@@ -7,14 +7,14 @@
 
 #include <math.h>
 
-/* Displacement of an octave by the octave before, where the octave before is one standard deviation from its mean. The
- * unit is the width of the octave's own cells. With this value streaks bend but do not tear. */
+/* Displacement of each octave where the octave before it is one standard deviation from its mean. The unit is the
+ * width of the displaced octave's cells. With this value streaks bend but do not tear. */
 #define WARP 0.2
-/* Mean square slope, along an axis and per cell, of each of the two noises. The amount by which a displacement steepens
- * an octave is proportional to this number. */
+/* Mean square slope of each of the two noises, along an axis and per cell. The amount by which a displacement
+ * steepens an octave is proportional to this slope. */
 #define STEEPNESS 16.6
-/* Ratio of the amplitudes of successive octaves of the logarithm. Each octave has KD_GAS_FINER times as many cells,
- * and by Kolmogorov's law amplitudes fall as the cube root of this number. */
+/* Ratio of the amplitudes of successive octaves of the logarithm. Each octave has KD_GAS_FINER times as many cells as
+ * the octave before. By Kolmogorov's law its amplitude is smaller by the cube root of KD_GAS_FINER. */
 #define PERSISTENCE 0.72
 
 static bool present(const struct kd_scene *scene)
@@ -33,7 +33,7 @@ static uint32_t traits(const struct kd_scene *scene)
            (stirs(scene) ? (uint32_t)scene->gas.octaves << KD_TRAIT_GAS_SHIFT : 0);
 }
 
-/* For rays that are not on a grid, Q is computed from their slope. */
+/* if rays are not on a grid, Carter's Q is computed from their slope */
 static uint32_t needs(const struct kd_scene *scene)
 {
     return kd_disk_needs(scene) | (stirs(scene) ? kd_orbit_needs(scene) | KD_LENS_SHAPE : 0) |
@@ -47,7 +47,7 @@ static double inner_radius(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Amplitude of the first octave. It gives the logarithm, which is the sum of all octaves, the standard deviation
+/* Amplitude of the first octave. With it, the logarithm (the sum of all octaves) has the standard deviation
  * `amplitude`. */
 static double loudness(const struct kd_scene *scene)
 {
@@ -93,8 +93,8 @@ static void place(double at, float *part, float *whole)
     *part = (float)(at - floor(at));
 }
 
-/* Computes, for each ring, the complex factor that converts a place in its plane to the same place in the next ring's
- * plane. The factor is a rotation and a shrinking. */
+/* Computes, for each ring, the complex factor that converts a place in the ring's plane to the same place in the next
+ * ring's plane. The factor rotates and shrinks. */
 static void next_rings(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     for (int j = 0; j + 1 < KD_GAS_RINGS; j++) {

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* least inner radius of a jet divided by the horizon's radius: gas that flows out from further in is not visible */
+/* least ratio of a jet's inner radius to the horizon's radius; gas that flows out from further in is not visible */
 #define CLEAR 1.05
 
 static bool present(const struct kd_scene *scene) { return scene->jets.brightness > 0; }

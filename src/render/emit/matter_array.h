@@ -12,7 +12,7 @@
 struct kd_matter_array {
     struct kd_buffer file;
     const uint8_t *numbers; /* points into the file, not aligned */
-    bool single;            /* numbers are <f4; otherwise <f8 */
+    bool single;            /* true if the numbers are <f4; false: <f8 */
     size_t n, dimensions;
     uint64_t shape[4];
 };

@@ -15,23 +15,24 @@
 
 #define NEVER -1e6 /* log2 of zero */
 #define COLD -24.0 /* log2 of k T/(m_e c^2) below which no fit is valid: 354 K */
-/* an empty node lies this many octaves below the densest one, so that the light falls to nothing within a cell */
+/* The log2 of the density of an empty node is lower than that of the densest node by this number, so that the light
+ * falls to nothing within a cell. */
 #define EMPTY 40.0
 #define EVEN 1e-3 /* tolerance for the even spacing of rows, as a fraction of a step */
-/* tolerance for the even spacing of times, as a fraction of a step. Codes write a dump at the first of their steps
- * after the intended time */
+/* tolerance for the even spacing of times, as a fraction of a step. The tolerance is larger than EVEN, because
+ * simulations write a dump at the first of their steps after the intended time */
 #define STEADY 1e-2
 #define LATEST 1e12 /* largest time, M; the same limit as that of the scene's time */
 #define AXIS 1e-9   /* sin^2(theta) below which azimuth is undefined */
-#define UNIT 1e-2   /* tolerance of |u.u + 1| */
-/* largest number of rows per factor of e in r, because a stretch of the march is two cells long */
+#define UNIT 1e-2   /* largest accepted |u.u + 1| */
+/* largest number of rows per factor of e in r; it bounds the work of the march, whose stretches are two cells long */
 #define FINEST 1024
-#define PARTS 64 /* largest k, if the grid covers 1/k of a turn */
-#define PLACES 4 /* cells for each column in the table of uneven columns */
+#define PARTS 64 /* largest permitted k of a grid that covers 1/k of a turn */
+#define PLACES 4 /* number of table cells per column, if the columns are unevenly spaced */
 #define PLACES_LEAST 256
 #define HEADER_MOST 65536
 
-/* Arrays in the order of their place in a node. `scale`: power of r by which an array is multiplied. */
+/* Arrays in the order of their numbers in a node. `scale`: power of r by which an array is multiplied. */
 static const struct {
     const char *name, *unit;
     double least, most;
@@ -48,11 +49,11 @@ _Static_assert(sizeof kinds / sizeof *kinds == KD_MATTER_FLOATS, "a float for ea
 struct kd_matter_reader {
     struct kd_unzip zip;
     struct kd_matter_grid grid;
-    double *r, *theta;            /* theta: the angle of each column, or of each node of a layer */
-    size_t theta_rows;            /* 1, or the number of rows if each row has its own angles */
-    bool look;                    /* the numbers are only checked, and not prepared for a renderer */
+    double *r, *theta;            /* r: radius of each row; theta: angle of each column, or of each node of a layer */
+    size_t theta_rows;            /* number of rows if each row has its own angles; otherwise 1 */
+    bool look;                    /* true if the numbers are only checked, and not prepared for a renderer */
     struct kd_matter_array array; /* the current array */
-    size_t kind, done;            /* index of this array, and the number of its elements that are done */
+    size_t kind, done;            /* kind: index of the current array; done: number of its elements that are done */
 };
 
 bool kd_matter_grid_is(const void *data, size_t size) { return size > 4 && !memcmp(data, "PK\3\4", 4); }
@@ -161,7 +162,7 @@ static enum kd_status take_header(struct kd_matter_reader *r, struct kd_error *e
     return status;
 }
 
-/* Checks that coordinates grow in even steps, or that their logarithms do if `logarithmic`. */
+/* Checks that coordinates grow in even steps. If `logarithmic` is true, their logarithms must do so. */
 static enum kd_status check_even(const char *name, const struct kd_matter_array *a, bool logarithmic, double least,
                                  double most, struct kd_error *error)
 {
@@ -481,8 +482,8 @@ static enum kd_status check_velocity(struct kd_matter_reader *r, size_t i, struc
                          "-1 within a hundredth, as for a four-velocity in the coordinates that the grid names", error);
 }
 
-/* Gets the temperature of an empty node, which has none of its own: the mean of its non-empty neighbours.
- * Matter at an edge then keeps its own temperature when nodes are interpolated. */
+/* Gets a temperature for an empty node, which has none of its own: the mean over its non-empty neighbours.
+ * Interpolation then leaves the temperature of matter at an edge unchanged. */
 static float filled(const struct kd_matter_grid *g, const float *nodes, size_t i)
 {
     const size_t layers = g->layers, row = row_of(g, i), column = i / layers % g->columns, layer = i % layers,
@@ -645,7 +646,7 @@ size_t kd_matter_reader_bytes(const struct kd_matter_reader *r)
 
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *r) { return &r->grid; }
 
-/* Unpacks the next array. Returns false if that array is u_con_t, the last one, and is missing. */
+/* Unpacks the next array. Returns false if the next array is the last one, u_con_t, and the file does not have it. */
 static bool begin_array(struct kd_matter_reader *r, enum kd_status *status, struct kd_error *error)
 {
     const char *name = r->kind < KD_MATTER_FLOATS ? kinds[r->kind].name : "u_con_t";

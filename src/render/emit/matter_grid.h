@@ -35,21 +35,21 @@ enum {
     KD_MATTER_FLOATS = 8,      /* floats of a node; a packed node has half as many words */
     /* limit for the number of angles theta, if each pair of row and column has an angle of its own */
     KD_MATTER_ANGLES = 1 << 21,
-    KD_MATTER_PLACES = 1 << 20 /* limit for the cells of `places`, of four floats each */
+    KD_MATTER_PLACES = 1 << 20 /* limit for the number of cells of `places`; a cell has four floats */
 };
 
 struct kd_matter_grid {
     uint32_t rows, columns, layers; /* layers 1: axisymmetric */
-    uint32_t frames;                /* frames in time; 1: the grid has no times */
+    uint32_t frames;                /* number of frames in time; 1: the grid has no times */
     double time[2];                 /* times of the first and the last frame, M */
-    bool late;                      /* the frames are slices of constant ingoing Kerr-Schild time */
+    bool late;                      /* true if the frames are slices of constant ingoing Kerr-Schild time */
     KD_HOLE_MEMBERS
     double r[2], theta[2]; /* r of the first and the last row, in M; theta of the first and the last column, if columns
                               are evenly spaced */
     /* phi: azimuth of the first layer. turn: angle covered by all layers, in radians; it is a turn, or 1/k of a turn
      * with a whole k */
     double phi, turn;
-    bool ingoing; /* phi is the ingoing Kerr-Schild azimuth; false: the Boyer-Lindquist azimuth */
+    bool ingoing; /* true if phi is the ingoing Kerr-Schild azimuth; false: the Boyer-Lindquist azimuth */
     double field; /* the largest component of the field, in gauss; 1 if there is no field */
     /* For each node, with layers adjacent, then columns, rows and frames: log2 of density in cm^-3 and of k T/(m_e
      * c^2), u^r, r u^theta, u_phi/(r sin^2 theta), then b^r, r b^theta and b_phi/(r sin^2 theta), each divided by
@@ -58,12 +58,12 @@ struct kd_matter_grid {
     /* A packed node has four words: density and Theta as fractions of their ranges in 16 bits, then six halves in
      * the order above, namely u divided by `speed` and b times KD_MATTER_FIELD. least and range: least value and
      * range of log2 of density and of Theta. */
-    bool packed, whole; /* whole: the file asks for nodes that are not packed */
+    bool packed, whole; /* whole: true if the file requests nodes that are not packed */
     double least[2], range[2], speed;
     /* For columns that are not evenly spaced: a table that gives the column at theta, as a number with a fraction, by
-     * bilinear interpolation. The table has `steps` cells in theta from 0 to pi for each pair of adjacent rows, or one
-     * such set of cells for all rows. A cell has four floats: the column at the cell's beginning and at its end, each
-     * in one row and in the next row. NULL: the columns are evenly spaced. */
+     * bilinear interpolation. The table has `steps` cells in theta from 0 to pi for each pair of adjacent rows. If
+     * all rows have the same angles, it has only one such set of cells. A cell has four floats: the column at the
+     * cell's beginning and at its end, each in both adjacent rows. NULL: the columns are evenly spaced. */
     float *places;
     uint32_t steps, place_rows;
 };
@@ -82,7 +82,7 @@ enum kd_status kd_matter_grid_look(const void *data, size_t size, struct kd_asse
 /* Number of bytes that the nodes take on the device. */
 size_t kd_matter_grid_bytes(const struct kd_matter_grid *grid);
 struct kd_asset_grid kd_matter_grid_told(const struct kd_matter_grid *grid);
-/* floats of `places`; 0: the columns are evenly spaced */
+/* number of floats of `places`; 0: the columns are evenly spaced */
 size_t kd_matter_grid_places(const struct kd_matter_grid *grid);
 void kd_matter_grid_finish(struct kd_matter_grid *grid);
 
@@ -96,7 +96,8 @@ enum kd_status kd_matter_reader_open(const void *data, size_t size, bool look, s
 /* Memory that the reader needs until it is closed: nodes, and the longest unpacked array. */
 size_t kd_matter_reader_bytes(const struct kd_matter_reader *reader);
 const struct kd_matter_grid *kd_matter_reader_grid(const struct kd_matter_reader *reader);
-/* Continues until until_ms of kd_clock_ms, but begins at least one array. *over: whether the whole file is read. */
+/* Continues until the time until_ms of kd_clock_ms. Begins at least one array, even if that time has passed. *over:
+ * true if the whole file is read. */
 enum kd_status kd_matter_reader_go_on(struct kd_matter_reader *reader, double until_ms, bool *over,
                                       struct kd_error *error);
 void kd_matter_reader_close(struct kd_matter_reader *reader); /* accepts NULL */

@@ -1,4 +1,4 @@
-/* Common to emitters on orbits: the C side of shaders/emit/orbit.glsl. */
+/* Functions that emitters on orbits share: the C side of shaders/emit/orbit.glsl. */
 #include "render/emit/emitter.h"
 
 uint32_t kd_orbit_traits(const struct kd_scene *scene)

@@ -35,7 +35,8 @@ struct kd_emitter_buffers {
     void (*forget)(void *own); /* called if work was given up: recorded commands may not have run, so the contents of
                                   the buffers are unknown */
     void (*finish)(void *own, struct kd_vk *vk);
-    /* Starts slow work of the host on a thread. `tell` and `prepare` wait for it. NULL: there is no such work. */
+    /* Starts slow work of the host on a thread. `tell` and `prepare` wait for that work. NULL: the emitter has no
+     * such work. */
     void (*begin)(struct kd_renderer *renderer, const struct kd_scene *scene);
     /* Completes the emitter's numbers after `fill` with numbers that the scene does not contain, and writes the
      * credit of the picture's sources. NULL: the emitter needs neither. */
@@ -43,8 +44,8 @@ struct kd_emitter_buffers {
                            char *credit, size_t size, struct kd_error *error);
 };
 
-/* Services of the renderer for `prepare`. kd_emitter_buffers_at_least replaces *buffer, which is NULL at first, if it
- * has fewer than `bytes` bytes. */
+/* Services of the renderer for `prepare`. kd_emitter_buffers_at_least replaces *buffer if it has fewer than `bytes`
+ * bytes; *buffer is NULL at first. */
 enum kd_status kd_emitter_buffers_at_least(const struct kd_emitter_buffers_work *work, struct kd_vk_buffer **buffer,
                                            uint64_t bytes, enum kd_vk_memory memory, const char *name,
                                            struct kd_error *error);

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/* mean number of particles in a cell; with it the density scatters by a third, in spots some pixels wide */
+/* mean number of particles in a cell. With this number the density fluctuates by a third, in spots some pixels wide */
 #define PER_CELL 5.0
 
 static double inner(const struct kd_scene *scene)
@@ -20,8 +20,8 @@ static double inner(const struct kd_scene *scene)
     return isinf(scene->disk.inner) ? kd_kerr_isco(kd_scene_hole(scene)) : scene->disk.inner;
 }
 
-/* Range of guiding orbits. It exceeds the edges of the disk by the particles' swing, so that as many particles cross
- * the edges inwards as outwards. */
+/* Range of guiding orbits. The range exceeds the edges of the disk by the particles' swing, so that as many particles
+ * cross the edges inwards as outwards. */
 struct span { double low, high, s; };
 static struct span span_of(const struct kd_scene *scene)
 {
@@ -127,7 +127,7 @@ struct kd_particle_grid kd_particle_grid(const struct kd_scene *scene)
     return g;
 }
 
-/* 2^31 radii/particles, rounded down. The kernel multiplies by the same factor, so that both round alike. */
+/* 2^31 radii/particles, rounded down. The kernel multiplies by the same factor, so that both round in the same way. */
 static uint32_t per_particle(const struct kd_particle_grid *grid)
 {
     return (uint32_t)(((uint64_t)grid->radii << 31) / (grid->count - grid->plunging));
@@ -205,11 +205,11 @@ static void fill_guides(struct kd_guide *out, const struct kd_scene *scene, cons
     }
 }
 
-/* Fills in the reciprocal of the weight that a node of each row is expected to have. A particle contributes to a
- * node if it is within one row of the node; its weight depends on the distance. */
+/* Fills in, for each row, the reciprocal of the expected weight of a node. A particle contributes to a node if it is
+ * within one row of the node. The particle's weight depends on its distance from the node. */
 static void fill_expected(float *out, const struct kd_scene *scene, const struct kd_particle_grid *grid)
 {
-    enum { PARTS = 8 }; /* parts into which each side of the triangular weight is divided */
+    enum { PARTS = 8 }; /* number of parts into which each side of the triangular weight is divided */
     double rows = rows_of(scene, grid), weight = (double)(grid->count - grid->plunging) * grid->unit / grid->columns;
     for (uint32_t i = 0; i <= grid->rows; i++) {
         double sum = 0;
@@ -230,8 +230,8 @@ static void fill_plunge_expected(float *out, const struct kd_particle_grid *grid
         out[i] = (float)((i == 0 || i == grid->plunge_rows ? 2 : 1) / weight);
 }
 
-/* A stream of N particles in a time P has N/(P 2 pi r |u^r|) particles per area in the particles' own frame. On
- * circular orbits, n particles per ln r give n/(2 pi r^2 u^t). */
+/* A stream of N particles in a time P has N/(P 2 pi r |u^r|) particles per area in the particles' own frame. For
+ * particles on circular orbits, n per ln r, the number per area is n/(2 pi r^2 u^t). */
 double kd_particle_plunge_depth(const struct kd_scene *scene)
 {
     const struct kd_hole *hole = kd_scene_hole(scene);

@@ -28,9 +28,9 @@
 
 struct kd_particles_push; /* push constants of particles.comp: render/view/layout.h */
 
-/* number of guiding orbits if there are at least as many particles; 35 orbits to a row of the default grid */
+/* number of guiding orbits if there are at least as many particles; a row of the default grid then has 35 orbits */
 #define KD_PARTICLE_RADII 4096u
-/* largest number of orbits, used if there are many rows or some are nearly empty */
+/* largest number of orbits. So many are used if there are many rows or if some rows are nearly empty */
 #define KD_PARTICLE_RADII_MAX 65536u
 #define KD_PARTICLE_ROWS 4096u
 
@@ -40,7 +40,7 @@ struct kd_particle_grid {
     uint32_t rows, columns;               /* number of intervals along each axis; columns is a power of 2 */
     uint32_t plunging;                    /* number of falling particles; 0: they have no grid */
     uint32_t plunge_rows, plunge_columns; /* size of the falling particles' grid */
-    /* rows from the start of the plunge to its end; rows before the start, for slow light */
+    /* lap_rows: rows from the start of the plunge to its end; lead_rows: rows before the start, for slow light */
     uint32_t lap_rows, lead_rows;
     uint32_t unit;  /* weight of one particle, chosen so that a node fits in 16 bits */
     uint64_t bytes; /* size of the grids on the device */
@@ -66,11 +66,11 @@ struct kd_particle_swing kd_particle_swing(const struct kd_scene *scene, uint32_
 
 /* Mean optical depth of the plunging gas where r |u^r| is 1, in a scene that has such gas. A particle has the same
  * opacity inside and outside the ISCO. So the optical depth is proportional to the surface density of the gas in its
- * own frame, relative to that of the disk just outside the ISCO. */
+ * own frame. It is normalised to the optical depth of the disk just outside the ISCO. */
 double kd_particle_plunge_depth(const struct kd_scene *scene);
 
-/* The time before scene->top.time for which the grid is computed: about the light delay of a near camera, so that the
- * remaining delay is short. */
+/* The grid is computed for a time before scene->top.time; returns the difference. It is about the light delay of a
+ * near camera, so that the remaining delay is short. */
 double kd_particle_delay(const struct kd_scene *scene);
 
 /* A particle's position: Boyer-Lindquist r in M, phi in units of 2^-32 turn, latitude in radians. */
@@ -78,11 +78,12 @@ struct kd_particle_place {
     float r;
     uint32_t phi;
     float latitude;
-    bool plunging; /* the particle falls with the ISCO's energy and angular momentum; false: it is on a guiding orbit */
+    /* true if the particle falls with the ISCO's energy and angular momentum; false: it is on a guiding orbit */
+    bool plunging;
 };
 
 /* Sizes of the kernel's buffers. One buffer has the guiding orbits, followed by the expected numbers for the rows of
- * both grids. The other has the grids in 32-bit words. */
+ * both grids. The other buffer has both grids in 32-bit words. */
 #define KD_PARTICLE_EXPECTED_BYTES (4 * (KD_PARTICLE_ROWS + 64))
 uint64_t kd_particle_guides_bytes(const struct kd_particle_grid *grid);
 uint64_t kd_particle_tables_bytes(const struct kd_particle_grid *grid);

@@ -15,8 +15,8 @@
 #define NEVER -1e6 /* log2 of zero */
 #define GHZ 1e9
 #define GOLD_GHZ 230 /* frequency to which the numbers of the analytic model refer */
-#define ERG_CM3 0.1  /* W m^-3 of an erg/(s cm^3) */
-#define PER_CM 100   /* 1/m of a 1/cm */
+#define ERG_CM3 0.1  /* one erg/(s cm^3), in W m^-3 */
+#define PER_CM 100   /* one 1/cm, in 1/m */
 #define CM3 1e6
 #define GAUSS 1e-4 /* tesla */
 #define EPSILON_0 KD_EPSILON_0
@@ -60,7 +60,7 @@ static void reach(const struct kd_scene *scene, double radii[2])
         radii[1] = fmin(radii[1], kd_torus_of(kd_scene_hole(scene), radii[0], scene->volume.torus_radius).outer);
 }
 
-/* cos(theta) at which a layer becomes too thin to count: there x = steep u, or steep u/sin(theta), equals
+/* cos(theta) at which a layer becomes too thin to be visible. There x = steep u, or x = steep u/sin(theta), equals
  * KD_PLASMA_SEEN. */
 static double height(const struct kd_scene *scene)
 {
@@ -83,8 +83,8 @@ static double knot(const struct kd_scene *scene)
     return falls && kd_scene_volume_inner(scene) < isco && isco < scene->volume.outer ? isco : 0;
 }
 
-/* Number of nodes of the scene's grid. If the grid's file has not been found yet, the largest number that is not
- * packed. */
+/* Number of nodes of the scene's grid. If the grid's file has not been found yet, returns the largest number of nodes
+ * that are not packed. */
 static uint64_t nodes_of(const struct kd_scene *scene)
 {
     return scene->matter.nodes ? scene->matter.nodes : KD_MATTER_WHOLE;
@@ -102,8 +102,8 @@ static uint64_t device_bytes(const struct kd_scene *scene)
            : is_grid(scene)   ? nodes_of(scene) * node_bytes(scene) + KD_MATTER_PLACES * 4 * sizeof(float)
                               : 0;
 }
-/* Host memory: the nodes before they are packed, and one array of the file. If the nodes stay unpacked, also the
- * file's arrays and the upload. */
+/* Host memory for the nodes before they are packed, and for one array of the file. If the nodes stay unpacked, also
+ * for the file's arrays and for the upload. */
 static uint64_t making_bytes(const struct kd_scene *scene)
 {
     return is_grid(scene) && *scene->volume.grid

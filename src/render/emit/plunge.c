@@ -15,7 +15,7 @@ static bool present(const struct kd_scene *scene)
 static uint32_t needs(const struct kd_scene *scene) { return kd_orbit_needs(scene) | KD_LENS_SLOPE; }
 
 /* t and phi of the plunge are smooth in log (r_isco - r)/(r - r+). At one end of this range t and phi are powers of
- * that ratio, at the other they are logarithms. */
+ * that ratio; at the other end they are logarithms of it. */
 struct range { double first, last; };
 static struct range range_of(const struct kd_plunging *p)
 {

@@ -26,18 +26,18 @@ bool kd_plunging_is_on(const struct kd_scene *scene);
 struct kd_plunging {
     struct kd_plunge curve;
     double start, end;            /* radii of the curve's start and end */
-    double time, omega;           /* time from start to end; angular velocity at the ISCO */
+    double time, omega;           /* time: from start to end; omega: angular velocity at the ISCO */
     struct kd_plunge_event first; /* the event at which the curve starts */
 };
 struct kd_plunging kd_plunging_of(const struct kd_scene *scene);
 
-/* Place at a radius r, start >= r >= end. phase: from 0 to 1. turns: azimuth in turns, minus the turns that the orbit
- * at the ISCO has made since the start. */
+/* Place at a radius r, start >= r >= end. phase: 0 at the start to 1 at the end. turns: azimuth in turns, minus the
+ * turns that the orbit at the ISCO has made since the start. */
 struct kd_plunging_place { double phase, turns; };
 struct kd_plunging_place kd_plunging_at(const struct kd_plunging *plunging, double r);
 
-/* Converts many phases to places. This is the inverse of the function above, by a table of points with known slopes and
- * cubics between the points. r is accurate to 1e-9. */
+/* Converts many phases to places. This is the inverse of the function above. It uses a table of points with known
+ * slopes, and cubics between the points. r is accurate to 1e-9. */
 #define KD_PLUNGING_POINTS 1025
 struct kd_plunging_path {
     struct { double r, turns, r_slope, turns_slope; } at[KD_PLUNGING_POINTS];

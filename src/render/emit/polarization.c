@@ -33,7 +33,8 @@ static void fill(struct kd_emission *out, const struct kd_scene *scene)
     out->polarization.fraction = (float)(scene->polarization.order * whole);
 }
 
-/* The argument of the table is the square root of the cosine, because the fraction is a smooth function of it. */
+/* The argument of the table is the square root of the cosine, because the degree of polarisation is a smooth function
+   of that root. */
 static void tables(struct kd_emit_tables *out, const struct kd_scene *scene)
 {
     double mu[KD_SCATTERING_ROWS + 1];

@@ -15,9 +15,9 @@ double kd_radio_unit(double ghz, double kelvin);
 double kd_radio_kelvin(const struct kd_scene *scene);
 double kd_radio_jansky_steradian(const struct kd_scene *scene);
 
-/* Converts a flux of kd_light_report to Jy. Such a flux is light times solid angle, in M^2 of the image plane, or in sr
- * for a camera at a finite radius r. A flux in sr is multiplied by r^2. The result is that of a picture with the same
- * width at the hole, seen from spacetime.distance_pc (kd_scene_width_uas). */
+/* Converts a flux of kd_light_report to Jy. Such a flux is light times solid angle. The unit of the solid angle is
+ * M^2 of the image plane, or sr for a camera at a finite radius r. A flux in sr is multiplied by r^2. The result is
+ * that of a picture with the same width at the hole, seen from spacetime.distance_pc (kd_scene_width_uas). */
 double kd_radio_jansky(const struct kd_scene *scene, double flux);
 
 /* Flux in Jy of one pixel with light 1, for an observer at infinity, where all pixels cover the same area of the

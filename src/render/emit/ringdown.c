@@ -20,7 +20,7 @@ static bool present(const struct kd_scene *scene)
 static unsigned varies(const struct kd_scene *scene)
 {
     double since = scene->top.time - scene->style.ringdown_time;
-    if (since < 0 || (scene->accuracy.orders < 2 && !kd_emit_along(scene))) /* a march covers all orders */
+    if (since < 0 || (scene->accuracy.orders < 2 && !kd_emit_along(scene))) /* a march includes all orders */
         return 0;
     const struct kd_ringdown_fit mode = kd_ringdown_fit(0, kd_hole(fabs(scene->spacetime.spin)));
     return scene->style.ringdown * exp(-mode.omega_re / (2 * mode.quality) * since) > SEEN ? KD_DIMS_WITH_TIME : 0;

@@ -60,7 +60,7 @@ static uint64_t device_bytes(const struct kd_scene *scene)
            (has_stars(scene) ? 4 * (5 * places + cells) : 0);
 }
 
-/* Host memory for the panorama's light before it is packed. For sky.image, also memory for all pixels of the picture.
+/* Host memory for the panorama's light before it is packed. For sky.image, also memory for all pixels of the file.
  * The scene does not contain their number, so the largest permitted number is used. */
 static uint64_t making_bytes(const struct kd_scene *scene)
 {

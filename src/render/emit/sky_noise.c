@@ -36,7 +36,7 @@ static bool elsewhere(const struct kd_null_path *a, const struct kd_null_path *b
 bool kd_sky_is_noise(const struct kd_scene *scene, enum kd_precision precision)
 {
     double r = scene->camera.r, rounding = precision == KD_PRECISION_F32 ? FLT_EPSILON / 2 : DBL_EPSILON / 2;
-    /* A falling observer sees no narrow cone: to it the sky looks as large as from further out. */
+    /* For a falling observer the sky is not narrowed to a cone: it looks as large as from further out. */
     if (!(r < KD_SKY_NEAR * kd_scene_hole(scene)->outer) || scene->camera.observer == KD_OBSERVER_INFALL)
         return false;
     const struct kd_scene whole = kd_scene_whole(scene);

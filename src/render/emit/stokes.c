@@ -16,7 +16,8 @@ static uint32_t traits(const struct kd_scene *scene)
            (has_dexters(scene) ? KD_TRAIT_STOKES_DEXTER : 0);
 }
 
-#define KAPPA_FIRST 3.5 /* the least kappa in Marszewski et al. 2021, whose fits are in steps of one half up to 5 */
+/* least kappa of the fits in Marszewski et al. 2021, which are given in steps of one half up to 5 */
+#define KAPPA_FIRST 3.5
 #define KAPPA_INTERVALS 3
 
 static void fill_kappa(struct kd_stokes_block *out, double kappa)

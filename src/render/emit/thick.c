@@ -21,7 +21,8 @@ static uint32_t traits(const struct kd_scene *scene)
                          : 0);
 }
 
-/* Crossings are searched even for smooth gas, because images at the critical curve, and their light, are thin. */
+/* Crossings are searched even for smooth gas, because its images at the critical curve are thin, and so is their
+ * light. */
 static uint32_t needs(const struct kd_scene *scene)
 {
     return KD_LENS_W | (stirs(scene) ? KD_LENS_PHI | KD_LENS_SHAPE : 0);
@@ -39,8 +40,8 @@ static double height(const struct kd_scene *scene)
     return most / sqrt(1 + most * most);
 }
 
-/* The radius at which the outer fade begins. Inside it an opaque disk transmits e^-depth. Outside it the disk
- * transmits the faded fraction, so its optical depth varies as a logarithm. */
+/* The radius at which the outer fade begins. Inside this radius an opaque disk transmits e^-depth. Outside it the
+ * disk transmits the faded fraction, so the optical depth varies as a logarithm of that fraction. */
 static double knot(const struct kd_scene *scene)
 {
     const double r = scene->disk.outer * (1 - scene->disk.taper);

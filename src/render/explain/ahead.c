@@ -4,7 +4,8 @@
 #include "render/explain/explain.h"
 #include "render/view/critical_cache.h"
 
-/* The scene that the web page requests for a pixel (clients/web/over/pixel.js). Such a pixel is rendered by itself. */
+/* The scene that the web page requests for a pixel (clients/web/over/pixel.js), in which the pixel is rendered by
+ * itself. */
 static struct kd_scene alone(const struct kd_scene *scene)
 {
     struct kd_scene s = *scene;
@@ -16,8 +17,8 @@ static struct kd_scene alone(const struct kd_scene *scene)
     return s;
 }
 
-/* Finds a pixel at the critical curve. Such a pixel needs the kernels of any other pixel, and those of its denser rays.
- * If the picture has no pixel at the curve, takes the first pixel. The only error is KD_ENOMEM. */
+/* Finds a pixel at the critical curve. Such a pixel needs all kernels that other pixels need, and the kernels for
+ * denser rays. If the picture has no pixel at the curve, takes the first pixel. The only error is KD_ENOMEM. */
 static enum kd_status pixel_at_curve(const struct kd_scene *scene, struct kd_pixel *out, struct kd_error *error)
 {
     struct kd_critical_pixels list = { 0 };

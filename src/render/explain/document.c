@@ -99,7 +99,7 @@ static void put_glow(struct kd_json *json, const struct kd_probed_glow *g, bool 
     kd_json_end(json);
 }
 
-/* Writes the emitters and absorbers at a place, as in the picture. */
+/* Writes the emitters and absorbers at a place, as the picture's kernel has reported them. */
 static void put_place(struct kd_json *json, const struct kd_explained *x, const struct kd_probed_place *p)
 {
     double left = 1;
@@ -418,7 +418,7 @@ static enum kd_status encode(const struct kd_picture *picture, enum kd_effort ef
     return status;
 }
 
-/* Extends the scene's tile to the whole picture, to which the places refer. */
+/* Extends the scene's tile to the whole picture, because places are counted in the whole picture. */
 static enum kd_status draws(struct kd_scene *scene, struct kd_error *error)
 {
     (void)error;

@@ -69,7 +69,8 @@ static void compare(struct kd_explained *x)
     }
 }
 
-/* The opaque place of the ray. NULL if the ray has none, or if a volume in front of it is opaque. */
+/* The first place at which the ray is blocked by opaque matter of the plane. NULL if the ray has none, or if a volume
+ * in front of it is opaque. */
 static const struct kd_probed_place *hiding(const struct kd_probed_ray *told)
 {
     for (size_t i = 0; i < told->n_places; i++) {
@@ -113,7 +114,7 @@ static void find_shown(const struct kd_picture *picture, struct kd_explained *x)
                                                   : ((const uint8_t *)kd_frame_pixels(f))[at + i] / 255.0;
 }
 
-/* Computes the labels, using a camera whose unit is the step between rays. */
+/* Computes the ray's labels, using a camera whose unit is the step between rays. */
 static void find_label(const struct kd_picture *picture, struct kd_explained *x)
 {
     const uint32_t steps = x->told->steps_a_pixel;
@@ -292,7 +293,7 @@ enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_s
     const struct kd_scene tile =
         kd_scene_tile(scene, (struct kd_window) { plan->report.probe.x, plan->report.probe.y, 1, 1 });
     struct kd_needs needs = kd_needs_of(scene);
-    struct kd_error why = { 0 }; /* it is not an error if the pixel needs the whole picture */
+    struct kd_error why = { 0 }; /* a pixel that needs the whole picture is not an error */
     struct kd_window cut;
     struct kd_plan narrow;
     if (kd_tile_check(&tile, &needs, &why))

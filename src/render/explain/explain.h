@@ -18,7 +18,7 @@ struct kd_explained {
     const struct kd_probed_ray *told; /* the picture's report on this ray */
     /* factor of the ray's light in the pixel's light: 0, or 1 divided by the number of rays */
     double weight;
-    const char *eye;              /* "left" or "right"; NULL: not a pair */
+    const char *eye;              /* "left" or "right"; NULL: the picture is not a pair */
     struct kd_scene scene;        /* scene of this eye */
     struct kd_camera_label label; /* energy: E at infinity divided by the energy that the observer measures */
     struct kd_ray_motion motion;
@@ -26,7 +26,7 @@ struct kd_explained {
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];
     struct kd_ray_end end;
     struct kd_ray_path_frame frame;
-    struct kd_ray_path path; /* path of the middle ray; for other rays it has no places */
+    struct kd_ray_path path; /* path of the ray; only the middle ray's path has places */
     /* largest relative error in 1/r of the picture's crossings; 1: the picture has another number of crossings */
     double picture_error;
     double shown[3]; /* displayed value of the pixel, 0 to 1 */
@@ -42,7 +42,7 @@ enum kd_status kd_explain_each(const struct kd_picture *picture, uint32_t number
 void kd_explained_ray_at(const struct kd_picture *picture, const struct kd_explained *explained, double out[2]);
 /* Relative difference between the mean of the rays' light and the pixel's light. */
 double kd_explained_sum_error(const struct kd_probed_pixel *pixel);
-/* Stokes I, Q, U and V of a ray as it arrives, where I is the luminance of all its light. Returns how many of them are
+/* Stokes I, Q, U and V of a ray as it arrives; I is the luminance of all its light. Returns how many of the four are
  * known: 4 for polarised volumes, 3 (without V) if only light of the plane is polarised, 0 if the scene is not
  * polarised. */
 enum { KD_EXPLAINED_STOKES = 4 };
@@ -55,13 +55,14 @@ double kd_explained_polarized(const double stokes[3]);
 double kd_explained_along_delay(const struct kd_explained *explained);
 void kd_explained_finish(struct kd_explained *explained);
 
-/* The reported place at the crossing of that order. NULL if its light is blocked, or if nothing emits light there. */
+/* The reported place at the crossing of this order. NULL if the crossing's light is blocked, or if nothing emits
+ * light there. */
 const struct kd_probed_place *kd_explained_place(const struct kd_explained *explained, uint32_t order);
 /* True if there is gas with a known temperature and angle; place may be NULL. */
 bool kd_explained_has_gas(const struct kd_probed_place *place);
 /* Velocity of the disk's gas at a crossing outside the horizon, in units of c, as a local observer of zero angular
- * momentum measures it. speed: its size; approach: its component along the light towards the camera. Within the last
- * stable orbit the gas keeps that orbit's E and L. */
+ * momentum measures it. speed: magnitude of the velocity; approach: its component along the light towards the camera.
+ * Inside the ISCO the gas keeps the E and L of the ISCO. */
 struct kd_gas_velocity { double speed, approach; };
 struct kd_gas_velocity kd_explained_velocity(const struct kd_explained *explained, const struct kd_ray_crossing *at);
 /* Boyer-Lindquist azimuth in the hole's own frame, in (-pi, pi]. */
@@ -72,16 +73,16 @@ enum kd_status kd_explain_text(const struct kd_picture *picture, struct kd_buffe
 
 /* The document of POST /v1/pixel; not among kd_formats, because it is about one pixel. */
 extern const struct kd_format kd_format_pixel;
-/* Sets the pixel of a plan from "X,Y", in pixels from the picture's upper left corner. Returns KD_EINVAL if it is not a
- * place in the picture. */
+/* Sets the pixel of a plan from "X,Y", in pixels from the picture's upper left corner. Returns KD_EINVAL if the text
+ * does not name a place in the picture. */
 enum kd_status kd_explain_at(const char *text, struct kd_plan *plan, struct kd_error *error);
 /* Reduces the scene and its plan to the plan's pixel with a margin (render/plan/tile.h). Does so only if the pixel does
  * not depend on the rest of the picture: the exposure must be a number, and there must be no bloom and no beam.
  * Otherwise leaves scene and plan unchanged. */
 enum kd_status kd_explain_narrow(const struct kd_capacity *capacity, struct kd_scene *scene, struct kd_plan *plan,
                                  struct kd_error *error);
-/* Requests additional output by a word. The only word is "steps", for the engine's steps along the middle ray. Returns
- * KD_EINVAL for any other word. */
+/* Requests additional output by a keyword. The only keyword is "steps", for the engine's steps along the middle ray.
+ * Returns KD_EINVAL for any other text. */
 enum kd_status kd_explain_trace(const char *text, struct kd_plan *plan, struct kd_error *error);
 
 #endif

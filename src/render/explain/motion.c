@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #define FAR 50.0     /* radius in M to which the path normally extends */
-#define FARTHEST 1e3 /* largest radius of the path in M, for a path with a crossing further out than FAR */
+#define FARTHEST 1e3 /* largest radius of the path in M; used for a path with a crossing further out than FAR */
 #define NEAR 0.01    /* distance from the horizon at which the path ends, as a fraction of the horizon's radius */
 #define DEGREES (180 / M_PI)
 

@@ -13,7 +13,8 @@
 
 struct kd_ray_motion {
     struct kd_null_ray ray;
-    /* the observer is on or inside the horizon, so azimuths and times of the path are ingoing (null_course.h) */
+    /* true if the observer is on or inside the horizon, so that azimuths and times of the path are ingoing
+     * (null_course.h) */
     bool within;
     double lambda, eta; /* L/E, Q/E^2 */
     struct kd_null_roots roots;
@@ -31,11 +32,11 @@ const char *kd_ray_radial_case(size_t i);
 const char *kd_ray_polar_case(size_t i);
 
 struct kd_ray_motion kd_ray_motion_of(const struct kd_null_ray *ray);
-/* Writes one sentence on why a ray of that fate ends as it does. Returns its length. */
+/* Writes one sentence on why a ray with this fate ends as it does. Returns its length. */
 int kd_ray_motion_why(const struct kd_ray_motion *motion, enum kd_ray_fate fate, char *out, size_t size);
 
-/* Computes the requested crossings and the end of a ray that starts inside the horizon. kd_rays_closed does this for
- * rays that start outside. phi counts from the observer's ingoing azimuth; for places outside the horizon it is
+/* Computes the requested crossings and the end of a ray that starts inside the horizon. For rays that start outside,
+ * kd_rays_closed does this. phi is counted from the observer's ingoing azimuth; for places outside the horizon it is
  * Boyer-Lindquist. delay is in ingoing time. There is no error estimate. Returns KD_OK or KD_ENOMEM. */
 enum kd_status kd_ray_within(const struct kd_ray_motion *motion, bool reversed, struct kd_ray_crossing *crossings,
                              struct kd_ray_end *end, struct kd_error *error);
@@ -52,7 +53,7 @@ struct kd_ray_path {
     struct kd_null_place *places; /* malloc'd */
     struct kd_ray_path_frame frame;
     double spin;
-    bool ingoing; /* azimuth and delay are ingoing */
+    bool ingoing; /* true if azimuth and delay are ingoing */
     /* largest relative error in r of the path's crossings; NAN: there is nothing to compare */
     double error;
 };

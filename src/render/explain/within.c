@@ -8,12 +8,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* fraction of the horizon's radius. If a ray from outside crosses the plane nearer to the horizon than this, the
+/* fraction of the horizon's radius. If a ray from outside crosses the plane within this distance of the horizon, the
  * crossing counts as on the horizon */
 #define NEAR 1e-4
 
-/* Redshift factor at a crossing. outwards: the photon leaves the gas with p^r > 0; the ray traced back moves inwards
- * there. */
+/* Redshift factor at a crossing. outwards: true if the photon leaves the gas with p^r > 0. The traced-back ray moves
+ * inwards there. */
 static double redshift(const struct kd_ray_motion *m, double r, bool outwards)
 {
     const struct kd_hole *hole = &m->ray.hole;

@@ -1,5 +1,5 @@
-/* Chooses the buffers in which a frame is rendered: the renderer's own, or those of a background render that no
- * other frame uses meanwhile. */
+/* Chooses the buffers in which a frame is rendered. They are the renderer's own, or those of a background render that
+ * no other frame uses meanwhile. */
 #include "render/frame/job.h"
 #include "render/frame/normalise.h"
 #include "render/frame/parts.h"
@@ -64,8 +64,8 @@ static void make_room_in_background(struct kd_renderer *r, uint64_t bytes)
     }
 }
 
-/* Limits the memory of idle background renders other than the last one, even if there is room. The oldest are
- * emptied first. */
+/* Limits the memory of idle background renders, except the last one, even if there is room for more. The oldest ones
+ * are emptied first. */
 static void bound_idle_backgrounds(struct kd_renderer *r)
 {
     for (;;) {

@@ -66,7 +66,8 @@ done:
     return status;
 }
 
-/* Interpolates back from cells, into buffers of their own, separate from the light before the beam. */
+/* Interpolates from cells back to pixels. The result is in separate buffers, so that the light before the beam is
+ * kept. */
 static enum kd_status spread(struct kd_frame_job *j)
 {
     const struct kd_plan *p = j->plan;
@@ -87,7 +88,7 @@ static enum kd_status grid_kernel(struct kd_frame_job *j, enum kd_kernel kernel,
                           constants, n, out, j->error);
 }
 
-/* Dispatches a slice of rows, or all remaining rows if `all`. */
+/* Dispatches a slice of rows. If `all` is true, dispatches all remaining rows. */
 static enum kd_status slice(struct kd_frame_job *j, const struct kd_vk_dispatch *d, bool all)
 {
     enum kd_status status;
@@ -100,7 +101,7 @@ done:
     return status;
 }
 
-/* Rows of one submission, a multiple of four, with `weights` weights each. */
+/* Returns the number of rows of one submission, a multiple of four. Each row has `weights` weights. */
 static uint32_t rows_at_once(double weights, uint32_t rows)
 {
     return 4 * (uint32_t)fmin(fmax(SUBMISSION / weights / 4, 1), (rows + 3) / 4);

@@ -41,7 +41,7 @@ enum kd_status kd_frame_between(struct kd_frame_job *j, const struct kd_frame_pa
         uint64_t from, to;
         kd_frame_part_in_band(j, part, band, &from, &to);
         for (uint32_t step; from < to; from += step) {
-            /* sized by an upper bound: the time that tracing these rays would take */
+            /* the slice is sized for the time that tracing these rays would take, which is an upper bound */
             step = kd_frame_slice_at_most(j, j->plan->cost.trace_ns * part->list->lattice.rays, (uint32_t)(to - from));
             struct kd_between_push push = {
                 .first = (uint32_t)from,
@@ -58,8 +58,8 @@ done:
     return status;
 }
 
-/* Marks the pixels of one part. A part has as many pixels as fit in one buffer, which also holds a result word for
- * each. The words are copied to the host. */
+/* Marks the pixels of one part. The part's buffer has room for its pixels and for a result word for each pixel. The
+ * words are copied to the host. */
 static enum kd_status mark_part(struct kd_frame_job *j, const struct kd_frame_part *part, struct kd_vk_buffer *host,
                                 uint8_t *marks)
 {
@@ -85,7 +85,7 @@ done:
     return status;
 }
 
-#define MARKED_AT_ONCE (1u << 18) /* pixels of one dispatch, which takes some milliseconds */
+#define MARKED_AT_ONCE (1u << 18) /* number of pixels in one dispatch, which takes some milliseconds */
 
 enum kd_status kd_frame_mark_between(struct kd_frame_job *j, const struct kd_critical_pixels *pixels, uint8_t *marks)
 {

@@ -65,7 +65,8 @@ done:
 }
 
 /* Maximum number of blocks along an axis that two adjacent cells read together. The two cells read blocks in four
- * cells. A narrow last block moves the centres of blocks closer together, which adds up to two blocks. */
+ * cells. A narrow last block moves the centres of blocks closer together, so that the two cells may read two more
+ * blocks. */
 static uint32_t taps(uint32_t pixels, uint32_t cells, uint32_t block, bool around)
 {
     return 4 * pixels / (cells * block) + (pixels % block ? 3 : 1) + (around ? 1 : 0);
@@ -116,7 +117,8 @@ static enum kd_status make(struct kd_frame_job *j, enum kd_kernel kernel, uint32
         uint32_t columns, rows;
         float share, coarse_share;
     } push = { b->columns >> level, b->rows >> level, share, coarse_share };
-    const uint32_t side = kernel == KD_KERNEL_BLOOM_UP ? 2 : 1; /* cells along a side of an invocation */
+    /* number of cells along each side of the square that one invocation makes */
+    const uint32_t side = kernel == KD_KERNEL_BLOOM_UP ? 2 : 1;
     const uint64_t invocations = (uint64_t)((push.columns + side - 1) / side) * ((push.rows + side - 1) / side);
     kernel += kd_kernels_cells_as_texels(j->r->vk, b) ? 1 : 0;
     const struct kd_spec_bloom_grid spec = { .AROUND = b->around };
@@ -139,8 +141,8 @@ static enum kd_status down(struct kd_frame_job *j, uint32_t level)
     return make(j, KD_KERNEL_BLOOM_DOWN, level, 0, 0, bindings);
 }
 
-/* Adds the light of one grid to the sum of all coarser grids. For the coarsest grid there is no such sum, so its own
- * light is bound in that place, with weight 0. */
+/* Adds the light of one grid to the sum of all coarser grids. The coarsest grid has no such sum. So its own light is
+ * bound in the place of the sum, with weight 0. */
 static enum kd_status up(struct kd_frame_job *j, uint32_t level)
 {
     const struct kd_bloom *b = &j->plan->picture.bloom;

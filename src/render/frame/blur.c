@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Host memory for each pixel: the sum, and the light of one picture. */
+/* Bytes of host memory for each pixel: SUM for the sum, LIGHT for the light of one picture. */
 enum { SUM = 3 * sizeof(double), LIGHT = 3 * sizeof(float) };
 
 /* Requests that the linear light be copied to the host. */
@@ -45,7 +45,7 @@ enum kd_status kd_blur_plan(unsigned samples, double shutter, const struct kd_ca
     return KD_OK;
 }
 
-/* Progress of one picture as a part of the whole. */
+/* Progress of one picture as a fraction of the whole work. */
 struct part {
     const struct kd_blurred *blurred;
     unsigned done;

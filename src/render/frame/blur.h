@@ -10,7 +10,7 @@ enum { KD_BLUR_SAMPLES = 64 }; /* largest number of pictures in one mean */
 
 /* The pictures of a mean. Sample 0 has its own scene and plan; the scenes of the others come from the callback. */
 struct kd_blur {
-    unsigned samples; /* 0 or 1: no blur */
+    unsigned samples; /* number of pictures in the mean; 0 or 1: no blur */
     const void *user;
     unsigned frame;
     enum kd_status (*scene)(const struct kd_blur *blur, unsigned sample, struct kd_scene *out, struct kd_error *error);

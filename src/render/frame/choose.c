@@ -47,7 +47,8 @@ static int bend(const uint16_t *above, const uint16_t *row, const uint16_t *belo
     return most;
 }
 
-/* Collects pixels with a second difference of at least `floor`; *sum: sum of the squares over all pixels. */
+/* Collects pixels with a second difference of at least `floor`. *sum: sum of the squared second differences of all
+ * pixels. */
 static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_choice *out, double *sum,
                             struct kd_error *error)
 {
@@ -70,7 +71,7 @@ static enum kd_status bends(const struct kd_shown *now, int floor, struct kd_cho
     return status;
 }
 
-/* The threshold of second differences. It is at most `least`, and low enough that pixels below it have at most
+/* The threshold of second differences. It is at most `least`. It is low enough that the pixels below it have at most
  * KD_CHOOSE_LEFT of the sum of squares. */
 static double threshold(const struct kd_choice *c, double floor, double least, double sum)
 {

@@ -14,7 +14,7 @@ struct kd_shown {
     uint32_t width, height;
 };
 
-/* Pixels row by row, each with a score for how much it needs more rays. */
+/* Pixels row by row, each with a score. The score is high if the pixel needs more rays. */
 struct kd_choice {
     struct kd_critical_pixels list;
     uint32_t *scores;

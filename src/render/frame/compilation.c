@@ -10,7 +10,7 @@
 
 struct kd_compilation {
     struct kd_renderer *renderer;
-    bool picture; /* the kernels are those of a whole picture, so the scene is rendered by its plan */
+    bool picture; /* true if the kernels are those of a whole picture; the scene is then rendered by its plan */
     struct kd_scene scene;
     struct kd_dynamic_bodies *dynamic; /* the scene's bodies of a playground; a counted reference, because the
                                         * requester may end before the compilation */
@@ -115,7 +115,7 @@ static void *rehearse(void *user)
     if (own && kd_renderer_hangs(own))
         return NULL; /* not closed, because a hanging device can never be closed */
     if (c->status == KD_EDEVICE)
-        c->status = KD_EIO; /* this is not KD_EDEVICE, because the picture's own device may be working */
+        c->status = KD_EIO; /* not KD_EDEVICE, because the picture's own device may still work */
     if (own)
         kd_renderer_assets_stop(own);
     kd_renderer_destroy(own);

@@ -12,21 +12,22 @@
 
 struct kd_compilation;
 
-/* Requests kernels exactly as the work that needs them will (kd_kernels_note). */
+/* Requests the same kernels that the work will need (kd_kernels_note). */
 typedef enum kd_status (*kd_kernels_ask_fn)(struct kd_renderer *renderer, const void *user);
 
-/* Makes a compilation of the requested kernels that the device lacks; NULL if the device has all of them. Only the
- * thread that owns the device. */
+/* Makes a compilation of the requested kernels that the device lacks; NULL if the device has all of them. Called only
+ * by the thread that owns the device. */
 struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernels_ask_fn ask, const void *user);
 /* Like kd_compilation_of, for the kernels of a picture that take long to compile. */
 struct kd_compilation *kd_compilation_begin(struct kd_renderer *renderer, const struct kd_scene *scene,
                                             const struct kd_plan *plan);
 /* Compiles the kernels. Any thread; the renderer must not be closed or reopened meanwhile. An error of a kernel is
- * reported by the render that needs the kernel. progress returns false to stop soon. Returns KD_EDEVICE if the second
- * device hangs, as in kd_renderer_hangs. */
+ * reported by the render that needs the kernel. If progress returns false, the compilation stops soon. Returns
+ * KD_EDEVICE if the second device hangs, as in kd_renderer_hangs. */
 enum kd_status kd_compilation_run(struct kd_compilation *compilation, kd_progress_fn progress, void *user,
                                   struct kd_error *error);
-/* Adds the kernels to the renderer's cache, and frees the compilation. Only the thread that owns the device. */
+/* Adds the kernels to the renderer's cache, and frees the compilation. Called only by the thread that owns the
+ * device. */
 void kd_compilation_end(struct kd_compilation *compilation);
 
 /* Has missing kernels compiled through kd_renderer_params.lacks. Called during a picture, while nothing is recorded.
@@ -36,7 +37,7 @@ enum kd_status kd_frame_await_kernels(struct kd_frame_job *job, kd_kernels_ask_f
 
 void kd_compilation_drop(struct kd_compilation *compilation); /* frees a compilation that was not run; any thread */
 
-/* True if compiling in advance helps with this device. If it does not help but the user can change that, the log
+/* True if compiling in advance is of use with this device. If it is of no use but the user can change that, the log
  * says how. */
 bool kd_compilation_helps(const struct kd_renderer *renderer);
 

@@ -33,7 +33,8 @@ done:
     return status;
 }
 
-/* The log2 luminance that only the brightest pixels exceed; `share` is their fraction of the pixels with light. */
+/* The log2 luminance that only the brightest pixels exceed. `share` is the number of these pixels, as a fraction of
+ * the pixels with light. */
 static double luminance_quantile(const uint32_t *counts, double share)
 {
     uint64_t lit = 0, above = 0;
@@ -51,9 +52,9 @@ static double luminance_quantile(const uint32_t *counts, double share)
 
 /* Computes the exposure for "auto". sRGB clips at 1, so the brightest pixels are exposed to 1. The top four in a
  * thousand of the pixels with light are ignored. The film-like curve has a long shoulder, so with it the brightest
- * pixels may be above white. The larger the range from the median to these pixels, the further above white they may be.
- * The dim side of a beamed disk thus stays visible. all: no pixels are ignored, because light smoothed by a beam
- * reaches its true maximum in a pixel. */
+ * pixels may be above white. The larger the range from the median to these pixels, the further above white they may
+ * be. The dim side of a beamed disk thus stays visible. all: if true, no pixels are ignored, because light smoothed
+ * by a beam reaches its true maximum in a pixel. */
 static double auto_exposure(const uint32_t *counts, int tone_map, bool all)
 {
     double white = luminance_quantile(counts, all ? 0 : 0.004), median = luminance_quantile(counts, 0.5);

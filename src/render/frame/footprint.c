@@ -1,4 +1,5 @@
-/* The footprint pass: footprints of a lens map from differences of its rays, between tracing and light. */
+/* The footprint pass: computes footprints of a lens map from differences of its rays. It runs between tracing and
+   light. */
 #include "render/frame/job.h"
 
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *j, const struct kd_critical_lattice *l,

@@ -16,8 +16,8 @@ static enum kd_status make_ready(struct kd_frame_job *j, const struct kd_capacit
 {
     struct kd_renderer *r = j->r;
     enum kd_status status;
-    /* A quarter of the memory is reserved for the renderer's cached maps, so that background renders fit beside
-     * them. A background render keeps only its own lens map. */
+    /* A quarter of the memory is reserved for lens maps that the renderer caches, so that background renders fit
+     * beside them. A background render keeps only its own lens map. */
     j->store->memory_bytes = j->background ? j->plan->cost.device_bytes : c->memory_bytes / 4;
     KD_TRY(kd_store_lens_map(j->store, j->plan, &j->lens, reused, j->error));
     KD_TRY(kd_store_frame(j->store, j->plan, j->plan->lens.adaptive ? 16 : kd_frame_bit_depth(j->frame), j->error));
@@ -47,7 +47,7 @@ done:
     return status;
 }
 
-/* The lattices of rays that a picture uses: that of the grid, that of the critical curve, and those of refinement. */
+/* The lattices of rays that a picture uses: those of the grid, of the critical curve and of refinement. */
 static size_t lattices_of(const struct kd_plan_lens *lens, struct kd_critical_lattice out[5])
 {
     size_t n = 0;
@@ -154,7 +154,7 @@ static double rows_of_refining(const struct kd_frame_job *j, double rows)
     return refine && ms > 0 ? rows * refine->estimate_ms / ms : 0;
 }
 
-/* Refines the picture. Pixels are chosen at the exposure that the picture would have at this point. */
+/* Refines the picture. Pixels are chosen at the exposure that the picture has before refinement. */
 static enum kd_status refine(struct kd_frame_job *j)
 {
     const struct kd_plan_pass *pass = pass_of(&j->plan->cost, KD_PASS_REFINE);
@@ -228,7 +228,7 @@ done:
     return status;
 }
 
-/* Drops all cached buffers after an error of the program, which may have corrupted them. The device is idle. */
+/* Drops all cached buffers after an internal error, because it may have corrupted them. The device is idle. */
 static void begin_anew(struct kd_frame_job *job)
 {
     kd_log(KD_LOG_ERROR, "a fault in kerrd: %s", job->error ? job->error->message : "no details");

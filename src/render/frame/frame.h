@@ -20,8 +20,8 @@ struct kd_frame {
     struct kd_layer layers[KD_FRAME_MAX_LAYERS];
     size_t n_layers;
     char credit[KD_CREDIT]; /* credits of the picture's sources, in the form that their authors request; "": none */
-    double exposure;        /* exposure applied, in stops */
-    bool lens_reused;       /* the trace pass was skipped because the lens map was cached */
+    double exposure;        /* exposure that was applied, in stops */
+    bool lens_reused;       /* true if the trace pass was skipped because the lens map was cached */
     uint32_t others_traced; /* number of lens maps traced for the other pictures of a mean (frame/blur.h) */
     struct kd_accuracy_report accuracy;
     struct kd_light_report light;
@@ -45,17 +45,17 @@ static inline int kd_frame_bit_depth(const struct kd_frame *frame)
 enum kd_status kd_render(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                          kd_progress_fn progress, void *user, struct kd_frame *out, struct kd_error *error);
 
-/* Preview of a long picture, which is drawn from the top some rows at a time. The hook's functions are called between
- * these steps. */
+/* Preview of a long picture. The picture is drawn from the top, some rows at a time. The hook's functions are called
+ * between two steps. */
 struct kd_preview_hook {
     bool (*wanted)(void *user);
-    /* Called with a frame of full size that is black from row `rows` on. The frame has its own exposure if that is
-     * "auto", and has neither timings nor accuracy. The frame's layers are valid only during the call. */
+    /* Called with a frame of full size that is black from row `rows` on. If the exposure is "auto", the frame has an
+     * exposure of its own. It has neither timings nor accuracy. The frame's layers are valid only during the call. */
     void (*seen)(void *user, const struct kd_frame *frame, uint32_t rows);
 };
 
-/* Renders like kd_render, with separate buffers. progress is called about every 100 ms. During this call, other threads
- * may use the renderer for anything in this header. The picture's bytes do not depend on that. At most
+/* Renders like kd_render, with separate buffers. progress is called about every 100 ms. While progress runs, other
+ * threads may use the renderer for anything in this header. The picture's bytes do not depend on such use. At most
  * KD_BACKGROUND_RENDERS may run concurrently, and the callers must limit their total memory, the sum of the plans'
  * device_bytes. Cached lens maps of finished background renders are evicted to make room. Timings exclude the time
  * spent in progress. preview: NULL, or both functions, called with `user`. */

@@ -13,17 +13,17 @@ struct kd_frame_job {
     struct kd_renderer *r;
     struct kd_store *store;
     struct kd_prepared *prepared;
-    bool background;                           /* during `progress`, other pictures may be rendered */
-    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* if `background`: device times of finished work */
+    bool background;                           /* true if other pictures may be rendered during `progress` */
+    struct kd_vk_time times[KD_VK_MAX_PASSES]; /* if `background` is true: device times of finished work */
     size_t n_times;
-    double away_ms; /* time spent in progress */
+    double away_ms; /* time spent in calls of `progress` */
     const struct kd_scene *scene;
     const struct kd_plan *plan;
     const struct kd_light_sum *others; /* pictures with which the light is averaged; NULL: none */
     /* light of the sampled pixels, traced once as in the picture and once more finely; NULL: none */
     struct kd_vk_buffer *marched;
     struct kd_lens_map *lens;
-    struct kd_star_key star_key;   /* key of the light of stars in this frame */
+    struct kd_star_key star_key;   /* key of this frame's light of stars */
     bool stars_kept;               /* true if the cached light of stars is valid */
     uint64_t undecided;            /* number of rays of the lens map whose tracing was given up */
     uint64_t traced, interpolated; /* same meaning as in kd_accuracy_report */
@@ -33,11 +33,11 @@ struct kd_frame_job {
     const struct kd_preview_hook *preview;
     void *user;
     double done, weight; /* done: number of rows done so far, summed over all passes; weight: number of all rows */
-    /* refine_rows: rows by which refinement counts in the progress, and which are not reported yet. refine_rays: number
-     * of rays that refinement is expected to trace */
+    /* refine_rows: rows that stand for refinement in the progress and are not reported yet. refine_rays: number of
+     * rays that refinement is expected to trace */
     double refine_rows, refine_rays;
     uint32_t lit;   /* number of rows of pixels, from the top, whose light is complete */
-    bool looking;   /* a preview is being made */
+    bool looking;   /* true while a preview is being made */
     uint8_t *kinds; /* KD_REFINED_... of each pixel; NULL unless image.samples is "auto" */
     bool teaches;   /* true if the job's times count as measurements of the passes' costs */
     struct kd_cpu_pressure
@@ -82,7 +82,7 @@ static inline uint32_t kd_frame_groups(uint64_t items)
     return (uint32_t)((items + KD_GROUP_SIZE - 1) / KD_GROUP_SIZE);
 }
 
-/* Requests the kernels that take long to make, as the frame will, for kd_kernels_note. Uses only the job's renderer,
+/* Requests, for kd_kernels_note, the kernels of the frame that take long to make. Uses only the job's renderer,
  * store, scene and plan. */
 enum kd_status kd_frame_ask_kernels(struct kd_frame_job *job);
 /* Renders the job's scene by its plan into *out. */
@@ -102,27 +102,27 @@ struct kd_frame_list {
     const struct kd_critical_pixels *pixels;
     struct kd_critical_lattice lattice;  /* the rays in each pixel */
     int camera;                          /* the camera whose unit is the lattice's step (view/layout.h) */
-    uint64_t most;                       /* number of pixels whose lens map fits in one buffer */
+    uint64_t most;                       /* largest number of pixels whose lens map fits in one buffer */
     struct kd_vk_buffer *const *buffers; /* the first buffer is for the first `most` pixels, the second for the next
                                           * `most`, ... */
-    bool again;                          /* one buffer is reused for all pixels, so no map is kept */
-    /* rays of pixels where interpolation is accurate are interpolated instead of traced (frame/lens.h) */
+    bool again;                          /* true if one buffer is reused for all pixels, so that no map is kept */
+    /* true if rays of pixels where interpolation is accurate are interpolated instead of traced (frame/lens.h) */
     bool between;
-    bool layers;      /* layers of light are computed in addition to the picture */
-    const char *pass; /* pass to which the time of these pixels is assigned; NULL: the usual passes */
+    bool layers;      /* true if layers of light are computed in addition to the picture */
+    const char *pass; /* pass to which the time of these pixels is attributed; NULL: the usual passes */
 };
-/* Computes the light of a list. needed: the lens map must be made first. */
+/* Computes the light of a list. needed: true if the lens map must be made first. */
 enum kd_status kd_frame_light_list(struct kd_frame_job *job, const struct kd_frame_list *list, bool needed);
-/* Records footprints for rows of rays of a buffer, or for a range of rays on listed pixels. All of these rays and
- * their neighbours must be traced. Nothing is submitted. Does nothing if the plan has no footprints. */
+/* Records footprints for rows of rays of a buffer, or for a range of rays on listed pixels. These rays and their
+ * neighbours must be traced before. Nothing is submitted. Does nothing if the plan has no footprints. */
 struct kd_footprint_area {
     struct kd_vk_buffer *lens;
     const struct kd_critical_lattice *lattice; /* NULL: rays of the grid */
     struct kd_footprint_push push;
 };
 enum kd_status kd_frame_footprint(struct kd_frame_job *job, const struct kd_footprint_area *area);
-/* Like the function above, for a sampled map whose rows from `traced` on have just been sampled. row0: the picture's
- * row of rays that is the first row of the buffer. Footprints are made for rays that were traced singly, and for
+/* Like the function above, for a sampled map whose rows from `traced` on have just been sampled. row0: the first row
+ * of the buffer, as a row of rays of the picture. Footprints are made for rays that were traced singly, and for
  * earlier rays that are marked as incomplete. */
 enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct kd_footprint_area *area, uint32_t row0,
                                           uint32_t traced);
@@ -130,13 +130,13 @@ enum kd_status kd_frame_footprint_sampled(struct kd_frame_job *job, const struct
  * footprints. */
 enum kd_status kd_frame_footprint_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice,
                                          const struct kd_vk_pipeline **out);
-/* Spreads the light of stars over the pixels of a band. The stars are those that the band's rays see. If the whole map
- * is cached, stars that rays of adjacent rows see are included. Does nothing if that light is cached. The band's map
- * must be complete. Call this for the bands of a frame from first to last. */
+/* Spreads the light of stars over the pixels of a band. The stars are those that the band's rays see. If the whole
+ * map is cached, stars that rays of adjacent rows see are included. Does nothing if the light of stars is cached. The
+ * band's map must be complete. Call this for the bands of a frame from first to last. */
 enum kd_status kd_frame_stars(struct kd_frame_job *job, uint32_t band);
 /* Gets all kernels of kd_frame_stars. */
 enum kd_status kd_frame_star_kernels(struct kd_frame_job *job);
-/* Determines whether the light of stars is cached. Call this as soon as the emitters' numbers are set. */
+/* Determines whether the light of stars is cached. Call this after the emitters' numbers are set. */
 void kd_frame_begin_stars(struct kd_frame_job *job);
 /* kd_frame_find_rim finds the rim of the job's lens map, if there is one (view/rim.h). kd_frame_trace_rim traces the
  * rim's rays, unless they are already traced. */
@@ -163,7 +163,7 @@ enum kd_status kd_frame_march_error(struct kd_frame_job *job);
  * sums, and computes the frame's flux and centroid. */
 enum kd_status kd_frame_add_light(struct kd_frame_job *job);
 enum kd_status kd_frame_read_light(struct kd_frame_job *job);
-/* Replaces the light of all bands by its mean with j->others. Waits for the device. */
+/* Replaces the light of all bands by the mean of this light and of j->others. Waits for the device. */
 enum kd_status kd_frame_mean(struct kd_frame_job *job);
 /* Convolves the completed light with a telescope's beam, for the passes that follow. Does nothing if the plan has no
  * beam. */
@@ -171,8 +171,8 @@ enum kd_status kd_frame_beam(struct kd_frame_job *job);
 /* Sets the exposure from the completed light. Waits for the device if the exposure is "auto". */
 enum kd_status kd_frame_expose(struct kd_frame_job *job);
 /* kd_frame_refine traces more rays for the pixels that need them, at the frame's exposure. j->kinds records which
- * pixels these are. kd_frame_residual measures the remaining error of the picture, and writes it to the frame's
- * accuracy. It overwrites the light of the sampled pixels. */
+ * pixels these are. kd_frame_residual measures the remaining error of the picture, and writes the error to the
+ * frame's accuracy. This overwrites the light of the sampled pixels. */
 enum {
     KD_REFINED_NOT,
     KD_REFINED_NOT_AT_CURVE,
@@ -192,7 +192,7 @@ enum kd_status kd_frame_bloom(struct kd_frame_job *job);
 /* Makes pixels of the completed light and copies them to the host. */
 enum kd_status kd_frame_post(struct kd_frame_job *job);
 enum kd_status kd_frame_post_kernel(struct kd_frame_job *job, const struct kd_vk_pipeline **out); /* the kernel */
-/* Runs the passes from light to pixels, in order. */
+/* Runs, in order, the passes that turn light into pixels. */
 enum kd_status kd_frame_show(struct kd_frame_job *job);
 /* kd_frame_add_layers allocates the layers of a plan other than the picture. kd_frame_layers copies these layers to the
  * host, as far as light is complete. A single requested layer replaces the picture, in false colour. */

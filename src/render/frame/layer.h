@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define KD_FRAME_MAX_LAYERS 18 /* the picture, its linear light, and the largest number of maps in image.layers */
+#define KD_FRAME_MAX_LAYERS 18 /* the picture, its linear light, and as many maps as image.layers may have */
 
 struct kd_layer {
     char name[40];

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Updates the cost of an item of a pass, both in general and for the picture's class. */
+/* Updates the cost of an item of a pass: the general figure, and the figure of the picture's class. */
 static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const struct kd_plan_pass *pass, double ms)
 {
     const double ns = ms * 1e6 / (double)pass->invocations;
@@ -16,7 +16,7 @@ static void learn(struct kd_capacity *c, const struct kd_frame_job *job, const s
     if (pass->figure == KD_NS_NONE)
         return;
     if (pass->figure == KD_NS_RAY_MARCH && job->scene->volume.model == KD_VOLUME_GRID)
-        return; /* the time of this pass depends on the grid's cells */
+        return; /* on a grid, the time of this pass depends on the grid's cells, so the figure stays unchanged */
     double *figure = &c->ns[pass->figure];
     *figure = job->r->probing ? fmin(*figure, ns) : kd_cost_mean(*figure, ns);
 }

@@ -222,7 +222,8 @@ struct kd_vk_dispatch kd_frame_trace(const struct kd_frame_job *j, const struct 
         { { lens, 0, 0, true },
           { j->store->undecided, 0, 0, true },
           camera_binding(j, camera),
-          [KD_PLACES_BINDING] = camera_binding(j, camera) }, /* replaced if rays are given by place */
+          /* this camera's binding is replaced if rays are given by place */
+          [KD_PLACES_BINDING] = camera_binding(j, camera) },
     };
 }
 
@@ -254,9 +255,10 @@ struct kd_vk_dispatch kd_frame_transfer(const struct kd_frame_job *j, const stru
     };
     kd_prepared_buffers(j->prepared, &j->plan->light, own);
     own[KD_OWN_point_light] =
-        j->plan->light.points ? j->lens->star_light.buffers[band] : NULL; /* stars.c makes it, band by band */
-    for (int i = 0; i < KD_OWN_COUNT; i++)                                /* any buffer can be bound where none is
-                                                                           * used */
+        /* stars.c makes the light of stars, band by band */
+        j->plan->light.points ? j->lens->star_light.buffers[band] : NULL;
+    for (int i = 0; i < KD_OWN_COUNT; i++) /* any buffer can be bound where none is
+                                            * used */
         d.bindings[KD_OWN_BINDING + i].buffer = own[i] ? own[i] : j->store->transfer;
     if (makes >= 0) {
         d.bindings[3].buffer = j->store->layers.buffers[band];
@@ -279,8 +281,8 @@ static struct slice complete(const struct kd_frame_job *j, const struct slice *s
     return (struct slice) { s->band, from, (end == first + kd_frame_band_rows(j, s->band) ? end : to) - from };
 }
 
-/* Makes footprints. s: rows that can be completed; traced: those of them that were just traced. In a sampled map,
- * footprints are made for rays traced singly, and for marked rays in rows that had to wait. */
+/* Makes footprints. s: rows that can be completed; traced: the rows among them that were just traced. In a sampled
+ * map, footprints are made for rays traced singly, and for marked rays in rows that had to wait. */
 static enum kd_status footprint_slice(struct kd_frame_job *j, const struct slice *s, const struct slice *traced)
 {
     const struct kd_plan *p = j->plan;
@@ -384,8 +386,9 @@ static enum kd_status follow_lost(struct kd_frame_job *j, uint32_t band)
     return kd_frame_follow_lost(j, &d, &push, &on_grid, turns);
 }
 
-/* Lights rows whose map is recorded or made, and reports their progress. A slice of a sampled map has at least the rows
- * of a block. So its light may take several submissions. map_ns and light_ns: times of a row of pixels. */
+/* Lights rows whose map is recorded or made, and reports their progress. A slice of a sampled map has at least the
+ * rows of a block. So its light may take several submissions. map_ns, light_ns: time for the map and for the light of
+ * a row of pixels, in ns. */
 static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *whole, double map_ns, double light_ns)
 {
     struct slice part = *whole;
@@ -393,7 +396,7 @@ static enum kd_status light_rows(struct kd_frame_job *j, const struct slice *who
     enum kd_status status;
     do {
         const uint32_t most = left ? kd_frame_slice(j, light_ns, left) : 1, parts = (left + most - 1) / most;
-        part.count = parts ? (left + parts - 1) / parts : 0; /* the parts have equal sizes */
+        part.count = parts ? (left + parts - 1) / parts : 0; /* the rest is divided into parts of equal size */
         j->r->slice_pace.expected_ms = 1e-6 * (light_ns * part.count + (left == whole->count ? map_ns * left : 0));
         KD_TRY(light_slice(j, &part));
         part.first += part.count;

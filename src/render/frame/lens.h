@@ -30,8 +30,8 @@ enum kd_status kd_frame_trace_kernel(struct kd_frame_job *job, const struct kd_c
                                      const struct kd_vk_pipeline **out);
 enum kd_status kd_frame_light_kernel(struct kd_frame_job *job, const struct kd_critical_lattice *lattice, int makes,
                                      const struct kd_vk_pipeline **out);
-/* Number of dispatches for the light of a pixel with `rays` rays. The march follows one ray at a time, and needs a
- * dispatch for each kd_slice.ray. */
+/* Number of dispatches for the light of a pixel with `rays` rays. The march follows one ray at a time, and needs one
+ * dispatch for each value of kd_slice.ray. */
 uint32_t kd_frame_turns(const struct kd_plan *plan, uint32_t rays, int makes);
 /* The dispatches of both kernels, without their size. kd_frame_trace: from rays of a camera (view/layout.h) to a
  * lens map. kd_frame_transfer: from the lens map to the radiance of a band. */
@@ -69,10 +69,10 @@ enum kd_status kd_frame_upload_pixels(struct kd_frame_job *job, const struct kd_
 /* Describes the light of the plan's pixel again, if that pixel is in the part that has just been lit. */
 enum kd_status kd_frame_probe_listed(struct kd_frame_job *job, const struct kd_frame_part *part);
 
-/* Functions for undecided rays: single precision does not determine their fate or their number of crossings. The rays
- * are those of a band of the grid (part NULL) or of a part of a list. kd_frame_forget_open empties the list of these
- * rays; call it before rays are traced. kd_frame_settle then traces the rays on the list again in double (settle.c): it
- * submits what is recorded, waits, and records the writes to the map. Rays that stay undecided are counted in
+/* Functions for undecided rays, whose fate or number of crossings single precision does not determine. The rays are
+ * those of a band of the grid (part NULL) or of a part of a list. kd_frame_forget_open empties the list of these
+ * rays; call it before rays are traced. kd_frame_settle then traces the rays on the list again in double (settle.c):
+ * it submits what is recorded, waits, and records the writes to the map. Rays that stay undecided are counted in
  * job->undecided. */
 enum kd_status kd_frame_forget_open(struct kd_frame_job *job, const struct kd_frame_part *part);
 enum kd_status kd_frame_settle(struct kd_frame_job *job, const struct kd_frame_part *part, uint32_t band);

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* FIRST, CLOSE: pixels along a side of the first pictures and of the later ones; MOST: largest number of pictures */
+/* FIRST, CLOSE: pixels along a side of the first and of the later pictures; MOST: largest number of pictures */
 enum { FIRST = 48, CLOSE = 128, MOST = 60 };
 /* upper bound of the relative difference between the fluxes of a picture of 48 pixels and one of 128 */
 #define NEAR 1e-3
@@ -17,9 +17,10 @@ enum { FIRST = 48, CLOSE = 128, MOST = 60 };
  * the square root of the density, so the slope is at least 1.5. */
 #define THIN 2.0
 #define LONGEST 6.9 /* largest step of ln scale: a factor of a thousand */
-/* margin at both ends of a bracket, as a fraction of the bracket; an estimate within it is replaced */
+/* margin at both ends of a bracket, as a fraction of the bracket; an estimate inside the margin is replaced by the
+ * bracket's middle */
 #define MARGIN 0.05
-#define DENSEST 1e30 /* the range of the fields */
+#define DENSEST 1e30 /* largest density that a scene can have */
 
 struct search {
     struct kd_renderer *r;
@@ -77,8 +78,8 @@ static enum kd_status refuse(const struct search *s, const char *why, double jy)
                           s->target, why, jy);
 }
 
-/* The next estimate of ln scale, by the secant through the ends of a bracket or by the slope. If it is too near to
- * an end of the bracket, the bracket's middle is used instead. */
+/* The next estimate of ln scale, by the secant through the ends of a bracket or by the slope. If that estimate is too
+ * near to an end of the bracket, the bracket's middle is used instead. */
 static double guess(const struct search *s, double x, double y, const double at[2], const double off[2])
 {
     if (!isfinite(at[0]) || !isfinite(at[1]))
@@ -87,8 +88,8 @@ static double guess(const struct search *s, double x, double y, const double at[
     return at[0] + (part > MARGIN && part < 1 - MARGIN ? part : 0.5) * (at[1] - at[0]);
 }
 
-/* Finds *x, the ln of the scale, by regula falsi in ln flux over ln scale, starting from the given *x. If an end of the
- * bracket is retained, the value there is halved each time (Dowell & Jarratt 1971, BIT 11, 168). */
+/* Finds *x, the ln of the scale, by regula falsi in ln flux over ln scale, starting from the given *x. Each time an
+ * end of the bracket stays the same, the function value at that end is halved (Dowell & Jarratt 1971, BIT 11, 168). */
 static enum kd_status find(struct search *s, int side, double within, double *x)
 {
     double at[2] = { -INFINITY, INFINITY }, off[2] = { 0 }, last = NAN, before = NAN, jy = 0;
@@ -143,8 +144,8 @@ done:
     return status;
 }
 
-/* Reduces the scene to the parts that determine the flux. For a series, the time is set to its middle, so that one
- * density serves all times. */
+/* Reduces the scene to the parts that determine the flux. For a series of grids, the time is set to the middle of the
+ * series, so that one density serves all times. */
 static struct kd_scene bare(const struct kd_scene *scene, const struct kd_plan_light *light)
 {
     struct kd_scene bare = kd_scene_whole(scene), plain;
@@ -187,7 +188,7 @@ done:
     return status ? kd_error_set(s->error, status, "out of memory while hashing the scene") : KD_OK;
 }
 
-/* The latest scale that was found for this scene, or for this matter if `held`; 0 if there is none. */
+/* The latest scale that was found for this scene, or for this matter if `held` is true; 0 if there is none. */
 static double known(const struct kd_normalised *cache, const struct kd_normal *wanted, bool held)
 {
     const uint32_t n = cache->n < KD_NORMALISED ? cache->n : KD_NORMALISED;

@@ -16,7 +16,7 @@ static bool go_on(void *user, double fraction)
     return !h->progress || h->progress(h->user, h->done + 0.5 * fraction);
 }
 
-/* Renders one eye's picture. The right eye has the exposure of the left one. */
+/* Renders one eye's picture. The right eye's picture has the exposure of the left eye's. */
 static enum kd_status render_eye(const struct kd_parted *pair, int side, double exposure, struct kd_frame *out,
                                  struct kd_error *error)
 {
@@ -59,7 +59,7 @@ static enum kd_status join(const struct kd_frame eyes[2], struct kd_frame *out, 
     frame.width = 2 * eyes[0].width;
     frame.n_layers = 0;
     memset(frame.layers, 0, sizeof frame.layers);
-    /* cleared, because flux and centroid of both pictures together mean nothing */
+    /* cleared, because flux and centroid of the two pictures together have no meaning */
     frame.light = (struct kd_light_report) { 0 };
     frame.told = NULL;
     kd_frame_probe_both(&frame, &eyes[1]);

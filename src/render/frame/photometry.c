@@ -38,7 +38,7 @@ enum kd_status kd_frame_add_light(struct kd_frame_job *j)
             light,
             { { j->store->radiance.buffers[band], 0, 0, false }, { j->store->light, band * sums, sums, true } },
             &push,
-            { per_band }, /* the last band, which is smaller, also has this size: its surplus groups write zeros */
+            { per_band }, /* the last band is smaller but also has this size: its surplus groups write zeros */
         };
         KD_TRY(kd_vk_dispatch(j->r->vk, &d, j->error));
     }

@@ -1,5 +1,5 @@
-/* Completes rays through volumes that a driver's limit on loops has stopped. The march lists these rays, and they
- * continue in pieces, each in one dispatch. */
+/* Completes rays through volumes that a driver stopped because of its limit on loops. The march lists these rays.
+ * Here they continue in pieces, each in one dispatch. */
 #include "render/frame/compilation.h"
 #include "render/frame/lens.h"
 

@@ -79,8 +79,8 @@ static enum kd_status kernel_of(struct kd_frame_job *j, const struct look *look,
     return kd_kernels_get(&j->r->kernels, vk, kernel, &spec.ACES, sizeof spec / 4, out, j->error);
 }
 
-/* Copies the counts of a band, which follow its pixels (KD_POST_COUNTS). Rays that were given up are counted in the
- * light before the beam. */
+/* Copies the counts of a band, which are stored after the band's pixels (KD_POST_COUNTS). The light before the beam
+ * has the count of rays that were given up. */
 static enum kd_status count(struct kd_frame_job *j, uint32_t band, uint64_t at)
 {
     struct kd_vk_buffer *light = j->store->radiance.buffers[band];

@@ -243,7 +243,7 @@ done:
     return status;
 }
 
-/* Index of the pixel in the list. If the list does not have the pixel, the list's length. */
+/* Returns the index of the pixel in the list, or the list's length if the pixel is not in the list. */
 static uint64_t listed_at(const struct kd_frame_part *part, const struct kd_probed_pixel *told)
 {
     uint64_t i = 0;
@@ -336,7 +336,7 @@ static enum kd_status tell_steps(struct kd_frame_job *j)
     kd_rays_steps_finish(told->steps);
     free(told->steps);
     told->steps = NULL;
-    if (status == KD_EINVAL) /* the labels are rounded, so they may lie outside the range that light can have */
+    if (status == KD_EINVAL) /* the labels are rounded, so they may lie outside the range of possible labels */
         return say_no_steps(told, error.message);
     if (j->error)
         *j->error = error;

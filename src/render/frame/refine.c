@@ -1,21 +1,21 @@
 /* Refinement: traces more rays, in rounds, where one ray a pixel is not enough.
  *
- * One ray a pixel has an error of up to half of the change across the pixel. Where the picture is linear from pixel to
- * pixel, a ray in the middle of each pixel is exact whatever the slope. So the criterion is the second difference of
- * displayed values. Pixels with a large second difference are refined first. In later rounds the neighbours of pixels
- * that changed are refined, until no pixel changes. So a line or rim is followed to its end, even if one ray a pixel
- * hit it only here and there.
+ * One ray a pixel has an error of up to half of the change across the pixel. Where the picture is linear from pixel
+ * to pixel, a ray in the middle of each pixel is exact whatever the slope. So the criterion is the second difference
+ * of displayed values. Pixels with a large second difference are refined first. In later rounds the neighbours of
+ * pixels that changed are refined, until no pixel changes. A line or rim is thus followed to its end, even if one ray
+ * a pixel hit it only in some places.
  *
- * A chosen pixel has a square grid of rays. Where the lens map is smooth around the pixel, its rays are interpolated
- * from existing rays. At edges of orders and fates its rays are traced. The total of traced rays is at most four
- * times the number of pixels. Pixels at the critical curve have more rays already (view/critical_pixels.h). */
+ * A chosen pixel has a square grid of rays. If the lens map is smooth around the pixel, these rays are interpolated
+ * from existing rays. At edges of orders and fates they are traced. The total of traced rays is at most four times
+ * the number of pixels. Pixels at the critical curve have more rays already (view/critical_pixels.h). */
 #include "render/frame/choose.h"
 #include "render/frame/lens.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* The displayed picture now, and before this round. */
+/* now: the displayed picture; before: the displayed picture before this round */
 struct work { uint16_t *now, *before; };
 
 static void finish(struct work *w)
@@ -73,7 +73,8 @@ static enum kd_status light(struct kd_frame_job *j, int way, const struct kd_cri
     return kd_frame_light_list(j, &list, true);
 }
 
-/* Divides the chosen pixels by the source of their rays. marks: whether interpolation is accurate for each of them. */
+/* Divides the chosen pixels by the source of their rays. marks: for each chosen pixel, 1 if interpolation is
+ * accurate. */
 static enum kd_status part(struct kd_frame_job *j, const struct kd_choice *c, const uint8_t *marks, struct ways *to)
 {
     enum kd_status status = KD_OK;

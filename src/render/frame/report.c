@@ -43,8 +43,8 @@ static void keep_times(struct kd_frame_job *j)
 static enum kd_status away(struct kd_frame_job *j, bool (*tell)(struct kd_frame_job *job, void *what), void *what,
                            bool *go_on)
 {
-    if (j->background) { /* waits, so that other pictures need not wait for this work and their times do not include
-                          * it */
+    /* waits for this work. Other pictures then need not wait for it, and their times do not include it */
+    if (j->background) {
         enum kd_status status = kd_vk_wait(j->r->vk, 0, j->error);
         if (status)
             return status;

@@ -23,7 +23,7 @@ static enum kd_status fill_kernel(struct kd_frame_job *j, bool of_sky, const str
                           &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* True if smooth cells are filled with crossings. If not, they are filled with the ends of rays. */
+/* True if smooth cells are filled with crossings; false if they are filled with the ends of rays. */
 static bool fills(const struct kd_plan_lens *lens, bool of_sky)
 {
     return of_sky ? kd_plan_holds(lens, KD_LENS_SKY) : lens->orders > 0;
@@ -143,7 +143,8 @@ static enum kd_status fill(struct run *run, bool of_sky)
  * the whole deadline of a submission. */
 static enum kd_status submit_new(struct kd_frame_job *j) { return kd_vk_submit(j->r->vk, NULL, j->error); }
 
-/* Initialises the map so that all rays cross nothing and are captured. Kernels overwrite all other rays. */
+/* Initialises the map so that all rays cross nothing and are captured. Kernels then overwrite the rays to which this
+ * does not apply. */
 static enum kd_status fill_nothing(struct run *run)
 {
     const struct kd_plan *p = run->j->plan;

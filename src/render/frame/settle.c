@@ -1,6 +1,6 @@
-/* Settles undecided rays, whose fate or number of crossings single precision cannot determine. They are few. The
- * host traces them again in closed form in double precision, and writes them into the lens map before anything reads
- * it. */
+/* Settles undecided rays, whose fate or number of crossings single precision cannot determine. Such rays are few.
+ * The host traces them again in closed form in double precision. It writes the results into the lens map before the
+ * map is read. */
 #include "render/frame/lens.h"
 
 #include "render/lens/listed.h"
@@ -77,7 +77,7 @@ static enum kd_status send(struct kd_frame_job *j, const struct open_rays *open,
     KD_TRY(kd_vk_buffer_create(j->r->vk, bytes, KD_VK_UPLOAD, "rays that were settled", &host, j->error));
     KD_TRY(
         kd_vk_buffer_create(j->r->vk, bytes, KD_VK_DEVICE, "rays that were settled, on the device", &device, j->error));
-    memset(kd_vk_buffer_map(host), 0, bytes); /* footprints are made later; 0 until then */
+    memset(kd_vk_buffer_map(host), 0, bytes); /* 0 now; the footprints are made later */
     KD_TRY(follow(j, open, pass, host, device));
 done:
     kd_vk_buffer_destroy(j->r->vk, host);

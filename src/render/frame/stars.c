@@ -11,8 +11,8 @@
 
 /* number of workgroups for kernels whose invocations share a list; with 8192 groups an H200 is no faster */
 #define LIST_GROUPS 128
-/* The number of such workgroups for each core, if the device is a CPU. There a group costs 15 us even if its list is
- * already done, and a rim has several grids. */
+/* Number of these workgroups for each core, if the device is a CPU. It is small because there a group costs 15 us
+ * even if its list is already done, and because a rim has several grids. */
 #define LIST_GROUPS_CORE 4
 #define RIM_TILE KD_RIM_TILE_RAYS /* rays along a side of a small tile of the picture, and of a tile of the rim */
 #define SPILL 2u                  /* rows by which an image may extend into the next band */
@@ -54,7 +54,7 @@ static enum kd_status kernel(struct kd_frame_job *j, enum rays rays, enum kd_ker
     return kd_kernels_get(&j->r->kernels, j->r->vk, kernel, &spec.QUANTITIES, sizeof spec / 4, out, j->error);
 }
 
-/* True if the kernels read texels. A software device then takes a third of the time. */
+/* True if the kernels read texels, which takes a third of the time on a software device. */
 static bool reads_texels(const struct kd_frame_job *j, uint64_t stars)
 {
     return stars <= kd_vk_info(j->r->vk)->max_texels && kd_kernels_map_as_texels(j->r->vk);
@@ -225,7 +225,7 @@ static void set_light(struct kd_stars_push *push, const struct kd_frame_job *j, 
     push->rightward = 0u - window.left;
 }
 
-/* Processes rows `first` to `end` of the band `from`. Their light is added to the band `to`. */
+/* Processes rows `first` to `end` of the band `from`, and adds the light of their stars to the band `to`. */
 static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t first, uint32_t end, uint32_t to)
 {
     const struct kd_plan *p = j->plan;
@@ -241,7 +241,8 @@ static enum kd_status rows_of(struct kd_frame_job *j, uint32_t from, uint32_t fi
     part.push.column0 = window.left * p->lens.side;
     set_light(&part.push, j, to);
     uint32_t step = KD_PLAN_STAR_RAYS / width;
-    step = step > KD_STAR_TILE ? step / KD_STAR_TILE * KD_STAR_TILE : step ? step : 1; /* a multiple of the tile */
+    /* rounded down to a multiple of the tile */
+    step = step > KD_STAR_TILE ? step / KD_STAR_TILE * KD_STAR_TILE : step ? step : 1;
     enum kd_status status = KD_OK;
     for (uint32_t row = first * p->lens.side; row < end * p->lens.side && !status; row += step) {
         part.push.first = row;
@@ -314,8 +315,8 @@ done:
     return status;
 }
 
-/* Key of the present light of stars. It is made before other threads use the device, because they may change the
- * renderer's sky. */
+/* Key of the present light of stars. It is made before other threads use the device, because those threads may change
+ * the renderer's sky. */
 static struct kd_star_key key_of(const struct kd_frame_job *j)
 {
     struct kd_star_key key;
@@ -324,7 +325,7 @@ static struct kd_star_key key_of(const struct kd_frame_job *j)
     key.bright = j->plan->light.bright;
     key.visible = j->scene->disk.band == KD_BAND_VISIBLE;
     key.sky = j->scene->sky;
-    key.block = j->r->emit->data.emission.sky; /* includes the sky's orientation */
+    key.block = j->r->emit->data.emission.sky; /* this block includes the sky's orientation */
     return key;
 }
 

@@ -34,7 +34,9 @@ enum kd_status kd_frame_tile(const struct kd_parted *p, struct kd_frame *out, st
 
 struct share {
     const struct kd_parted *of;
-    double done, part; /* fractions of the whole picture */
+    /* done: fraction of the whole picture that was done before this strip; part: this strip's fraction of the whole
+     * picture */
+    double done, part;
 };
 
 static bool go_on(void *user, double fraction)

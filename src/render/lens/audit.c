@@ -13,11 +13,12 @@
 enum { ROWS = 16, COLUMNS = KD_AUDIT_RAYS / ROWS };
 
 struct sample {
-    uint32_t rows, columns, width, height; /* rows, columns: of the sample; width, height: of the grid of rays */
-    uint32_t planes;                       /* planes of the map that are compared: radii, and the fate */
-    struct kd_vk_buffer *host;             /* the sampled rows on the host: all planes of the first row, then all
-                                            * planes of the next, ... */
-    double *rays;                          /* alpha, beta */
+    /* rows, columns: size of the sample; width, height: size of the grid of rays */
+    uint32_t rows, columns, width, height;
+    uint32_t planes;           /* number of planes of the map that are compared: radii and the fate */
+    struct kd_vk_buffer *host; /* the sampled rows on the host: all planes of the first row, then all
+                                * planes of the next, ... */
+    double *rays;              /* alpha, beta */
     bool outward[ROWS * COLUMNS];
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;

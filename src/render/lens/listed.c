@@ -17,10 +17,10 @@
 struct work {
     const struct kd_plan *plan;
     size_t n;
-    double twist; /* added to the observer's azimuth */
+    double twist; /* angle that is added to the observer's azimuth */
     double *alpha_beta, *energy;
     bool *outward;
-    bool *inwards; /* for each crossing whether the traced ray moves inwards; NULL: the closed form decides */
+    bool *inwards; /* for each crossing, true if the traced ray moves inwards there; NULL: the closed form decides */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
 };
@@ -112,7 +112,7 @@ static void fill_delays(const struct work *w, uint32_t order, float *to)
         to[i] = order < w->ends[i].n_crossings ? (float)w->crossings[i * w->plan->lens.orders + order].delay : 0;
 }
 
-/* Fills a plane with slopes. The light of falling gas depends on them, and so do emission angles. */
+/* Fills a plane with slopes, which determine the light of falling gas and all emission angles. */
 static void fill_slopes(const struct work *w, const struct kd_scene *scene, uint32_t order, float *to)
 {
     const struct kd_rays_params params = params_of(scene, &w->plan->lens, &w->plan->lens.setting);
@@ -145,7 +145,8 @@ static void fill_sky(const struct work *w, float *u, float *phi, float *fate)
 static void fill(const struct work *w, const struct kd_scene *scene, float *planes)
 {
     const struct kd_plan *plan = w->plan;
-    float *of[32] = { 0 }; /* planes by the bit of a quantity; NULL: the map does not have the quantity */
+    /* plane of each quantity, indexed by the quantity's bit; NULL: the map does not have the quantity */
+    float *of[32] = { 0 };
     for (uint32_t bit = 0; bit < 32; bit++)
         if (plan->lens.quantities >> bit & 1)
             of[bit] = planes + w->n * kd_lens_plane(plan->lens.quantities, plan->lens.orders, 1u << bit);
@@ -253,7 +254,8 @@ done:
     return status;
 }
 
-/* fraction of the horizon's radius. Crossings from outside that are nearer to the horizon count as crossings on it */
+/* fraction of the horizon's radius. A crossing from outside that is nearer to the horizon than this counts as on the
+ * horizon */
 #define NEAR 1e-4
 enum { PLACES = 2048 };
 

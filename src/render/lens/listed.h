@@ -1,6 +1,6 @@
-/* Makes the lens map of a picture from listed rays, for pictures that request it. Any engine may trace them, in double
- * precision, and the camera is computed in double. This is slower than the kernels that derive each ray from its pixel,
- * because rays pass through the host. Render thread. */
+/* Makes the lens map of a picture from listed rays, for scenes that request it. Any engine may trace these rays, in
+ * double precision, and the camera is computed in double. This is slower than the kernels that derive each ray from
+ * its pixel, because listed rays pass through the host. Render thread. */
 #ifndef KD_RENDER_LENS_LISTED_H
 #define KD_RENDER_LENS_LISTED_H
 
@@ -8,11 +8,12 @@
 #include "render/rays/rays.h"
 
 struct kd_lens_rows {
-    uint32_t first, count; /* rows of rays of the picture; if `pixels` is set, a range of those pixels */
+    uint32_t first, count; /* range of rows of rays of the picture; if `pixels` is set, range of indices in `pixels` */
     const struct kd_pixel *pixels;
     const struct kd_critical_lattice *lattice; /* lattice of the rays in each pixel */
-    struct kd_vk_buffer *to;                   /* planes of the band */
-    uint64_t offset, stride;                   /* index of the first ray in a plane; rays in a plane */
+    struct kd_vk_buffer *to;                   /* buffer with the planes of the band */
+    /* offset: index of the first ray in a plane; stride: number of rays in a plane */
+    uint64_t offset, stride;
 };
 
 /* Writes plan->lens.planes planes as lens_map.comp does, with three differences. -1 stands for a crossing that the

@@ -18,8 +18,8 @@ static const double LEAST_ROOM = 0.5, LEAST_SHARE = 0.25; /* least budget: LEAST
 static const double COOLDOWN_MS = 1000;                   /* least time on a rung before a climb */
 /* time before climbing again to a rung that was too slow; doubled at each failure */
 static const double RETRY_MS = 3000;
-static const double SETTLE_MS = 50; /* reaction time: from a frame to the user's next change */
-/* HOLD_MS: longest pause within a drag; HOLD_MAX_MS: its upper limit */
+static const double SETTLE_MS = 50; /* time in which a user reacts to a frame with the next change */
+/* HOLD_MS: pause up to which changes belong to one drag; HOLD_MAX_MS: largest value of this pause */
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
 /* time for which lens maps are assumed not to be cached; doubled at each repetition */
 static const double BLIND_MS = 2000;
@@ -29,10 +29,10 @@ static const double NARROWEST = 0.25;
  * max_frame_ms */
 static const double PATIENT_AGAIN = 0.6;
 enum {
-    MOVING_AUDIT = 4, /* frames that will be refined audit one in this many rays */
+    MOVING_AUDIT = 4, /* in frames that will be refined, one in this many of the sampled rays is audited */
     /* image.critical_factor for a picture that is replaced before the eye can examine it: 4 rays instead of 16 */
     DRAGGED_CRITICAL = 2,
-    FEW = 4, /* this many slow frames in a row are a sign of load instead of a spike */
+    FEW = 4, /* this many slow frames in a row are a sign of load; fewer may be a spike */
     /* least number of frames for a mean: the middle half of so many frames contains neither of two spikes */
     ENOUGH = 8,
     MISSES = 3, /* number of lens maps that may be missing when the rung changes */
@@ -82,8 +82,9 @@ static struct kd_frame_cost cheapest_of_latest(const struct kd_pace *pace, uint3
     return *least;
 }
 
-/* Mean over the middle half of the window, sorted by total time, so that spikes and empty frames do not affect it.
- * If two kinds of frames alternate, this mean lies between their costs; a median would be one of the two costs. */
+/* Mean over the middle half of the window, sorted by total time. So spikes and empty frames do not affect the mean.
+ * If two kinds of frames alternate, the mean lies between their costs, whereas a median would be one of the two
+ * costs. */
 static struct kd_frame_cost mean_of_middle(const struct kd_pace *pace)
 {
     const struct kd_frame_cost *sorted[KD_PACE_FRAMES];
@@ -124,8 +125,8 @@ static double predict(const struct kd_frame_cost *cost, const struct kd_rung *fr
     return cost->rays_ms * to->rays / from->rays + cost->pixels_ms * pixels + (rest_stays ? rest : rest * pixels);
 }
 
-/* The lowest rung that a pace may take. If only brightness changes, viewers gain more from one picture of full size
- * than from many small ones. */
+/* The lowest rung that a pace may take. If only brightness changes, one picture of full size is more useful to
+ * viewers than many small ones. */
 static uint32_t last_rung(const struct kd_governor *g, const struct kd_pace *pace)
 {
     uint32_t last = (uint32_t)g->ladder.n_rungs - 1;
@@ -145,7 +146,8 @@ static uint32_t first_that_fits(const struct kd_governor *g, const struct kd_pac
 
 /* Moves up and down the ladder */
 
-/* Called when a pace leaves its rung. If it leaves because other sessions began, the rung is remembered. */
+/* Called when a pace leaves its rung. narrower: true if it leaves because other sessions began; the rung is then
+ * remembered. */
 static void hold(struct kd_pace *pace, bool narrower)
 {
     if (!narrower && pace->rung <= pace->held) {
@@ -221,8 +223,8 @@ static uint32_t ceiling_of(const struct kd_governor *g, const struct kd_pace *pa
     return now - pace->failed_at < pace->retry_ms && target(g) <= MORE * pace->failed_target ? pace->ceiling : 0;
 }
 
-/* Estimates the fraction of the rays' time on this rung that does not depend on size. The estimate is a straight line
- * through two measured times: one at another size a moment ago, and the present one. If the smaller size took longer,
+/* Estimates which fraction of the rays' time on this rung does not depend on size. The estimate is a straight line
+ * through two measured times: the present one, and one at another size a moment ago. If the smaller size took longer,
  * only the machine's load has changed. */
 static void learn(const struct kd_governor *g, struct kd_pace *pace, const struct kd_frame_cost *cost)
 {
@@ -319,8 +321,8 @@ static void give_up_width(struct kd_governor *g, const struct kd_pace *pace, con
     g->wide = wide;
 }
 
-/* Measures, once, the fraction of the time of narrow frames that does not depend on size. It uses the first narrow
- * frames, while the machine's load is still the same. */
+/* Measures, once, the fraction of the time of narrow frames that does not depend on size. The first narrow frames are
+ * used, because the machine's load is then still the same. */
 static void compare_with_wide(struct kd_governor *g, const struct kd_frame_cost *cost, const struct kd_rung *here)
 {
     if (!(g->wide_ms > 0) || !(varying(cost) > 0) || here->rays >= g->wide.rays)
@@ -433,10 +435,10 @@ void kd_governor_changed(struct kd_governor *g, double now, const struct kd_scen
     const struct kd_work work = work_of(shown);
     struct kd_scene still = *shown;
     const struct kd_scene *const asked = &still;
-    /* bodies of a playground are counted only in the scene's work, and their memory may be freed after this call */
+    /* bodies of a playground are counted only in the scene's work, because their memory may be freed after this call */
     kd_scene_show(&still, NULL);
     /* If the scene does not move and only its motion was changed, the picture shown is already right. The scene is
-     * rendered once more all the same. */
+     * rendered once more nevertheless. */
     bool told_again = g->ladders && !lens && g->shown_revision == g->revision && motion_alone(&g->asked, asked) &&
                       !kd_emit_moves(asked);
     const bool same_work = kd_work_alike(&work, &g->work);

@@ -78,7 +78,7 @@
 #include <stdint.h>
 
 struct kd_governor_params {
-    double target_ms; /* limit for a frame while the scene changes; above 0 */
+    double target_ms; /* limit of a frame's time while the scene changes; above 0 */
     double rest_ms;   /* time without a change after which the picture is refined */
     /* limit of the time for tracing a lens map that later frames will reuse; it is multiplied by the session's share */
     double stall_ms;
@@ -90,8 +90,8 @@ struct kd_governor_params {
 #define kd_governor_params(...) (&(struct kd_governor_params) { KD_GOVERNOR_DEFAULTS __VA_ARGS__ })
 
 /* The parts of a frame's time. total_ms is compared with the target. It is the longest stage if stages overlap,
- * otherwise the sum of all stages. Time that is in none of the parts (waiting and submitting) may or may not shrink
- * with the picture. If all parts are 0, this is the whole time. */
+ * otherwise the sum of all stages. Part of total_ms may be in none of the other members (waiting and submitting);
+ * this part may or may not shrink with the picture. If all other members are 0, this part is all of total_ms. */
 struct kd_frame_cost {
     double fixed_ms;  /* independent of the picture's size: particles, audit */
     double rays_ms;   /* passes over rays: trace, transfer */
@@ -103,13 +103,14 @@ struct kd_frame_cost {
 struct kd_frame_decision {
     /* quality of the frame to render now; if nothing is to be rendered, quality of the picture shown */
     struct kd_quality quality;
-    /* 0: render now. Otherwise the time for which there is nothing to render; INFINITY: the session rests */
+    /* 0: render now. Otherwise the time in which nothing needs to be rendered; INFINITY: the session rests */
     double wait_ms;
-    bool refining; /* the scene rests, and this frame is a step up the ladder */
+    bool refining; /* true if the scene rests and this frame is a step up the ladder */
     /* 1 or 4: one in this many of the sampled rays is audited. The audit runs on one core and takes a third of a
      * small frame */
     uint32_t audit;
-    bool traced; /* the tracing pace is in force; this and the remaining members are for kd_governor_frame only */
+    /* true if the tracing pace is in force; this and the remaining members are for kd_governor_frame only */
+    bool traced;
     uint32_t ladder, rung, revision;
     double rays;
 };
@@ -122,18 +123,19 @@ struct kd_pace {
     uint32_t rung, ceiling;
     uint32_t count; /* frames since the last change of rung */
     struct kd_frame_cost costs[KD_PACE_FRAMES];
-    /* changed_at: time of the last change of rung; -INFINITY until the first change for a kind of scene */
+    /* changed_at: time of the last change of rung; -INFINITY until the first change for a kind of scene. failed_at:
+     * time at which a rung was last found too slow. retry_ms: time after failed_at for which the ceiling is in force */
     double changed_at, failed_at, retry_ms;
     /* widest: largest target since the last change; failed_target: target when failed_at was set */
     double widest, failed_target;
-    bool climbed;       /* the last change was upwards */
+    bool climbed;       /* true if the last change was upwards */
     uint32_t held;      /* a rung that was left because other sessions began */
-    double held_target; /* the target at which frames of that rung were in time; 0: there is no such rung */
-    /* the rung before the present one; rays 0: it is unknown, or was used for an estimate already */
+    double held_target; /* the target at which frames of the rung `held` were in time; 0: there is no such rung */
+    /* the rung before the present one; rays 0: that rung is unknown, or was used for an estimate already */
     struct kd_rung other;
-    double other_ms; /* time that the rays of frames took on that rung */
+    double other_ms; /* time of the rays of a frame on the rung `other` */
     double stays;    /* estimated fraction of the rays' time that does not depend on size */
-    bool tried;      /* the fraction `stays` is measured, so no trial of another rung is needed */
+    bool tried;      /* true if `stays` was measured, so that no trial of another rung is needed */
 };
 
 /* All members are private. */
@@ -141,7 +143,7 @@ struct kd_governor {
     struct kd_governor_params params;
     double share;
     struct kd_scene asked;
-    /* properties of the scene that determine the cost of frames, besides their size, when measurements began */
+    /* properties of the scene, except its size, that determined the cost of frames when measurements began */
     struct kd_work work;
     struct kd_ladder ladder;
     uint32_t ladders, revision;
@@ -149,14 +151,15 @@ struct kd_governor {
     /* changed_at: time of the last change. lens_at: time of the last change of the lens. hold_ms: time after which a
      * change of the lens is no longer recent */
     double changed_at, lens_at, hold_ms;
-    struct kd_frame_cost traced; /* latest average of frames that trace */
-    struct kd_rung traced_on;    /* the rung of these frames; rays 0: no frame yet */
-    /* blind_until: until this time lens maps are assumed not to be cached, even if only time advances */
+    struct kd_frame_cost traced; /* latest average cost of frames that trace */
+    struct kd_rung traced_on;    /* rung of the frames of `traced`; rays 0: no frame yet */
+    /* blind_until: until this time lens maps are assumed not to be cached, even if only time advances. blind_ms:
+     * length of the next such period */
     double blind_until, blind_ms;
-    uint32_t missed;           /* successive frames that traced although the lens was unchanged */
-    bool rings;                /* only the brightness changes; nothing moves */
+    uint32_t missed;           /* number of successive frames that traced although the lens was unchanged */
+    bool rings;                /* true if only the brightness changes and nothing moves */
     double least, patience_ms; /* arguments of kd_governor_least */
-    /* gave_way: frames may be narrower than `least`, because a pace was too slow; slow: index of this pace */
+    /* gave_way: true if frames may be narrower than `least`, because a pace was too slow; slow: index of this pace */
     bool gave_way, slow;
     double wide_ms;      /* total minus fixed time of a frame on the rung `wide`; 0: unknown */
     struct kd_rung wide; /* rung of the slow pace before frames became narrower */
@@ -165,7 +168,7 @@ struct kd_governor {
     double stays, stays_of;
     struct kd_quality shown;
     uint32_t shown_revision; /* 0: none */
-    double shown_at;         /* time at which the newest frame was shown that was not a step of refinement */
+    double shown_at;         /* time at which the newest frame that was not a step of refinement was shown */
     double shown_rays;
 };
 
@@ -184,11 +187,11 @@ void kd_governor_share(struct kd_governor *governor, double share);
  * first narrow frames right after them. */
 void kd_governor_least(struct kd_governor *governor, double scale, double patience_ms);
 
-/* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: the lens map
- * has changed, that is, lens_key differs between the plans of the two requested scenes. It is true for a session's
- * first scene. A change of image.* or accuracy.* makes a new ladder, and starts on the rung that old averages suggest.
- * Averages and waits start again if the scene changes its kind, or if the cost of its emitters has changed by more than
- * a factor of two since the averages started. */
+/* The scene is now *shown, which must be valid; its dynamic bodies must live until the call returns. lens: true if
+ * the lens map has changed, that is, if lens_key differs between the plans of the two requested scenes. It is true
+ * for a session's first scene. A change of image.* or accuracy.* makes a new ladder, and starts on the rung that old
+ * averages suggest. Averages and waits start again if the scene changes its kind, or if the cost of its emitters has
+ * changed by more than a factor of two since the averages started. */
 void kd_governor_changed(struct kd_governor *governor, double now, const struct kd_scene *shown, bool lens);
 
 /* Sets the expected cost of a frame at the requested quality, for example from its plan. The cost chooses the first

@@ -63,7 +63,7 @@ static struct kd_rung sketched(struct kd_rung r)
     return r;
 }
 
-/* Adds a rung if it takes less work than the one before. */
+/* Adds a rung if it takes less work than the rung before it. */
 static bool add_rung(struct kd_ladder *ladder, struct kd_rung rung)
 {
     if (ladder->n_rungs == KD_LADDER_RUNGS || rung.rays >= ladder->rungs[ladder->n_rungs - 1].rays)
@@ -89,7 +89,7 @@ static void make_rungs(const struct kd_scene *asked, const struct kd_ladder_boun
         if (scales[i] >= bounds->scale && asked->image.width * scales[i] >= bounds->width &&
             add_rung(out, make_rung(asked, scales[i], samples, orders, -1)))
             scale = scales[i];
-    /* in a picture of stacked photon rings the higher orders are what is shown, so they are kept */
+    /* a picture of stacked photon rings shows the higher orders, so they are kept */
     const int32_t least = asked->camera.projection == KD_PROJECTION_RING ? orders : bounds->orders;
     while (orders > least) {
         orders = (orders + 1) / 2 > least ? (orders + 1) / 2 : least;

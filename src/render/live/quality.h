@@ -15,11 +15,11 @@ struct kd_quality {
     int32_t samples;        /* rays along each side of a pixel */
     int32_t orders;         /* recorded crossings a ray */
     int32_t critical;       /* limit for image.critical_factor; 0: as requested */
-    /* enum kd_profile, which replaces all of accuracy.* except the engine; -1: accuracy.* stays as requested */
+    /* enum kd_profile: a profile that replaces all of accuracy.* except the engine; -1: accuracy.* as requested */
     int32_t profile;
-    bool sketch; /* volumes are marched more coarsely than with any profile: render/plan/march.h */
-    bool bright; /* only the bright images of stars are shown: plan.bright of render/plan/plan.h */
-    bool final;  /* everything is as requested */
+    bool sketch; /* true if volumes are marched more coarsely than with any profile: render/plan/march.h */
+    bool bright; /* true if only the bright images of stars are shown: plan.bright of render/plan/plan.h */
+    bool final;  /* true if everything is as requested */
 };
 
 /* Makes the scene to render: *asked at this quality. The result is valid if *asked is valid. With quality.final it
@@ -50,8 +50,8 @@ struct kd_ladder {
     struct kd_rung rungs[KD_LADDER_RUNGS];
     size_t n_rungs;
     /* The ladder upwards for a scene at rest. It begins with full resolution and one ray a pixel. The next steps have
-     * more rays; all of these have at most the profile "balanced". The last step is the requested quality. Each step
-     * takes more work than the one before. */
+     * more rays, with at most the profile "balanced". The last step is the requested quality. Each step takes more
+     * work than the one before. */
     struct kd_rung steps[KD_LADDER_STEPS];
     size_t n_steps;
 };

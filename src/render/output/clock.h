@@ -1,4 +1,4 @@
-/* The proper time of a falling observer, in answers. Any thread. */
+/* Writes the proper time of a falling observer, for answers. Any thread. */
 #ifndef KD_RENDER_OUTPUT_CLOCK_H
 #define KD_RENDER_OUTPUT_CLOCK_H
 

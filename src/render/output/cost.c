@@ -14,7 +14,7 @@ static double trace_ms(const struct kd_plan *plan)
     return ms;
 }
 
-/* Bytes of the numbers of the frame's layers, 4 each. */
+/* Bytes of the frame's layers as numbers, with 4 bytes for each number. */
 static double file_bytes(const struct kd_series *series, const struct kd_scene *scene,
                          const struct kd_plan_picture *picture)
 {

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEAD_MOST (1u << 20) /* bytes of a header; a scene takes about 20000 */
+#define HEAD_MOST (1u << 20) /* largest size of a header in bytes; the scene in a header takes about 20000 */
 #define AT_ONCE 32           /* scenes scanned in one call, which takes some milliseconds */
 
 _Static_assert(KD_CUBE_ACCURACY >= KD_ACCURACY_TEXT, "all of it");
@@ -146,7 +146,7 @@ static bool read_unit(const struct kd_buffer *head, size_t size, struct unit *ou
            channels > 0 && channels <= 4;
 }
 
-/* Checks one layer of a scene. The first scene sets what all scenes must have. */
+/* Checks one layer of a scene. Its properties must be those of the same layer of the first scene. */
 static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct unit *unit, unsigned scene,
                             struct kd_error *error)
 {
@@ -165,7 +165,7 @@ static enum kd_status enter(struct kd_cube *cube, size_t layer, const struct uni
     return KD_OK;
 }
 
-/* Adds the text of a card unless the list already has it. *there: whether the card exists. */
+/* Adds the text of a card unless the list already has that text. *there: true if the card exists. */
 static enum kd_status keep_text(struct kd_cube_texts *texts, const struct kd_buffer *head, size_t size, const char *key,
                                 bool *there, struct kd_error *error)
 {

@@ -35,24 +35,25 @@ struct kd_cube {
     unsigned width, height;
     struct kd_cube_layer layers[KD_WORDS_MOST];
     size_t n_layers;
-    unsigned seen;     /* scenes scanned so far */
+    unsigned seen;     /* number of scenes scanned so far */
     uint64_t *places;  /* offsets of the layers' numbers in the scenes' files: n_layers for each scene */
     struct kd_wcs wcs; /* world coordinates of the first scene */
     bool wcs_differ;   /* true if any scene has other world coordinates */
     struct kd_cube_texts {
         char *at[KD_CUBE_TEXTS];
         size_t n;
-    } sentences, credits, devices;  /* each different text once: approximations, credits and devices of all scenes */
-    char *rows;                     /* KD_CUBE_ROW bytes for each scene */
-    uint32_t texts_sum, fluxes_sum; /* kd_fits_sum of the scenes' hashes and accuracies; kd_fits_sum of their fluxes */
-    bool flux;                      /* true if any scene has a flux; the file then contains fluxes */
-    uint8_t *piece;                 /* buffer of at least KD_GATHER_PIECE bytes, with room for a row of numbers */
+    } sentences, credits, devices; /* each different text once: approximations, credits and devices of all scenes */
+    char *rows;                    /* KD_CUBE_ROW bytes for each scene */
+    /* texts_sum: kd_fits_sum of the scenes' hashes and accuracies; fluxes_sum: kd_fits_sum of their fluxes */
+    uint32_t texts_sum, fluxes_sum;
+    bool flux;      /* true if any scene has a flux; the file then contains fluxes */
+    uint8_t *piece; /* buffer of at least KD_GATHER_PIECE bytes, with room for a row of numbers */
     size_t piece_bytes;
 };
 
 enum kd_status kd_cube_open(const struct kd_gather_source *source, struct kd_cube *out, struct kd_error *error);
 void kd_cube_finish(struct kd_cube *cube);
-/* Scans some more scenes. *over: all are done. */
+/* Scans some more scenes. *over: true if all scenes were scanned. */
 enum kd_status kd_cube_look(struct kd_cube *cube, bool *over, struct kd_error *error);
 /* The bytes stored for a scene: hash, accuracy of its picture, and flux. */
 static inline const char *kd_cube_row(const struct kd_cube *cube, unsigned scene)

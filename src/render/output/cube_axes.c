@@ -22,13 +22,13 @@ static bool is_frequency(const struct kd_sweep_axis *axis)
 
 bool kd_cube_has_frequencies(const struct kd_sweep_axis *axis) { return is_frequency(axis) && !axis->even; }
 
-/* A frequency in Hz; the unit of its field is GHz. */
+/* Value of an axis in world coordinates. Frequencies become Hz, because the unit of their field is GHz. */
 static double world_of(const struct kd_sweep_axis *axis, size_t i)
 {
     return axis->values[i].number * (is_frequency(axis) ? 1e9 : 1);
 }
 
-/* The unit as the standard spells it (section 4.3). The standard has no unit for M = G m/c^2 and for stops. */
+/* The unit as the standard spells it (section 4.3). The standard has no unit for M = G m/c^2, and none for stops. */
 static const char *unit_of(const struct kd_sweep_axis *axis)
 {
     return !strcmp(axis->unit, "degrees")        ? "deg"
@@ -157,8 +157,8 @@ enum kd_status kd_cube_put_values(const struct kd_sweep_axis *axis, struct kd_bu
     return status;
 }
 
-/* The table has one row: an array of the shape (1, n), as section 6 of the paper requires for coordinates of one
- * axis. */
+/* The table has one row, which is an array of the shape (1, n). Section 6 of the paper requires this for coordinates
+ * of one axis. */
 enum kd_status kd_cube_put_frequencies(const struct kd_sweep_axis *axis, struct kd_buffer *out)
 {
     struct kd_buffer values = { 0 }, shape = { 0 };

@@ -13,16 +13,18 @@
 #include "render/output/wcs.h"
 #include "scene/sweep.h"
 
-/* CRPIX, CRVAL and CDELT of an axis that is numbered from 1 in the file; the value of its first pixel is `first`.
- * alternate: "" or one letter. */
+/* Writes CRPIX, CRVAL and CDELT of an axis that is numbered from 1 in the file; the value of its first pixel is
+ * `first`. alternate: "" or one letter. */
 enum kd_status kd_cube_put_line(struct kd_buffer *cards, unsigned number, const char *alternate, double first,
                                 double step);
-/* Writes the cards of an axis of the sweep. wcs: world coordinates of the pictures; NULL if they differ. */
+/* Writes the cards of an axis of the sweep. wcs: world coordinates of the pictures; NULL if the pictures have
+ * different ones. */
 enum kd_status kd_cube_put_axis(struct kd_buffer *cards, const struct kd_sweep_axis *axis, unsigned number,
                                 const struct kd_wcs *wcs);
-/* Appends a complete HDU: the axis' values, one row each. */
+/* Appends a complete HDU with the axis' values, one in each row. */
 enum kd_status kd_cube_put_values(const struct kd_sweep_axis *axis, struct kd_buffer *out);
-/* True if the axis needs a second table, FREQ, of one row with all frequencies; appends that table. */
+/* kd_cube_has_frequencies: true if the axis needs a second table, FREQ, of one row with all frequencies.
+ * kd_cube_put_frequencies appends that table. */
 bool kd_cube_has_frequencies(const struct kd_sweep_axis *axis);
 enum kd_status kd_cube_put_frequencies(const struct kd_sweep_axis *axis, struct kd_buffer *out);
 

@@ -1,6 +1,6 @@
-/* Writes a cube as FITS: kd_gather_fits. Each layer is an image with the layer's name; the first one has the common
- * metadata. Each axis has a table named by its field, with its values in the column "value". The table SCENES has
- * the hash, the accuracy and, if pictures have one, the flux of each scene in order. Axes are world coordinates as
+/* Writes a cube as FITS: kd_gather_fits. Each layer is an image with the layer's name; the first image has the common
+ * metadata. Each axis has a table named by its field, with its values in the column "value". The table SCENES has,
+ * for each scene in order, the hash, the accuracy and the flux (if pictures have one). Axes are world coordinates as
  * well (cube_axes.h). */
 #include "render/output/cube.h"
 
@@ -14,9 +14,9 @@
 
 struct writer {
     struct kd_cube cube;
-    size_t unit;    /* current HDU: layers, then axes, then scenes */
-    bool begun;     /* the header of the current HDU is written */
-    unsigned scene; /* the HDU's next scene */
+    size_t unit;    /* index of the current HDU, in the order layers, axes, scenes */
+    bool begun;     /* true if the header of the current HDU is written */
+    unsigned scene; /* next scene of the current HDU */
     uint64_t at, written;
 };
 
@@ -118,7 +118,7 @@ static enum kd_status end_unit(struct writer *w, struct kd_buffer *out)
     return status;
 }
 
-/* The numbers in a scene's file are in the cube's byte order and can be copied. */
+/* The numbers in a scene's file are in the cube's byte order and are copied unchanged. */
 static enum kd_status go_on_with_layer(struct writer *w, struct kd_buffer *out, struct kd_error *error)
 {
     uint64_t slice = kd_cube_slice(&w->cube, w->unit);

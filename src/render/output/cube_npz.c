@@ -1,6 +1,7 @@
-/* Writes a cube as numpy.savez does: kd_gather_npz. It has an array for each axis of the sweep, named by its field,
- * float64 or text; an array of each layer, float32, of the shape (axes..., height, width[, 3]); scene_hash,
- * scene_accuracy and, if pictures have a flux, scene_flux_jy, of the shape (axes...); and notes.json. */
+/* Writes a cube as numpy.savez does: kd_gather_npz. The file has an array for each axis of the sweep, float64 or
+ * text, named by the axis' field. It has an array for each layer, float32, of the shape (axes..., height, width[,
+ * 3]). The arrays scene_hash, scene_accuracy and (if pictures have a flux) scene_flux_jy have the shape (axes...).
+ * The last member is notes.json. */
 #include "render/output/cube.h"
 
 #include "image/npy.h"
@@ -14,9 +15,10 @@ struct writer {
     struct kd_cube cube;
     struct kd_zip *zip;     /* NULL: not started */
     struct kd_buffer bytes; /* output of the ZIP so far */
-    size_t member;          /* current member: axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json */
+    /* index of the current member in the order axes, layers, scene_hash, scene_accuracy, scene_flux_jy, notes.json */
+    size_t member;
     bool begun;
-    unsigned scene, row; /* the current member's next scene and row; rows from the top */
+    unsigned scene, row; /* next scene and next row of the current member; rows are counted from the top */
     float *rows;         /* room for the rows of a piece */
 };
 

@@ -9,7 +9,7 @@ struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scen
 {
     const struct kd_light *all = &frame->light.all, *spots = &frame->light.spots;
     const bool linear = frame->light.polarized, circular = frame->light.circular,
-               apart = linear && !circular; /* such light comes from a volume only */
+               apart = linear && !circular; /* circularly polarised light comes from volumes only */
     return (struct kd_curve_row) {
         .frame = number,
         .t = scene->top.time,

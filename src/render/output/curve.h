@@ -26,10 +26,10 @@ struct kd_curve_row {
 };
 #undef KD_CURVE_MEMBER
 
-/* The series of light curves: the light of its frames must be measured, whether the scene has spots or not. "csv" has a
- * line of names, "json" is {"frames": [{name: value, ...}, ...]}. Undefined values are empty in CSV and null in JSON. A
- * group of polarisation columns without a number in any row is left out. For a sweep the values of its axes follow the
- * frame's number, named by their fields. */
+/* The series of light curves. The light of its frames must be measured, whether the scene has spots or not. "csv" has
+ * a line of names, "json" is {"frames": [{name: value, ...}, ...]}. Undefined values are empty in CSV and null in
+ * JSON. A group of polarisation columns without a number in any row is left out. For a sweep, the values of its axes
+ * come after the frame's number. These columns have the names of the axes' fields. */
 extern const struct kd_series kd_light_curve;
 
 struct kd_curve_row kd_curve_row_of(unsigned number, const struct kd_scene *scene, const struct kd_frame *frame);

@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define PICTURE_MAX (32u << 20) /* bytes of one frame's file: twice a 4K picture */
-#define MORE (1u << 20)         /* bytes that a film may have besides its pictures: its header */
+#define PICTURE_MAX (32u << 20) /* largest size of one frame's file in bytes: twice that of a 4K picture */
+#define MORE (1u << 20)         /* largest size of a film's header in bytes, in addition to its pictures */
 /* largest size of the scene's text in bytes, because one argument of a program may have 128 KiB */
 #define SCENE_MAX 100000
 #define IDLE_MS 30e3 /* ffmpeg is killed if it makes no progress for this long */
@@ -202,7 +202,7 @@ static bool has_written(struct film *f)
     return f->written > before;
 }
 
-/* Writes as much as ffmpeg accepts now, and checks whether it has ended. */
+/* Writes as much as ffmpeg accepts now, and checks whether ffmpeg has ended. */
 static enum kd_status feed(struct film *f, struct kd_error *error)
 {
     enum kd_status status = KD_OK;

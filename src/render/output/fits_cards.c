@@ -57,7 +57,8 @@ done:
     return status;
 }
 
-/* Name of the Stokes parameter, for all light, that the layer of this name contains. NULL: the layer contains none. */
+/* Name of the Stokes parameter of all light that the layer of this name contains. NULL: the layer contains no such
+ * parameter. */
 static const char *stokes_of(const char *name)
 {
     static const char *const known[][2] = { { "intensity", "I" },    { "specific_intensity", "I" },
@@ -105,8 +106,8 @@ static bool varies(const struct kd_sweep *sweep, const char *path)
     return false;
 }
 
-/* FITS 4.0, section 9.5: DATE-OBS is MJD-OBS in words; ehtim reads MJD. mjd: 0 to 1e6, which is the year 4596. 40587
- * is 1 January 1970. */
+/* FITS 4.0, section 9.5: DATE-OBS is MJD-OBS as a calendar date; ehtim reads MJD. mjd: 0 to 1e6, which is in the year
+ * 4596. 40587 is the MJD of 1 January 1970. */
 static enum kd_status put_date(struct kd_buffer *cards, double mjd)
 {
     const time_t seconds = (time_t)llround((mjd - 40587) * 86400);

@@ -7,7 +7,7 @@
 #include "render/output/wcs.h"
 #include "scene/sweep.h"
 
-/* keyword of the card with a picture's flux, a number; a picture without a flux has no such card */
+/* keyword of the card that has a picture's flux, a number; if a picture has no flux, the card is absent */
 #define KD_FITS_FLUX "FLUX_JY"
 
 /* The cards of a layer's HDU. wcs: NULL if the frames have different world coordinates. */
@@ -16,8 +16,8 @@ enum kd_status kd_fits_put_layer(struct kd_buffer *cards, const char *name, cons
 /* World coordinates of two axes. alternate: "" or one letter. */
 enum kd_status kd_fits_put_world_axes(struct kd_buffer *cards, const struct kd_wcs *wcs,
                                       const struct kd_wcs_axis axes[2], const char *alternate);
-/* The hole, the observer, and the frequency of a volume at a radio frequency, for readers that do not parse the scene.
- * sweep: fields that it varies are left out; NULL: there is no sweep. */
+/* The hole, the observer, and the frequency of a volume at a radio frequency, for readers that do not parse the
+ * scene. sweep: fields that the sweep varies are left out; NULL: there is no sweep. */
 enum kd_status kd_fits_put_scene(struct kd_buffer *cards, const struct kd_scene *scene, const struct kd_sweep *sweep);
 
 #endif

@@ -1,4 +1,4 @@
-/* The flux of a picture at a radio frequency, in answers. Any thread. */
+/* Writes the flux of a picture at a radio frequency, for answers. Any thread. */
 #ifndef KD_RENDER_OUTPUT_FLUX_H
 #define KD_RENDER_OUTPUT_FLUX_H
 

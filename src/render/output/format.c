@@ -29,7 +29,7 @@ const struct kd_format *kd_format_live(void)
     return kd_formats[i];
 }
 
-/* A picture has a single layer: the picture itself, or one map. */
+/* The file of a picture holds a single layer: the picture itself, or one map. */
 static enum kd_status check_layers(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->image.layers.count <= 1 || format->carries & KD_CARRIES_LAYERS)
@@ -40,11 +40,11 @@ static enum kd_status check_layers(const struct kd_format *format, const struct 
         scene->image.layers.count, format->name);
 }
 
-/* Adapts the scene to the format, and checks what the format holds. */
+/* Adapts the scene to the format, and checks that the format can hold the scene's layers. */
 static enum kd_status adapt(const struct kd_format *format, struct kd_scene *scene, struct kd_error *error)
 {
     const unsigned shows = KD_CARRIES_PICTURE | KD_CARRIES_LAYERS;
-    /* the file records the setting together with the requested scene */
+    /* true if the file records the setting of the exposure, as a part of the requested scene */
     const bool told = format->carries & shows && format->scene;
     if (!(format->carries & KD_CARRIES_PICTURE) && !told && isinf(scene->style.exposure))
         scene->style.exposure = 0;

@@ -1,5 +1,5 @@
-/* Formats of a frame: bytes of one media type each. Renders, jobs, sessions and the command line choose from one table,
- * by the format's name or by what a client accepts. Any thread.
+/* Formats of a frame. Each format produces bytes of one media type. Renders, jobs, sessions and the command line
+ * choose from one table, by the format's name or by what a client accepts. Any thread.
  *
  * A format is a definition of kd_format_NAME in a C file, and its name in KD_FORMATS. */
 #ifndef KD_RENDER_OUTPUT_FORMAT_H
@@ -43,8 +43,8 @@ struct kd_format {
     const char *magic;      /* first bytes of each file; "": the first bytes vary */
     const char *end;        /* last bytes of each file; NULL: the last bytes vary */
     unsigned carries;
-    bool live;  /* the format supports KD_EFFORT_LIVE */
-    bool lossy; /* the format takes a quality */
+    bool live;  /* true if the format supports KD_EFFORT_LIVE */
+    bool lossy; /* true if the format takes a quality */
     /* Adapts a scene so that its frame contains the data that the format needs; NULL: no change is necessary. Returns
      * KD_EINVAL at a field if the scene has no such data. */
     enum kd_status (*draws)(struct kd_scene *scene, struct kd_error *error);
@@ -80,7 +80,7 @@ const struct kd_format *kd_format_named(const char *name); /* returns NULL if th
 const struct kd_format *kd_format_of_bytes(const void *data, size_t size);
 const struct kd_format *kd_format_live(void); /* the format of live views */
 
-/* True if the format can hold the scene's picture; if not, the error is the one that kd_format_plan would report. */
+/* Returns KD_OK if the format can hold the scene's picture, otherwise the error that kd_format_plan would report. */
 enum kd_status kd_format_holds(const struct kd_format *format, const struct kd_scene *scene, struct kd_error *error);
 
 /* Plans a frame that carries what the format needs. Settings that neither affect the file nor are recorded in it

@@ -30,7 +30,7 @@ struct files {
     struct kd_zip *zip;     /* NULL: nothing is written yet */
     struct kd_buffer bytes; /* output of the ZIP so far */
     unsigned next;
-    uint64_t at, size; /* position in the current file, and its size; at == size: there is no current file */
+    uint64_t at, size; /* at: position in the current file; size: its size. at == size: there is no current file */
     uint8_t piece[KD_GATHER_PIECE];
 };
 

@@ -13,16 +13,17 @@
 #include "render/output/format.h"
 #include "scene/sweep.h"
 
-#define KD_GATHER_PIECE (256u << 10) /* approximate bytes that one call produces */
+#define KD_GATHER_PIECE (256u << 10) /* approximate number of bytes that one call produces */
 
 /* The frames' files, all of which must exist. The struct must outlive the gather. */
 struct kd_gather_source {
     void *user;
-    const struct kd_sweep *sweep;  /* sweep of the frames' scenes; NULL: none, allowed for a ZIP only */
+    const struct kd_sweep *sweep;  /* sweep of the frames' scenes; NULL: no sweep, permitted for a ZIP only */
     const struct kd_format *frame; /* format of the files */
     unsigned n;
     unsigned rate; /* frames a second of a film */
-    /* if it is not NULL, a format with `counts` adds the frames' bytes to this number instead of producing them */
+    /* If not NULL, a format with `counts` adds the number of the frames' bytes to *counted instead of producing these
+     * bytes. */
     uint64_t *counted;
     bool (*size)(void *user, unsigned frame, uint64_t *out);
     /* reads exactly `size` bytes, or returns false */
@@ -36,8 +37,9 @@ struct kd_gather_format {
     /* bytes of memory held while the file is made, for formats that do much work before their first piece; NULL:
      * none */
     size_t (*holds)(const struct kd_gather_source *source);
-    bool counts; /* the size of the gathered file can be computed: produced bytes plus *source->counted */
-    bool waits;  /* `next` produces nothing while it waits for another program: call it again some milliseconds later */
+    bool counts; /* true if the size of the gathered file can be computed: produced bytes plus *source->counted */
+    /* true if `next` may produce nothing because it waits for another program; call it again some milliseconds later */
+    bool waits;
     enum kd_status (*open)(const struct kd_gather_source *source, void **state, struct kd_error *error);
     enum kd_status (*next)(void *state, struct kd_buffer *out, bool *over, struct kd_error *error);
     void (*close)(void *state);
@@ -73,8 +75,8 @@ struct kd_gather {
 };
 enum kd_status kd_gather_open(const struct kd_gather_format *format, const struct kd_gather_source *source,
                               struct kd_gather *out, struct kd_error *error);
-/* Appends more bytes, sometimes none. *over: everything was produced. Errors: KD_ENOMEM, and KD_EIO if a frame's file
- * has changed. */
+/* Appends more bytes, sometimes none. *over: true if everything was produced. Errors: KD_ENOMEM, and KD_EIO if a
+ * frame's file has changed. */
 enum kd_status kd_gather_next(struct kd_gather *gather, struct kd_buffer *out, bool *over, struct kd_error *error);
 void kd_gather_close(struct kd_gather *gather); /* may be called for a gather that was never opened */
 

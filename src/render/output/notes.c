@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define PLAYGROUND "playground" /* no scene has this member, so a document with it is no scene */
+/* a member that no scene has, so that a document with this member is not taken for a scene */
+#define PLAYGROUND "playground"
 
 void kd_accuracy_text(const struct kd_accuracy_report *report, const struct kd_plan_lens *lens,
                       char out[KD_ACCURACY_TEXT])
@@ -192,7 +193,7 @@ enum kd_status kd_notes_scene(const char *text, size_t length, struct kd_scene *
                             "the picture shows a playground, which is not part of its scene: render it from the "
                             "playground's snapshot with kerrd playground SNAPSHOT.json --picture FILE");
     struct kd_scene scene;   /* *out must not change if the document is refused */
-    kd_scene_smooth(&scene); /* sets fields that the document lacks because they did not exist when it was written */
+    kd_scene_smooth(&scene); /* sets fields that the document lacks because it was written before they existed */
     enum kd_status status = kd_scene_from_json(&scene, text, length, error);
     if (!status)
         *out = scene;

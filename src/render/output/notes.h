@@ -46,8 +46,8 @@ void kd_notes_finish(struct kd_notes *notes);
  * belong to `notes` and `picture`. Returns their number. */
 enum { KD_NOTES = 11 };
 struct kd_note {
-    const char *name, *text; /* name: "kerrd:scene" and others of kerrd; "Software" and "Copyright",
-                              * which other programs know */
+    /* name: "kerrd:scene" and other names of kerrd's own, or "Software" and "Copyright", which other programs read */
+    const char *name, *text;
 };
 size_t kd_notes_list(const struct kd_picture *picture, const struct kd_notes *notes, struct kd_note out[KD_NOTES]);
 

@@ -1,6 +1,6 @@
-/* Writes a frame's layers as numpy.savez does: kd_format_npz. It has a member NAME.npy for each word of
- * image.layers, float32, of the shape (height, width), or for "rgb" (height, width, 3); and notes.json with the same
- * metadata as the text of a PNG, and units. */
+/* Writes a frame's layers as numpy.savez does: kd_format_npz. The file has a member NAME.npy for each word of
+ * image.layers: float32, of the shape (height, width), or (height, width, 3) for "rgb". The member notes.json has the
+ * same metadata as the text of a PNG, and units. */
 #include "render/output/format.h"
 
 #include "base/json.h"

@@ -49,8 +49,8 @@ struct kd_particle_list {
     size_t n; /* number of rows; 0 before settle means all */
     enum kd_particle_column columns[KD_PARTICLE_N_COLUMNS];
     size_t n_columns;
-    bool orbits;             /* some column needs the orbits */
-    struct kd_plunge plunge; /* set if `orbits`: the curve of falling particles */
+    bool orbits;             /* true if some column needs the orbits */
+    struct kd_plunge plunge; /* the curve of falling particles; set if `orbits` is true */
 };
 
 /* Returns KD_EINVAL at /disk/model if the scene has no particles. */

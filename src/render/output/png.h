@@ -8,7 +8,7 @@
 
 #include "render/output/format.h"
 
-/* As kd_format_png, with a given compression, as in kd_png_params. */
+/* Encodes like kd_format_png, with a compression as in kd_png_params. */
 enum kd_status kd_png_of_picture(const struct kd_picture *picture, int compression, struct kd_buffer *out,
                                  struct kd_error *error);
 

@@ -11,15 +11,15 @@
 struct kd_table_format {
     const char *name, *media_type; /* "csv", "text/csv": as in kd_format */
     const char *file;              /* file name for saving the document; NULL: the document is displayed */
-    /* rows: n of them, each a frame of the series; sweep: the sweep of their scenes, NULL: none. The only error is
-     * KD_ENOMEM. */
+    /* rows: n rows, one for each frame of the series. sweep: the sweep of the frames' scenes; NULL: there is no
+     * sweep. The only error is KD_ENOMEM. */
     enum kd_status (*write)(const void *rows, size_t n, const struct kd_sweep *sweep, struct kd_buffer *out);
 };
 
 struct kd_series {
     const char *name; /* "light-curve": value of a job's "output" */
     const char *noun; /* "light curve": for sentences */
-    const char *each; /* "the rows of a light curve": the series' frames, for sentences */
+    const char *each; /* name of the series' frames, for sentences: "the rows of a light curve" */
     /* format of each frame; for a table, the format of a row, which cannot be requested by itself */
     const struct kd_format *frame;
     size_t row_bytes;                     /* size of a row; 0: the frames are files */
@@ -27,7 +27,7 @@ struct kd_series {
     size_t n_tables;
     /* formats for gathering files, the first is the default; ends with NULL */
     const struct kd_gather_format *const *wholes;
-    bool swept; /* the series exists for sweeps only */
+    bool swept; /* true if the series exists for sweeps only */
 };
 
 extern const struct kd_series *const kd_series_all[]; /* all series; the first is the default */

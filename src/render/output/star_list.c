@@ -18,9 +18,9 @@
 /* limit in rad of the angle between the ends of neighbouring rays. Rays whose ends are further apart, as near the
  * critical curve, are not used */
 #define COARSE 0.15
-/* fraction of the rim's width: nearer to the curve than this, only the images from the rim count */
+/* fraction of the rim's width. Nearer to the curve than this, only the images found in the rim count */
 #define INNER 0.9
-/* distance in pixels; images of the two grids that are nearer to each other are the same image */
+/* distance in pixels. Two images of a star, one from each grid, that are nearer than this are the same image */
 #define APART 0.05
 
 enum { MOST = 400 }; /* largest number of images in a file; the brightest are kept */
@@ -35,11 +35,14 @@ struct list {
     const struct kd_picture *picture;
     struct kd_sky_rays rays;
     struct kd_star_name names[KD_STAR_NAMES];
-    double most[KD_STAR_NAMES]; /* for each star the largest solid angle of a pixel, sr, at which it is visible */
+    /* for each star, the largest solid angle of a pixel, in sr, at which the star is visible */
+    double most[KD_STAR_NAMES];
     struct kd_vec places[KD_STAR_NAMES]; /* directions of the stars in the frame of the lens map */
     size_t n_stars;
     struct image *images;
-    size_t n, room, n_rim; /* images; those of the rim come first */
+    /* n: number of images; room: number of images for which there is room; n_rim: number of images of the rim, which
+     * come first */
+    size_t n, room, n_rim;
 };
 
 /* Requests the directions in which rays end, and the optical depth of the disk in front of the sky. */
@@ -142,8 +145,9 @@ static bool is_there(const struct list *list, const struct kd_star_image *image)
     return false;
 }
 
-/* Converts a place of the map to a place of the picture; false if it is outside. The map of a picture of all directions
- * has one column and two rows more (find()). An image beyond a pole is in the picture at the equivalent place. */
+/* Converts a place of the map to a place of the picture. Returns false if that place is outside the picture. The map
+ * of a picture of all directions has one column and two rows more (find()). An image beyond a pole is in the picture
+ * at the equivalent place. */
 static bool place_of(const struct list *list, struct kd_star_image *image)
 {
     const double width = list->picture->frame->width, height = list->picture->frame->height, edge = 0.5;
@@ -152,7 +156,7 @@ static bool place_of(const struct list *list, struct kd_star_image *image)
     return image->x >= -edge && image->x < width - edge && image->y >= -edge && image->y < height - edge;
 }
 
-/* Adds an image, unless it is one that pictures leave out. */
+/* Adds an image, unless pictures leave it out. */
 static enum kd_status add(void *user, const struct kd_star_image *found)
 {
     struct list *list = user;
@@ -242,7 +246,7 @@ static bool exact(const void *of, double x, double y, struct kd_vec *out)
     return true;
 }
 
-/* Converts an image from the map's rows to the picture's, and adds it. */
+/* Converts an image from the map's rows to the picture's rows, and adds it. */
 static enum kd_status add_around(void *user, const struct kd_star_image *found)
 {
     struct kd_star_image image = *found;

@@ -9,8 +9,8 @@
 
 struct kd_wcs_axis {
     const char *type, *unit; /* "RA---SIN", "deg" */
-    /* pixel: the reference pixel, counted from 1, from the left or from the lowest row. value: the coordinate there.
-     * step: increment of the coordinate from pixel to pixel */
+    /* pixel: the reference pixel, counted from 1, from the left or from the lowest row. value: the coordinate at the
+     * reference pixel. step: increment of the coordinate from pixel to pixel */
     double pixel, value, step;
 };
 
@@ -19,10 +19,10 @@ struct kd_wcs {
     /* for a distant observer: angles on the sky, east to the left, from the hole's mass and distance. For a near one:
      * angles to the right of the camera's axis and above it */
     struct kd_wcs_axis at[2];
-    bool far;                     /* the observer is distant, and `impact` is valid as well */
+    bool far;                     /* true if the observer is distant; `impact` is then valid as well */
     struct kd_wcs_axis impact[2]; /* the same places as impact parameters alpha and beta, M */
-    double turn[2][2];            /* PCi_j of both pairs of axes: from pixels to steps of the axes when the camera is
-                                   * rolled */
+    /* PCi_j of both pairs of axes; converts pixels to steps of the axes when the camera is rolled */
+    double turn[2][2];
 };
 
 /* The scene must be valid. */

@@ -2,12 +2,11 @@
 
 #include <math.h>
 
-/* width in pixels. A narrower beam changes nothing, because a neighbouring pixel gets less than exp(-50) of the weight
- * of the pixel itself */
+/* full width at half maximum of a Gaussian, in standard deviations: 2 sqrt(2 ln 2) */
 #define FWHM 2.3548200450309493
 /* width in pixels: a narrower beam gives a neighbouring pixel less than exp(-50) of the weight of the pixel itself */
 #define LEAST 0.1
-#define SPLINES 0.5 /* variance of both splines, in cells */
+#define SPLINES 0.5 /* sum of the variances of both splines, in squared cells */
 
 static uint32_t cells(uint32_t pixels, uint32_t cell) { return cell > 1 ? (pixels + cell - 1) / cell + 2 : pixels; }
 

@@ -14,23 +14,24 @@
 
 #include <stdint.h>
 
-#define KD_BEAM_CELLS 4 /* cells per standard deviation, at least */
+#define KD_BEAM_CELLS 4 /* least number of cells per standard deviation */
 
 struct kd_beam_grid {
-    uint32_t cell; /* pixels along the side of a cell; 0: no beam, or one too narrow to show */
+    uint32_t cell; /* pixels along the side of a cell; 0: there is no beam, or it is too narrow to be visible */
     /* size of the grid. If cells are larger than pixels, the grid has one more cell on each side of the picture */
     uint32_t columns, rows;
-    /* number of rows of the picture. Each row of pixels first has a row of cells of its own; these are then summed to
+    /* number of rows of the picture. First each row of pixels has its own row of cells; these rows are then summed to
      * the rows of the grid */
     uint32_t height;
     double sigma;   /* standard deviation of the blur, in cells */
-    uint32_t reach; /* radius of the blur, in cells: 5 sigma, beyond which lies 6e-7 of its weight */
+    uint32_t reach; /* radius of the blur, in cells: 5 sigma. Only 6e-7 of the weight lies beyond it */
 };
 
 /* The grid for a valid scene's picture. */
 struct kd_beam_grid kd_beam_of(const struct kd_scene *scene);
 
-/* Bytes of the rows of cells, one for each row of pixels. kd_beam_cells_bytes: bytes of one grid. */
+/* kd_beam_lines_bytes: bytes of the rows of cells, one for each row of pixels. kd_beam_cells_bytes: bytes of one
+ * grid. */
 static inline uint64_t kd_beam_lines_bytes(const struct kd_beam_grid *beam)
 {
     return 16ull * beam->columns * beam->height;

@@ -20,10 +20,11 @@ struct kd_plan_cost {
     uint64_t making_bytes;
     struct kd_plan_pass passes[KD_PASS_COUNT];
     size_t n_passes;
-    double estimate_ms, trace_ns; /* estimate_ms: estimated time of all passes; trace_ns: of tracing one ray */
-    uint64_t class;               /* cost class of the plan (cost_class.h) */
-    /* additional time for compiling missing kernels, estimated by server/render/queue.h; 0: none are missing, or it
-     * is not known */
+    /* estimate_ms: estimated time of all passes; trace_ns: estimated time of tracing one ray */
+    double estimate_ms, trace_ns;
+    uint64_t class; /* cost class of the plan (cost_class.h) */
+    /* additional time for compiling missing kernels, estimated by server/render/queue.h; 0: no kernel is missing, or
+     * the time is not known */
     double kernels_ms;
 };
 

@@ -6,8 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Names of fields, for two lists. One has the fields that the class ignores; the other has the fields that enter the
- * class only rounded to a power of two. name NULL: all fields of the section. section "": the document itself. */
+/* Names of fields, for two lists. One has the fields that the class ignores. The other has the fields that are
+ * rounded to a power of two before they enter the class. name NULL: all fields of the section. section "": the
+ * document itself. */
 struct named { const char *section, *name; };
 static const struct named left_out[] = {
     { "image", NULL },           { "image.tile", NULL },
@@ -68,7 +69,7 @@ double kd_cost_known(const struct kd_capacity *capacity, uint64_t class, enum kd
     return 0;
 }
 
-/* Entry of a class; if it has none, the entry of the class that was updated longest ago. */
+/* Returns the entry of a class. If the class has none, returns the entry of the class that was updated longest ago. */
 static struct kd_class_cost *place_of(struct kd_capacity *capacity, uint64_t class)
 {
     struct kd_class_cost *oldest = capacity->classes;

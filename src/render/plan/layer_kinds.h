@@ -26,10 +26,10 @@ struct kd_layer_kind {
     enum kd_layer_of { KD_OF_PICTURE, KD_OF_LIGHT, KD_OF_CROSSING, KD_OF_RAY } of;
     uint32_t needs; /* KD_LENS_... quantities of the lens map that the layer reads */
     enum kd_colour_map map;
-    /* the scale of its colours; an end that is NAN is replaced by the picture's least or largest value */
+    /* the scale of the layer's colours; an end that is NAN is replaced by the picture's least or largest value */
     struct kd_map_scale scale;
     const char *const *classes; /* for CATEGORICAL: names of the values 0, 1, ...; NULL: their numbers */
-    uint32_t n_classes;         /* number of classes; 0: the largest value gives it */
+    uint32_t n_classes;         /* number of classes; 0: the largest value determines this number */
 };
 extern const struct kd_layer_kind kd_layer_kinds[KD_LAYER_COUNT];
 /* True if the layer is a quantity of polarised light. */
@@ -39,10 +39,11 @@ static inline bool kd_layer_is_polarized(int kind)
            kind == KD_LAYER_polarization_fraction || kind == KD_LAYER_stokes_v;
 }
 
-/* A layer of a plan. order: its image order; -1: the order of the first crossing on the disk. */
+/* A layer of a plan. order: image order of the layer; -1: the order of the first crossing on the disk. */
 struct kd_plan_layer { int16_t kind, order; };
 
-/* The layers of image.layers except "rgb", in their order; returns their number. *rgb: whether "rgb" is among them. */
+/* The layers of image.layers except "rgb", in their order; returns their number. *rgb: true if "rgb" is among the
+ * words of image.layers. */
 size_t kd_layers_of(const struct kd_scene *scene, struct kd_plan_layer out[KD_WORDS_MOST], bool *rgb);
 /* KD_LENS_... quantities that all layers of image.layers need together. */
 uint32_t kd_layers_needs(const struct kd_scene *scene);

@@ -26,7 +26,7 @@ done:
     return status;
 }
 
-/* The key hashes the hole, the camera, the rays, how they are traced, and the quantities of the map. */
+/* The key is a hash of the hole, the camera, the rays, how they are traced, and the quantities of the map. */
 enum kd_status kd_plan_lens_key(struct kd_plan *plan, const struct kd_scene *scene)
 {
     struct kd_buffer text = { 0 };
@@ -49,9 +49,8 @@ enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out)
     const struct kd_section *accuracy = kd_section_find("accuracy");
     char hash[65];
     enum kd_status status;
-    const bool marches = kd_emit_along(scene) || kd_emit_met(scene); /* hashed because these determine which pixels
-                                                                      * at the curve have rays, whatever the map
-                                                                      * holds */
+    /* hashed because these flags determine which pixels at the curve have rays, whatever the map holds */
+    const bool marches = kd_emit_along(scene) || kd_emit_met(scene);
     KD_TRY(kd_buffer_printf(&text, "%u, %d x %d x %d, %d %d, ", kd_needs_of(scene).quantities, scene->image.width,
                             scene->image.height, (int)kd_scene_side(scene), scene->image.critical_factor, marches));
     for (size_t i = accuracy->first; i < accuracy->first + accuracy->count; i++)

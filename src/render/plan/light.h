@@ -1,5 +1,5 @@
-/* The light of a plan: its emitters, the method by which it is found along rays, and the quantities that are measured
- * of it. Plain data and pure functions; any thread. */
+/* The light of a plan: its emitters, the method by which light is found along rays, and the measurements that are
+ * made of the light. Plain data and pure functions; any thread. */
 #ifndef KD_RENDER_PLAN_LIGHT_H
 #define KD_RENDER_PLAN_LIGHT_H
 
@@ -14,18 +14,19 @@
 #define KD_PLAN_EMITTERS 18
 
 struct kd_plan_light {
-    uint32_t traits[KD_PLAN_EMITTERS]; /* traits of the emitters; 0 for those that the scene does not have */
-    bool points;                       /* some emitter consists of points of light */
-    bool bright;                       /* only bright images of points are made, and none next to the critical curve */
-    bool apart;                        /* the luminance of some emitter is kept beside the radiance */
+    uint32_t traits[KD_PLAN_EMITTERS]; /* traits of the emitters; 0 for emitters that the scene does not have */
+    bool points;                       /* true if some emitter consists of points of light */
+    /* true if only bright images of points are made, and none next to the critical curve */
+    bool bright;
+    bool apart; /* true if the luminance of some emitter is kept beside the radiance */
     /* numbers stored for a pixel after its radiance. Stokes Q, U and V are stored if polarised light is measured or
      * marched layers need them; Q and U of the separate luminance may follow. 0: none */
     uint32_t stokes_words;
     struct kd_march march; /* the march for volumes and bodies; all 0: the scene has none, and light follows from the
                             * lens map alone */
-    bool meets;            /* the scene has bodies */
-    bool photometry;       /* flux and centroid are measured */
-    /* for a scene that names the flux of matter: a density that was found from another viewpoint may be reused
+    bool meets;            /* true if the scene has bodies */
+    bool photometry;       /* true if flux and centroid are measured */
+    /* for a scene that names the flux of matter: true if a density found from another viewpoint may be reused
      * (frame/normalise.h) */
     bool reuse_normalisation;
     struct {
@@ -38,7 +39,8 @@ struct kd_plan_light {
  * it has only points of light, such as stars. */
 bool kd_plan_is_spread(const struct kd_plan_light *light);
 
-/* The pass that computes the light of rays, and its time for one ray, ns. */
+/* kd_plan_light_pass: the pass that computes the light of rays. kd_plan_light_ns: the time of that pass for one ray,
+ * in ns. */
 static inline enum kd_pass_id kd_plan_light_pass(const struct kd_plan_light *light)
 {
     return light->march.steps ? KD_PASS_MARCH : KD_PASS_TRANSFER;

@@ -10,7 +10,7 @@
 enum { LEAST = 2, BALANCED = 4, MOST = 64, SKETCH = 2 };
 
 #define UNSEEN 0.05 /* octaves of less than this amplitude contribute less than 1e-4 to the light */
-/* the same for a sketch, which also leaves out octaves that a ray's footprint mostly averages out */
+/* the same amplitude for a sketch, which also leaves out octaves that a ray's footprint mostly averages out */
 #define SKETCH_UNSEEN 0.15
 
 static bool is_stirred(const struct kd_scene *scene)
@@ -25,13 +25,13 @@ static double error_of(const struct kd_scene *scene)
     return isfinite(a->tolerance) ? a->tolerance : (is_stirred(scene) ? stirred : errors)[a->profile];
 }
 
-/* when rays are closer than this, in M divided by disk.gas.scale, they resolve more of the fine noise */
+/* distance between rays, in M divided by disk.gas.scale; rays that are closer resolve more of the fine noise */
 #define PIXEL 0.36
 #define CLOSER 0.08 /* change of the exponent in fine_of each time the distance halves */
 #define CLOSEST 3   /* number of halvings after which all octaves are resolved */
 
 /* How many times PIXEL must be halved to give the distance between the rays of this picture; 0 if that distance is
- * larger. PIXEL is the distance in a picture, 320 pixels wide, of the preset thick-disk. */
+ * larger than PIXEL. PIXEL is the distance in a picture of the preset thick-disk that is 320 pixels wide. */
 static double closeness(const struct kd_scene *scene)
 {
     const double distance = isfinite(scene->camera.r) ? scene->camera.r : 1, side = fmax(scene->image.samples, 1);
@@ -69,7 +69,7 @@ static double of_matter(const struct kd_scene *scene)
     return of[scene->volume.model];
 }
 
-/* Measured by lavapipe: an octave of noise in three dimensions takes a quarter of the time of everything else at a
+/* Measured with lavapipe: an octave of noise in three dimensions takes a quarter of the time of everything else at a
  * sample. */
 static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t fine)
 {
@@ -80,8 +80,8 @@ static double weight_of(const struct kd_scene *scene, uint32_t steps, uint32_t f
                         (is_stirred(scene) ? 1 + 0.25 * scene->gas.octaves : 1);
 }
 
-/* Samples one pixel in 144, so that measuring the error takes a thirtieth of the picture's time. Small pictures have
- * more samples, large pictures fewer. */
+/* Samples one pixel in 144, so that measuring the error takes a thirtieth of the picture's time. The fraction is
+ * larger in small pictures, and smaller in large ones. */
 static void lattice(uint32_t size, uint32_t most, uint32_t *n, uint32_t *every, uint32_t *first)
 {
     *n = (uint32_t)fmin(fmin(fmax(size / 12, 4), most), size);

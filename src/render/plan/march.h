@@ -4,10 +4,10 @@
 
 #include "render/accuracy/engine.h"
 
-/* The target of each profile for the relative error of light, met by nine of ten rays: draft, interactive, balanced,
- * high, reference. accuracy.tolerance is such a target. Light has 32 bits, whose rounding leaves an error of 5e-6 where
- * light is smooth. Turbulence has targets of its own, because its error falls as the third power of the cost instead of
- * the sixth. Rounding leaves an error of 5e-5 of the turbulent noise. */
+/* Target of each profile for the relative error of light: draft, interactive, balanced, high, reference. Nine of ten
+ * rays meet the target. accuracy.tolerance is such a target. Light has 32 bits, whose rounding leaves an error of
+ * 5e-6 where light is smooth. Turbulence has targets of its own, because its error falls as the third power of the
+ * cost instead of the sixth. Rounding leaves an error of 5e-5 of the turbulent noise. */
 #define KD_MARCH_ERRORS { 2e-3, 1e-3, 1e-4, 1e-5, 5e-6 }
 #define KD_MARCH_STIRRED_ERRORS { 2e-2, 1e-2, 1e-3, 1e-4, 5e-5 }
 
@@ -24,25 +24,26 @@ struct kd_march {
     /* a ray ends where less than this fraction of the light from behind is transmitted. The fraction is a tenth of the
      * target for the error */
     double opaque;
-    /* octaves of noise are left out if their amplitude, reduced by the local gas and the ray's footprint, is less than
-     * this fraction of the first octave's */
+    /* octaves of noise are left out if their amplitude is less than this fraction of the first octave's; the
+     * amplitude is reduced by the local gas and by the ray's footprint */
     double unseen;
-    bool sketched; /* the march is a sketch, coarser than with any profile (kd_march_sketch) */
+    bool sketched; /* true if the march is a sketch, coarser than with any profile (kd_march_sketch) */
     struct kd_march_sample
         sample; /* pixels whose rays are followed twice more, to measure the error (frame/march_error.c) */
 };
-/* the target of a sketch for the error, without the error due to the octaves that it leaves out */
+/* target of a sketch for the error; the octaves that a sketch leaves out cause an additional error */
 #define KD_MARCH_SKETCHED 0.05
 #define KD_MARCH_HOLDS 5e-5  /* the smallest tolerance that can be requested; this error is met even in turbulence */
-#define KD_MARCH_SAMPLED 256 /* pixels of the sample, at most */
+#define KD_MARCH_SAMPLED 256 /* largest number of pixels of the sample */
 #define KD_MARCH_FINER 2     /* factor by which the reference for measuring the error has more steps and stretches */
-#define KD_MARCH_DARK 1e-3   /* fraction of the brightest ray: errors of darker rays are relative to this */
+/* fraction of the light of the brightest ray. The errors of darker rays are relative to this light */
+#define KD_MARCH_DARK 1e-3
 
 /* The march for a scene with volumes or bodies, whose rays are traced with this setting. */
 struct kd_march kd_march_of(const struct kd_scene *scene, const struct kd_setting *rays);
 
-/* The march of a live view while it changes on a slow machine. It has the fewest stretches and no finer octaves of
- * noise, and its error is measured on a quarter of the rays. */
+/* The march of a live view, used while the view changes on a slow machine. It has the fewest stretches and no finer
+ * octaves of noise, and its error is measured on a quarter of the rays. */
 struct kd_march kd_march_sketch(struct kd_march march, const struct kd_scene *scene);
 
 /* The given march with the numbers of steps and stretches multiplied by KD_MARCH_FINER. */

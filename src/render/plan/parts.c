@@ -57,7 +57,7 @@ done:
     return status;
 }
 
-/* A tile has no flux and centroid, because they would include its margin. */
+/* A tile has no flux and no centroid, because they would include the tile's margin. */
 static struct kd_needs of_tile(const struct kd_needs *needs)
 {
     struct kd_needs own = *needs;
@@ -151,8 +151,8 @@ static enum kd_status make_strips(const struct kd_scene *scene, const struct kd_
     return KD_ETOOBIG;
 }
 
-/* True if some number of strips may fit. The check leaves out the list of pixels at the critical curve. It uses the
- * first strip, because no strip has more rows. */
+/* True if some number of strips may fit. The check does not consider the list of pixels at the critical curve. It
+ * uses the first strip, because no other strip has more rows. */
 static enum kd_status check_strips(const struct kd_scene *scene, const struct kd_needs *needs,
                                    const struct kd_capacity *capacity, struct kd_error *error)
 {

@@ -11,8 +11,8 @@
 #define NS_PER_AUDIT 4000.0
 #define NS_PER_CLOSED 3000.0
 
-/* The time of listed rays comes from the accuracy table. For settings that are not in the table it is estimated from
- * the steps. */
+/* The time of listed rays comes from the accuracy table. For settings that are not in the table, the time is
+ * estimated from the number of steps. */
 static double ns_listed(const struct kd_setting *by, const struct kd_capacity *c)
 {
     for (uint32_t i = 0; c->accuracy_measured && i < c->accuracy->n; i++) {
@@ -39,8 +39,8 @@ static struct kd_pass_cost trace(const struct kd_plan *plan, const struct kd_cap
                                    ns_listed(by, c), KD_NS_NONE };
 }
 
-/* The number of pixels that need more rays depends on the content. For example, refinement of turbulent gas takes
- * fifteen times as long as that of a smooth disk. So the figure is measured on earlier pictures. If there are volumes,
+/* The number of pixels that need more rays depends on the content. For example, refinement takes fifteen times as
+ * long for turbulent gas as for a smooth disk. So the figure is measured on earlier pictures. If there are volumes,
  * the time of their light is added. */
 static struct kd_pass_cost refine(const struct kd_plan *plan, const struct kd_capacity *c)
 {
@@ -56,7 +56,7 @@ static struct kd_pass_cost transfer(const struct kd_plan *plan, const struct kd_
                                    kd_plan_light_figure(&plan->light) };
 }
 
-/* All volumes share one figure, so it is measured only on volumes of the usual weight. */
+/* All volumes share one figure. So the figure is measured only on volumes of the usual weight. */
 static struct kd_pass_cost march(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const bool usual = fabs(plan->light.march.weight - 1) < 1e-9;
@@ -86,14 +86,14 @@ static struct kd_pass_cost audit(const struct kd_plan *plan, const struct kd_cap
 }
 
 /* Bloom reads each pixel once and computes each cell of the grids. On lavapipe this takes 2.1 ns a pixel and 41 ns a
- * cell, where post takes 5.3 ns a pixel. */
+ * cell; for comparison, post takes 5.3 ns a pixel. */
 static struct kd_pass_cost bloom(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double cells = kd_bloom_cells(&plan->picture.bloom, 0) / ((double)plan->picture.width * plan->picture.height);
     return (struct kd_pass_cost) { "bloom_bright.comp", (0.4 + 7.8 * cells) * c->ns[KD_NS_PIXEL_POST], KD_NS_NONE };
 }
 
-/* With bloom the post pass also reads cells; its time then does not update the figure. */
+/* With bloom the post pass also reads cells, so its time does not update the figure. */
 static struct kd_pass_cost post(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const double more = !plan->picture.bloom.levels                                    ? 1
@@ -103,8 +103,8 @@ static struct kd_pass_cost post(const struct kd_plan *plan, const struct kd_capa
                                    plan->picture.bloom.levels ? KD_NS_NONE : KD_NS_PIXEL_POST };
 }
 
-/* Measured by lavapipe: gathering and interpolation take three times as long as post. Each weight of the two blurs, and
- * of two more sums if cells are large, takes a seventh of post's time. */
+/* Measured with lavapipe: gathering and interpolation take three times as long as post. Each weight of the two blurs,
+ * and of two more sums if cells are large, takes a seventh of post's time. */
 static struct kd_pass_cost beam(const struct kd_plan *plan, const struct kd_capacity *c)
 {
     const struct kd_beam_grid *b = &plan->picture.beam;
@@ -136,11 +136,11 @@ static bool is_streaked(const struct kd_scene *scene)
     return scene->disk.model == KD_DISK_PARTICLES || (scene->disk.model != KD_DISK_NONE && scene->gas.amplitude > 0);
 }
 
-/* At the critical curve three pixels in four get denser rays. Elsewhere one pixel in 300 is at an edge and gets traced
- * rays. How many pixels lie where the map is smooth but light is not linear depends on the content: one in three for
- * streaked disks, otherwise one in thirty. At 1280 x 720 the presets gargantua and default trace 0.59 and 1.09 million
- * rays, estimated here as 0.79 and 0.91. They interpolate 34 000 and 308 000 pixels, estimated as 31 000 and 307
- * 000. */
+/* At the critical curve three pixels in four get denser rays. Elsewhere one pixel in 300 is at an edge and gets
+ * traced rays. Where the map is smooth but light is not linear, rays are interpolated. The number of these pixels
+ * depends on the content: one in three for streaked disks, otherwise one in thirty. At 1280 x 720 the presets
+ * gargantua and default trace 0.59 and 1.09 million rays, estimated here as 0.79 and 0.91. They interpolate 34 000
+ * and 308 000 pixels, estimated as 31 000 and 307 000. */
 static uint64_t refined(const struct kd_plan *plan, const struct kd_scene *scene)
 {
     const uint64_t curve = 3 * plan->lens.critical_pixels * plan->lens.critical_dense / 4,

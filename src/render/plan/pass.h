@@ -43,9 +43,9 @@ extern const struct kd_figure {
  *
  *   name         in Server-Timing and in plans
  *   invocations  a function of pass.c: number of invocations in a plan; 0: the plan does not have this pass
- *   cost         WHOLE(kernel, figure): an invocation costs what the figure says, and the figure is measured by it;
- *                PART(kernel, figure, share): it costs a fraction of the figure; BY(function): a function of pass.c
- *                computes all of this
+ *   cost         WHOLE(kernel, figure): an invocation costs the figure, which the pass's measured time updates
+ *                PART(kernel, figure, share): an invocation costs this share of the figure
+ *                BY(function): a function of pass.c computes kernel, figure and cost
  *   scale        its time grows with the number of RAYS or PIXELS, or is FIXED whatever the picture's size
  *   when         it runs for each FRAME, or only when a lens MAP is made
  *

@@ -31,8 +31,8 @@ struct kd_light {
 
 struct kd_light_report {
     bool measured;              /* true if the plan requested it (kd_plan_light.photometry) */
-    bool polarized, circular;   /* polarized: whether there are Q and U; circular: whether there is V */
-    struct kd_light all, spots; /* all: light of the whole picture; spots: light of its hot spots */
+    bool polarized, circular;   /* polarized: true if there are Q and U; circular: true if there is V */
+    struct kd_light all, spots; /* all: light of the whole picture; spots: light of the hot spots only */
 };
 
 /* kd_light_fraction: degree of linear polarisation. kd_light_evpa: angle of the electric field from the top of the
@@ -40,8 +40,8 @@ struct kd_light_report {
 double kd_light_fraction(const struct kd_light *light);
 double kd_light_evpa(const struct kd_light *light);
 
-/* kd_light_groups: workgroups of photometry.comp for the pixels of a band. kd_light_sums: sums of one invocation.
- * kd_light_bytes: bytes of all sums; each band has as many sums as the first. */
+/* kd_light_groups: number of workgroups of photometry.comp for the pixels of a band. kd_light_sums: number of sums of
+ * one invocation. kd_light_bytes: bytes of all sums; each band has as many sums as the first. */
 uint32_t kd_light_groups(uint32_t pixels);
 uint32_t kd_light_sums(const struct kd_plan_light *light);
 uint64_t kd_light_bytes(const struct kd_plan *plan);

@@ -26,10 +26,11 @@ struct kd_plan_picture {
     uint32_t eyes;
     /* band_rows: rows of pixels for which one set of buffers has room; bands: number of such sets */
     uint32_t band_rows, bands;
-    bool no_image; /* no picture is made from the radiance */
-    bool numbers;  /* the frame is for a file of numbers, so it contains the light without later processing */
-    bool rgb;      /* image.layers contains the picture */
-    bool radiance; /* linear light is copied to the host, too */
+    bool no_image; /* true if no picture is made from the radiance */
+    /* true if the frame is for a file of numbers, so that it contains the light without later processing */
+    bool numbers;
+    bool rgb;                                   /* true if image.layers contains the picture */
+    bool radiance;                              /* true if linear light is copied to the host, too */
     struct kd_plan_layer layers[KD_WORDS_MOST]; /* layers besides the picture */
     size_t n_layers;
     struct kd_beam_grid beam; /* the telescope's beam with which light is convolved */
@@ -42,8 +43,8 @@ struct kd_plan_picture {
     struct {
         unsigned samples;
         double shutter;
-        /* motion blur: light is the mean of this many pictures (frame/blur.h) within this fraction of a frame's time;
-         * 0: off */
+        /* motion blur (frame/blur.h): light is the mean of `samples` pictures within the fraction `shutter` of a
+         * frame's time; samples 0: no blur */
     } blur;
 };
 

@@ -41,9 +41,9 @@ enum kd_status kd_plan_check(const struct kd_scene *scene, const struct kd_capac
  * KD_ENOMEM. */
 enum kd_status kd_plan_lens_group(const struct kd_scene *scene, uint64_t *out);
 
-/* The largest number of rays that one dispatch may leave undecided, for the host to trace again in double
- * (frame/settle.c). It is at most KD_GIVEN_MOST, so that the list of these rays is no larger than a band of the
- * lens map. */
+/* The largest number of rays that one dispatch may leave undecided. The host traces them again in double
+ * (frame/settle.c). The number is at most KD_GIVEN_MOST, so that the list of these rays is no larger than a band of
+ * the lens map. */
 uint64_t kd_plan_open_most(const struct kd_plan *plan);
 /* Checks that there is memory for a finished plan, and for `more` bytes on the host. If there is not, returns
  * KD_ETOOBIG; the message states the limit. */
@@ -70,7 +70,8 @@ static inline uint64_t kd_plan_lost_bytes(uint64_t most) { return most ? 4 * (KD
  * and rays, for one slice of KD_PLAN_STAR_RAYS rays or one row (frame/stars.c). A slice takes about 20 ms, and its
  * pairs fit. */
 #define KD_PLAN_PAIRS (1u << 18)
-#define KD_PLAN_BRIGHT 8 /* a search for bright images alone is about this many times as fast as one for all images */
+/* a search for bright images only is about this many times as fast as a search for all images */
+#define KD_PLAN_BRIGHT 8
 #define KD_PLAN_STAR_RAYS (1u << 17)
 static inline uint64_t kd_plan_pair_bytes(void) { return 8ull * (KD_PLAN_PAIRS + 1); }
 static inline uint32_t kd_plan_star_slice(const struct kd_plan *plan)
@@ -91,13 +92,13 @@ static inline uint64_t kd_plan_star_ray_bytes(const struct kd_plan *plan)
 
 /* Requirements on the plan. kd_plan_make derives them from the scene; benchmarks and tests set further ones. */
 struct kd_needs {
-    uint32_t quantities; /* KD_LENS_... quantities of the lens map */
-    bool light;          /* measure flux and centroid; they are always measured if some luminance is kept separate */
-    bool no_image;       /* make no pixels and no layers, whatever image.layers says */
-    bool radiance;       /* make linear light a layer, if the picture is requested */
-    bool followed;       /* trace every ray, even if the profile would interpolate */
-    bool sketch;         /* march through volumes as coarsely as kd_march_sketch */
-    bool bright;         /* search stars as kd_plan_light.bright says */
+    uint32_t quantities;      /* KD_LENS_... quantities of the lens map */
+    bool light;               /* measure flux and centroid; always measured if some luminance is kept separate */
+    bool no_image;            /* make no pixels and no layers, whatever image.layers says */
+    bool radiance;            /* make linear light a layer, if the picture is requested */
+    bool followed;            /* trace every ray, even if the profile would interpolate */
+    bool sketch;              /* march through volumes as coarsely as kd_march_sketch */
+    bool bright;              /* search stars as kd_plan_light.bright says */
     bool reuse_normalisation; /* for volume.normalise_to_jy, reuse the density found for the same matter from any
                                  viewpoint */
 };

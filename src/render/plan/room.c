@@ -147,7 +147,8 @@ enum kd_status kd_plan_critical(struct kd_plan *plan, const struct kd_scene *sce
     struct kd_critical_pixels list;
     const uint64_t side = least(plan->lens.side * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
     const uint64_t dense = least(KD_PLAN_ADAPTIVE_SIDE * (uint64_t)scene->image.critical_factor, KD_CRITICAL_SIDE);
-    /* with one order and no ends, nothing is planned: no part of the direct image is thinner than a pixel */
+    /* with one order and no ends, no pixels are planned here, because no part of the direct image is thinner than a
+     * pixel */
     if (plan->lens.ring || side <= plan->lens.side ||
         !(plan->lens.orders > 1 || plan->lens.ends || plan->light.march.steps))
         return KD_OK;

@@ -61,7 +61,7 @@ void kd_sample_fit(struct kd_plan *plan, uint64_t bytes)
 {
     const uint64_t row = (uint64_t)plan->picture.width * plan->lens.side * plan->lens.side,
                    rows = RAYS_AT_ONCE / row > 1 ? RAYS_AT_ONCE / row : 1;
-    /* the bits of a place can number this many rows */
+    /* largest number of rows that the bits of a place can count */
     const uint64_t held = (MOST_ROWS - 2 * KD_CELL_BLOCK) / plan->lens.side;
     plan->lens.sample_rows = (uint32_t)least_of(least_of(rows, held), plan->picture.band_rows);
     while (plan->lens.sample_rows > 1 && !fits(plan, plan->lens.sample_rows, bytes))

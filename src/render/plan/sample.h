@@ -4,12 +4,13 @@
 
 #include "render/plan/plan.h"
 
-/* The blocks that cover some rows of rays. They are aligned to the whole picture. */
+/* The blocks that cover some rows of rays. Blocks are aligned to the whole picture. */
 struct kd_sample_grid {
     int32_t origin_x, origin_y; /* place of the first block, in rays from the first ray of the picture or tile */
     uint32_t blocks_x, blocks_y;
     uint32_t room; /* number of nodes for which there is room */
-    /* offsets in the buffer of lists: of the nodes' places, and of the places of rays that are traced singly */
+    /* offsets in the buffer of lists. places: offset of the nodes' places; alone: offset of the places of rays that
+     * are traced singly */
     uint32_t places, alone;
     uint64_t list_bytes, index_bytes, node_bytes; /* sizes of the three buffers */
 };

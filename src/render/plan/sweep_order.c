@@ -7,7 +7,7 @@
 
 enum kd_status kd_sweep_order_add(struct kd_sweep_order *order, uint64_t group, double trace_ms)
 {
-    if (!(order->n & (order->n - 1))) { /* the room doubles at powers of two */
+    if (!(order->n & (order->n - 1))) { /* the array's size doubles when n is a power of two */
         struct kd_sweep_order_item *more = realloc(order->items, (order->n ? 2 * (size_t)order->n : 1) * sizeof *more);
         if (!more)
             return KD_ENOMEM;

@@ -17,7 +17,8 @@ struct kd_sweep_order {
     unsigned *frames;
 };
 
-/* Adds the n-th frame. group: kd_plan_lens_group; trace_ms: time of its lens map. The only error is KD_ENOMEM. */
+/* Adds the n-th frame. group: kd_plan_lens_group of its scene; trace_ms: time of its lens map. The only error is
+ * KD_ENOMEM. */
 enum kd_status kd_sweep_order_add(struct kd_sweep_order *order, uint64_t group, double trace_ms);
 /* Completes the order. *shared_ms: time saved by sharing lens maps. The only error is KD_ENOMEM. */
 enum kd_status kd_sweep_order_end(struct kd_sweep_order *order, double *shared_ms);

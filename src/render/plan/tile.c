@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-/* Width of the margin in pixels. A footprint is a difference between rays two apart. Points of light are searched in
- * tiles of KD_STAR_TILE rays, aligned to the whole picture, and use rays up to three beyond the tiles. A point lights
- * two pixels round its image. */
+/* Width of the margin in pixels. A footprint is a difference between two rays that are two steps apart. Points of
+ * light are searched in tiles of KD_STAR_TILE rays, aligned to the whole picture. The search uses rays up to three
+ * beyond the tiles. A point lights two pixels round its image. */
 #define MARGIN 4u
 #define MARGIN_OF_POINTS (KD_STAR_TILE + 7u)
 
@@ -78,8 +78,8 @@ static struct range widen(uint32_t from, uint32_t to, int32_t all, uint32_t marg
     return (struct range) { from > margin ? (from - margin) / by * by : 0, end < (uint32_t)all ? end : (uint32_t)all };
 }
 
-/* True if the tile needs rows or columns from the other side. A picture of all directions continues beyond each edge at
- * the opposite edge (shaders/ray/around.glsl), and the light of points does as well. */
+/* True if the tile needs rows or columns from the opposite side of the picture. A picture of all directions continues
+ * beyond each edge at the opposite edge (shaders/ray/around.glsl), and so does the light of points. */
 static bool needs_all_round(const struct kd_scene *scene, const struct range *x, const struct range *y)
 {
     return scene->camera.projection == KD_PROJECTION_EQUIRECTANGULAR &&

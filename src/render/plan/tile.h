@@ -14,7 +14,7 @@ struct kd_needs;
 /* Returns KD_EINVAL if a tile cannot meet a request by itself; the message names an alternative. */
 enum kd_status kd_tile_check(const struct kd_scene *scene, const struct kd_needs *needs, struct kd_error *error);
 
-/* The scene whose tile includes the margin; *cut, unless NULL: place of the original tile in it. */
+/* The scene whose tile includes the margin. *cut (may be NULL): place of the original tile within the larger tile. */
 struct kd_scene kd_tile_with_margin(const struct kd_scene *scene, struct kd_window *cut);
 
 /* kd_tile_strip: strip i of n of a scene's window, counted from the top. kd_tile_strips: number of these strips that

@@ -130,8 +130,8 @@ bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, st
     for (size_t i = 0; i < sizeof approximations / sizeof *approximations; i++)
         if ((!params || !approximations[i].in_force || approximations[i].in_force(params)) && !index--)
             return *out = approximations[i].is, true;
-    /* without params no approximation of the hole is added: the page of all approximations lists these with the
-     * approximations of pictures */
+    /* without params no approximation of the hole is added, because the page of all approximations lists these with
+     * the approximations of pictures */
     const struct kd_hole_sentence *of_hole = params ? kd_hole_sentence(kd_hole_given(params), index) : NULL;
     if (of_hole)
         *out = (struct kd_approximation) { of_hole->name, of_hole->text };
@@ -245,7 +245,7 @@ size_t kd_rays_stream_size(const struct kd_rays_stream *stream)
     return stream->head.size + stream->answer->n * (2 + 8 * (3 + 4 * (size_t)p->orders + (p->observer ? 1 : 0)));
 }
 
-/* Writes the next ray, or the end of the list, to stream->row. False at the end. */
+/* Writes the next ray, or the end of the list, to stream->row. Returns false after the end. */
 static bool refill(struct kd_rays_stream *stream)
 {
     static const char tail[] = "]}\n";

@@ -23,12 +23,12 @@ enum kd_rays_format { KD_RAYS_JSON, KD_RAYS_NPY, KD_RAYS_CSV };
 struct kd_rays_answer {
     struct kd_rays_params params;
     size_t n;
-    double *alpha_beta; /* this and the next two are malloc'd */
+    double *alpha_beta; /* this member and the next two are malloc'd */
     struct kd_ray_crossing *crossings;
     struct kd_ray_end *ends;
-    size_t undecided; /* kd_rays_answer_summarise sets this member and all that follow */
-    /* Members used with a tolerance. followed_again: number of rays that were traced again to meet it; beyond:
-     * number of rays that exceed it nevertheless, including undecided rays. */
+    size_t undecided; /* kd_rays_answer_summarise sets this member and all members below it */
+    /* Members used with a tolerance. followed_again: number of rays that were traced again to meet the tolerance;
+     * beyond: number of rays that exceed the tolerance nevertheless, including undecided rays. */
     size_t followed_again, beyond;
     /* largest and median error of the rays that have an error; NaN if no ray has one */
     double worst_error, median_error;
@@ -43,13 +43,14 @@ size_t kd_rays_answer_bytes(const struct kd_rays_params *params, size_t n);
 
 enum kd_status kd_rays_answer_summarise(struct kd_rays_answer *answer, struct kd_error *error);
 
-/* The approximations in force, by index: false after the last. params NULL: all approximations of rays that exist. */
+/* Gets, by index, an approximation in force; returns false after the last. params NULL: gets any approximation of
+ * rays, in force or not. */
 bool kd_rays_approximation(const struct kd_rays_params *params, size_t index, struct kd_approximation *out);
 
 enum { KD_RAYS_ROW_MAX = 4096 };
 
 struct kd_rays_stream {
-    const struct kd_rays_answer *answer; /* summarised; must outlive the stream */
+    const struct kd_rays_answer *answer; /* a summarised answer, which must outlive the stream */
     enum kd_rays_format format;
     struct kd_buffer head;
     size_t head_at, next, row_size, row_at;

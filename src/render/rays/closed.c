@@ -17,7 +17,7 @@
 
 _Static_assert(KD_NULL_ORDERS >= KD_RAYS_MAX_ORDERS, "the closed form gives too few crossings");
 
-/* What all rays of a list have in common. */
+/* The part of a ray's description that is the same for all rays of a list. */
 static struct kd_null_ray common_of(const struct kd_rays_params *p)
 {
     return (struct kd_null_ray) { .hole = kd_rays_hole(p),
@@ -35,7 +35,7 @@ static struct kd_null_ray ray_of(const struct kd_null_ray *common, const double 
     return ray;
 }
 
-/* The redshift factor at a crossing. outwards: whether the real photon moves outwards when it leaves the gas. */
+/* The redshift factor at a crossing. outwards: true if the real photon moves outwards when it leaves the gas. */
 static double redshift(const struct kd_rays_params *p, const double *alpha_beta, double r, bool outwards)
 {
     const struct kd_hole hole = kd_rays_hole(p);
@@ -105,7 +105,7 @@ struct share {
     _Atomic bool stop;
 };
 
-/* Traces the next slice; false if none is left. */
+/* Traces the next slice. Returns false if none is left. */
 static bool trace_slice(struct share *share)
 {
     const struct kd_ray_labels *rays = share->rays;
@@ -186,7 +186,7 @@ void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_l
         }
 }
 
-/* Uses w'^2 = W^2 - D K w^2 as in shaders/ray/radial_step.glsl, a form that keeps its precision next to the horizon. */
+/* Uses w'^2 = W^2 - D K w^2, as shaders/ray/radial_step.glsl does. This form is precise next to the horizon. */
 double kd_rays_slope(const struct kd_rays_params *p, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r)
 {

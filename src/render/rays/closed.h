@@ -19,8 +19,8 @@ enum kd_status kd_rays_closed(const struct kd_rays_params *params, const struct 
 void kd_rays_redshift(const struct kd_rays_params *params, const struct kd_ray_labels *rays,
                       struct kd_ray_crossing *crossings, const struct kd_ray_end *ends);
 
-/* dw/dtau, w = 1/r, of a traced ray with E = 1 at its k-th crossing of the plane. r: the crossing's radius, as some
- * engine has found it. outward: as in kd_ray_labels. */
+/* dw/dtau, with w = 1/r, of a traced ray of E = 1 at its k-th crossing of the plane. r: radius of this crossing, from
+ * any engine. outward: as in kd_ray_labels. */
 double kd_rays_slope(const struct kd_rays_params *params, const double *alpha_beta, bool outward,
                      const struct kd_ray_end *end, uint32_t k, double r);
 

@@ -13,15 +13,15 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few rays,
- * and later ones as many as take TARGET_MS. A ray's cost varies by a factor of a million between the fastest engine on
- * a GPU and Tao's with the most steps on one core. A slice is submitted in parts of at most CHUNK rays. The device
- * traces one part while the host unpacks the part before. */
+/* Sizes of slices, in rays. Between two slices other work may use the device. The first slice of a list has few rays.
+ * Later slices have as many rays as are traced in TARGET_MS. A ray's cost varies by a factor of a million between the
+ * fastest engine on a GPU and Tao's with the most steps on one core. A slice is submitted in parts of at most CHUNK
+ * rays. The device traces one part while the host unpacks the part before. */
 #define LEAST 32u
 #define MOST (1u << 20)
 #define CHUNK 65536u
 #define TARGET_MS 40.0
-/* Numbers before the list in rays.comp. rays_kerr_schild.comp has four less. */
+/* Numbers before the list in rays.comp. rays_kerr_schild.comp has four fewer. */
 #define F(name) +1
 enum { HEADER = 7 KD_HOLE_MORE_FIELDS_(F) };
 #undef F
@@ -30,9 +30,9 @@ struct work {
     struct kd_renderer *r;
     const struct kd_rays_params *params;
     bool wide;        /* double precision */
-    bool kerr_schild; /* the engine uses Kerr-Schild coordinates */
+    bool kerr_schild; /* true if the engine uses Kerr-Schild coordinates */
     uint32_t per_ray;
-    /* least radius: the float next above the horizon's */
+    /* least radius of a crossing: the float next above the horizon's radius */
     double least;
     struct set { struct kd_vk_buffer *rays, *ends, *host; } sets[2]; /* buffers that successive parts use alternately */
     struct kd_vk_buffer *told;                                       /* buffer for the records of trace.glsl, or NULL */
@@ -74,12 +74,12 @@ static double get(const struct work *w, const void *at, size_t i)
 }
 
 /* Radius from which a Cartesian ray from infinity starts. A larger radius would lose digits of b, and in Tao's method
- * also phase. A smaller radius would give smaller errors (from 100 M, single precision has a sixth of the error). But
- * the errors would be smaller only because start.c would then trace more of the ray in Mino time, and this engine less
- * of it. */
+ * also phase. A smaller radius would give smaller errors: from 100 M, single precision has a sixth of the error. But
+ * this is only because start.c then traces more of the ray in Mino time, and this engine less of it. */
 #define FAR 1e3
-/* The radius at which a ray counts as escaped: there its momentum has reached its limit within M b/r^2. Further out the
- * direction in single precision does not become more accurate, and the copies of Tao's method diverge. */
+/* The radius at which a ray counts as escaped. At this radius its momentum differs from the limit by at most M b/r^2.
+ * Further out the direction in single precision does not become more accurate, and the copies of Tao's method
+ * diverge. */
 static double escape(const struct work *w) { return w->wide && w->params->engine != KD_ENGINE_KS_TAO6 ? 1e7 : 1e4; }
 
 static void upload_states(const struct work *w, const struct set *set, const struct kd_ray_labels *rays)
@@ -287,9 +287,9 @@ static enum kd_status trace_slice(struct work *w, const struct kd_ray_labels *ra
 }
 
 /* Number of rays of the next slice. The last slice had m rays and took `ms`. least_ms: time of the smallest slices so
- * far. On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a slice
- * is doubled while its time is within 1.25 times least_ms, and may otherwise take 1.5 times least_ms if that exceeds
- * TARGET_MS. */
+ * far. On a GPU even one ray may take longer than TARGET_MS, and several rays then take no longer than one. So a
+ * slice is doubled while its time is within 1.25 times least_ms. Otherwise its time may be at most TARGET_MS, or 1.5
+ * times least_ms if that is longer. */
 static uint32_t next_size(uint32_t m, double ms, double least_ms)
 {
     double grow = fmax(TARGET_MS / fmax(ms, 1e-3), ms <= 1.25 * least_ms ? 2 : 1.5 * least_ms / ms),
@@ -297,8 +297,8 @@ static uint32_t next_size(uint32_t m, double ms, double least_ms)
     return n < LEAST ? LEAST : n > MOST ? MOST : (uint32_t)n;
 }
 
-/* Size of a list's first slice. A list with the settings of the list before starts with half of that list's last
- * slice. */
+/* Size of a list's first slice. If the list has the settings of the previous list, it starts with half of that list's
+ * last slice. */
 static uint32_t first_size(const struct work *w)
 {
     const struct kd_rays_params *p = w->params;

@@ -10,7 +10,7 @@ enum kd_status kd_rays_device(struct kd_renderer *renderer, const struct kd_rays
                               const struct kd_ray_labels *rays, struct kd_ray_crossing *crossings,
                               struct kd_ray_end *ends, kd_progress_fn progress, void *user, struct kd_error *error);
 
-/* Requests the kernel of kd_rays_device or, if `told`, of kd_rays_device_told, for kd_kernels_note. */
+/* Requests, for kd_kernels_note, the kernel of kd_rays_device, or that of kd_rays_device_told if `told` is true. */
 enum kd_status kd_rays_device_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, bool told);
 
 /* Traces one ray and returns the records that trace.glsl describes, as doubles. There is room for `numbers` of them. */

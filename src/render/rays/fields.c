@@ -8,9 +8,10 @@
 
 #define AT(member) offsetof(struct kd_rays_request, member)
 
-/* In the schema an observer must be further out than 1 M, because the horizon, at 1 + sqrt(1 - a^2), is further out
- * than that for any spin (Bardeen, Press & Teukolsky 1972). check.c checks the radius against the horizon of the given
- * spin, and the steps against the engine. "auto" is stored as -1, and a motion that is not given as 0. */
+/* The schema requires only that an observer is further out than 1 M, because for any spin the horizon, at 1 + sqrt(1
+ * - a^2), is further out than that (Bardeen, Press & Teukolsky 1972). check.c compares the radius with the horizon of
+ * the given spin, and the steps with the limits of the engine. "auto" is stored as -1, and a motion that is not given
+ * as 0. */
 static const struct kd_row fields[] = {
     { .name = "spin",
       .kind = KD_KIND_REAL,

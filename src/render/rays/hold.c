@@ -101,7 +101,7 @@ static size_t beyond(const struct kd_ray_end *ends, size_t n, double tolerance)
     return count;
 }
 
-/* Finds a finer setting for the device; false if there is none. */
+/* Finds a finer setting for the device. Returns false if there is none. */
 static bool finer_on_device(const struct kd_renderer *renderer, const struct kd_rays_params *params,
                             struct kd_rays_params *out)
 {

@@ -93,7 +93,7 @@ static bool take(struct reader *r, char c)
     return true;
 }
 
-/* Describes the value found in place of a number; NULL if it is not JSON. */
+/* Describes the value that was found where a number was expected. Returns NULL if that value is not JSON. */
 static const char *describe(const struct reader *r)
 {
     static const char *const words[] = { "null", "true", "false" };

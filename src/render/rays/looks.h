@@ -9,8 +9,9 @@
  * params->observer must be set. */
 enum kd_status kd_rays_looks_check(const struct kd_rays_params *params, struct kd_error *error);
 
-/* Labels of n directions, [yaw, pitch] in degrees as camera.yaw_deg and camera.pitch_deg. energy: at infinity, in
- * units of the energy that the observer measures. alpha_beta: 2 n; outward, energy: n. */
+/* Computes the labels of n directions; a direction is [yaw, pitch] in degrees, as camera.yaw_deg and
+ * camera.pitch_deg. energy: each ray's energy at infinity, in units of the energy that the observer measures.
+ * alpha_beta has 2 n numbers; outward and energy have n each. */
 void kd_rays_looks_label(const struct kd_rays_params *params, const double *directions, size_t n, double *alpha_beta,
                          bool *outward, double *energy);
 

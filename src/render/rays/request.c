@@ -59,7 +59,7 @@ struct document {
     struct kd_error *error;
 };
 
-/* The rays have been read already and are replaced by an empty array in this document. */
+/* The rays were read before; this document has an empty array in their place. */
 static enum kd_status read_tree(struct document *d, const cJSON *root)
 {
     const cJSON *rays = cJSON_GetObjectItemCaseSensitive(root, "rays");
@@ -215,7 +215,7 @@ enum kd_status kd_rays_request_settle(struct kd_rays_request *request, const str
     return KD_OK;
 }
 
-/* Rejects parameters of one motion together with another motion, where they would have no effect. */
+/* Rejects parameters of a motion other than the requested one, because they would have no effect. */
 static enum kd_status check_belongings(const struct kd_rays_params *p, struct kd_error *error)
 {
     const struct {

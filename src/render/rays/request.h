@@ -24,9 +24,9 @@ struct kd_rays_request {
 void kd_rays_request_init(struct kd_rays_request *request);
 void kd_rays_request_finish(struct kd_rays_request *request);
 
-/* Merges a document into a request that has no rays yet. text[length] must be NUL. Checks types; kd_rays_request_check
- * checks ranges. Returns KD_EINVAL without a pointer if it is not a JSON document. Time is linear in length. Memory is
- * 32 bytes a ray besides the text. */
+/* Merges a document into a request that has no rays yet. text[length] must be NUL. Checks types;
+ * kd_rays_request_check checks ranges. Returns KD_EINVAL without a pointer if the text is not a JSON document. Time
+ * is linear in length. Memory is 32 bytes a ray besides the text. */
 enum kd_status kd_rays_request_json(struct kd_rays_request *request, const char *text, size_t length,
                                     struct kd_error *error);
 /* Takes rays from an NPY file. Returns KD_EINVAL at "/rays" if the array's shape or type is wrong. */

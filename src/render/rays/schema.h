@@ -8,8 +8,8 @@
 
 /* Writes the schema of a request as the JSON member `name`. */
 void kd_rays_request_schema(struct kd_json *json, const char *name);
-/* A field outside a JSON request, for use with an NPY array. The second function writes its schema as the member
- * "schema". The name is NULL after the last field; *help describes the field. */
+/* kd_rays_field_name: name of a field outside a JSON request, for use with an NPY array; NULL after the last field.
+ * *help describes the field. kd_rays_field_schema writes the field's schema as the member "schema". */
 const char *kd_rays_field_name(size_t index, const char **help);
 void kd_rays_field_schema(struct kd_json *json, size_t index);
 

@@ -62,7 +62,7 @@ static double share(const struct point *p, const struct point *q, double h)
  * less than a half turn. */
 static struct point approach(const struct motion *m, struct point p, double t, struct kd_rays_origin *out)
 {
-    enum { STEPS = 32 }; /* each step turns by at most a 256th of a radian: accurate to 1e-13 */
+    enum { STEPS = 32 }; /* each step turns by at most 1/256 rad, so the result is accurate to 1e-13 */
     double h = t / STEPS;
     for (int i = 0; i < STEPS; i++) {
         struct point q = step(m, &p, h);

@@ -9,15 +9,15 @@
 #include <stdbool.h>
 
 struct kd_rays_origin {
-    double x[3], p[3]; /* position and momentum, E = 1 */
+    double x[3], p[3]; /* position and momentum, for E = 1 */
     /* 1/r and azimuth (as in render/rays/rays.h) at which the ray crosses the equatorial plane between infinity and
      * the start. There is at most one such crossing. w = 0: none */
     double w, phi;
 };
 
 /* u, s: cosine and sine of the observer's polar angle, which may be 0; labels as in render/rays/rays.h. If r =
- * INFINITY, the ray starts at `far`, or at eight times the impact parameter if that is more. outward: the ray of a
- * finite observer starts away from the hole. */
+ * INFINITY, the ray starts at `far`, or at eight times the impact parameter if that is more. outward: true if the ray
+ * of an observer at a finite radius starts away from the hole. */
 void kd_rays_start(const struct kd_hole *hole, double r, double u, double s, double alpha, double beta, bool outward,
                    double far, struct kd_rays_origin *out);
 

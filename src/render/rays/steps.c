@@ -31,7 +31,7 @@ static double radial(const struct constants *c, double w, double dw)
 /* The azimuth, source minus observer, reduced to half a turn either way. */
 static double azimuth(double y, double x, double chi) { return 0 + remainder(-(atan2(y, x) + chi), 2 * M_PI); }
 
-/* Unpacks a record in Mino time: it holds n and w, or on the way to a crossing u and w. */
+/* Unpacks a record in Mino time. The record holds n and w, but u and w on the way to a crossing. */
 static void mino(const struct constants *c, const struct record *r, struct kd_rays_step *s)
 {
     const double *n = r->y, *v = r->dy;
@@ -56,8 +56,8 @@ static double drag(const struct kd_hole *hole, double r)
     return root > 0 ? a / (2 * root) * log1p(2 * root / (r - 1 - root)) : a / (r - 1);
 }
 
-/* Unpacks a record in Kerr-Schild coordinates, with the Hamiltonian of rays_kerr_schild.comp implemented again.
- * momentum: L at the start. */
+/* Unpacks a record in Kerr-Schild coordinates. The Hamiltonian of rays_kerr_schild.comp is implemented here a second
+ * time. momentum: L at the start. */
 static void kerr_schild(const struct kd_hole *hole, double momentum, const struct record *record,
                         struct kd_rays_step *s)
 {
@@ -76,12 +76,13 @@ static void kerr_schild(const struct kd_hole *hole, double momentum, const struc
 
 static bool is_kerr_schild(const struct kd_rays_params *p) { return p->engine >= KD_ENGINE_KS_EULER; }
 
-/* Sets the stages and numbers of the records, which are in the order of the path, and the crossings from the end
+/* Sets the stages and numbers of the records, which are in the order of the path. Sets the crossings from the end
  * points. */
 static void tell(struct kd_rays_steps *out, const struct constants *c, const struct record *records)
 {
     const struct kd_hole hole = kd_rays_hole(&out->params);
-    double time = 0, crossed = 0, momentum = 0; /* time: of the current record; crossed: of the last crossing */
+    /* time: Mino time of the current record; crossed: Mino time of the last crossing */
+    double time = 0, crossed = 0, momentum = 0;
     unsigned number = 0, order = 0;
     for (size_t i = 0; i < out->n; i++) {
         const struct record *r = &records[i];

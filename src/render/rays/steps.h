@@ -1,5 +1,6 @@
-/* Records each step of one ray as the device takes it. For this, the kernels of device.c are compiled with KD_TRACE and
- * write their state after each step. For `kerrd rays --trace` and for explaining a pixel. Render thread. */
+/* Records each step of one ray as the device takes it. For this, the kernels of device.c are compiled with KD_TRACE
+ * and write their state after each step. `kerrd rays --trace` and the explanation of a pixel use the records. Render
+ * thread. */
 #ifndef KD_RENDER_RAYS_STEPS_H
 #define KD_RENDER_RAYS_STEPS_H
 
@@ -9,8 +10,8 @@
 
 enum kd_rays_stage {
     KD_STAGE_START,    /* the state at the observer, or at the place where a Cartesian ray starts */
-    KD_STAGE_STEP,     /* a step towards the crossing of that order; discarded if there is no such crossing */
-    KD_STAGE_CROSSING, /* the crossing of that order; not a step */
+    KD_STAGE_STEP,     /* a step towards the crossing of order `order`; discarded if there is no such crossing */
+    KD_STAGE_CROSSING, /* the crossing of order `order`; this record is not a step */
     KD_STAGE_END,      /* a step after the last crossing, towards infinity or the horizon */
 };
 
@@ -22,9 +23,10 @@ struct kd_rays_step {
     unsigned order, number; /* order: order of the next crossing; number: number of the step */
     /* Mino time since the observer; for Kerr-Schild engines their parameter s, with d(lambda) = r ds */
     double time;
-    double r, phi, delay;          /* delay: of a crossing only */
-    double w, dw, u, du, n_x, n_y; /* Mino: M/r, cos(theta), their rates, the direction in the plane; u = n_z */
-    double x, y, z, p_x, p_y, p_z; /* Kerr-Schild: position and momentum of the mirrored ray */
+    double r, phi, delay; /* delay: set for a crossing only */
+    /* Mino engines: w = M/r, u = cos(theta) and their rates; n_x, n_y: the direction in the plane; u = n_z */
+    double w, dw, u, du, n_x, n_y;
+    double x, y, z, p_x, p_y, p_z; /* Kerr-Schild engines: position and momentum of the mirrored ray */
     double res_w;                  /* w'^2 - R(w) */
     double res_u;                  /* u'^2 - U(u) */
     double res_n;                  /* n.n - 1 */
@@ -36,7 +38,7 @@ struct kd_rays_step {
 struct kd_rays_steps {
     struct kd_rays_params params; /* the ray's parameters, with the steps and other settings that were used */
     double alpha, beta;
-    bool outward;               /* the ray starts away from the hole */
+    bool outward;               /* true if the ray starts away from the hole */
     size_t n, lost;             /* n: number of records; lost: number of records that did not fit */
     struct kd_rays_step *steps; /* malloc'd */
     struct kd_ray_crossing crossings[KD_RAYS_MAX_ORDERS];

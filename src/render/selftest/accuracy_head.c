@@ -9,8 +9,8 @@
 #include <sys/utsname.h>
 #include <time.h>
 
-/* lavapipe starts one thread for each core, or as many threads as this variable says. 0: only the submitting thread
- * computes. */
+/* lavapipe starts one thread for each core, or as many threads as LP_NUM_THREADS says. If it says 0, only the
+ * submitting thread computes. */
 static uint32_t lavapipe_cores(void)
 {
     const char *given = getenv("LP_NUM_THREADS");

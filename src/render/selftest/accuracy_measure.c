@@ -15,8 +15,8 @@
 
 enum { ORDERS = KD_ACCURACY_ORDERS, WARM_UP = 64, RUNS = 5, BATCH = 1 << 18, RAYS = 4096, RAYS_QUICK = 256 };
 
-/* Numbers of steps double from first to last. Below the first an engine is useless. Above the last rounding dominates,
- * or another engine is better at the same cost. */
+/* The numbers of steps to be measured, which double from first to last. With fewer steps an engine is useless. With
+ * more steps rounding dominates, or another engine is better at the same cost. */
 static const struct span {
     enum kd_engine engine;
     uint32_t first, last;
@@ -134,9 +134,9 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Measures the seconds a ray: the best of several runs, because other work on the machine only slows them. Each run has
- * a share of the time, in which it traces the list repeatedly. A list that takes longer than this share is shortened.
- * *s: on entry, the time that the list takes. */
+/* Measures the time per ray in seconds. It is the shortest of several runs, because other work on the machine only
+ * slows them. Each run has a share of the time, in which it traces the list repeatedly. A list that takes longer than
+ * this share is shortened. *s: on entry, the time that the list takes. */
 static enum kd_status time_view(struct bench *b, const struct kd_accuracy_row *row, const struct truth *t, double share,
                                 double *s)
 {

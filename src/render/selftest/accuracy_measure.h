@@ -1,4 +1,4 @@
-/* Measures the accuracy table of a device. Render thread; minutes, or about ten seconds if quick. */
+/* Measures the accuracy table of a device. Render thread. Takes minutes, or about ten seconds if `quick` is true. */
 #ifndef KD_RENDER_SELFTEST_ACCURACY_MEASURE_H
 #define KD_RENDER_SELFTEST_ACCURACY_MEASURE_H
 
@@ -6,9 +6,10 @@
 #include "render/device/renderer.h"
 
 struct kd_accuracy_params {
-    bool quick;     /* fewer rays, shorter timing */
-    double seconds; /* device time of each measurement of speed; less if a million rays take less. 0 means 0.5, or 0.02
-                       if quick */
+    bool quick; /* true to measure fewer rays for a shorter time */
+    /* device time of each speed measurement; it is shorter if a million rays take less time. 0 means 0.5, or 0.02 if
+       `quick` is true */
+    double seconds;
     const char *command; /* the command that requested it, stored with the table; NULL: none */
 };
 

@@ -55,8 +55,8 @@ done:
 }
 
 /* Compares g^4 F/F_max. A file rounds a luminance of 0.2 to 16 bits, with a relative error of 0.9 (1/2)/65535 / 0.2 =
- * 3.4e-5. The tables from which T is interpolated have errors of 1e-6, so T^4 has four times that. Roundoff is
- * multiplied by the gain of r for F and by four times that of g. */
+ * 3.4e-5. The tables from which T is interpolated have errors of 1e-6, which is 4e-6 for T^4. Roundoff is multiplied
+ * by the gain of r for F and by four times that of g. */
 static enum kd_status brightness(const struct kd_selftest *test)
 {
     struct kd_selftest_row row;

@@ -1,4 +1,4 @@
-/* Self-test of the lens map's kernels, with known rays: each is the only ray of a picture of one pixel. */
+/* Self-test of the lens map's kernels with known rays. Each ray is the only ray of a picture of one pixel. */
 #include "render/selftest/parts.h"
 
 #include "interface.h"
@@ -119,7 +119,7 @@ done:
 }
 
 /* Converts the reference's Boyer-Lindquist azimuths to the azimuths of the map, which are relative to a falling
- * observer's ingoing azimuth. They are larger by the integral of a/Delta from r to infinity. */
+ * observer's ingoing azimuth. The azimuths of the map are larger by the integral of a/Delta from r to infinity. */
 static struct kd_selftest_ray by_own_azimuth(const struct kd_selftest_camera *camera)
 {
     struct kd_selftest_ray ray = camera->ray;

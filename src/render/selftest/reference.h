@@ -29,7 +29,7 @@ struct kd_selftest_camera {
     enum kd_observer observer; /* a falling observer starts from rest at infinity ("rain") */
     double velocity[3];
     double yaw_deg, pitch_deg;
-    struct kd_selftest_ray ray; /* alpha and beta stand for the constants of motion of this direction */
+    struct kd_selftest_ray ray; /* alpha and beta stand for the constants of motion of the camera's middle ray */
 };
 
 /* Azimuth swept by a ray in the equatorial plane from infinity to infinity; b = lambda. */

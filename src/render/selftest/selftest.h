@@ -1,6 +1,6 @@
 /* Self-test: whether a device can be trusted. It computes rays, orbits, radii, brightnesses and encodings by the same
- * calls as pictures and answers, compares them with independently known values, and reports each error with its bound.
- * A few seconds on two CPU cores.
+ * calls as pictures and answers. It compares them with independently known values, and reports each error with its
+ * bound. It takes a few seconds on two CPU cores.
  *
  * Each bound is explained where it is set. A bound is the error of some operations of unit roundoff each, times the
  * amplification of the answer (reference.h), plus the error of a method's steps. */

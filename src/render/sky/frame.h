@@ -7,14 +7,14 @@
 #include "scene/scene.h"
 
 struct kd_vec { double x, y, z; };
-struct kd_rotation { double m[3][3]; }; /* rows: out = m in */
+struct kd_rotation { double m[3][3]; }; /* m[i]: row i of the matrix; out = m in */
 
 struct kd_vec kd_sky_direction(double longitude, double latitude); /* radians */
 struct kd_vec kd_rotate(const struct kd_rotation *by, struct kd_vec v);
 struct kd_rotation kd_rotation_then(const struct kd_rotation *first, const struct kd_rotation *then);
 
-/* The rotation from equatorial to galactic directions: the pole is at RA 192.85948, Dec 27.12825 degrees, the
- * equatorial pole at l = 122.93192 (J2000 by ESA, The Hipparcos Catalogue, vol. 1, 1.5.3). */
+/* The rotation from equatorial to galactic directions. The galactic pole is at RA 192.85948, Dec 27.12825 degrees;
+ * the equatorial pole is at l = 122.93192 (J2000 by ESA, The Hipparcos Catalogue, vol. 1, 1.5.3). */
 struct kd_rotation kd_rotation_galactic(void);
 
 /* The rotation from directions in which rays escape, with azimuth measured from the observer's, to galactic directions.

@@ -9,10 +9,10 @@
 
 #include "render/sky/panorama.h"
 
-/* credit: the file's text "Copyright", or else "Author"; "" if it has neither. Errors name the field sky.image. Returns
- * KD_ENOMEM, or KD_EINVAL unless the bytes are a valid PNG file, twice as wide as high, of KD_PANORAMA_LEAST to
- * KD_PANORAMA_MOST rows. Needs memory for all pixels of the file, and 12 bytes a texel; 6500 x 3250 pixels take a
- * second. */
+/* credit: the file's text "Copyright"; if the file has none, its text "Author"; "" if the file has neither. Errors
+ * name the field sky.image. Returns KD_ENOMEM, or KD_EINVAL unless the bytes are a valid PNG file, twice as wide as
+ * high, of KD_PANORAMA_LEAST to KD_PANORAMA_MOST rows. Needs memory for all pixels of the file, and 12 bytes a texel;
+ * 6500 x 3250 pixels take a second. */
 #define KD_SKY_CREDIT 400
 enum kd_status kd_sky_image(const void *data, size_t size, struct kd_sky_picture *out, char credit[KD_SKY_CREDIT],
                             struct kd_error *error);

@@ -1,10 +1,11 @@
-/* The procedural Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, from noise with a seed.
+/* The procedural Milky Way: a smooth band and a bulge, star clouds, and dust in front of them, from noise with a
+ * seed.
  *
- * The profiles are fits by eye to photographs. The optical depth of the dust for blue light is 1.35 times that for
- * green light, and for red light 0.72 times (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as
- * bright as the real one. At its brightest place it has some 21 magnitudes per square arcsecond, and 30 degrees from
- * there it is a tenth as bright (C. Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture
- * correspond to nothing in the real sky. */
+ * The profiles are fits by eye to photographs. The optical depth of the dust relative to green light is 1.35 for blue
+ * light and 0.72 for red light (J. Cardelli, G. Clayton & J. Mathis 1989, ApJ 345, 245). The band is as bright as the
+ * real one. At its brightest place it has some 21 magnitudes per square arcsecond, and 30 degrees from there it is a
+ * tenth as bright (C. Leinert et al. 1998, A&AS 127, 1, section 10). The details of the picture correspond to nothing
+ * in the real sky. */
 #include "render/sky/panorama.h"
 
 #include "base/random.h"
@@ -14,7 +15,7 @@
 #include <string.h>
 
 #define DEGREE ((float)M_PI / 180)
-enum { SIDE = 64 }; /* lattice points, after which noise repeats */
+enum { SIDE = 64 }; /* number of lattice points along each axis; beyond them the noise repeats */
 
 struct clouds { float *lattice; }; /* SIDE^3 numbers in [-1, 1] */
 
@@ -65,7 +66,7 @@ static float octaves(const struct clouds *c, const float n[3], const struct octa
     return sum;
 }
 
-/* Values shared by all directions of one longitude, or of one latitude; degrees. */
+/* Values that all directions of one longitude, or of one latitude, share. Angles are in degrees. */
 struct along { float l, cos, sin, inwards, inner; };
 struct across { float b, cos, sin, near, far, contrast, halo; };
 
@@ -94,7 +95,7 @@ static struct across across_of(float b)
  * filaments, before `ridge`. */
 enum { STEP = 4, FEW = 2, NODES = KD_MILKY_WAY_WIDTH / STEP };
 enum smooth { CLOUDS, BENT, WARP_X, WARP_Y, PATCHES, FIRST, SECOND, SMOOTH };
-#define DUSTY 32.0f /* degrees from the plane: there is no dust beyond */
+#define DUSTY 32.0f /* distance from the plane, in degrees, beyond which there is no dust */
 #define FALLS 0.66f /* amplitude ratio of the filaments' octaves */
 static const struct octaves few_clouds = { 7, 0.62f, 0, FEW, false }, more_clouds = { 7, 0.62f, FEW, 5, false };
 static const struct octaves filaments[] = { { 5, 1, 0, 1, false },
@@ -128,7 +129,7 @@ static void starlight(const struct clouds *c, const float n[3], const float smoo
         b->contrast > 0.1f
             ? expf(b->contrast * (smooth[CLOUDS] + octaves(c, n, &more_clouds)) - 0.17f * b->contrast * b->contrast)
             : 1;
-    /* smaller than 1e-7 where it is cut off */
+    /* the bulge is smaller than 1e-7 where it is cut off */
     const float bulge = bulge2 < 40 ? 1.25f * expf(-powf(bulge2, 0.75f)) : 0;
     for (int k = 0; k < 3; k++)
         rgb[k] = band[k] * (thin * star_clouds + b->halo) + old[k] * bulge * (0.6f + 0.4f * star_clouds);
@@ -161,7 +162,7 @@ static struct across row_at(uint32_t y)
     return across_of((float)M_PI * (0.5f - ((float)y + 0.5f) / KD_MILKY_WAY_HEIGHT));
 }
 
-/* Computes the nodes of a row; the last repeats the first. */
+/* Computes the nodes of a row; the last node repeats the first. */
 static void make_nodes(const struct clouds *c, const struct along *columns, uint32_t y, float nodes[NODES + 1][SMOOTH])
 {
     const struct across b = row_at(y);

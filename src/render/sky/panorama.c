@@ -72,8 +72,9 @@ static void halve(struct kd_sky_picture *p)
     p->height = height;
 }
 
-/* Replaces each texel of a row by the mean over `over` texels about it, where `over` is less than the row's length. The
- * texels at both ends of this range count by their fraction within it. The row is periodic. */
+/* Replaces each texel of a row by the mean over `over` texels about it, where `over` is less than the row's length.
+ * The texels at both ends of the averaged range are weighted by the fraction that lies inside the range. The row is
+ * periodic. */
 static void spread_row(float *row, uint32_t n, double over, double *sums)
 {
     for (int c = 0; c < 3; c++) {

@@ -1,11 +1,11 @@
-/* A panorama: the diffuse light of a sky as a picture in galactic coordinates. It is equirectangular, with l = 0 in its
- * middle, l growing to the left, and the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG magnitudes a
- * square arcsecond. Pure; any thread.
+/* A panorama: the diffuse light of a sky as a picture in galactic coordinates. It is equirectangular, with l = 0 in
+ * its middle, l growing to the left, and the galactic pole at the top. Linear light; 1 is KD_SKY_UNIT_MAG magnitudes
+ * a square arcsecond. Pure; any thread.
  *
  * A panorama is stored as mips. Level k has 1/4^k of the texels of level 0, and each texel is the mean of four texels
  * of the level before. The last level has two rows. Texels are words with a shared exponent (Khronos,
- * EXT_texture_shared_exponent): nine bits a channel. Sides are powers of two, so that level k begins at (4 - 4^(1 -
- * k))/3 of level 0. */
+ * EXT_texture_shared_exponent): nine bits a channel. Sides are powers of two, so the levels before level k have
+ * together (4 - 4^(1 - k))/3 times the texels of level 0. */
 #ifndef KD_RENDER_SKY_PANORAMA_H
 #define KD_RENDER_SKY_PANORAMA_H
 

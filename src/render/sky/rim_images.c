@@ -77,8 +77,8 @@ static bool change_at(const struct rim_map *m, double column, double row, struct
     return true;
 }
 
-/* Pixels per square of rays. Computed from the curve's points in the grid's table, which is five times as fast, and
- * accurate enough for an estimate. */
+/* Pixels per square of rays. Computed from the curve's points in the grid's table. This is five times as fast as the
+ * exact computation, and accurate enough for an estimate. */
 static double pixels(const void *of, double column, double row)
 {
     const struct rim_map *m = of;
@@ -97,7 +97,7 @@ static double pixels(const void *of, double column, double row)
     return fabs((x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])) / (h * h);
 }
 
-/* Weights of the cubic through four values at -1, 0, 1 and 2, at t, and the derivatives of the weights. */
+/* At t, the weights of the cubic through four values at -1, 0, 1 and 2, and the derivatives of these weights. */
 static void cubic(double t, double w[4], double by[4])
 {
     const double a = t + 1, b = t, c = t - 1, d = t - 2;
@@ -140,8 +140,8 @@ static bool between(const void *of, double column, double row, struct kd_sky_tan
     return true;
 }
 
-/* True if a place is at a border or beyond it. The tolerance exceeds the difference between the two places that
- * Newton's method finds when it starts on either side of the border. */
+/* True if a place is at a border or beyond it. From either side of the border, Newton's method finds slightly
+ * different places for the same image. The tolerance exceeds their difference. */
 static bool is_from(double place, double border) { return place > border - 1e-8; }
 
 /* True if a place is in the grid's own part, and in the picture or close to it. */

@@ -29,8 +29,8 @@ static void catalogue(const struct kd_scene *scene, struct kd_stars *out)
     }
 }
 
-/* Magnitude of the star of a given rank in brightness. Counts of the catalogue grow with magnitude at this rate until
- * it becomes incomplete; there are 4 995 stars to V = 6. */
+/* Magnitude of the star of a given rank in brightness. The number of stars in the catalogue grows with magnitude at
+ * this rate, as far as the catalogue is complete; it has 4 995 stars to V = 6. */
 static double magnitude_of_rank(double rank) { return 6 + log10(rank / 4995) / 0.49; }
 
 /* A random direction. Half of the bright stars and a third of the faint ones are isotropic. The others are in a layer

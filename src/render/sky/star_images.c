@@ -87,9 +87,9 @@ static enum kd_status tell(struct search *s, const struct listed *star, double x
 }
 
 /* Corners of a triangle, clockwise as the picture is seen. The right angle is at the first corner. The second corner
- * lies from it along `across`, the third along `down`; both are +1 or -1. A star s = w0 a + w1 b + w2 c is inside if
- * all w are positive (Cramer's rule). The volume of a, b, c is twice the solid angle of the triangle. That is the solid
- * angle of a pixel, because a pixel has two triangles. */
+ * lies along `across` from it, the third corner along `down`; `across` and `down` are +1 or -1. A star s = w0 a + w1
+ * b + w2 c is inside if all w are positive (Cramer's rule). The volume of a, b, c is twice the solid angle of the
+ * triangle. That is the solid angle of a pixel, because a pixel has two triangles. */
 struct corner {
     double x, y;
     struct kd_vec n;
@@ -103,12 +103,13 @@ static struct kd_sky_tangent tangent_of(const struct corner *a, const struct cor
     return t;
 }
 
-/* A cell of four rays, clockwise; the stars that may be in the cell; whether the map folds there. */
+/* A cell of four rays, clockwise. folds: true if the map folds in the cell. */
 struct cell {
     struct corner c[4];
     double side[4], across, size, pixels;
     bool folds;
-    double area, beside[2][2]; /* if the cell folds: its largest area, and one place on each side of the fold */
+    /* if the map folds in the cell. area: the cell's largest area; beside: one place on each side of the fold */
+    double area, beside[2][2];
 };
 
 /* True if a star may be bright enough where the map takes a cell to a solid angle `area`. */
@@ -179,8 +180,8 @@ done:
 /* Four rows of rays; the cells are between the middle two. NULL: the row does not exist. */
 struct rows { const struct kd_vec *of[4]; };
 
-/* The difference between the two neighbours of a ray, which are two steps apart. If one neighbour is missing: twice the
- * difference between the ray and the other neighbour. */
+/* The difference between the two neighbours of a ray, which are two steps apart. If one neighbour is missing,
+ * the result is twice the difference between the ray and the other neighbour. */
 static struct kd_vec difference(struct kd_vec middle, const struct kd_vec *before, const struct kd_vec *after)
 {
     const bool has_before = before && isfinite(before->x), has_after = after && isfinite(after->x);
@@ -239,7 +240,7 @@ static void find_near(struct search *s, struct cell *cell, size_t first, double 
     }
 }
 
-/* Sets everything in a cell except its corners. False: no star is near. */
+/* Sets everything in a cell except its corners. Returns false if no star is near. */
 static bool measure(struct search *s, const struct rows *rows, uint32_t x, struct cell *cell)
 {
     double low = INFINITY, high = -INFINITY;

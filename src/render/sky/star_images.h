@@ -26,17 +26,17 @@ struct kd_sky_tangent {
 struct kd_sky_map {
     uint32_t width, height;
     double coarse; /* rad */
-    /* for each star the largest solid angle of a pixel, sr, at which an image must be reported; NULL: all are
+    /* for each star, the largest solid angle of a pixel, in sr, at which an image must be reported; NULL: all are
      * reported */
     const double *most;
     /* number of pixels that the square of four rays about a place covers; NULL: 1 */
     double (*pixels)(const void *of, double x, double y);
     const void *of;
-    /* directions from which the rays of a row come, unit vectors; NAN where one does not escape */
+    /* gets the directions from which the rays of a row come, as unit vectors; NAN where a ray does not escape */
     void (*row)(const void *of, uint32_t y, struct kd_vec *out);
     bool (*exact)(const void *of, double x, double y,
-                  struct kd_vec *out); /* direction from which any single ray comes; false: unknown. NULL: no ray can be
-                                        * followed */
+                  /* gets the direction from which a single ray comes; false: unknown. NULL: no ray can be followed */
+                  struct kd_vec *out);
     /* The linearised map at a place between rays, except `area`, accurate to 1e-3 of a ray. With this map, exact rays
      * need not be traced where there is no image. Returns false if the map is unknown at the place. A NULL pointer
      * means that it is unknown everywhere. */

@@ -1,12 +1,12 @@
 #include "render/sky/star_root.h"
 
-#define NUDGE 1e-3 /* step, in rays, of the differences for the derivative */
+#define NUDGE 1e-3 /* step, in rays, over which the differences for the derivative are taken */
 /* the iteration has converged after a step shorter than this, in rays; the next step would be 1e-10 */
 #define EXACT 1e-7
 #define BETWEEN 1e-4 /* the same for the interpolated map, which is not more accurate than this */
 #define STEADY 0.02  /* after a step shorter than this, in rays, the derivative is not computed again */
-/* The derivative is kept only if the step is also shorter by this factor than the step before. The next step then
- * shrinks by the same factor. */
+/* The derivative is kept only if, in addition, the step is shorter than the step before by this factor. The next step
+ * then shrinks by the same factor. */
 #define SHRINKS 0.1
 /* angle in rad. Next to a fold, a star may have an image if the interpolated map comes this near to the star. Such an
  * image is searched for */
@@ -19,7 +19,7 @@ void kd_sky_steps_to(const struct kd_sky_tangent *from, struct kd_vec star, doub
     *dy = kd_vec_volume(from->n, from->across, star) / from->area;
 }
 
-/* The derivative by differences to rays: on both sides of a place if `both`, otherwise on one side. */
+/* The derivative from differences to rays: to both sides of a place if `both` is true, otherwise to one side. */
 static bool set_slopes(const struct kd_sky_map *map, double x, double y, bool both, struct kd_sky_tangent *out)
 {
     struct kd_vec across, down, left = out->n, up = out->n;

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-#define KD_STAR_ROOT_NEAR 1.5 /* images further than this from the start, in rays, are not searched for */
+#define KD_STAR_ROOT_NEAR 1.5 /* images that are further than this from the start, in rays, are not searched for */
 
 /* UNKNOWN: the map cannot follow the first ray. UNWANTED: there may be an image, but it need not be reported. */
 enum kd_star_root { KD_STAR_ROOT_NONE, KD_STAR_ROOT_FOUND, KD_STAR_ROOT_UNKNOWN, KD_STAR_ROOT_UNWANTED };

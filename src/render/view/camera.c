@@ -55,7 +55,7 @@ static void frame(struct kd_camera_exact *o, const struct kd_scene *scene, const
 {
     const struct kd_observer_motion motion = kd_scene_observer(scene);
     const struct kd_tetrad f = kd_observer_tetrad(&motion, at);
-    const double r2 = at->r * at->r; /* w = 1/r: traced back dw = dr/r^2 */
+    const double r2 = at->r * at->r; /* w = 1/r, and the ray is traced back, so dw = dr/r^2 */
     o->e_t = f.t.energy, o->e_r = f.r.energy, o->e_theta = f.theta.energy, o->e_phi = f.phi.energy;
     o->l_t = f.t.momentum, o->l_r = f.r.momentum, o->l_theta = f.theta.momentum, o->l_phi = f.phi.momentum;
     o->p_t = f.t.polar, o->p_r = f.r.polar, o->p_theta = f.theta.polar, o->p_phi = f.phi.polar;

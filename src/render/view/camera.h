@@ -27,8 +27,8 @@ double kd_camera_ahead(uint32_t sight, double turn_x, double turn_y, double *x, 
 /* Boyer-Lindquist azimuth of the observer minus camera.azimuth_deg. */
 double kd_camera_twist(const struct kd_scene *scene);
 
-/* Distance between neighbouring pixels: in M on the image plane; for a pinhole as a fraction of the picture's
- * distance. Only for these two projections. */
+/* Distance between neighbouring pixels: in M for the image plane; as a fraction of the picture's distance for a
+ * pinhole. Defined only for these two projections. */
 double kd_camera_pixel(const struct kd_scene *scene);
 
 /* The labels (render/rays/rays.h) of the ray at (x, y), computed in double as shaders/ray/camera.glsl does. In the
@@ -36,7 +36,7 @@ double kd_camera_pixel(const struct kd_scene *scene);
  * positive, but azimuth and time run backwards. */
 struct kd_camera_label {
     double alpha, beta;
-    bool outward;  /* at a finite radius: whether the traced ray starts away from the hole */
+    bool outward;  /* true if the traced ray of an observer at a finite radius starts away from the hole */
     double energy; /* energy at infinity, in units of the energy that the observer measures; not 0 */
 };
 /* Direction from which the ray at (x, y) arrives, in the observer's frame: a unit vector along e_r, e_theta, e_phi.
@@ -47,10 +47,11 @@ void kd_camera_direction(const struct kd_camera_exact *camera, double x, double 
 void kd_camera_look(const struct kd_camera_exact *camera, double x, double y, double out[3]);
 
 /* The place in the picture at which the camera sees a direction. The place is in rays, as in kd_camera_direction. The
- * direction may have any length; at infinity it is alpha and beta. False if the direction is behind a pinhole. */
+ * direction may have any length; at infinity it is alpha and beta. Returns false if the direction is behind a
+ * pinhole. */
 bool kd_camera_seen(const struct kd_camera_exact *camera, const double direction[3], double *x, double *y);
 
-/* Labels from E, L/sin(theta), and beta |E|. */
+/* Computes labels from E, L/sin(theta), and beta |E|. */
 void kd_camera_label_of(double energy, double momentum, double up, bool outward, struct kd_camera_label *out);
 /* kd_camera_label_towards: direction of any length; the camera must be at a finite radius */
 void kd_camera_label_towards(const struct kd_camera_exact *camera, const double direction[3],

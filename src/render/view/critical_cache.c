@@ -14,7 +14,7 @@ struct key {
 
 static struct entry {
     struct key key;
-    struct kd_critical_pixels list; /* may be empty, with pixels NULL; that is cached as well */
+    struct kd_critical_pixels list; /* may be empty, with pixels NULL; an empty list is cached as well */
     uint64_t used;                  /* value of a counter at the last use; 0: the slot is free */
 } all[KD_CRITICAL_KEPT];
 static uint64_t now;

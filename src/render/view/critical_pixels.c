@@ -20,16 +20,16 @@ struct work {
     struct kd_camera_exact camera;
     /* size of the rendered part: width and height in pixels, across and down in tiles */
     uint32_t width, height, across, down;
-    uint32_t whole;      /* columns of the whole picture */
-    struct tile **tiles; /* row by row; NULL: nothing is marked there */
-    size_t n;            /* pixels that are marked */
+    uint32_t whole;      /* number of columns of the whole picture */
+    struct tile **tiles; /* tiles, row by row; NULL: no pixel of the tile is marked */
+    size_t n;            /* number of marked pixels */
     bool no_memory;
 };
 
 /* A point of the curve in the picture, in pixels. */
 struct spot {
     double x, y;
-    bool seen; /* the point is in front of the camera */
+    bool seen; /* true if the point is in front of the camera */
 };
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -107,7 +107,7 @@ static void mark(struct work *w, struct spot a, struct spot b)
         }
 }
 
-/* True if the curve between two spots may enter the picture, given that this piece is not much longer than the
+/* True if the curve between two spots may enter the picture. The piece of the curve must not be much longer than the
  * distance between the spots. */
 static bool meets(const struct work *w, struct spot a, struct spot b)
 {
@@ -116,7 +116,7 @@ static bool meets(const struct work *w, struct spot a, struct spot b)
            fmin(a.y, b.y) - room <= w->height;
 }
 
-/* Draws the curve between two parameters in short, straight pieces. They must be short because mark examines their
+/* Draws the curve between two parameters in short, straight pieces. They must be short because mark() examines their
  * bounding boxes. */
 static void draw(struct work *w, double half, double from, struct spot a, double to, struct spot b, int depth)
 {

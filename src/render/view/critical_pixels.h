@@ -15,11 +15,11 @@
 #include <stdint.h>
 
 #define KD_CRITICAL_NEAR 2.5 /* pixels */
-#define KD_CRITICAL_SIDE 16  /* rays along each side of such a pixel, at most */
+#define KD_CRITICAL_SIDE 16  /* largest number of rays along each side of such a pixel */
 
 struct kd_pixel { uint32_t x, y; };
 struct kd_critical_pixels {
-    struct kd_pixel *pixels; /* row by row; NULL: none */
+    struct kd_pixel *pixels; /* the listed pixels, row by row; NULL: none */
     size_t n;
 };
 

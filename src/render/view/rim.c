@@ -78,7 +78,7 @@ static void set_legs(struct kd_rim *o, double d[KD_RIM_ANGLES][3])
     memcpy(o->up, up, sizeof up);
 }
 
-/* Projects a direction on the plane; false if it is more than 80 degrees from the middle. */
+/* Projects a direction on the plane. Returns false if the direction is more than 80 degrees from the middle. */
 static bool on_plane(const struct kd_rim *o, const double d[3], double place[2])
 {
     const double from[] = { d[0] - o->ahead[0], d[1] - o->ahead[1], 0 }, depth = o->flat ? 1 : dot(d, o->ahead);
@@ -87,8 +87,8 @@ static bool on_plane(const struct kd_rim *o, const double d[3], double place[2])
     return depth > cos(80 * (M_PI / 180));
 }
 
-/* Sets the edges between two points of the curve: where rays from the middle meet the straight line between them.
- * False if the curve does not turn about the middle there. */
+/* Sets the edges between two points of the curve: where rays from the middle meet the straight line between these
+ * points. Returns false if the curve does not turn about the middle there. */
 static bool set_edges_between(struct kd_rim *o, const double p[2], const double q[2], double turning)
 {
     const double unit = KD_RIM_EDGES / (2 * M_PI), cross = p[0] * q[1] - p[1] * q[0];
@@ -104,8 +104,8 @@ static bool set_edges_between(struct kd_rim *o, const double p[2], const double 
     return true;
 }
 
-/* Sets all edges. False if the curve does not go round the middle, or some of the curve is too far from the middle.
- * *least: the curve's least distance from the middle. */
+/* Sets all edges. Returns false if the curve does not go round the middle, or if some of the curve is too far from
+ * the middle. *least: the curve's least distance from the middle. */
 static bool set_edges(struct kd_rim *o, double d[KD_RIM_ANGLES][3], double *least)
 {
     double p[KD_RIM_ANGLES][2];

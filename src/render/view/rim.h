@@ -22,14 +22,14 @@
 #include <stdbool.h>
 
 #define KD_RIM_LEAST 3e-5
-#define KD_RIM_NEAREST 1e-7     /* nearer than this, double precision loses 1e-6 rad and more */
+#define KD_RIM_NEAREST 1e-7     /* distance from the curve below which double precision loses 1e-6 rad and more */
 #define KD_RIM_BRIGHTEST 0.0235 /* flux in sr, of a star slightly brighter than Sirius: V = -1.5 (sky/star.h) */
 /* An image counts as visible from this fraction of KD_STAR_LEAST on. The fraction is below 1 because motion of the
  * observer can make stars brighter. */
 #define KD_RIM_SEEN 0.1
 #define KD_RIM_PIXELS 14.0 /* width of the rim in pixels; within it neighbouring pixels end far apart on the sky */
-/* The width of the rim is at least this times its radius in pixels. The rounding of 32 bits is 7e-6 divided by the
- * distance. Beyond this width it is less than half a percent of the step from pixel to pixel. */
+/* The width of the rim is at least this times the rim's radius in pixels. The error by rounding to 32 bits is 7e-6
+ * divided by the distance. Beyond this width the error is less than half a percent of the step from pixel to pixel. */
 #define KD_RIM_NOISE 1.3e-3
 #define KD_RIM_MOST 1.0 /* the width of the rim is at most this fraction of its radius */
 
@@ -39,8 +39,8 @@ struct kd_rim {
      * come from the rim. Between the two, grid and rim share the light */
     double none, full;
     double last; /* the least relative distance from the curve of the rim's rays */
-    /* rough estimate in rad of the largest change, from one point of the curve to the next, of the shift of the sky
-     * between the outermost and the innermost ray */
+    /* rough estimate, in rad: the shift of the sky between the outermost and the innermost ray changes by at most
+     * this much from one point of the curve to the next */
     double winds;
     double pixel; /* size of a pixel on the plane */
     bool flat;
@@ -52,8 +52,8 @@ struct kd_rim {
 
 /* True if the scene may have a rim; a cheap test. */
 bool kd_rim_may_be(const struct kd_scene *scene);
-/* Makes the rim; false if there is none. There is one if the observer is outside the photon orbits and sees all of
- * the curve within 80 degrees of its middle. About 0.3 ms. */
+/* Makes the rim. Returns false if there is none. There is one if the observer is outside the photon orbits and sees
+ * all of the curve within 80 degrees of its middle. Takes about 0.3 ms. */
 bool kd_rim_of(const struct kd_scene *scene, struct kd_rim *out);
 
 /* The place on the plane at turn u (any real number) and relative distance `off` from the curve. */

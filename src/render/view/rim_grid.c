@@ -16,7 +16,7 @@ enum { ROUND = 64, ACROSS = 20 };
 #define LONGEST_L 0.5   /* largest step of l from row to row */
 #define NUDGE 1e-4
 #define SLOW 0.6   /* a rim whose `winds` is less than this, in rad, is measured in every second cell only */
-#define BESIDE 0.2 /* fraction of a cell's size in the picture by which it may extend beyond its corners */
+#define BESIDE 0.2 /* fraction of a cell's size by which the cell may extend beyond its corners in the picture */
 #define FEW 6.0    /* the grids of a rim whose `winds` is less than this, in rad, never exceed the limit of rays */
 #define SPREAD 4.0 /* an image up to this many pixels outside the picture may light some of it */
 
@@ -100,7 +100,7 @@ static void see_corners(const struct layout *o, struct corner corners[ROUND + 1]
 /* A rectangle of the picture, in rays. */
 struct rectangle { double left, top, right, bottom; };
 
-/* True if images in the cell with these corners may light some of the rectangle. spread: see SPREAD, in rays. */
+/* True if images in the cell with these corners may light some of the rectangle. spread: SPREAD, converted to rays. */
 static bool may_light(const struct corner *c[4], const struct rectangle *r, double spread)
 {
     double left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
@@ -128,8 +128,8 @@ static void set_most(struct layout *o, int i, int j)
     }
 }
 
-/* True if any of these cells, or a neighbour of one, is in the picture. Neighbours count because choose_cells takes
- * means over neighbours. */
+/* True if one of these cells, or a neighbour of one, is in the picture. Neighbours count because choose_cells
+ * averages over neighbours. */
 static bool is_near_picture(const struct layout *o, int i, int j, int apart)
 {
     for (int u = i - 1; u <= i + apart; u++)
@@ -190,7 +190,7 @@ static void choose_cells(struct layout *o, double faintest)
         }
 }
 
-/* Shrinks a part to the cells that are wanted; false if no cell is. */
+/* Shrinks a part to the cells that are wanted. Returns false if no cell is wanted. */
 static bool tighten(const struct layout *o, struct part *p)
 {
     struct part t = { ROUND, 0, ACROSS, 0 };
@@ -254,7 +254,7 @@ static double cost_of(const struct layout *o, struct part halves[2])
     return sum;
 }
 
-/* The best cut of a part in two; false if no cut helps. */
+/* Finds the best cut of a part in two. Returns false if no cut lowers the cost by a twentieth or more. */
 static bool cut(const struct layout *o, const struct part *p, struct part best[2])
 {
     double least = 0.95 * cost(o, p);
@@ -391,8 +391,8 @@ static struct kd_rim_span span_of(double low, double high, uint32_t rays)
                                   (uint32_t)fmin(first + ceil((high + 2 - first) / tile) * tile, rays) };
 }
 
-/* Sets the columns to search to the lit ones: one range, or two on both sides of the largest gap. Two occur where a
- * grid goes all round the curve, because both of its ends may be in the picture. */
+/* Sets the columns to be searched to the lit ones. They are one range, or two ranges on both sides of the largest
+ * gap. Two ranges occur if a grid goes all round the curve, because both ends of the grid may be in the picture. */
 static void set_columns(struct kd_rim_grid *g, const bool lit[], int columns, double from, double wide)
 {
     int left = 0, right = columns, gap = 0, gap_end = 0;
@@ -415,7 +415,8 @@ static void set_columns(struct kd_rim_grid *g, const bool lit[], int columns, do
         g->x[0] = a, g->x[1] = b;
 }
 
-/* Sets the ranges of the grid's rays whose images may light some of the rectangle; false if there are none. */
+/* Sets the ranges of the grid's rays whose images may light some of the rectangle. Returns false if there are no such
+ * rays. */
 static bool set_spans(const struct kd_rim *rim, const struct kd_camera_exact *camera, const struct rectangle *r,
                       double spread, struct kd_rim_grid *g)
 {

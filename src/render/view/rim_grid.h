@@ -13,13 +13,13 @@
 #include "render/view/rim.h"
 
 #define KD_RIM_STEP 0.1      /* rad */
-#define KD_RIM_STEP_MOST 0.3 /* step for pictures in which KD_RIM_STEP would take more than KD_RIM_RAYS */
-/* limit of rays in all grids together; if even KD_RIM_STEP_MOST exceeds it, only brighter images are searched */
+#define KD_RIM_STEP_MOST 0.3 /* step that is used if KD_RIM_STEP would take more than KD_RIM_RAYS rays */
+/* limit of rays in all grids together; if even KD_RIM_STEP_MOST needs more rays, only brighter images are searched */
 #define KD_RIM_RAYS (1u << 19)
 #define KD_RIM_GRIDS 192            /* largest number of grids */
 #define KD_RIM_GRID_RAYS (1u << 16) /* limit of rays of one grid */
 #define KD_RIM_TILE_RAYS 3          /* side of a tile of the star search on a grid */
-#define KD_RIM_HALO 3               /* extra rays on each side of the part */
+#define KD_RIM_HALO 3               /* number of extra rays on each side of the part */
 /* largest distance, in steps, from a ray to an image that it finds (star_images.comp, share) */
 #define KD_RIM_REACH 0.601
 #define KD_RIM_SHARED_U 0.5
@@ -37,7 +37,7 @@ struct kd_rim_grid {
     double low_u, high_u, low_l, high_l;
     /* columns and rows in which images are searched; all, unless kd_rim_grids_keep set them. x[1] may be empty. */
     struct kd_rim_span x[2], y;
-    uint32_t first, table; /* offsets of its rays and of its table in the buffer, counted in numbers */
+    uint32_t first, table; /* offsets of the grid's rays and of its table in the buffer, counted in numbers */
 };
 
 struct kd_rim_grids {
@@ -49,7 +49,7 @@ struct kd_rim_grids {
     struct kd_rim_grid of[KD_RIM_GRIDS];
 };
 
-/* Makes the grids; n is 0 if there is no rim or no part of it is seen. 3 to 15 ms. */
+/* Makes the grids; n is 0 if there is no rim or no part of it is seen. Takes 3 to 15 ms. */
 void kd_rim_grids_of(const struct kd_scene *scene, const struct kd_rim *rim, struct kd_rim_grids *out);
 
 /* Keeps the grids whose images may light pixels of the scene's tile, and drops the others. In the grids that remain,

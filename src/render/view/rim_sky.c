@@ -11,7 +11,7 @@
 enum {
     LEAST = 9, /* least number of intervals along a side of a grid */
     MOST = 96,
-    ASIDE = 4, /* lines across the grid on which a number of intervals is tried */
+    ASIDE = 4, /* number of lines across the grid on which a number of intervals is tried */
     /* if there are at most this many grids, all threads work on one grid at a time. If there are more, each thread
      * takes whole grids */
     SHARED = 4
@@ -24,7 +24,7 @@ struct angles { double of[ANGLES]; };
 struct follower {
     const struct kd_rim *rim;
     struct kd_sky_rays rays;
-    bool alone; /* only one thread fills this grid, since others fill other grids */
+    bool alone; /* true if only one thread fills this grid, because other threads fill other grids */
 };
 
 static void run_each(const struct follower *f, size_t n, void (*each)(void *user, size_t item), void *user)
@@ -99,13 +99,13 @@ static struct side side_of(const struct kd_rim_grid *g, bool along_u)
                    : (struct side) { g->l, g->l - (g->rows - 1) * g->dl, 0 };
 }
 
-/* Follows the ray at u = place and l = line if along_u, else at l = place and u = line. */
+/* Follows the ray at u = place and l = line if along_u is true, otherwise at l = place and u = line. */
 static bool follow_on(const struct follower *f, bool along_u, double place, double line, struct angles *out)
 {
     return along_u ? follow(f, place, line, out) : follow(f, line, place, out);
 }
 
-/* Tests whether n intervals are accurate enough along a line. Returns 1 if they are, 0 if not, -1 if rays do not
+/* Tests whether n intervals are accurate enough along a line. Returns 1 if so, 0 if not, and -1 if a ray does not
  * escape. */
 static int serves(const struct follower *f, const struct side *s, int n, bool along_u, double line)
 {
@@ -147,7 +147,7 @@ static void try_line(void *user, size_t k)
 }
 
 /* Finds how many intervals are enough along one side. Tests this on lines at both ends of the other side and between
- * them. The result exceeds MOST if even MOST are too few. Returns false if a ray does not escape. */
+ * its ends. If even MOST intervals are too few, the result exceeds MOST. Returns false if a ray does not escape. */
 static bool enough(const struct follower *f, struct side *s, const struct side *other, bool along_u)
 {
     struct trial trial = { .f = f, .side = s, .other = other, .along_u = along_u };
@@ -211,7 +211,7 @@ static void fill_columns(struct sheet *o)
     }
 }
 
-enum { STRIP = 64 }; /* columns whose sums fit on the stack */
+enum { STRIP = 64 }; /* number of columns whose sums fit on the stack */
 
 static void fill_strip(const struct sheet *o, uint32_t row, const double *w, size_t first, size_t n)
 {
@@ -333,7 +333,8 @@ static void fill_grid(void *user, size_t i)
 enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_rim_grids *grids,
                           float *out, struct kd_error *error)
 {
-    const bool many = grids->n > SHARED; /* threads take whole grids; otherwise they share the rows of one */
+    /* true if threads take whole grids; otherwise threads share the rows of one grid */
+    const bool many = grids->n > SHARED;
     struct fill fill = { .f = { rim, kd_sky_rays_of(scene), many }, .grids = grids, .out = out, .status = KD_OK };
     memset(out, 0, grids->numbers * sizeof *out);
     memcpy(out, rim->edge, sizeof rim->edge);

@@ -20,7 +20,7 @@
 enum kd_status kd_rim_sky(const struct kd_scene *scene, const struct kd_rim *rim, const struct kd_rim_grids *grids,
                           float *out, struct kd_error *error);
 
-/* Direction of one ray, computed without interpolation. False if it does not escape. */
+/* Direction of one ray, computed without interpolation. Returns false if the ray does not escape. */
 bool kd_rim_sky_at(const struct kd_scene *scene, const struct kd_rim *rim, double u, double off, double out[3]);
 
 #endif

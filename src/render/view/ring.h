@@ -1,9 +1,9 @@
 /* The ring projection. Across the picture runs the angle round the critical curve; upwards runs the distance to the
- * curve as a signed logarithm. On this scale every image order has the same width. Double precision; pure, any thread.
- * The scene must be valid and project a ring.
+ * curve as a signed logarithm. On this scale every image order has the same width. Double precision; pure, any
+ * thread. The scene must be valid and have the projection "ring".
  *
- * Across, left to right: one turn about the curve's centre, with camera.roll_deg in the middle; angle 0 is where alpha
- * > 0 (physics/null/critical.h). Upper half: outside the curve, from d = 10^ring_decades_max at the top to
+ * Across, left to right: one turn about the curve's centre, with camera.roll_deg in the middle; angle 0 is where
+ * alpha > 0 (physics/null/critical.h). Upper half: outside the curve, from d = 10^ring_decades_max at the top to
  * 10^ring_decades_min at the middle. Lower half: inside the curve, mirrored. d = rho/rho_c - 1
  * (physics/null/lensing.h). Rays go through the centres of their rows and columns. */
 #ifndef KD_RENDER_VIEW_RING_H
@@ -16,7 +16,7 @@ struct kd_ring {
     struct kd_critical curve;
     double middle;          /* angle                      */
     double most, least;     /* decades                    */
-    uint32_t width, height; /* rays across and down       */
+    uint32_t width, height; /* number of rays across and down */
 };
 
 struct kd_ring kd_ring_of(const struct kd_scene *scene);

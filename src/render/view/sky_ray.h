@@ -11,11 +11,12 @@ struct kd_sky_rays {
     struct kd_vantage at;
 };
 
-/* Places count from the whole picture, also when the scene renders a tile of it. */
+/* Places are counted in the whole picture, even if the scene renders a tile of it. */
 struct kd_sky_rays kd_sky_rays_of(const struct kd_scene *scene);
 
-/* look: along e_r, e_theta, e_phi, of any length; for an observer at infinity (alpha, beta). False if the ray does
- * not escape or null_bend.h does not cover it (a ray that crosses no equator, for example). */
+/* look: direction along e_r, e_theta, e_phi, of any length; for an observer at infinity (alpha, beta). Returns false
+ * if the ray does not escape, or if null_bend.h does not cover the ray (because it does not cross the equator, for
+ * example). */
 bool kd_sky_ray_bend(const struct kd_sky_rays *rays, const double look[3], struct kd_null_bend *out);
 /* Direction from which the ray comes: a unit vector in the hole's frame, with the observer at azimuth 0, as in the
  * lens map. */
