@@ -11,7 +11,7 @@ struct kd_frames {
     const struct kd_format *format; /* format of the frames; may be NULL if frames are not stored in a folder */
     int store, folder, lock;        /* descriptors; -1: none */
     bool shared;
-    /* places, sizes: offset and size of each frame in the temporary file; size 0: the frame is not stored */
+    /* places: offset of each frame in the temporary file; sizes: bytes of each frame, 0 if it is not stored */
     uint64_t *places, *sizes, end;
 };
 #define KD_FRAMES_NONE { .store = -1, .folder = -1, .lock = -1 }
