@@ -42,7 +42,7 @@ enum kd_kind {
     KD_KIND_INT,  /* uint32_t */
     KD_KIND_BOOL, /* bool */
     KD_KIND_WORD, /* int or an enumeration: one of `words`, stored as the word's index plus `first` */
-    /* struct kd_number_list: an array of `fewest` to `room` of the words; `fewest` 0 means 1 */
+    /* uint32_t: an array of some of `words`, stored as one bit for each word */
     KD_KIND_WORDS,
     KD_KIND_LIST,   /* struct kd_number_list: an array of `fewest` (0: one) to `room` numbers within the range */
     KD_KIND_VECTOR, /* double[room]: an array of `room` numbers within the range */
