@@ -2,11 +2,14 @@
 // --embed-origin names that page's origin. The element first shows a still picture. With `interactive`, a button starts
 // a live session; then a drag or keys move the view. This file imports no other file.
 //
-// preset, spin, inclination   what is shown; scene: more fields, in the form of a link after its # interactive
-// whether it can be moved live                        starts the live session as soon as the element is visible, unless
-// the visitor prefers reduced motion poster                      address of the first picture, instead of one that the
-// server renders label                       alternative text of the picture server                      address of the
-// server, with a slash at its end; by default the server that sent this file
+//   preset, spin, inclination   what is shown; scene: more fields, in the form of a link after its #
+//   interactive                 whether it can be moved
+//   live                        starts the live session as soon as the element is visible, unless the visitor prefers
+//                               reduced motion
+//   poster                      address of the first picture, instead of one that the server renders
+//   label                       alternative text of the picture
+//   server                      address of the server, with a slash at its end; by default the server that sent this
+//                               file
 const here = new URL('..', import.meta.url);
 const most_live = 2; // limit of live sessions on one page; starting another session ends the oldest
 const most_posters = 2; // limit of requests for posters that are in progress at once

@@ -1,6 +1,6 @@
 /* Job request: what to render. Pure; any thread.
  *
- *     {"scene": {...}} one picture
+ *     {"scene": {...}}                                                one picture
  *     {"scenes": [{...}, ...]}                                        several pictures
  *     {"scene": {...}, "keyframes": [{"frame": 0, "scene": {patch}}, ...], "frames": 240, "interpolation":
  *     "smooth"}

@@ -42,9 +42,11 @@ function buildRate(scene) {
 
 // scene; size() → { width, height } of the window in device pixels. Callbacks: shown(frame), failed(error), and
 // rests(whether). whether: true if the picture on the screen is the last one of the current scene. Until the server has
-// answered a change, its pictures show the previous scene. Returns refresh() to be called whenever the scene or the
-// window has changed close() ends the session; no other call may follow address() of the session, or null strike(wrong)
-// strikes the hole when the server has the current scene; wrong(sentence) is called on a refusal
+// answered a change, its pictures show the previous scene. Returns
+//   refresh()      to be called whenever the scene or the window has changed
+//   close()        ends the session; no other call may follow
+//   address()      returns the address of the session, or null
+//   strike(wrong)  strikes the hole when the server has the current scene; wrong(sentence) is called on a refusal
 export function openSource(scene, size, shown, failed, rests) {
   let session = null,
     timer = 0,
