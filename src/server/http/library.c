@@ -8,7 +8,7 @@
 #include <string.h>
 #include <sys/socket.h>
 
-/* start of a log line of the library, in libmicrohttpd 0.9.75 and 1.0.1 \ */
+/* start of a log line of the library, in libmicrohttpd 0.9.75 and 1.0.1 */
 #define SAYS_STATUS "HTTP response code is "
 
 static _Thread_local int current = -1;

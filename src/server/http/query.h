@@ -12,7 +12,7 @@
 /* maximum of the parameter order, whose minimum is 1: 2^53, because all clients represent integers up to it exactly */
 #define KD_ORDER_MAX 9007199254740992
 #define KD_SENTENCES_MAX 4294967295 /* maximum of the parameter sentences: 32 bits */
-/* date from which on the former names of parameters are deprecated: 2026-11-29 \ */
+/* date from which on the former names of parameters are deprecated: 2026-11-29 */
 #define KD_DEPRECATION "@1795910400"
 
 #endif

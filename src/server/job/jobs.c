@@ -40,7 +40,7 @@ void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why)
            state == KD_JOB_DONE ? "is done" : "has failed: ", why);
 }
 
-/* length in ms of the first delay; each delay is twice the previous one, up to the limit below \ */
+/* length in ms of the first delay; each delay is twice the previous one, up to the limit below */
 #define DELAY_MS 1e3
 #define DELAY_MAX_MS 60e3
 

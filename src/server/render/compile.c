@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* estimate in ms before the first compilation; lavapipe compiles some kernels in this time \ */
+/* estimate in ms before the first compilation; lavapipe compiles some kernels in this time */
 #define COMPILE_MS 2000.0
 /* Half the weight of live frames, so that compilations advance while there are live frames, but with a smaller
  * share. */
