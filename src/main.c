@@ -1,4 +1,4 @@
-/* main finds the subcommand and runs it. */
+/* Finds the subcommand and runs it. */
 #include "base/spelling.h"
 #include "cli/cli.h"
 #include "vk/own_enter.h"
@@ -15,7 +15,7 @@ const char *argp_program_version = "kerrd " KD_VERSION;
 
 struct choice {
     const struct kd_command *command;
-    int index; /* index of the subcommand's name in argv */
+    int index; /* index in argv of the subcommand's name */
     bool help; /* `kerrd help COMMAND` */
 };
 
@@ -59,11 +59,12 @@ static error_t parse(int key, char *text, struct argp_state *state)
 }
 
 static const struct argp_option options[] = {
-    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0 }, /* the same as --help; argp itself adds -? */
+    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 0 }, /* -h does the same as --help; argp itself adds -? */
     { 0 },
 };
 
-/* Makes the text of --help with the list of commands. Names that are longer than the column are not aligned. */
+/* Makes the text of --help, which contains the list of commands. Names that are longer than the column are not
+ * aligned. */
 static const char *help_text(void)
 {
     static char text[4000];
@@ -77,9 +78,9 @@ static const char *help_text(void)
     return text;
 }
 
-/* Opens /dev/null for each standard stream that the parent has closed. Otherwise a client's socket or a file could get
- * the stream's number, and messages would be written into it. The replacement is opened so that reading or writing
- * fails, as on a closed stream. */
+/* Opens /dev/null for each standard stream that the parent process has closed. Otherwise a client's socket or a file
+ * could get the stream's number, and messages would be written into it. It is opened in the wrong mode, so that
+ * reading or writing fails as on a closed stream. */
 static void hold_standard_streams(void)
 {
     for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
@@ -100,16 +101,16 @@ int main(int argc, char **argv)
     if (argc > 0)
         kd_vk_own_enter(argc, argv);
     argp_err_exit_status = KD_EXIT_USAGE;
-    /* A client that disconnects must not end the server. Other commands notice a closed pipe by
+    /* A client that disconnects must not end the server. Other commands handle a closed pipe in
      * kd_cli_stdout_failed. */
     signal(SIGPIPE, SIG_IGN);
-    /* With this signal ignored, exceeding `ulimit -f` becomes a write error, after which the partial file is
+    /* With this signal ignored, a write beyond `ulimit -f` fails with an error, after which the partial file is
      * removed. */
     signal(SIGXFSZ, SIG_IGN);
     atexit(kd_cli_close_stdout);
     if (argc < 1)
         return KD_EXIT_USAGE;
-    argv[0] = zero; /* messages then show the program's name without its path */
+    argv[0] = zero; /* so that messages show the program's name without its path */
     argp_parse(&argp, argc, argv, ARGP_IN_ORDER, NULL, &choice);
     snprintf(name, sizeof name, "kerrd %s", choice.command->name);
     argv[choice.index] = name;

@@ -96,7 +96,7 @@ function goTo(view) {
 }
 
 const patience_ms = 1000;
-// least time between two updates of the words and numbers beside a moving picture
+// minimum time between two updates of the words and numbers beside a moving picture
 const telling_ms = 250;
 
 // The picture comes first: building the rest of the page takes 0.1 s, during which no picture could be shown.
@@ -109,9 +109,9 @@ async function watch(scene) {
     };
   const carry = buildCarry(stage, scene);
   let told_ms = -Infinity,
-    any = false, // true if a picture has been shown
-    drift = () => {}, // is called with each picture
-    key = null, // the scales over a picture in false colour
+    any = false, // in a stereo pair, the picture for each eye has half of the window's width
+    drift = () => {}, // true as soon as one picture has been shown
+    key = null, // function that is called with each picture
     built,
     seen;
   const parts = new Promise(resolve => (built = resolve)),
@@ -119,7 +119,8 @@ async function watch(scene) {
 
   async function show(frame) {
     const now = performance.now(),
-      tells = frame.final || now - told_ms > telling_ms; // true if the words beside the picture are updated
+      // scales that are drawn over a picture in false colour, or null
+      tells = frame.final || now - told_ms > telling_ms;
     if (tells) told_ms = now;
     await carry(frame.picture, frame, tells ? describe(scene) : null);
     if (!any)
@@ -227,8 +228,8 @@ async function watch(scene) {
       .catch(error => sayWrong(error.message));
   byId('pair-begin').addEventListener('click', compare);
 
-  // The card "Share" begins a lesson. The lesson continues after a reload; in a pupil's copy this module shows the way
-  // back to it.
+  // The card "Share" starts a lesson. After a reload the lesson continues. In a pupil's copy of the page, this module
+  // shows the way back to the lesson.
   const teach = begins =>
     load(import('./lesson/lesson.js'))
       .then(({ teach }) => teach(scene, () => source.address(), begins))
@@ -260,7 +261,7 @@ async function watch(scene) {
 
   const source = openSource(scene, size, show, refuse, rests);
   const followFiner = buildRefining(source.address, words => status.dataset.wrong || (status.textContent = words));
-  followFiner(true); // follows refinement only while the view is visible
+  followFiner(true); // while the view is hidden, refinement is not followed
   if (!byId('lensing').hidden) {
     source.refresh();
     await Promise.race([first, new Promise(resolve => setTimeout(resolve, patience_ms))]);

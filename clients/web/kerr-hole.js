@@ -1,22 +1,24 @@
 // <kerr-hole preset spin inclination interactive>: a black hole in any page, rendered by a kerrd server whose
-// --embed-origin names that page's origin. It begins as a picture. With `interactive`, a button makes it live; then a
-// drag or keys move it. This file imports no other one.
+// --embed-origin names that page's origin. The element first shows a still picture. With `interactive`, a button starts
+// a live session; then a drag or keys move the view. This file imports no other file.
 //
 //   preset, spin, inclination   what is shown; scene: more fields, in the form of a link after its #
 //   interactive                 whether it can be moved
-//   live                        live as soon as it is in sight; not if the visitor prefers reduced motion
-//   poster                      address of the picture that it begins with, instead of one that the server renders
-//   label                       its alternative text
-//   server                      address of the server, with a slash at its end; by default where this file came from
+//   live                        starts the live session as soon as the element is visible, unless the visitor prefers
+//                               reduced motion
+//   poster                      address of the first picture, instead of one that the server renders
+//   label                       alternative text of the picture
+//   server                      address of the server, with a slash at its end; by default the server that sent this
+//                               file
 const here = new URL('..', import.meta.url);
-const most_live = 2; // limit of live sessions on one page; another one ends the oldest
-const most_posters = 2; // posters that are requested at once
-const idle_ms = 60000; // a live hole becomes a picture again after this time without input
+const most_live = 2; // limit of live sessions on one page; starting another session ends the oldest
+const most_posters = 2; // limit of requests for posters that are in progress at once
+const idle_ms = 60000; // after this time without input, a live element returns to its still picture
 const retry_ms = 3000;
-const degrees_per_width = 180; // degrees by which a drag across the whole element turns the camera
+const degrees_per_width = 180; // a drag across the whole element turns the camera by this many degrees
 const key_deg = 5;
 const key_zoom = 1.1;
-// fraction of the width: before the first touch, live pictures that are smaller than this do not replace the still one
+// fraction of the element's width. Before the first touch, narrower live pictures do not replace the still picture.
 const least_part = 0.5;
 const widest = 960; // largest width of a live picture, pixels
 
@@ -55,7 +57,7 @@ sheet.replaceSync(`
     font: .875rem/1.3 system-ui, sans-serif; }
   [hidden] { display: none; }`);
 
-// Queue of requests for posters, at most most_posters of them at once.
+// Requests for posters that wait, because most_posters of them are already in progress.
 const waiting = [];
 let asked = 0;
 function next() {
@@ -93,10 +95,10 @@ class KerrHole extends HTMLElement {
   #parts = {};
   #session = null;
   #seen = false;
-  #first = ''; // the query that the poster shows
-  #again = 0; // number of the newest request for a poster; older ones are dropped
-  #begun = 0; // number of the newest request for a session; the sessions of older ones are dropped
-  #late = false; // attributes have changed during the request for a session
+  #first = ''; // query of the scene that the poster shows
+  #again = 0; // number of the newest request for a poster; answers to older requests are dropped
+  #begun = 0; // number of the newest request for a session; sessions from older requests are dropped
+  #late = false; // true if attributes have changed during the request for a session
   #watch = new IntersectionObserver(entries => this.#look(entries.at(-1).isIntersecting), { rootMargin: '200px' });
   #leave = () => this.#end();
 
@@ -231,7 +233,7 @@ class KerrHole extends HTMLElement {
     this.dispatchEvent(new Event('load'));
   }
 
-  // byItself: begins without a touch. The element then takes no focus, and stays a picture if the server is busy.
+  // Shows the poster, and also the button if the element is interactive.
   async #begin(byItself = false) {
     if (live.includes(this)) return;
     const mine = ++this.#begun;
@@ -291,7 +293,8 @@ class KerrHole extends HTMLElement {
     return answer.json();
   }
 
-  // Draws the session's pictures one after the other, until it ends.
+  // byItself: true if the session starts without a touch. The element then does not take the focus, and keeps the still
+  // picture if the server is busy.
   async #run(session) {
     const { canvas } = this.#parts,
       context = canvas.getContext('2d');
@@ -357,7 +360,7 @@ class KerrHole extends HTMLElement {
     this.#send(this.#session);
   }
 
-  // One patch is sent at a time; the next one has the newest values.
+  // Sends one patch at a time. Each patch has the newest values.
   async #send(session) {
     session.moved = performance.now();
     session.pending = session.touched = true;
@@ -405,7 +408,7 @@ class KerrHole extends HTMLElement {
     }).catch(() => {});
   }
 
-  // Ends the session; its last picture stays.
+  // Ends the session. Its last picture stays visible.
   #end() {
     const at = live.indexOf(this);
     if (at >= 0) live.splice(at, 1);

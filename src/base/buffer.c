@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Makes room for `extra` more bytes, and for a NUL at the end. */
+/* Makes room for `extra` more bytes and for a NUL at the end. */
 static enum kd_status reserve(struct kd_buffer *buffer, size_t extra)
 {
     if (extra >= SIZE_MAX / 2 - buffer->size)

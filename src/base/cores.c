@@ -11,7 +11,8 @@ unsigned kd_cores(void)
     return sched_getaffinity(0, sizeof set, &set) ? 1 : (unsigned)CPU_COUNT(&set);
 }
 
-/* Number of runnable threads, including this one: the first number of "1/80" in "0.20 0.18 0.12 1/80 11206". */
+/* Number of runnable threads, including this one. /proc/loadavg reads like "0.20 0.18 0.12 1/80 11206"; the number
+ * is the one before the slash. */
 static long running(void)
 {
     char text[128];

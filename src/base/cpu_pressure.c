@@ -16,7 +16,7 @@ static void add(struct kd_cpu_pressure *sum, int tasks, const char *task)
     if (file >= 0)
         close(file);
     if (n <= 0)
-        return; /* the thread has ended since it was listed */
+        return; /* the thread has ended since the folder was listed */
     text[n] = 0;
     if (sscanf(text, "%lf %lf", &ran, &waited) == 2) {
         sum->ran_ns += ran;
@@ -30,7 +30,7 @@ struct kd_cpu_pressure kd_cpu_pressure_now(void)
     DIR *tasks = opendir("/proc/self/task");
     if (!tasks)
         return sum;
-    /* readdir is safe here, because no other call uses this stream */
+    /* readdir is thread-safe here, because only this function uses the stream */
     for (const struct dirent *task = readdir(tasks); task; task = readdir(tasks))
         add(&sum, dirfd(tasks), task->d_name);
     closedir(tasks);
@@ -41,6 +41,6 @@ double kd_cpu_pressure_share(const struct kd_cpu_pressure *since)
 {
     struct kd_cpu_pressure now = kd_cpu_pressure_now();
     double ran = now.ran_ns - since->ran_ns, waited = now.waited_ns - since->waited_ns;
-    /* a negative difference means that some threads have ended */
+    /* a negative difference means that threads have ended since */
     return ran > 0 && waited > 0 ? ran / (ran + waited) : 1;
 }

@@ -7,15 +7,15 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Giulietti's g(k): the 128 leading bits of 10^k, rounded up unless they are exact. */
+/* Giulietti's g(k): the 128 leading bits of 10^k, rounded up unless they are exact. k is K_MIN to K_MAX. */
 #define K_MIN (-292)
 #define K_MAX 324
-#define WORDS 38 /* number of 32-bit words: 10^324 has 1077 bits, and 2^1152/10^292 has 183 */
+#define WORDS 38 /* number of 32-bit words: enough for 10^324 (1077 bits), and leaves 183 bits of 2^1152/10^292 */
 
 struct g { uint64_t high, low; };
 static struct g powers[K_MAX - K_MIN + 1];
 
-struct big { uint32_t word[WORDS]; /* the least significant word first */ };
+struct big { uint32_t word[WORDS]; /* least significant word first */ };
 
 static void multiply_by_ten(struct big *n)
 {
@@ -64,7 +64,8 @@ static void make_powers(void)
         if (k < K_MAX)
             multiply_by_ten(&up);
     }
-    down.word[WORDS - 2] = 1; /* dividing step by step and rounding down equals dividing by the product */
+    /* rounding down after each division gives the same result as one division by the product */
+    down.word[WORDS - 2] = 1;
     for (int k = -1; k >= K_MIN; k--) {
         divide_by_ten(&down);
         powers[k - K_MIN] = leading_bits(&down, 0);
@@ -73,8 +74,8 @@ static void make_powers(void)
 
 __extension__ typedef unsigned __int128 wide;
 
-/* Returns the leading 64 bits of g n / 2^127. The last of these bits is also set if any lower bit of the number is
- * set. */
+/* Returns the leading 64 bits of g n / 2^127, rounded to odd: the last bit is also set if any lower bit of the
+ * number is set. */
 static uint64_t round_to_odd(struct g g, uint64_t n)
 {
     wide x = (wide)g.low * n, y = (wide)g.high * n + (uint64_t)(x >> 64);
@@ -86,7 +87,7 @@ struct decimal {
     int exponent;
 };
 
-/* Finds the shortest decimal that reads back as c 2^q. Names follow the paper. */
+/* Finds the shortest decimal that reads back as c 2^q. The names are those of the paper. */
 static struct decimal shortest(uint64_t c, int q, int lower_is_closer)
 {
     uint64_t odd = c & 1;
@@ -137,7 +138,7 @@ static size_t write_digits(char *out, uint64_t digits)
     return n;
 }
 
-/* Writes a number far from 1, as d.ddde-7. */
+/* Writes a number far from 1 in scientific form, as in 1.234e-7. */
 static size_t write_scientific(char *out, const char *digits, size_t n, int exponent)
 {
     size_t used = 0;
@@ -187,7 +188,7 @@ size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value)
     }
     struct decimal d = take_apart(fabs(value));
     size_t n = write_digits(digits, d.digits);
-    int exponent = d.exponent + (int)n - 1; /* exponent of the first digit */
+    int exponent = d.exponent + (int)n - 1; /* exponent of the first digit, to base 10 */
     used += exponent < -5 || exponent > 16 ? write_scientific(out + used, digits, n, exponent)
                                            : write_plain(out + used, digits, n, exponent);
     out[used] = 0;
@@ -196,8 +197,8 @@ size_t kd_decimal_print(char out[KD_DECIMAL_SIZE], double value)
 
 double kd_decimal_round(double value, int digits)
 {
-    /* Powers of ten up to 10^22 and integers up to 10^15 are exact as doubles. So a single product or quotient of
-     * two of them is rounded only once. */
+    /* Powers of ten up to 10^22 and integers up to 10^15 are exact as doubles. A product or quotient of two of them
+     * is therefore rounded only once. */
     static const double exact[] = { 1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                     1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22 };
     const int most = sizeof exact / sizeof *exact - 1;

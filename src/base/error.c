@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A pointer that was cut off may end within a character or an escape. */
+/* Repairs a pointer that was truncated within a character or within an escape ("~0", "~1"). */
 static void mend_pointer(char *pointer)
 {
     kd_utf8_sanitize(pointer);
@@ -22,8 +22,8 @@ static void fill(struct kd_error *error, enum kd_status status, const char *poin
     error->retry_s = 0;
     snprintf(error->pointer, sizeof error->pointer, "%s", pointer);
     vsnprintf(error->message, sizeof error->message, format, args);
-    /* Message and pointer may quote text that is not valid UTF-8. The pointer is read by programs, so it keeps
-     * control characters. */
+    /* Message and pointer may quote text that is not valid UTF-8. The pointer keeps control characters, because
+     * programs read it. */
     mend_pointer(error->pointer);
     kd_utf8_show(error->message);
 }

@@ -1,4 +1,4 @@
-/* FNV-1a, 64 bits (Fowler, Noll & Vo 1991). It detects damage and different versions, but not forgery. Pure. */
+/* The hash FNV-1a, 64 bits (Fowler, Noll & Vo 1991). It detects damage and changed versions, but not forgery. Pure. */
 #ifndef KD_BASE_HASH_H
 #define KD_BASE_HASH_H
 

@@ -48,7 +48,7 @@ static void put_string(struct kd_json *json, const char *text)
     put(json, "\"", 1);
 }
 
-/* Writes the comma and the name that precede a value. */
+/* Writes the comma and the member's name before a value. */
 static void lead(struct kd_json *json, const char *name)
 {
     if (!json->depth) {
@@ -120,7 +120,7 @@ void kd_json_number(struct kd_json *json, const char *name, double value)
         kd_json_null(json, name);
         return;
     }
-    value = value == 0 ? 0 : value; /* 0 instead of -0 */
+    value = value == 0 ? 0 : value; /* turns -0 into 0 */
     if (json->print)
         json->print(text, value);
     else

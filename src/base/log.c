@@ -53,7 +53,7 @@ static void write_json(enum kd_log_level level, const char *event, const struct 
             stderr,
             "{\"level\":\"error\",\"event\":\"message\",\"message\":\"there was no memory for a line of the log\"}\n");
     else
-        fwrite(line.data, 1, line.size, stderr); /* a single call, so that lines do not interleave */
+        fwrite(line.data, 1, line.size, stderr); /* one call, so that lines of different threads do not mix */
     kd_buffer_finish(&line);
 }
 
@@ -61,7 +61,8 @@ static void write_text(enum kd_log_level level, const char *message)
 {
     char line[4 * MESSAGE];
     kd_utf8_print(line, sizeof line, message);
-    fprintf(stderr, "kerrd: %s: %s\n", names[level], line); /* a single call, so that lines do not interleave */
+    /* one call, so that lines of different threads do not mix */
+    fprintf(stderr, "kerrd: %s: %s\n", names[level], line);
 }
 
 void kd_log(enum kd_log_level level, const char *format, ...)

@@ -1,8 +1,7 @@
-/* Logs events to stderr, each on one line. Any thread. Level and format are set once, at the start.
- *
- * A line of text is "kerrd: LEVEL: MESSAGE". A line of JSON is an object with time (RFC 3339, UTC, milliseconds),
- * level, event and the event's members. kd_log writes the event "message" with the member message. Control characters
- * and invalid UTF-8 become \xNN, so that an event is always one line. */
+/* Logs events to stderr, one per line. Any thread. Level and format are set once, at the start. In the text format a
+ * line is "kerrd: LEVEL: MESSAGE". In the JSON format it is an object with time (RFC 3339, UTC, milliseconds),
+ * level, event and the members of the event. kd_log writes an event named "message" with the member message. Control
+ * characters and invalid UTF-8 become \xNN, so that an event is always one line. */
 #ifndef KD_BASE_LOG_H
 #define KD_BASE_LOG_H
 
@@ -25,7 +24,7 @@ struct kd_log_member {
     const char *name, *text;
     double number;
 };
-/* Logs an event under its own name. The JSON format writes the members, the text format the message. */
+/* Logs an event with a name. The JSON format contains the members; the text format contains the message. */
 void kd_log_event(enum kd_log_level level, const char *event, const struct kd_log_member *members, size_t n,
                   const char *message);
 

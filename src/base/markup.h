@@ -1,17 +1,17 @@
-/* Text in HTML and XML. Any thread. */
+/* Escapes text for HTML and XML. Any thread. */
 #ifndef KD_BASE_MARKUP_H
 #define KD_BASE_MARKUP_H
 
 #include "base/buffer.h"
 
-/* Sets of characters to escape: the first is for content only, the second for attributes and content. */
+/* Sets of characters to escape. The first set is for text between tags, the second for text in attributes as well. */
 #define KD_MARKUP_CONTENT "&<>"
 #define KD_MARKUP_ATTRIBUTE "&<>\"'"
 
-/* Appends the text, with its `characters` replaced by references, and a NUL. KD_ENOMEM. */
+/* Appends the text and a NUL. Each of the `characters` is replaced by a character reference. KD_ENOMEM. */
 enum kd_status kd_markup_escape(const char *text, const char *characters, struct kd_buffer *out);
 
-/* Replaces the references that kd_markup_escape writes by their characters, in place. */
+/* Reverses kd_markup_escape in place: replaces its character references by the characters. */
 void kd_markup_unescape(struct kd_buffer *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* Media types that several parts of the program name. Constant data. */
+/* Media types that are used in several parts of the program. Constant data. */
 #ifndef KD_BASE_MEDIA_H
 #define KD_BASE_MEDIA_H
 
@@ -8,7 +8,7 @@
 #define KD_PROBLEM_TYPE "application/problem+json"   /* RFC 9457 */
 #define KD_HTML_TYPE "text/html; charset=utf-8"
 #define KD_CSV_TYPE "text/csv"
-/* header=present (RFC 4180): the first line has the names of the columns */
+/* header=present (RFC 4180) means that the first line has the names of the columns */
 #define KD_CSV_HEADED_TYPE KD_CSV_TYPE "; charset=utf-8; header=present"
 #define KD_EVENTS_TYPE "text/event-stream"
 #define KD_BYTES_TYPE "application/octet-stream"

@@ -6,10 +6,11 @@
 #include <string.h>
 #include <sys/resource.h>
 
-/* A version of control groups: its file system and the names of its files and keys. */
+/* One version of control groups: its file system, and the names of its files and keys. */
 struct version {
-    const char *filesystem, *controller; /* as they appear in mountinfo; NULL: any */
-    /* names of the file with the limit, of the file with the use, and of a key in memory.stat */
+    /* type of file system and name of the controller, as in mountinfo; controller NULL: any */
+    const char *filesystem, *controller;
+    /* most: file with the limit; used: file with the use; idle: key in memory.stat of the inactive file pages */
     const char *most, *used, *idle;
     const char *by;
 };
@@ -19,8 +20,8 @@ static const struct version versions[] = {
       "the memory.limit_in_bytes of a control group" },
 };
 
-/* Reads the number after a key, as in "key 12" or "key: 12 kB". key "": the file holds only a number. Returns false if
- * there is no number, as for "max". */
+/* Reads the number after a key, as in "key 12" or "key: 12 kB". If key is "", the file contains only a number.
+ * Returns false if there is no number, for example if the file contains "max". */
 static bool number_in(const char *root, const char *path, const char *key, uint64_t *out)
 {
     char name[PATH_MAX], line[256];
@@ -53,7 +54,8 @@ static bool list_holds(char *list, const char *word)
     return false;
 }
 
-/* Reads the mounted group and its mount point from a line of mountinfo that belongs to this version's file system. */
+/* Reads one line of mountinfo. If the line belongs to this version's file system, gets the mounted group and its
+ * mount point. */
 static bool read_mount(char *line, const struct version *version, char *group, char *mount)
 {
     char filesystem[32], options[256];
@@ -84,9 +86,9 @@ static FILE *open_list(const char *root, const char *path)
     return snprintf(name, sizeof name, "%s%s", root, path) < (int)sizeof name ? fopen(name, "re") : NULL;
 }
 
-/* Finds the folder of the process's group, and how much of its path is the mount point. In a container the mount may
- * show only part of the tree. The path in /proc/self/cgroup is then relative to the whole tree, or names a group
- * that is not visible here. */
+/* Finds the folder of the process's group, and the length of the mount point in its path. In a container the mount
+ * may show only a part of the tree of groups. The path in /proc/self/cgroup is then relative to the whole tree, or
+ * names a group that is not visible here. */
 static bool find_group(const char *root, const struct version *version, char *folder, size_t size, size_t *mount_length)
 {
     char line[4096], mounted[1024], mount[1024], group[1024];
@@ -112,7 +114,7 @@ static bool find_group(const char *root, const struct version *version, char *fo
     return snprintf(folder, size, "%s%s", mount, strcmp(below, "/") ? below : "") < (int)size;
 }
 
-/* Bytes that the limit of one group leaves free; UINT64_MAX if the group has no limit. */
+/* Returns the number of bytes that the limit of one group leaves free; UINT64_MAX if the group has no limit. */
 static uint64_t left_in(const char *root, const char *folder, const struct version *version)
 {
     char path[PATH_MAX];
@@ -128,8 +130,8 @@ static uint64_t left_in(const char *root, const char *folder, const struct versi
     return used < most ? most - used : 0;
 }
 
-/* Each control group from the process's own up to the mount may have a limit. Finds the smallest amount of memory
- * that one of them leaves free. */
+/* Every control group from the process's own up to the mount point may have a limit. Finds the one that leaves the
+ * least memory free. */
 static void least_of_groups(const char *root, const struct version *version, struct kd_memory_limit *least)
 {
     char folder[2560];

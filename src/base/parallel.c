@@ -11,16 +11,16 @@ struct work {
     void (*each)(void *user, size_t item);
     void *user;
     _Atomic size_t next;
-    bool yields; /* the threads end when other work needs these cores */
+    bool yields; /* true if the threads end when other work needs their cores */
     pthread_t threads[KD_PARALLEL_THREADS - 1];
     size_t begun;
 };
 
 _Thread_local unsigned kd_parallel_threads;
 
-static atomic_uint yielding; /* number of running threads of all kd_parallel_idle calls */
+static atomic_uint yielding; /* number of threads of all kd_parallel_idle calls that run now */
 
-/* Runs the next item. Returns false if all items have begun. */
+/* Runs the next item. Returns false if no item is left to start. */
 static bool do_one(struct work *w)
 {
     const size_t item = atomic_fetch_add(&w->next, 1);
@@ -56,7 +56,7 @@ static void finish(struct work *w)
         pthread_join(w->threads[i], NULL);
 }
 
-/* Starts threads until there are `wanted` of them, or one for each item. */
+/* Starts threads until there are `wanted` of them, but not more than one for each item. */
 static void start_some(struct work *w, size_t wanted)
 {
     wanted = wanted > w->n ? w->n : wanted;
@@ -71,8 +71,8 @@ void kd_parallel(size_t n, void (*each)(void *user, size_t item), void *user)
     finish(&work);
 }
 
-/* Starts a thread for each idle core, but not more threads than there are items left. Starts none if other calls use
- * all cores by now. */
+/* Starts a thread for each idle core, but not more than there are items left. Starts none if the threads of other
+ * calls already use all cores. */
 static void start_where_idle(struct work *w)
 {
     const size_t next = atomic_load(&w->next), left = next < w->n ? w->n - next : 0;

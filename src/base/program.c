@@ -16,8 +16,9 @@
 #include <time.h>
 #include <unistd.h>
 
-#define PIPE_BYTES (1 << 20) /* capacity of the pipe; the bytes written between two polls should fit into it */
-#define NICE 10              /* lower priority, because pictures that users wait for are more urgent */
+/* capacity of the pipe in bytes; it should hold everything that is written between two polls */
+#define PIPE_BYTES (1 << 20)
+#define NICE 10 /* niceness of the program, because pictures that users wait for are more urgent */
 
 extern char **environ;
 
@@ -28,7 +29,7 @@ static void shut(int *fd)
     *fd = -1;
 }
 
-/* Makes a pipe: both ends close on exec, and our end is non-blocking. */
+/* Makes a pipe. Both ends are closed on exec, and kerrd's end is non-blocking. */
 static bool make_pipe(int *ours, int *its, bool we_write)
 {
     int ends[2];
@@ -39,7 +40,7 @@ static bool make_pipe(int *ours, int *its, bool we_write)
     return fcntl(*ours, F_SETFL, O_NONBLOCK) == 0;
 }
 
-/* Closes all descriptors from 4 on, because libraries may have left some of them open. */
+/* Closes all descriptors from 4 on, because libraries may have opened some without closing them on exec. */
 /* tests define KD_PROGRAM_LISTS */
 #if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 34) && !defined(KD_PROGRAM_LISTS)
 static int close_others(posix_spawn_file_actions_t *files)
@@ -62,8 +63,8 @@ static int close_others(posix_spawn_file_actions_t *files)
 }
 #endif
 
-/* If kerrd was started with descriptors 0 to 2 closed, the given descriptors may have numbers up to 3, and would be
- * overwritten here. kd_program_start moves them out of the way first. */
+/* If kerrd was started without descriptors 0 to 2, the given descriptors may have numbers up to 3, and would be
+ * overwritten here. kd_program_start therefore moves them first. */
 static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid)
 {
     posix_spawn_file_actions_t files;
@@ -82,7 +83,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     sigaddset(&usual, SIGXFSZ);
     posix_spawnattr_setsigmask(&how, &none);
     posix_spawnattr_setsigdefault(&how, &usual);
-    /* The program has a process group of its own, so that Ctrl-C reaches only kerrd. kerrd then ends the program. */
+    /* The program gets its own process group, so that Ctrl-C reaches only kerrd, which then ends the program. */
     posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
     if (!(code = posix_spawn_file_actions_adddup2(&files, in, 0)) &&
         !(code = posix_spawn_file_actions_adddup2(&files, told, 2)) &&
@@ -95,7 +96,7 @@ static int spawn(const char *const argv[], int in, int told, int out, pid_t *pid
     return code;
 }
 
-/* Moves a descriptor to 4 or above, because the program uses those below. */
+/* Moves a descriptor to a number from 4 on, because the program uses the lower ones. */
 static bool lift(int *fd)
 {
     int high = fcntl(*fd, F_DUPFD_CLOEXEC, 4);
@@ -130,7 +131,7 @@ enum kd_status kd_program_start(const char *const argv[], int out, uint64_t most
                    ? 0
                    : errno;
     if (!code) {
-        (void)fcntl(program->in, F_SETPIPE_SZ, PIPE_BYTES); /* if this is refused, the capacity stays 64 KiB */
+        (void)fcntl(program->in, F_SETPIPE_SZ, PIPE_BYTES); /* if the kernel refuses this, the capacity stays 64 KiB */
         code = spawn(argv, in, told, to, &program->pid);
     }
     shut(&in);
@@ -157,8 +158,8 @@ size_t kd_program_write(struct kd_program *program, const void *data, size_t siz
 
 void kd_program_hang_up(struct kd_program *program) { shut(&program->in); }
 
-/* Reads the program's standard error. Keeps its beginning, which mostly has the reason for a failure, and its end,
- * which reports a full disk. Closes the pipe at the end of file. */
+/* Reads the program's standard error. Keeps its beginning, which usually states the reason for a failure, and its
+ * end, which reports a full disk. Closes the pipe at the end of file. */
 static void listen_to(struct kd_program *p)
 {
     char part[256];
@@ -168,7 +169,7 @@ static void listen_to(struct kd_program *p)
         memcpy(p->said + p->n_said, part, keep);
         p->n_said += keep;
         p->said[p->n_said] = 0;
-        if (p->n_last + (size_t)n >= sizeof p->last) { /* drops the older half to make room */
+        if (p->n_last + (size_t)n >= sizeof p->last) { /* drops the older half to make room for more */
             const size_t kept = sizeof p->last / 2;
             memmove(p->last, p->last + p->n_last - kept, kept);
             p->n_last = kept;
@@ -181,11 +182,11 @@ static void listen_to(struct kd_program *p)
         shut(&p->told);
 }
 
-/* Kills the program's process group. The group's id cannot be reused before waitpid. */
+/* Kills the program's process group. The kernel cannot reuse the group's id before waitpid. */
 static void end_group(const struct kd_program *p)
 {
     kill(-p->pid, SIGKILL);
-    kill(p->pid, SIGKILL); /* in case the program has no group of its own yet */
+    kill(p->pid, SIGKILL); /* because the program may have no process group of its own yet */
 }
 
 bool kd_program_over(struct kd_program *p, int *code)
@@ -193,7 +194,7 @@ bool kd_program_over(struct kd_program *p, int *code)
     siginfo_t about = { 0 };
     int status;
     *code = -1;
-    if (p->pid <= 0) /* the program has ended already */
+    if (p->pid <= 0) /* the program has already ended */
         return true;
     listen_to(p);
     if (!waitid(P_PID, (id_t)p->pid, &about, WEXITED | WNOHANG | WNOWAIT) && !about.si_pid)
@@ -208,7 +209,7 @@ bool kd_program_over(struct kd_program *p, int *code)
     return true;
 }
 
-/* Processor time in ms that the program has used, without its children. */
+/* Processor time in ms that the program has used. Its children are not included. */
 static double used_ms(const struct kd_program *p)
 {
     clockid_t clock;
@@ -239,7 +240,7 @@ static bool begins_path(const char *at)
     return *at == '/' && (unsigned char)at[1] > ' ';
 }
 
-/* Skips a control character, or a whole escape sequence (ECMA-48, 5.4). */
+/* Skips one control character or one whole escape sequence (ECMA-48, section 5.4). */
 static const char *skip_control(const char *at)
 {
     if (at[0] != '\x1b' || at[1] != '[')
@@ -257,7 +258,7 @@ void kd_program_reason(const struct kd_program *p, char out[300])
     while (*at && *at != '\n' && *at != '\r' && n < 300 - 5) {
         if ((unsigned char)*at < ' ' || *at == 0x7f)
             at = skip_control(at);
-        else if (!strncmp(at, " @ 0x", 5)) /* the text is an address in the program's memory */
+        else if (!strncmp(at, " @ 0x", 5)) /* this text precedes an address in the program's memory */
             at += 5 + strspn(at + 5, "0123456789abcdefABCDEF");
         else if (strchr(before, last) && begins_path(at)) {
             at += strcspn(at, after);

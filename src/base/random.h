@@ -17,7 +17,7 @@ static inline double kd_random(struct kd_random *random)
     return (double)((x ^ (x >> 31)) >> 11) * 0x1p-53;
 }
 
-/* Returns random number *n, counted from 0, of the sequence that belongs to this seed; increments *n. */
+/* Returns random number *n, counted from 0, of the sequence of this seed. Increments *n. */
 static inline double kd_random_drawn(uint64_t seed, uint64_t *n)
 {
     struct kd_random random = { seed + (*n)++ * KD_RANDOM_STEP };

@@ -17,7 +17,7 @@ static bool read_all(int fd, size_t most, struct kd_buffer *out)
             continue;
         if (n < 0)
             return false;
-        if (out->size - before + (size_t)n > most) { /* the file has grown since fstat */
+        if (out->size - before + (size_t)n > most) { /* the file has grown since the call of fstat */
             errno = EFBIG;
             return false;
         }
@@ -32,7 +32,7 @@ bool kd_read_file(int folder, const char *name, int flags, size_t most, struct k
 {
     struct stat about;
     size_t before = out->size;
-    /* O_NONBLOCK, because opening a pipe would wait for a writer. */
+    /* O_NONBLOCK, because otherwise opening a pipe would wait for a writer. */
     int fd = openat(folder, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY | flags);
     if (fd < 0)
         return false;

@@ -13,7 +13,8 @@
 #include <time.h>
 #include <unistd.h>
 
-/* A temporary file that has not changed for this long is left over. No write takes that long, even to a slow disk. */
+/* A temporary file that has not changed for this number of seconds counts as left over. No write takes that long,
+ * even to a slow disk. */
 #define STALE_S 3600
 
 static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789";
@@ -47,7 +48,7 @@ static bool write_all(int fd, const void *data, size_t size)
     return true;
 }
 
-/* Creates an empty temporary file beside `name`. */
+/* Creates an empty temporary file next to the file `name`. */
 static int open_temporary(int folder, const char *name, char out[NAME_MAX + 1])
 {
     unsigned char random[KD_TEMPORARY_TAIL - (sizeof KD_TEMPORARY_MARK - 1)];
@@ -122,8 +123,8 @@ bool kd_replace_file_at(int folder, const char *name, const void *data, size_t s
     return false;
 }
 
-/* Removes temporary files that killed processes have left. A file that has changed recently may still be being written,
- * so it stays. */
+/* Removes temporary files that killed processes have left behind. A file that has changed recently is kept, because
+ * a process may still be writing it. */
 static void remove_stale(int folder, const char *name)
 {
     int fd = openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);

@@ -1,5 +1,5 @@
-/* Writes JSON Schemas of answers. The schema of an object permits exactly the members in its list. So tests that
- * validate real answers find additional and missing members. One thread at a time for a document. */
+/* Writes JSON Schemas of answers. The schema of an object permits only the members in its list, so that tests that
+ * validate real answers find both additional and missing members. One thread at a time for a document. */
 #ifndef KD_BASE_SCHEMA_H
 #define KD_BASE_SCHEMA_H
 
@@ -20,11 +20,11 @@
 #define KD_SCHEMA_DECIMAL "-?((0|[1-9][0-9]*)([.][0-9]*)?|[.][0-9]+)([eE][-+]?[0-9]+)?"
 #define KD_SCHEMA_REF(name) "{\"$ref\":\"#/components/schemas/" name "\"}"
 
-/* Returns entry `index` of an enumeration; NULL beyond the last. */
+/* Returns word `index` of an enumeration; NULL beyond the last one. */
 typedef const char *kd_schema_words(size_t index);
 
 struct kd_schema_member {
-    const char *name, *schema; /* JSON text; NULL: the schema is an enumeration of `words` */
+    const char *name, *schema; /* schema: JSON text; NULL: the schema is an enumeration of `words` */
     bool may_lack;
     kd_schema_words *words;
 };
@@ -51,8 +51,8 @@ static inline void kd_schema_enum(struct kd_json *json, const char *name, kd_sch
     kd_json_end(json);
 }
 
-/* Writes the schema of one word, as a constant and as an enumeration with one entry. With "const" alone, client
- * generators treat the word of one branch of a union as the only possible word. */
+/* Writes the schema of a single word, both as a constant and as an enumeration with one entry. With "const" alone,
+ * client generators take the word of one branch of a union for the only possible word. */
 static inline void kd_schema_word(struct kd_json *json, const char *name, const char *word)
 {
     kd_json_object(json, name);
@@ -64,8 +64,8 @@ static inline void kd_schema_word(struct kd_json *json, const char *name, const 
     kd_json_end(json);
 }
 
-/* Begin and end the schema of an object `name` that permits no further members. Between the two calls the caller writes
- * the members' schemas. */
+/* The first function begins the schema of an object `name` that permits no further members, and the second ends it.
+ * Between the two calls the caller writes the schemas of the members. */
 static inline void kd_schema_begin_strict(struct kd_json *json, const char *name)
 {
     kd_json_object(json, name);
@@ -84,7 +84,7 @@ static inline void kd_schema_end_strict(struct kd_json *json, const char *const 
     kd_json_end(json);
 }
 
-/* Writes the schema of the object `name`. about: a description of its members, for example of their units; or NULL. */
+/* Writes the schema of the object `name`. about: NULL, or a description of its members, for example of their units. */
 static inline void kd_schema_told(struct kd_json *json, const char *name, const char *about,
                                   const struct kd_schema_member *members, size_t n)
 {
@@ -110,9 +110,9 @@ static inline void kd_schema_strict(struct kd_json *json, const char *name, cons
     kd_schema_told(json, name, NULL, members, n);
 }
 
-/* Like kd_schema_strict, for an array, whose length the macro computes. */
+/* Like kd_schema_strict, for a table that is an array: the macro computes its length. */
 #define KD_SCHEMA_STRICT(json, name, table) kd_schema_strict(json, name, table, sizeof(table) / sizeof *(table))
-/* A numeric constant as a string literal, with the digits it has in the source. */
+/* A numeric constant as a string literal, with the digits that it has in the source. */
 #define KD_SCHEMA_DIGITS_OF(x) #x
 #define KD_SCHEMA_DIGITS(x) KD_SCHEMA_DIGITS_OF(x)
 #define KD_SCHEMA_TOLD(json, name, about, table) \

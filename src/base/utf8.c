@@ -18,7 +18,7 @@ size_t kd_utf8_sequence(const char *text, size_t length)
     for (size_t i = 1; i < n; i++)
         if ((p[i] & 0xc0) != 0x80)
             return 0;
-    /* The second byte reveals overlong forms, surrogates and code points beyond U+10FFFF. */
+    /* The second byte shows whether the sequence is an overlong form, a surrogate or a code point beyond U+10FFFF. */
     if ((p[0] == 0xe0 && p[1] < 0xa0) || (p[0] == 0xed && p[1] > 0x9f) || (p[0] == 0xf0 && p[1] < 0x90) ||
         (p[0] == 0xf4 && p[1] > 0x8f))
         return 0;

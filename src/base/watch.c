@@ -17,17 +17,18 @@
 enum { HELD = 16, KNOWN = 1 << 14, DEPTH = 24 };
 
 static _Thread_local bool answers;
-static _Thread_local double turn_ms; /* the processor time of the thread when its slice began */
+static _Thread_local double turn_ms; /* processor time of this thread at the start of its slice */
 static _Thread_local struct {
     const void *lock;
     double since_ms;
     bool slow;
 } held[HELD];
 static _Thread_local unsigned n_held;
-/* Hash table of locks by address. Its flags record the events while a lock was held. If two locks have the same slot,
- * the later one replaces the other, so that a violation may be missed. */
+/* Hash table of locks, by address. The flags of a lock record what happened while it was held: ANSWERED, a thread
+ * that answers requests has taken it; SYNCED, fsync was called. If two locks have the same slot, the later one
+ * replaces the earlier one, so that a violation may be missed. */
 enum { ANSWERED = 1, SYNCED = 2 };
-static _Atomic uintptr_t known[KNOWN]; /* the address of the lock, with the two flags in its lowest bits */
+static _Atomic uintptr_t known[KNOWN]; /* address of the lock; its two lowest bits hold the flags */
 
 static double used_ms(void)
 {
@@ -36,7 +37,7 @@ static double used_ms(void)
     return 1e3 * (double)t.tv_sec + 1e-6 * (double)t.tv_nsec;
 }
 
-/* True if KERRD_WATCH=tell is set, which means: report violations and continue. */
+/* True if KERRD_WATCH=tell is set. Violations are then reported, and the program continues. */
 static bool tells(void)
 {
     const char *how = getenv("KERRD_WATCH");
@@ -80,8 +81,8 @@ void kd_watch_taken(const void *lock)
     n_held++;
 }
 
-/* On a shared machine, the time of other processes may be counted as a thread's own. So a violation is reported only
- * if a thread exceeds four times the limit, or exceeds the limit for the third time. */
+/* On a shared machine, time of other processes may be counted as a thread's own. A violation is therefore reported
+ * only if a thread exceeds the limit for the third time, or exceeds four times the limit once. */
 static void too_long(const char *rule, double ms, double most_ms)
 {
     static _Thread_local unsigned times;
@@ -127,5 +128,5 @@ void kd_watch_slow_lock(void)
         held[n_held - 1].slow = true;
 }
 #else
-typedef int kd_watch_is_off; /* a translation unit must not be empty (C11, 6.9) */
+typedef int kd_watch_is_off; /* because a translation unit must not be empty (C11, section 6.9) */
 #endif

@@ -5,9 +5,9 @@
  *     A worker's slice takes at most 50 ms of the thread's processor time, and a lock is held for at most 2 ms of
  *     it.
  *     (A violation of less than four times these limits is tolerated twice for each thread.)
- *     No thread calls fsync while it holds a lock that a thread that answers requests also takes.
- *     A slow lock, which is held while a driver opens or closes a device, may be held for any time. A thread that
- *     answers requests never takes one.
+ *     No thread calls fsync while it holds a lock that request-answering threads also take.
+ *     A slow lock, which is held while a driver opens or closes a device, may be held for any time, but a thread
+ *     that answers requests never takes a slow lock.
  *
  * The linker redirects the calls of our own code to this file (src/base/meson.build). With KERRD_WATCH=tell in the
  * environment the program prints each violation and continues. Other builds contain none of this. Any thread. */
@@ -21,8 +21,8 @@ void kd_watch_answers(void); /* marks the calling thread as one that answers req
 void kd_watch_turn_begins(void);
 void kd_watch_turn_ends(void);
 void kd_watch_slow_lock(void); /* marks the lock that the calling thread took last as a slow lock */
-/* Hooks for watch_calls.c. The calling thread has taken or released a lock, is about to use a disk (syncs: by
- * fsync), or is about to destroy a lock. */
+/* Hooks for watch_calls.c. Each is called when the calling thread has taken a lock, has released a lock, is about to
+ * use a disk (syncs: true for fsync), or is about to destroy a lock. */
 void kd_watch_taken(const void *lock);
 void kd_watch_given(const void *lock);
 void kd_watch_disk(bool syncs);

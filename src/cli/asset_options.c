@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* limit of a file's size, for the largest grid: local files may be larger than those that a server accepts */
+/* limit of a file's size, enough for the largest grid; a server accepts only smaller files */
 #define ASSET_MAX ((size_t)1200 << 20)
 
 enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char *text, struct kd_error *error)
@@ -37,7 +37,7 @@ enum kd_status kd_asset_options_add(struct kd_asset_options *options, const char
     return KD_OK;
 }
 
-/* First bytes of other kinds of files that users may take for a grid or a picture. */
+/* First bytes of other kinds of files that users may mistake for a grid or a picture. */
 static const struct {
     const char *begin;
     size_t size;
@@ -56,7 +56,7 @@ static const struct {
     { "GIF8", 4, "a GIF" },
 };
 
-/* Detects whether the file is a grid of matter or a picture, and reads its description. */
+/* Detects whether the file is a grid of matter or a picture, and gets its description. */
 static enum kd_status look(const void *data, size_t size, struct kd_asset_found *out, struct kd_error *error)
 {
     struct kd_png_about about;

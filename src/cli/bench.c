@@ -66,8 +66,8 @@ static enum kd_status put_error(struct kd_buffer *out, double value)
     return isfinite(value) ? kd_buffer_printf(out, " %9.1e", value) : kd_buffer_printf(out, " %9s", "-");
 }
 
-/* Prints one line for each row: its speed, its median errors over the bulk set, and the largest tolerance that it
- * meets. */
+/* Prints one line for each row: the row's speed, its median errors over the bulk set, and the largest tolerance that
+ * the row meets. */
 static enum kd_status summarise(const struct kd_accuracy_table *t, struct kd_buffer *out)
 {
     enum kd_status status;
@@ -106,7 +106,7 @@ static enum kd_status write_as(const struct kd_accuracy_table *table, const char
     return status;
 }
 
-/* Stores the table. A quick table does not replace a thorough one of the same version. */
+/* Stores the table, except that a quick table does not replace a thorough one of the same version. */
 static enum kd_status keep(const struct kd_renderer *renderer, const struct kd_accuracy_table *table,
                            struct kd_buffer *said, struct kd_error *error)
 {
@@ -171,7 +171,7 @@ static char *command_of(int argc, char **argv)
     struct kd_buffer text = { 0 };
     for (int i = 0; i < argc; i++)
         if (kd_buffer_printf(&text, "%s%s", i ? " " : "", argv[i])) {
-            kd_buffer_finish(&text); /* the text is discarded, because a truncated command line would mislead */
+            kd_buffer_finish(&text); /* the text is discarded, because a truncated command line would be misleading */
             break;
         }
     return (char *)text.data;

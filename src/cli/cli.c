@@ -36,7 +36,7 @@ static error_t parse_log(int key, char *text, struct argp_state *state)
 
 static const struct argp_option log_options[] = {
     { "log-level", 'l', KD_CLI_LOG_LEVELS, 0, KD_CLI_LOG_LEVEL_DOC, 1 },
-    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 1 }, /* the same as --help; argp itself adds -? */
+    { NULL, 'h', NULL, OPTION_HIDDEN, NULL, 1 }, /* -h does the same as --help; argp itself adds -? */
     { 0 },
 };
 const struct argp kd_cli_log_argp = { .options = log_options, .parser = parse_log };
@@ -68,7 +68,8 @@ int kd_cli_fail(const struct kd_error *error)
 {
     char line[sizeof error->message + sizeof error->pointer + 8], shown[4 * sizeof line];
     snprintf(line, sizeof line, error->pointer[0] ? "%s (at %s)" : "%s", error->message, error->pointer);
-    kd_utf8_print(shown, sizeof shown, line); /* a document may contain escape sequences for terminals */
+    /* because a document may contain escape sequences that terminals would execute */
+    kd_utf8_print(shown, sizeof shown, line);
     if (kd_log_get_format() == KD_LOG_JSON)
         kd_log(KD_LOG_ERROR, "%s", shown);
     else
@@ -80,7 +81,8 @@ enum kd_status kd_cli_prefix(struct kd_error *error, const char *name)
 {
     char message[sizeof error->message];
     memcpy(message, error->message, sizeof message);
-    /* Name and message are truncated if necessary. The message matters more than the end of a long path. */
+    /* Name and message are truncated if necessary; the message gets more room, because it matters more than the end
+     * of a long path. */
     snprintf(error->message, sizeof error->message, "%.120s: %.350s", name, message);
     return error->status;
 }
@@ -94,7 +96,7 @@ _Noreturn void kd_cli_device_lost(const struct kd_error *error)
 
 void kd_cli_stdout_failed(int number)
 {
-    static bool told; /* prevents a second report, because kd_cli_close_stdout fails as well */
+    static bool told; /* true after the first report: kd_cli_close_stdout fails as well, and must not report it again */
     if (number == EPIPE) {
         signal(SIGPIPE, SIG_DFL);
         raise(SIGPIPE);
@@ -127,7 +129,7 @@ bool kd_cli_read_number(const char *text, unsigned minimum, unsigned maximum, un
     char *end;
     errno = 0;
     unsigned long value = strtoul(text, &end, 10);
-    /* strtoul also accepts "-1" and " 1". */
+    /* The first character is checked, because strtoul also accepts "-1" and " 1". */
     if (text[0] < '0' || text[0] > '9' || *end || errno || value < minimum || value > maximum)
         return false;
     *out = (unsigned)value;

@@ -6,13 +6,13 @@
 
 #include <stdio.h>
 
-/* Writes the QR code of a text (byte mode, error correction M) as half blocks, black on white by ANSI colours. Each
- * line of text holds two rows of modules. Returns KD_ENOMEM when out of memory. */
+/* Writes the QR code of a text (byte mode, error correction M), black on white with ANSI colours. Each line of
+ * output has half-block characters for two rows of modules. Returns KD_ENOMEM when out of memory. */
 enum kd_status kd_cli_code(FILE *to, const char *text);
 
-/* Chooses, from the names of this machine, the one that other machines can most likely reach. The order of
+/* Chooses, of the names of this machine, the one that other machines can most probably reach. The order of
  * preference is: an address of a private network, any other address, a name. names: NULL-terminated, or NULL.
- * Returns NULL if there is only loopback. */
+ * Returns NULL if all are loopback names. */
 const char *kd_cli_code_of(const char *const *names);
 
 #endif

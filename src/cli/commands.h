@@ -6,9 +6,9 @@
 #include <argp.h>
 #include <stddef.h>
 
-/* X(name, identifier in functions, one-line description), in the order of --help. Each line declares two functions,
- * which the subcommand's file defines. One is int kd_cli_ID(int argc, char **argv), described in cli.h. The other is
- * const struct argp *kd_cli_ID_argp(void), which returns its options, the same at each call. */
+/* X(name, identifier in function names, one-line description), in the order of --help. Each line declares two
+ * functions, which are defined in the subcommand's file: int kd_cli_ID(int argc, char **argv), described in cli.h,
+ * and const struct argp *kd_cli_ID_argp(void), which returns the options, the same at each call. */
 #define KD_COMMANDS(X) \
     X("render", render, "render a scene to a picture file") \
     X("view", view, "show a scene or an existing picture in the terminal") \
@@ -56,8 +56,8 @@ extern const size_t kd_n_commands;
 #define KD_CLI_ABOUT "Pictures of black holes: a Kerr renderer on a Vulkan device."
 #define KD_CLI_EXIT_CODES "0 success, 1 failure, 2 bad input or usage, 3 the device was lost or hangs"
 
-/* Options of one quantity of `kerrd physics`, whose first argument is the quantity's name. The result is valid until
- * the next call. */
+/* Options of one quantity of `kerrd physics`; the first argument of that subcommand is the quantity's name. The
+ * result is valid until the next call. */
 struct kd_quantity;
 const struct argp *kd_cli_quantity_argp(const struct kd_quantity *quantity);
 

@@ -1,5 +1,5 @@
-/* kerrd doctor: shows what this machine supports and what it lacks, and renders a tiny picture as proof. With an option
- * it runs the self-test instead. */
+/* kerrd doctor: shows what this machine supports and what is missing, and renders a tiny picture to prove that
+ * rendering works. With an option it runs the self-test instead. */
 #include "cli/cli.h"
 #include "cli/progress.h"
 #include "cli/selftest.h"
@@ -89,7 +89,7 @@ static bool print_devices(struct kd_error *error)
     return usable;
 }
 
-/* Prints the devices for scripts and for completions of --device. */
+/* Prints the devices in a form for scripts and for completions of --device. */
 static int list_devices(void)
 {
     struct kd_vk_info *list = NULL;
@@ -113,7 +113,7 @@ static enum kd_status print_choice(const char *device, struct kd_error *error)
     return status;
 }
 
-/* Prints the folder that is the default of kd_vk_params.cache_dir. */
+/* Prints the default folder of kd_vk_params.cache_dir. */
 static void print_cache(void)
 {
     const char *xdg = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -133,7 +133,7 @@ static void print_cache(void)
         free(path);
 }
 
-/* Prints whether validation layers are available. Only an attempt to load them can tell. */
+/* Prints whether validation layers are available. This is only known after an attempt to load them. */
 static void print_validation(const char *device)
 {
     struct kd_vk *vk = NULL;
@@ -157,7 +157,7 @@ static enum kd_status draw(struct kd_renderer *renderer, struct kd_error *error)
     KD_TRY(kd_scene_set(&scene, "image.width", WIDTH, error));
     KD_TRY(kd_scene_set(&scene, "image.height", HEIGHT, error));
     KD_TRY(kd_plan_make(&scene, &capacity, &plan, error));
-    for (int i = 0; i < 2; i++) { /* the first run compiles the kernels */
+    for (int i = 0; i < 2; i++) { /* two runs, because the first one also compiles the kernels */
         double started = kd_progress_clock();
         kd_frame_finish(&frame);
         KD_TRY(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, error));
@@ -212,7 +212,7 @@ static int examine(const char *device)
     printf("verdict: %s\n", status ? "not usable" : "usable");
     if (!status)
         return kd_cli_print("", 0);
-    fflush(stdout); /* text on stdout must be flushed before the message on stderr */
+    fflush(stdout); /* flushed, so that text on stdout comes before the message on stderr */
     kd_cli_fail(&error);
     return status == KD_EINVAL ? KD_EXIT_USAGE : KD_EXIT_FAILURE;
 }

@@ -7,10 +7,10 @@
 #include <string.h>
 #include <strings.h>
 
-/* length of the longest extension that is examined; mktemp's names have ten random letters behind a dot */
+/* maximum length of an extension; mktemp's names have ten random letters after a dot, which are no extension */
 enum { LETTERS_MAX = 9 };
 
-/* Further extensions for our formats. */
+/* Other extensions that stand for one of kerrd's formats. */
 static const struct {
     const char *ending, *format;
 } synonyms[] = {
@@ -19,8 +19,11 @@ static const struct {
 };
 
 static const char *const unfinished[] = {
-    "tmp", "part", "new", "old", "bak", NULL
-}; /* extensions of temporary names: the file will be renamed, or has been */
+    "tmp", "part", "new", "old",
+    "bak", NULL
+    /* extensions of temporary and backup files, which are accepted for all formats because the file was or will be
+     * renamed */
+};
 
 static const char *find(const char *const words[], const char *word)
 {
@@ -29,7 +32,7 @@ static const char *find(const char *const words[], const char *word)
     return *words;
 }
 
-/* Copies the extension without its dot, or "". An extension begins with a letter. */
+/* Copies the extension without its dot; "" if there is none. An extension begins with a letter. */
 static void ending_of(const char *path, char out[LETTERS_MAX + 1])
 {
     const char *slash = strrchr(path, '/'), *dot = strrchr(slash ? slash : path, '.');
@@ -51,7 +54,7 @@ _Noreturn static void refuse(const struct argp_state *state, const char *option,
                                                 : " or ",
                                  strcmp(known[i], "text") ? known[i] : "txt");
     argp_error(state, "%s is \"%s\"; the name must end in %s", option, path, list);
-    exit(argp_err_exit_status); /* not reached, because argp_error does not return */
+    exit(argp_err_exit_status); /* not reached, because argp_error exits */
 }
 
 const char *kd_cli_ending(const struct argp_state *state, const char *option, const char *path,

@@ -42,10 +42,11 @@ enum kd_status kd_file_read(const char *path, size_t most, struct kd_buffer *out
     return status;
 }
 
-/* The file that a symbolic link finally leads to. A rename would replace the link instead of that file. */
+/* The file at the end of a chain of symbolic links. It is found first, because a rename would replace the link
+ * instead of the file. */
 struct target {
     char *path;    /* malloc'd */
-    bool in_place; /* the path exists and is not a regular file, so it must not be replaced */
+    bool in_place; /* true if the path exists but is not a regular file, so that it must not be replaced */
 };
 
 static enum kd_status find_target(const char *path, struct target *out, struct kd_error *error)
@@ -65,7 +66,8 @@ static enum kd_status find_target(const char *path, struct target *out, struct k
     return KD_OK;
 }
 
-/* Creates an empty file beside the target, with the permissions that a new file gets. *temporary is malloc'd. */
+/* Creates an empty file in the folder of the target, with the usual permissions of a new file. *temporary is
+ * malloc'd. */
 static int open_beside(const char *path, char **temporary)
 {
     *temporary = NULL;

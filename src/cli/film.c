@@ -1,4 +1,4 @@
-/* kerrd film: renders all frames of a job's request and makes a film of them. */
+/* kerrd film: renders all frames of a job's request, and makes a film or another file from them. */
 #include "base/program.h"
 #include "cli/cli.h"
 #include "cli/ending.h"
@@ -21,10 +21,10 @@
 enum { KEY_RATE = 256, KEY_STATE, KEY_SAMPLES, KEY_SHUTTER, KEY_ONLY };
 
 struct arguments {
-    struct kd_scene_command base; /* the document of these options is the request of a film */
+    struct kd_scene_command base; /* scene options; with them, the document is the request of a film */
     const char *state;
-    const struct kd_gather_format *kind; /* format of the film; NULL: none, only frames are made */
-    unsigned rate, samples, first, last; /* first, last: numbers of the first and the last frame to render */
+    const struct kd_gather_format *kind; /* format of the film; NULL: only frames are made */
+    unsigned rate, samples, first, last; /* first, last: numbers of the first and last frame to render */
     bool only;
     double shutter;
 };
@@ -64,7 +64,7 @@ static const struct kd_gather_format *kind_of(const char *path, const struct arg
     return kinds[i];
 }
 
-/* Parses a range such as "3:17", which includes both frames. */
+/* Parses a range of frames such as "3:17"; both ends are included. */
 static void read_only(struct arguments *arguments, const char *text, const struct argp_state *state)
 {
     int end = 0;
@@ -118,10 +118,10 @@ struct work {
     struct kd_renderer *renderer;
     struct kd_frames frames;
     struct kd_film_state state;
-    struct kd_playground *bodies; /* playground of a film, in its state at the next frame */
+    struct kd_playground *bodies; /* the film's playground, in the state for the next frame; NULL if there is none */
     struct kd_encoder encoder;
     struct kd_progress progress;
-    unsigned reused, measured, traced; /* reused: number of frames found in the folder */
+    unsigned reused, measured, traced; /* reused: number of frames that were found in the folder */
 };
 
 static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error *error)
@@ -129,8 +129,8 @@ static enum kd_status change(void *user, struct kd_scene *scene, struct kd_error
     return kd_scene_options_set(user, scene, error);
 }
 
-/* Parses the request. --preset and --from give the scene that the request's scenes are merged over. --set and --size
- * are applied last. */
+/* Parses the request. --preset and --from give a base scene, onto which the request's scenes are merged. --set and
+ * --size are applied last. */
 static enum kd_status read_request(struct work *w, struct kd_error *error)
 {
     struct kd_scene_options *options = &w->arguments->base.options, beneath = *options;
@@ -170,8 +170,8 @@ done:
     return status;
 }
 
-/* Computes a hash of everything on which frames depend: the request, the options, and the contents of the files that
- * these name. */
+/* Computes a hash of everything that determines the frames: the request, the options, and the contents of the files
+ * that these name. */
 static enum kd_status identify(struct work *w, struct kd_error *error)
 {
     const struct kd_scene_options *options = &w->arguments->base.options;
@@ -269,7 +269,7 @@ done:
     return status;
 }
 
-/* Measures the common exposure if the film has one and film.json does not contain it yet. Writes film.json. */
+/* If the film has a common exposure that film.json does not contain yet, measures it. Writes film.json. */
 static enum kd_status expose(struct work *w, struct kd_error *error)
 {
     unsigned frames[KD_JOB_EXPOSURE_FRAMES];
@@ -286,7 +286,7 @@ done:
     return status;
 }
 
-/* Moves the playground from the previous frame to this one, like the server's jobs, and returns its bodies. */
+/* Advances the playground from the previous frame to this one, as the server's jobs do, and returns its bodies. */
 static enum kd_status move(struct work *w, unsigned number, double begin, struct kd_dynamic_bodies **out,
                            struct kd_error *error)
 {

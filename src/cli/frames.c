@@ -14,7 +14,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define WAIT_NS 5000000 /* pause between two calls of go_on while another program works */
+#define WAIT_NS 5000000 /* time in ns between two calls of go_on while another program works */
 
 static enum kd_status make_room(struct kd_frames *f, struct kd_error *error)
 {
@@ -56,7 +56,7 @@ static void name_of(const struct kd_frames *f, unsigned frame, char out[32])
     snprintf(out, 32, "%06u.%s", frame, f->format->name);
 }
 
-/* Removes files that killed processes have left half written. */
+/* Removes unfinished files that killed processes have left behind. */
 static void remove_halves(const struct kd_frames *f)
 {
     int fd = openat(f->folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -156,7 +156,7 @@ static bool size_of(void *user, unsigned frame, uint64_t *out)
     return *out > 0;
 }
 
-/* State of the combined file while it is written. */
+/* State of writing the combined file. */
 struct pour {
     const struct kd_frames_whole *whole;
     struct kd_gather gather;

@@ -21,12 +21,12 @@ struct arguments {
     const char *input, *output, *format;
     const struct kd_row_options *rows;
     struct kd_row_texts given;
-    const char *observation;       /* file of observations that the scene is compared with */
-    struct kd_scene_options scene; /* options of the scene, for integrals that accept one */
+    const char *observation;       /* file of observations that are compared with the scene */
+    struct kd_scene_options scene; /* options of the scene, for integrals that use one */
     const char *device;
 };
 
-/* True if the integral may be computed from pictures. */
+/* True if the integral can be computed from pictures of a scene. */
 static bool may_have_scene(enum kd_integral what)
 {
     return what == KD_INTEGRAL_SPECTRUM || kd_integral_is_pictured(what);
@@ -210,7 +210,7 @@ done:
     return status;
 }
 
-/* Makes an option for each field: --inclination-deg for inclination_deg. */
+/* Makes an option for each field, for example --inclination-deg for inclination_deg. */
 static void set_options(enum kd_integral what, struct argp_option *options, struct kd_row_options *rows)
 {
     const struct kd_document document = {
@@ -246,7 +246,7 @@ static void set_options(enum kd_integral what, struct argp_option *options, stru
     options[n] = (struct argp_option) { 0 };
 }
 
-/* Options of one integral, and the texts that these options refer to. */
+/* Options of one integral, and the texts that they refer to. */
 struct table {
     struct argp argp;
     struct argp_option options[KD_ROW_OPTIONS + 4];

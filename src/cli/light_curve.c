@@ -52,7 +52,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return kd_scene_command_parse(key, text, state);
 }
 
-/* Parses the first and the last time. Their range and messages are those of the scene's own time. */
+/* Parses the first and the last time. Valid ranges and messages are those of the scene's field `time`. */
 static enum kd_status span(const struct arguments *arguments, struct kd_scene *scene, double *to,
                            struct kd_error *error)
 {

@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-/* Source of the answer's bytes. */
+/* Source of the bytes of the answer. */
 struct source {
     struct kd_orbit_feed *feed;
     struct kd_buffer ready;
@@ -118,7 +118,7 @@ static void *help(void *feed)
     return NULL;
 }
 
-/* Integrates many orbits on all cores, before the answer is read. */
+/* Integrates many orbits on all cores, before the answer is read in order. */
 static void share(struct kd_orbit_feed *feed)
 {
     pthread_t threads[15];
@@ -141,7 +141,7 @@ static enum kd_status write_answer(const struct arguments *arguments, struct kd_
             return status;
     }
     kd_progress_begin(&source.progress, 1);
-    /* The first bytes are computed before the file is opened, so that no file is made if the input is invalid. */
+    /* Computes the first bytes before the file is opened, so that invalid input leaves no file. */
     source.status = kd_orbit_feed_more(feed, &source.ready, error);
     if (!source.status && feed->request->many) {
         share(feed);
@@ -175,8 +175,8 @@ static enum kd_status run(const struct arguments *arguments, struct kd_error *er
 
 static void set_options(struct argp_option *options)
 {
-    /* Options that define an orbit. A case comes first and a state last, because the meaning of --r depends on the
-     * constants. */
+    /* The forms in which options can define an orbit. The case is first and the state is last, because the meaning
+     * of --r depends on the constants. */
     static const struct {
         enum kd_orbit_form form;
         const char *about;

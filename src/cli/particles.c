@@ -1,4 +1,4 @@
-/* kerrd particles: positions of a scene's particles as an array for NumPy. */
+/* kerrd particles: writes the positions of a scene's particles as an array for NumPy. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -46,7 +46,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return kd_scene_command_parse(key, text, state);
 }
 
-/* Source of the file's bytes. They are made in slices. */
+/* Source of the bytes of the file, which are made in slices. */
 struct source {
     struct kd_renderer *renderer;
     struct kd_particle_list list;

@@ -1,4 +1,4 @@
-/* kerrd physics: quantities by name. */
+/* kerrd physics: computes physical quantities, each selected by its name. */
 #include "base/spelling.h"
 #include "cli/cli.h"
 #include "cli/ending.h"
@@ -41,7 +41,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Options of one quantity, and the texts that these options refer to. */
+/* Options of one quantity, and the texts that they refer to. */
 struct options {
     struct argp_option table[KD_QUANTITY_PARAMETERS + 4];
     char names[KD_QUANTITY_PARAMETERS][NAME_SIZE], values[KD_QUANTITY_PARAMETERS][NAME_SIZE],

@@ -1,4 +1,4 @@
-/* kerrd plan: cost of a scene on this device. */
+/* kerrd plan: estimates what a scene costs on this device. */
 #include "cli/cli.h"
 #include "cli/scene_command.h"
 #include "render/output/cost.h"

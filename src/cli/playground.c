@@ -35,8 +35,8 @@ struct arguments {
     const char *sets[SETS_MAX];
     size_t n_sets;
     double time;
-    /* bounded: --set budget was given. Otherwise there is no limit, because the setting `budget` is meant for
-     * servers */
+    /* bounded: true if --set budget was given. Otherwise there is no budget, because this setting is meant for
+     * servers. */
     bool list, bounded;
     struct kd_pictures_asked pictures;
 };
@@ -177,12 +177,12 @@ done:
     return status;
 }
 
-/* Events since the beginning, one on each line. If a sub-step has more than KD_PLAYGROUND_EVENTS events, the oldest are
- * lost; a line states how many. */
+/* The text of all events since the beginning, one per line. If a sub-step has more than KD_PLAYGROUND_EVENTS events,
+ * the oldest are lost; a line then states how many. */
 struct story {
     struct kd_buffer text;
-    uint64_t told, lost;      /* told: number of the last event written; lost: number of lost events */
-    struct kd_error short_of; /* the reason why the simulation ended early; status KD_OK: it did not end early */
+    uint64_t told, lost;      /* told: number of the last event that was written; lost: number of lost events */
+    struct kd_error short_of; /* the reason why the simulation ended early; status KD_OK if it did not */
 };
 
 static enum kd_status add_lost(struct story *story, uint64_t to)
@@ -201,7 +201,7 @@ static enum kd_status go_on_telling(struct story *story, const struct kd_playgro
 {
     const uint64_t last = p->events.last, first = last > KD_PLAYGROUND_EVENTS
                                                       ? last - KD_PLAYGROUND_EVENTS
-                                                      : 0; /* number of the event before the first stored one */
+                                                      : 0; /* number of the event before the oldest stored one */
     enum kd_status status = KD_OK;
     if (story->told < first) {
         KD_TRY(add_lost(story, first));
@@ -242,7 +242,8 @@ static enum kd_status write_one(struct kd_playground *p, enum what what, const c
     return status;
 }
 
-/* Records why time stops before t. Only the first reason is reported, after everything is written. */
+/* Records why the simulation stops before the time t. Only the first reason is reported, after everything is
+ * written. */
 static void tell_short(const struct kd_playground *p, double t, bool bounded, struct kd_error *short_of)
 {
     if (short_of->status)
@@ -263,8 +264,8 @@ static void tell_short(const struct kd_playground *p, double t, bool bounded, st
                      p->t, t, p->params.budget);
 }
 
-/* Moves the playground to the time t. The budget of sub-steps is meant for servers, so it applies only if the option
- * --set budget was given. */
+/* Advances the playground to the time t. The budget of sub-steps is meant for servers, so it applies only with the
+ * option --set budget. */
 static enum kd_status go_on(const struct arguments *a, struct kd_playground *p, double t, struct story *story,
                             struct kd_error *error)
 {
@@ -310,7 +311,7 @@ done:
     return status;
 }
 
-/* Checks that all files can be written, because moving the bodies may take minutes. */
+/* Checks in advance that all files can be written, because the simulation may take minutes. */
 static enum kd_status check_files(const struct arguments *a, struct kd_error *error)
 {
     const char *const files[] = { a->output, a->series, a->fallback, a->events };
@@ -329,7 +330,7 @@ static enum kd_status work(struct arguments *a, struct kd_error *error)
     KD_TRY(kd_pictures_check(&a->pictures, error));
     KD_TRY(check_files(a, error));
     KD_TRY(load(a, &p, error));
-    story.told = p->events.last; /* skips the events that the snapshot contains already */
+    story.told = p->events.last; /* skips the events that the snapshot already contains */
     kd_playground_series_begin(p, a->time);
     if (a->pictures.path)
         KD_TRY(film(a, p, &story, error));

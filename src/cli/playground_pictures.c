@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Finds the only %d in a path; it may have a width. Returns NULL if there is none, or if the path has any other
- * conversion of printf. */
+/* Finds the only %d in a path. The %d may have a width. Returns NULL if there is none, or if the path contains
+ * another conversion of printf. */
 static const char *number_in(const char *path, int *length)
 {
     const char *at = strchr(path, '%'), *end = at;
@@ -43,7 +43,7 @@ enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct k
     return KD_OK;
 }
 
-/* Loads the scene. If no scene is given, it has the playground's hole. */
+/* Loads the scene. If no scene is given, uses one with the playground's hole. */
 static enum kd_status load(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
                            struct kd_scene *out, struct kd_error *error)
 {
@@ -65,7 +65,7 @@ static void name_of(const struct kd_pictures *p, char out[4096])
         snprintf(out, 4096, "%s", p->asked->path);
         return;
     }
-    /* numbers in names are padded with zeros, whether or not the width has a leading 0 */
+    /* numbers are padded with zeros even if the width has no leading 0 */
     const int width = atoi(at + 1);
     snprintf(out, 4096, "%.*s%0*u%s", (int)(at - p->asked->path), p->asked->path, width, p->made, at + length);
 }

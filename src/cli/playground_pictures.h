@@ -11,10 +11,10 @@
 
 struct kd_pictures_asked {
     const struct kd_format *format; /* format of the pictures; NULL if path is NULL */
-    /* File of one picture at the end. If `every` is set: a pattern with one %d, such as film/%05d.png. NULL: no
-     * pictures. */
+    /* path: file for one picture at the end. If `every` is set, it is a pattern with one %d, such as film/%05d.png.
+     * NULL: no pictures are made. */
     const char *path;
-    double every; /* time between two pictures in M, counted from the beginning; 0: one picture */
+    double every; /* time in M between two pictures, counted from the start; 0: one picture at the end */
     struct kd_scene_options scene;
     const char *device;
     uint64_t memory;
@@ -29,14 +29,14 @@ struct kd_pictures {
     const struct kd_format *format;
     struct kd_encoder encoder;
     unsigned made;
-    double ms; /* render time of all pictures */
+    double ms; /* total render time of all pictures */
 };
 
-/* Returns KD_EINVAL if path is not valid. If `every` is set, the path must contain exactly one %d as in printf;
- * otherwise it must contain none. */
+/* Returns KD_EINVAL if path is not valid. If `every` is set, the path must contain exactly one %d, as in printf.
+ * Otherwise it must contain none. */
 enum kd_status kd_pictures_check(const struct kd_pictures_asked *asked, struct kd_error *error);
-/* Prepares rendering. view: JSON of the scene that is used if no scene is given. If view is NULL too, the default
- * scene is used, with the camera at the distance of the bodies. */
+/* Prepares rendering. view: JSON of the scene to use if no scene was given. If view is NULL as well, the default
+ * scene is used, and the distance of its camera is chosen by the distance of the bodies. */
 enum kd_status kd_pictures_begin(struct kd_pictures_asked *asked, const char *view, const struct kd_playground *p,
                                  struct kd_pictures *out, struct kd_error *error);
 /* Renders the playground in its present state and writes the file. */

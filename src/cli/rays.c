@@ -1,4 +1,4 @@
-/* kerrd rays: end points of listed rays. */
+/* kerrd rays: computes the end points of listed rays. */
 #include "cli/cli.h"
 #include "cli/ending.h"
 #include "cli/file.h"
@@ -23,9 +23,9 @@ static struct kd_row_options rows;
 struct arguments {
     const char *input, *output, *device, *format;
     struct kd_row_texts fields;
-    /* trace: write the steps of the ray; points: write points of its path in place of the steps */
+    /* trace: write the steps of the ray; points: write the points of its path instead of the steps */
     bool trace, points;
-    struct kd_rays_request more; /* the rays that are given by --ray */
+    struct kd_rays_request more; /* the rays given by the options --ray */
 };
 
 static const struct argp_option own[] = {
@@ -49,7 +49,8 @@ static void add_ray(struct arguments *arguments, const char *text, struct argp_s
         argp_failure(state, KD_EXIT_FAILURE, ENOMEM, "--ray");
 }
 
-/* If no format is given, takes it from the output's name. Text is possible for steps only, NPY only without steps. */
+/* If no format was given, derives it from the output's name. Text is available only for steps, and NPY only without
+ * steps. */
 static void settle_format(struct arguments *arguments, const struct argp_state *state)
 {
     const char *const *known = arguments->trace ? KD_ENDINGS("text", "json", "csv") : KD_ENDINGS("json", "npy", "csv");
@@ -139,7 +140,7 @@ done:
     return status;
 }
 
-/* Chooses engine, precision and steps by the requested accuracy. Opens a device if that is needed. */
+/* Chooses engine, precision and number of steps for the requested accuracy. Opens a device if one is needed. */
 static enum kd_status settle(const struct arguments *arguments, struct kd_rays_request *request,
                              struct kd_renderer **renderer, struct kd_error *error)
 {
@@ -163,7 +164,7 @@ static enum kd_status trace(struct kd_renderer *renderer, struct kd_rays_answer 
     enum kd_status status = kd_rays_trace(renderer, &answer->params, answer->alpha_beta, answer->n, answer->crossings,
                                           answer->ends, kd_progress_update, &progress, error);
     kd_progress_finish(&progress);
-    /* An error with a pointer means that the device lacks a feature, not that the device is lost. */
+    /* An error with a pointer means that the device lacks a feature; it does not mean that the device is lost. */
     if (status == KD_EDEVICE && !*error->pointer)
         kd_cli_device_lost(error);
     return status ? status : kd_rays_answer_summarise(answer, error);
@@ -233,7 +234,7 @@ static enum kd_status run_trace(const struct arguments *arguments, struct kd_err
     KD_TRY(settle(arguments, &request, &renderer, error));
     if (request.params.observer) {
         kd_rays_looks_label(&request.params, request.alpha_beta, 1, request.alpha_beta, &outward, &energy);
-        request.params.observer = 0; /* from here on the ray is described without reference to an observer */
+        request.params.observer = 0; /* from here on, the ray does not refer to an observer */
     }
     status = kd_rays_steps(renderer, &request.params, &(struct kd_ray_labels) { request.alpha_beta, &outward, 1 },
                            &steps, error);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Writes the placeholder of an option's argument in --help. */
+/* Writes the placeholder of an option's argument for --help. */
 static void name_value(const struct kd_row *row, char *out, size_t size)
 {
     const bool word = row->kind == KD_KIND_REAL && row->words;
@@ -21,15 +21,15 @@ static void name_value(const struct kd_row *row, char *out, size_t size)
     snprintf(out, size, "%s%s%s", plain, word ? "|" : "", word ? row->words : "");
 }
 
-/* Describes the default value of a row. Writes nothing if the row has no default, or is a list. */
+/* Describes the default value of a row. Writes nothing for a row without default, and for a list. */
 static void name_default(const struct kd_row *row, const void *from, char *out, size_t size)
 {
     const void *at = from ? (const char *)from + row->offset : NULL;
-    char text[KD_WORD_ROOM] = ""; /* enough for a word; a number is shorter */
+    char text[KD_WORD_ROOM] = ""; /* large enough for a word; a number is shorter */
     int word = 0;
     double number = NAN;
     *out = 0;
-    /* an option without a default is skipped, because the help already states it */
+    /* skipped if there is no default, or if the help text already states the default */
     if (!at || row->needed || strstr(row->help, "default"))
         return;
     switch (row->kind) {
@@ -73,7 +73,7 @@ void kd_row_options_add(struct kd_row_options *to, struct argp_option *table, si
             *c = '-';
         if ((document->of && row->of && !(row->of & document->of)) || has(to, option))
             continue;
-        /* if a table outgrows this array, the command fails at every start, so that the mistake is noticed */
+        /* If a table outgrows this array, the command fails at every start, so that this mistake is noticed at once. */
         if (to->n == KD_ROW_OPTIONS)
             abort();
         const size_t k = to->n++;

@@ -94,7 +94,7 @@ const struct argp *kd_cli_presets_argp(void)
 int kd_cli_presets(int argc, char **argv)
 {
     argp_parse(kd_cli_presets_argp(), argc, argv, 0, NULL, NULL);
-    /* the text is made before anything is written, so that an error of writing is reported as such */
+    /* The text is complete before anything is written, so that a write error is reported as such. */
     struct kd_buffer out = { 0 };
     enum kd_status status = KD_OK;
     for (size_t i = 0; i < kd_scene_preset_count() && !status; i++)

@@ -1,4 +1,4 @@
-/* Options that choose a scene. Several subcommands have them. Main thread only.
+/* Options that choose a scene; several subcommands have them. Main thread only.
  *
  * The scene is merged in this order: the defaults or --preset; the document SCENE, or the scene in the picture of
  * --from; every --set and --size in the order in which they are given. Then --asset replaces the names of assets. */
@@ -14,31 +14,32 @@
 struct kd_scene_options {
     const char *document; /* a path or "-"; NULL: none */
     const char *preset, *from;
-    /* true: the document is a patch that is merged over a scene, so it may be combined with --from */
+    /* true if the document is a patch for another scene, so that it may be combined with --from */
     bool document_is_over;
-    const char **set; /* texts "path=value", from --set, --size and --tile */
+    const char **set; /* texts "path=value" from --set, --size and --tile */
     size_t n_set;
     struct kd_asset_options assets;
-    char width[32], height[32]; /* texts of the entries of `set` that --size has made */
-    char tile[4][40];           /* texts of the entries of `set` that --tile has made */
+    char width[32], height[32]; /* storage for the entries of `set` that come from --size */
+    char tile[4][40];           /* storage for the entries of `set` that come from --tile */
 };
 
 #define KD_SCENE_ARGS_DOC "[SCENE.json|-]"
 
-/* An argp child. Its input is a struct kd_scene_options that is initialised to 0. It takes the positional argument. */
+/* A child for argp, with these options. Its input is a struct kd_scene_options, initialised to 0. It also parses the
+ * positional argument. */
 extern const struct argp kd_scene_options_argp;
-/* The child parsers of these options: the options of the scene first, then the two children of cli.h. */
+/* Children for argp: these options first, and then the two children of cli.h. */
 extern const struct argp_child kd_scene_device_children[];
 
 /* Loads and validates the merged scene. */
 enum kd_status kd_scene_options_load(struct kd_scene_options *options, struct kd_scene *out, struct kd_error *error);
-/* Like kd_scene_options_load, but merges over *scene. For commands without --preset and --from. */
+/* Like kd_scene_options_load, but the options are merged over *scene. For commands without --preset and --from. */
 enum kd_status kd_scene_options_merge(struct kd_scene_options *options, struct kd_scene *scene, struct kd_error *error);
-/* Applies every --set and --size to *scene, without validation. */
+/* Applies all --set and --size options to *scene, without validation. */
 enum kd_status kd_scene_options_set(const struct kd_scene_options *options, struct kd_scene *scene,
                                     struct kd_error *error);
-/* Append "path=value" itself, or the fields of a size such as "1920x1080" or of a tile. Return false when out of
- * memory, or if the text is malformed. */
+/* Each appends texts "path=value": the text itself, the fields of a size such as "1920x1080", or the fields of a
+ * tile. Returns false when out of memory, or if the text is malformed. */
 bool kd_scene_options_add_set(struct kd_scene_options *options, const char *text);
 bool kd_scene_options_add_size(struct kd_scene_options *options, const char *text);
 bool kd_scene_options_add_tile(struct kd_scene_options *options, const char *text);

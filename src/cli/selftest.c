@@ -11,9 +11,9 @@
 #include <stdlib.h>
 
 struct report {
-    struct kd_json *rows; /* NULL: the output is text */
+    struct kd_json *rows; /* NULL if the output is text */
     unsigned checks, failed, compared;
-    double nearest; /* the largest ratio of error to bound among the checks that passed */
+    double nearest; /* largest ratio of error to bound of all checks that passed */
     char nearest_what[128];
 };
 
@@ -29,7 +29,7 @@ static void add_row(struct kd_json *rows, const struct kd_selftest_row *row)
     kd_json_string(rows, "what", row->what);
     kd_json_string(rows, "by", row->by);
     kd_json_number(rows, "compared", row->compared);
-    if (isfinite(row->error)) /* a value that is not finite is left out, as in all JSON of kerrd */
+    if (isfinite(row->error)) /* left out if it is infinite or NaN, as in all JSON of kerrd */
         kd_json_number(rows, "error", row->error);
     kd_json_number(rows, "bound", row->bound);
     kd_json_bool(rows, "ok", row->ok);
@@ -52,7 +52,7 @@ static bool report(void *user, const struct kd_selftest_row *row)
     else
         print_row(row);
     if (fflush(stdout))
-        kd_cli_stdout_failed(errno); /* reported here, while errno still has the reason */
+        kd_cli_stdout_failed(errno); /* reported here, while errno still holds the reason */
     return true;
 }
 

@@ -6,8 +6,8 @@
 
 #include <stdbool.h>
 
-/* Runs the self-test on the device and prints its table, or a JSON document if `json` is true. *failed is the number
- * of failed checks. Failed checks alone do not change the result KD_OK. */
+/* Runs the self-test on the device and prints its results, as a table or, if `json` is true, as a JSON document.
+ * *failed: number of failed checks. The function returns KD_OK even if checks have failed. */
 enum kd_status kd_cli_selftest(const char *device, bool json, unsigned *failed, struct kd_error *error);
 
 #endif

@@ -23,13 +23,13 @@
 const struct kd_cli_setting kd_serve_settings[KD_SERVE_COUNT] = { KD_SERVE_SETTINGS(ROW, KD_SERVE_NOTHING) };
 _Static_assert((int)KD_SERVE_COUNT <= (int)KD_SETTINGS_MOST, "the reader of a file has room for the table");
 
-/* A switch may be given as yes or no, so that a flag can override the file. */
+/* A switch may also be given with the value yes or no, so that a flag can override the file. */
 #define OPTION(id, name, letter, argument, kind, least, most, initial, where, doc) \
     { name, letter, argument, KD_SETTING_##kind == KD_SETTING_SWITCH && argument ? OPTION_ARG_OPTIONAL : 0, doc, 0 },
 #define HEADING(text) { NULL, 0, NULL, 0, text, 0 },
 static const struct argp_option table[] = {
     KD_SERVE_SETTINGS(OPTION, HEADING) { NULL, 'h', NULL, OPTION_HIDDEN, NULL,
-                                         0 }, /* the same as --help; argp itself adds -? */
+                                         0 }, /* -h does the same as --help; argp itself adds -? */
     { 0 },
 };
 
@@ -42,7 +42,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
         argp_state_help(state, stdout, ARGP_HELP_STD_HELP);
     if (key == ARGP_KEY_ARG)
         argp_error(state, "%s cannot be used, because the command takes no argument", text);
-    size_t i = 0; /* index of the setting; headings are not counted */
+    size_t i = 0; /* index of the setting; headings do not count */
     const struct argp_option *option = table;
     while (i < KD_SERVE_COUNT && option->key != key)
         i += (option++)->key != 0;
@@ -56,7 +56,7 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return 0;
 }
 
-static struct kd_server *running; /* a global variable, because a signal handler gets no argument */
+static struct kd_server *running; /* global, because a signal handler has no argument for it */
 
 static void on_signal(int number)
 {
@@ -70,12 +70,12 @@ static void set_signals(void (*handler)(int))
     struct sigaction hangup;
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGINT, &action, NULL);
-    /* if nohup has set the signal to be ignored, it stays ignored */
+    /* A signal that nohup has set to be ignored stays ignored. */
     if (!sigaction(SIGHUP, NULL, &hangup) && hangup.sa_handler != SIG_IGN)
         sigaction(SIGHUP, &action, NULL);
 }
 
-/* Shows the QR code if standard output is a terminal. A log file needs none. */
+/* Shows the QR code, but only on a terminal: a log file needs none. */
 static void show_code(const char *address, uint16_t port, const char *base_path, const char *const *own)
 {
     const char *const listened[] = { address, NULL };
@@ -92,19 +92,19 @@ static void show_code(const char *address, uint16_t port, const char *base_path,
 
 static void announce(const char *address, uint16_t port, const char *base_path, const char *const *own)
 {
-    bool six = strchr(address, ':'); /* URLs need brackets round an IPv6 address */
+    bool six = strchr(address, ':'); /* in a URL an IPv6 address needs brackets */
     printf("kerrd: listening on http://%s%s%s:%u%s/\n", six ? "[" : "", address, six ? "]" : "", port, base_path);
     for (const char *const *name = own; name && *name; name++)
         printf("kerrd: reachable at http://%s:%u%s/\n", *name, port, base_path);
     show_code(address, port, base_path, own);
-    /* The parent may be waiting for this line in a pipe. If the line cannot be written, the service continues. */
+    /* A parent process may wait for this line in a pipe. The service continues even if the line cannot be written. */
     if (fflush(stdout) || ferror(stdout))
         kd_log(KD_LOG_ERROR, "cannot write to standard output: %s", strerror(errno));
     clearerr(stdout);
 }
 
-/* Waits for the end of standard input. The parent holds the other end of the pipe, which is closed even if the parent
- * is killed. */
+/* Waits for the end of standard input. The parent process holds the other end of the pipe, which closes even if the
+ * parent is killed. */
 static void *await_eof(void *unused)
 {
     char bytes[64];
@@ -128,7 +128,7 @@ static enum kd_status stop_at_eof(struct kd_error *error)
     if (code)
         return kd_error_set(error, KD_EIO, "cannot start the thread that waits for the end of standard input: %s",
                             strerror(code));
-    pthread_detach(thread); /* the thread is not joined, because it ends with the process */
+    pthread_detach(thread); /* not joined, because the thread ends together with the process */
     return KD_OK;
 }
 
@@ -184,7 +184,7 @@ static enum kd_status serve(const struct kd_settings *settings, struct kd_error 
     status = kd_server_wait(running, error);
     if (status == KD_EDEVICE)
         kd_cli_device_lost(error);
-    /* signals are ignored, because the server has stopped and another Ctrl-C must not change the exit code */
+    /* From here on signals are ignored: the server has stopped, and another Ctrl-C must not change the exit code. */
     set_signals(SIG_IGN);
     kd_server_destroy(running);
     return status;
@@ -210,12 +210,14 @@ static void set_log(const struct kd_settings *settings)
     kd_log_set_format(strcmp(kd_settings_text(settings, KD_SERVE_LOG_FORMAT), "json") ? KD_LOG_TEXT : KD_LOG_JSON);
 }
 
-/* Reads the environment and the file. The flags are read before, because they may name the file and take precedence. */
+/* Reads the environment and the configuration file. The flags were read before: they may name the file, and they
+ * take precedence. */
 static enum kd_status configure(struct kd_settings *settings, struct kd_error *error)
 {
     enum kd_status status;
     KD_TRY(kd_settings_read_environment(settings, environ, error));
-    /* set before the file is read, so that errors in the file are logged as flags and environment require */
+    /* set before the file is read, so that errors in the file are logged at the level and in the format of flags and
+     * environment */
     set_log(settings);
     if (kd_settings_text(settings, KD_SERVE_CONFIG))
         KD_TRY(kd_settings_read_file(settings, kd_settings_text(settings, KD_SERVE_CONFIG), error));

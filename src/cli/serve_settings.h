@@ -1,5 +1,5 @@
-/* List of the options of `kerrd serve`. Flags, members of the configuration file, environment variables, help, the
- * manual page, completions and docs/options.md are made from this list. Constant data. */
+/* The options of `kerrd serve`. This list determines the flags, the members of the configuration file, the
+ * environment variables, the help, the manual page, the completions and docs/options.md. Constant data. */
 #ifndef KD_CLI_SERVE_SETTINGS_H
 #define KD_CLI_SERVE_SETTINGS_H
 

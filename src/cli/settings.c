@@ -35,7 +35,7 @@ void kd_settings_finish(struct kd_settings *settings)
     *settings = (struct kd_settings) { 0 };
 }
 
-/* Returns 1 for on, 0 for off, -1 for neither. */
+/* Returns 1 for on, 0 for off, and -1 for any other text. */
 static int switch_of(const char *text)
 {
     static const char *const words[] = { "no", "yes", "false", "true", "0", "1" };
@@ -90,7 +90,7 @@ enum kd_status kd_settings_give(struct kd_settings *settings, size_t i, enum kd_
     return KD_OK;
 }
 
-/* The values that are in effect for a setting; NULL if none is given. */
+/* The values of a setting that are in effect; NULL if none was given. */
 static const struct kd_setting_values *found(const struct kd_settings *settings, size_t i)
 {
     for (int source = KD_SETTING_SOURCES - 1; source >= 0; source--)

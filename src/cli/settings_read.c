@@ -21,7 +21,7 @@
 #define PREFIX "KERRD_"
 #define FILE_MOST ((size_t)64 << 10)
 
-/* Variables that are not settings. They are for developers of Vulkan code, and for the scripts in the repository. */
+/* Variables that are not settings: they are for developers of Vulkan code, and for scripts in the repository. */
 static const char *const others[] = { "KERRD_VALIDATE", "KERRD_WATCH", "KERRD_WERROR" };
 
 void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTING_VARIABLE])
@@ -32,7 +32,7 @@ void kd_setting_variable(const struct kd_cli_setting *setting, char out[KD_SETTI
     out[n] = 0;
 }
 
-/* Converts a member's value to the text of a flag. Returns false if it has another type. */
+/* Converts a member's value to the text of a flag. Returns false if the value has the wrong type. */
 static bool text_of(const struct kd_cli_setting *setting, const cJSON *item, char number[24], const char **text)
 {
     *text = cJSON_IsString(item) ? item->valuestring : number;
@@ -109,7 +109,8 @@ enum kd_status kd_settings_read_file(struct kd_settings *settings, const char *p
     enum kd_status status;
     if (path[0] == '-' && path[1] && access(++path, F_OK) && errno == ENOENT)
         return KD_OK;
-    KD_TRY(kd_file_read(path, FILE_MOST, &text, error)); /* the error of kd_file_read already names the file */
+    /* the message of kd_file_read already contains the name of the file */
+    KD_TRY(kd_file_read(path, FILE_MOST, &text, error));
     status = kd_tree_parse((const char *)text.data, text.size, FILE_MOST, KD_SCAN_FEW, &tree, error);
     if (!status)
         status = read_members(settings, tree, error);
@@ -123,8 +124,8 @@ done:
     return status;
 }
 
-/* True if Kubernetes has set a variable for a Service, as it does unless enableServiceLinks is false. For a Service
- * called kerrd that is KERRD_PORT=tcp://10.0.0.1:8080. */
+/* True if Kubernetes has set this variable for a Service, as it does unless enableServiceLinks is false. Example:
+ * for a Service named kerrd the variable is KERRD_PORT=tcp://10.0.0.1:8080. */
 static bool is_link(const char *name, const char *value)
 {
     const char *port = strstr(name, "_PORT_");
@@ -132,7 +133,8 @@ static bool is_link(const char *name, const char *value)
            !strncmp(value, "udp://", 6) || (port && isdigit((unsigned char)port[6]));
 }
 
-/* Finds the setting of an environment variable. Returns n if there is none. *value is the text behind the name. */
+/* Finds the setting that belongs to an environment variable, and returns n if there is none. *value: the text after
+ * the variable's name. */
 static size_t find_variable(const struct kd_settings *settings, const char *variable, const char **value)
 {
     const size_t n = strcspn(variable, "=");

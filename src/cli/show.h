@@ -9,7 +9,7 @@
 #include "base/error.h"
 
 /* Appends the file as base64, in pieces of 4096 characters. columns: width of the picture in characters; 0: the
- * picture's own size. tmux does not pass the picture on to the terminal. KD_ENOMEM. */
+ * picture has its own size. tmux does not forward the picture to the terminal. KD_ENOMEM. */
 enum kd_status kd_show_kitty(const struct kd_buffer *png, uint32_t columns, struct kd_buffer *out,
                              struct kd_error *error);
 

@@ -20,7 +20,7 @@ enum kd_status kd_show_kitty(const struct kd_buffer *png, uint32_t columns, stru
         kd_base64_write(text, png->data + at, n);
         if (at)
             status = kd_buffer_printf(out, "\033_Gm=%d;%s\033\\", more, text);
-        else /* a=T: show the picture at once; f=100: PNG; q=2: the terminal sends no answer */
+        else /* a=T: show the picture at once; f=100: the format is PNG; q=2: the terminal sends no answer */
             status = kd_buffer_printf(out, "\033_Ga=T,f=100,q=2%s,m=%d;%s\033\\", width, more, text);
         if (status)
             return kd_error_set(error, status, "out of memory for the picture");

@@ -27,7 +27,7 @@ static const struct argp_option options[] = {
     { 0 },
 };
 
-/* Reads a time from now, or a date in UTC, which begins at midnight. */
+/* Reads a time: either a duration from now, or a date in UTC, which means the midnight at its start. */
 static bool read_when(const char *text, uint64_t *out)
 {
     static const struct {
@@ -90,8 +90,8 @@ static error_t parse(int key, char *text, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
-/* Looks for the longest end of the path that is a route for links. folders: true: only routes whose last parameter
- * may contain slashes; false: only the other routes. */
+/* Finds the longest end of the path that is a route for which links can be signed. folders: true: tries only routes
+ * whose last parameter may contain slashes; false: tries only the other routes. */
 static enum kd_status find_end(const char *path, bool folders, struct kd_buffer *out, bool *found)
 {
     enum kd_status status = KD_OK;
@@ -110,8 +110,8 @@ static enum kd_status find_end(const char *path, bool folders, struct kd_buffer 
     return status;
 }
 
-/* Writes the path below the server's base path. Routes whose last parameter may contain slashes are tried last,
- * because a base path may itself begin like one of them. */
+/* Writes the part of the path after the server's base path. Routes whose last parameter may contain slashes are
+ * tried last, because the base path may look like the beginning of such a route. */
 static enum kd_status below_base(const char *path, struct kd_buffer *out, struct kd_error *error)
 {
     bool found;

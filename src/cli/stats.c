@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Writes the scene's section accuracy, with the values that the plan has chosen. */
+/* Writes the section `accuracy` of the scene, with the values that the plan has chosen. */
 static void add_setting(struct kd_json *json, const struct kd_stats *stats)
 {
     const struct kd_section *section = kd_section_find("accuracy");
@@ -19,7 +19,7 @@ static void add_setting(struct kd_json *json, const struct kd_stats *stats)
         else if (!strcmp(field->name, "precision"))
             kd_json_string(json, "precision", kd_precision_name(by->precision));
         else if (!strcmp(field->name, "steps"))
-            kd_json_number(json, "steps", by->steps); /* 0: in closed form */
+            kd_json_number(json, "steps", by->steps); /* 0 if the result is in closed form */
         else
             kd_row_write(json, field, stats->scene);
     }

@@ -17,8 +17,8 @@ struct kd_stats {
 /* Appends one line of JSON. */
 enum kd_status kd_stats_json(const struct kd_stats *stats, struct kd_buffer *out);
 
-/* Completes a line of JSON and prints it on standard error; for --stats of sweeps and films. Frees the line in any
- * case. KD_ENOMEM. */
+/* Ends a line of JSON and prints it on standard error, for --stats of sweeps and films. Frees the line in any case.
+ * KD_ENOMEM. */
 enum kd_status kd_stats_print(struct kd_json *json, struct kd_buffer *line, struct kd_error *error);
 
 #endif

@@ -19,7 +19,7 @@
 struct arguments {
     struct kd_scene_command base;
     const char **axes;
-    const struct kind *kind; /* kind of the output */
+    const struct kind *kind; /* the kind of output, chosen by the file's extension */
     size_t n_axes;
 };
 
@@ -37,11 +37,11 @@ static const struct argp_option table[] = {
     { 0 },
 };
 
-/* A kind of output: the format of each scene, and of the file that holds all of them. */
+/* A kind of output: the format of each scene, and the format of the file that contains all scenes. */
 struct kind {
     const char *name; /* extension of the file */
     const struct kd_format *frame;
-    const struct kd_gather_format *whole; /* format of the file; NULL: a table */
+    const struct kd_gather_format *whole; /* format of the whole file; NULL: the output is a table */
 };
 
 static const struct kind *kind_of(const char *path, const struct argp_state *state)
@@ -85,11 +85,11 @@ struct work {
     struct kd_encoder encoder;
     struct kd_progress progress;
     struct kd_frames frames;
-    double *fluxes; /* flux of each scene in Jy; NAN: the scene's picture has none */
+    double *fluxes; /* flux of each scene in Jy; NAN if the scene has no flux */
     unsigned traced;
 };
 
-/* Plans a scene. An error names the scene's number. */
+/* Plans a scene. The message of an error contains the number of the scene. */
 static enum kd_status plan_of(struct work *w, unsigned number, struct kd_scene *scene, struct kd_plan *plan,
                               struct kd_error *error)
 {
@@ -181,7 +181,7 @@ static enum kd_status save_table(struct work *w, const char *path, struct kd_err
     return status;
 }
 
-/* If any scene has a flux, writes the fluxes in the order of the scenes; null for a scene without a flux. */
+/* If any scene has a flux, writes the fluxes in the order of the scenes. A scene without a flux gets null. */
 static void write_fluxes(const struct work *w, struct kd_json *json)
 {
     bool any = false;

@@ -1,4 +1,5 @@
-/* kerrd table: an additive table model of a line's profile, for XSPEC and other programs that fit X-ray spectra. */
+/* kerrd table: makes an additive table model of a line's profile, for XSPEC and other programs that fit X-ray
+ * spectra. */
 #include "integral/table.h"
 #include "base/parallel.h"
 #include "cli/cli.h"
@@ -19,7 +20,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* PIECE: number of nodes in one item of work; PIECES: number of items between two writes */
+/* PIECE: number of nodes in one work item; PIECES: number of work items between two writes */
 enum { SET_MOST = 32, PIECE = 32, PIECES = 64 };
 
 struct arguments {
@@ -115,12 +116,12 @@ done:
     return status;
 }
 
-/* The unfinished file: the head of a table without rows, and the rows so far. */
+/* The unfinished file: the header of a table without rows, followed by the rows so far. */
 struct part {
     char *path;
     int file;
     struct kd_buffer head;
-    size_t rows, resumed; /* number of complete rows; number of these rows that earlier runs have made */
+    size_t rows, resumed; /* rows: number of complete rows; resumed: number of these that earlier runs have made */
     uint32_t sum;
 };
 
@@ -153,8 +154,8 @@ static enum kd_status read_at(const struct part *part, void *bytes, size_t size,
     return KD_OK;
 }
 
-/* True if the file begins with the head that this table has for this sum of rows. bytes: a buffer with room for a
- * head. */
+/* True if the file begins with the header that this table has for this checksum of its rows. bytes: a buffer with
+ * room for the header. */
 static enum kd_status begins_with(const struct part *part, const struct kd_table *table, uint32_t sum, uint8_t *bytes,
                                   bool *does, struct kd_error *error)
 {
@@ -168,8 +169,8 @@ done:
     return status;
 }
 
-/* Adds up the rows that the file has, and checks that the file begins with this table's head. The head may be that
- * of an unfinished table. It is the final head if only the renaming of the file was missing. */
+/* Adds up the checksum of the rows in the file, and checks that the file begins with this table's header. This may
+ * be the header of an unfinished table. It is the final header if only the renaming of the file was missing. */
 static enum kd_status resume(struct part *part, const struct kd_table *table, uint64_t size, struct kd_error *error)
 {
     const size_t row = kd_table_row_bytes(table), room = part->head.size > row ? part->head.size : row;
@@ -224,7 +225,7 @@ done:
     return status;
 }
 
-/* Pads the file, writes the head with the sum of the rows, and gives the file its name. */
+/* Pads the file, writes the header with the checksum of the rows, and renames the file to its final name. */
 static enum kd_status finish_part(struct part *part, const char *path, const struct kd_table *table,
                                   struct kd_error *error)
 {
@@ -245,12 +246,12 @@ done:
     return status;
 }
 
-/* The rows between two writes. They are those of consecutive nodes with the same hole and inclination, and are
- * computed in parallel, in pieces. */
+/* The rows between two writes. They belong to consecutive nodes with the same hole and inclination, and are computed
+ * in parallel, in pieces. */
 struct batch {
     const struct kd_table *table;
     uint8_t *rows;
-    size_t first, n; /* first node and number of nodes of the batch */
+    size_t first, n; /* first: first node of the batch; n: number of nodes */
     struct piece {
         size_t first, n; /* nodes */
         enum kd_status status;

@@ -15,13 +15,15 @@
 #include <unistd.h>
 
 #define ESC "\033"
-#define KITTY_QUERY ESC "_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA" ESC "\\" /* a picture of one pixel that is not stored */
+/* queries support with a picture of one pixel, which the terminal does not store */
+#define KITTY_QUERY ESC "_Gi=31,s=1,v=1,a=q,t=d,f=24;AAAA" ESC "\\"
 #define KITTY_ANSWER ESC "_Gi=31;OK" ESC "\\"
-#define PIXELS_QUERY ESC "[14t"   /* the size of the text area is answered as ESC [ 4 ; HEIGHT ; WIDTH t */
-#define ATTRIBUTES_QUERY ESC "[c" /* the attributes are answered like ESC [ ? 62 ; 4 ; 22 c, where 4 means sixel */
+#define PIXELS_QUERY ESC "[14t" /* the terminal answers with the size of its text area: ESC [ 4 ; HEIGHT ; WIDTH t */
+/* the terminal answers with its attributes, for example ESC [ ? 62 ; 4 ; 22 c, where 4 means sixel */
+#define ATTRIBUTES_QUERY ESC "[c"
 enum { ANSWER_SIZE = 1024, CTRL_C = 3 };
 
-/* Finds the answer to ATTRIBUTES_QUERY. NULL: it has not arrived yet. */
+/* Finds the answer to ATTRIBUTES_QUERY. Returns NULL if it has not arrived yet. */
 static const char *attributes_in(const char *answer)
 {
     for (const char *at = answer; (at = strstr(at, ESC "[?")); at++) {
@@ -43,7 +45,7 @@ static bool has_attribute(const char *attributes, long wanted)
     return false;
 }
 
-/* Reads until the answer about attributes has arrived, or the time is over. Returns true if Ctrl-C was typed. */
+/* Reads until the answer to ATTRIBUTES_QUERY has arrived, or the time is over. Returns true if Ctrl-C was typed. */
 static bool listen(int fd, char answer[ANSWER_SIZE])
 {
     const double end = kd_clock_ms() + KD_TERMINAL_WAIT_MS;
@@ -66,8 +68,8 @@ static bool listen(int fd, char answer[ANSWER_SIZE])
     return false;
 }
 
-/* Sends `query` and reads the answer; "" if there is none. Meanwhile echo and the keys for signals are off, because
- * a signal could leave the terminal in raw mode. */
+/* Sends `query` and reads the answer; "" if there is none. During this, echo is off, and so are the keys that send
+ * signals, because a signal could leave the terminal in raw mode. */
 static void ask(int fd, const char *query, char answer[ANSWER_SIZE])
 {
     struct termios before, raw;

@@ -6,22 +6,22 @@
 #include <stdint.h>
 
 struct kd_terminal {
-    bool is;                /* standard output is a terminal */
-    bool kitty, sixel;      /* protocols that the terminal has confirmed */
+    bool is;                /* true if standard output is a terminal */
+    bool kitty, sixel;      /* true for each protocol that the terminal has confirmed */
     uint32_t width, height; /* size of the text area in pixels; 0: unknown */
     uint32_t columns, rows; /* size of the text area in characters */
 };
 
-/* Sends queries as escape sequences to /dev/tty, and waits at most KD_TERMINAL_WAIT_MS for the answers. The queries are
- * kitty's graphics query, the size of the text area in pixels if the system does not report it, and last the primary
- * device attributes, which every terminal answers. Restores the terminal's settings. A terminal that does not answer
- * counts as having no graphics protocol. */
+/* Sends queries as escape sequences to /dev/tty, and waits at most KD_TERMINAL_WAIT_MS for the answers. There are up
+ * to three queries: kitty's graphics query; the size of the text area in pixels, if the system does not report it;
+ * and last the primary device attributes, which every terminal answers. Afterwards the terminal's settings are
+ * restored. A terminal that does not answer counts as having no graphics protocol. */
 enum { KD_TERMINAL_WAIT_MS = 2000 };
 struct kd_terminal kd_terminal_ask(void);
 
-/* Computes the largest size that fits in the terminal above `lines` lines of text, with the same aspect ratio and at
- * least one pixel. If `enlarge` is false, the result is not larger than the given size. If the terminal's size is
- * unknown, the size is unchanged. */
+/* Computes the largest size that fits into the terminal above `lines` lines of text. The size has the same aspect
+ * ratio and is at least one pixel. If `enlarge` is false, it does not exceed the given size. If the terminal's size
+ * is unknown, the given size is kept. */
 void kd_terminal_fit(const struct kd_terminal *terminal, uint32_t lines, bool enlarge, uint32_t *width,
                      uint32_t *height);
 

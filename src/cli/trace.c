@@ -39,7 +39,7 @@ done:
 
 void kd_trace_finish(struct kd_described_steps *trace) { kd_ray_path_finish(&trace->path); }
 
-/* Writes a value: a residual with few digits, other values with the digits of their precision. */
+/* Writes a value. Residuals get few digits, and other values get the digits of their precision. */
 static enum kd_status put_cell(const struct kd_rays_steps *steps, const struct kd_steps_column *column, double x,
                                struct kd_buffer *out)
 {
@@ -177,7 +177,7 @@ enum kd_status kd_trace_json(const struct kd_described_steps *trace, struct kd_b
         KD_HOLE_MORE(MORE, )
 #undef MORE
             { "inclination_deg", p->inclination_deg },
-        { "r", p->r }, /* not finite if the ray comes from infinity */
+        { "r", p->r }, /* infinite, and therefore left out, if the ray comes from infinity */
         { "alpha", steps->alpha },
         { "beta", steps->beta },
         { "lambda", trace->motion.lambda },

@@ -8,20 +8,20 @@
 
 struct kd_described_steps {
     const struct kd_rays_steps *steps;
-    bool points; /* text and CSV have the points of the path in place of the steps; JSON has both */
+    bool points; /* text and CSV: true if they have the points of the path instead of the steps; JSON has both */
     struct kd_ray_motion motion;
     struct kd_ray_path path;
-    struct kd_ray_end end; /* computed in closed form, as are motion and path */
+    struct kd_ray_end end; /* computed in closed form, like motion and path */
     char why[320];
 };
 
-/* Computes everything except the steps. KD_ENOMEM. The caller must finish *out in any case. */
+/* Computes everything except the steps. KD_ENOMEM: out of memory. The caller must finish *out in any case. */
 enum kd_status kd_trace_explain(const struct kd_rays_steps *steps, bool points, struct kd_described_steps *out,
                                 struct kd_error *error);
 void kd_trace_finish(struct kd_described_steps *trace);
 
-/* Append a table as text, a JSON document, or CSV. CSV has one line for each step or point; missing values are empty
- * cells. KD_ENOMEM. */
+/* Append the steps as a table in text, as a JSON document, or as CSV. CSV has one line for each step or point;
+ * missing values are empty cells. KD_ENOMEM. */
 enum kd_status kd_trace_text(const struct kd_described_steps *trace, struct kd_buffer *out);
 enum kd_status kd_trace_json(const struct kd_described_steps *trace, struct kd_buffer *out);
 enum kd_status kd_trace_csv(const struct kd_described_steps *trace, struct kd_buffer *out);

@@ -59,7 +59,7 @@ static enum kd_status choose(const struct arguments *arguments, const struct kd_
 }
 
 /* Reads the document if it is a picture that kerrd has made. Otherwise *picture stays empty, and the document is
- * read later by the options of the scene. */
+ * read later, together with the options of the scene. */
 static enum kd_status look(const struct arguments *arguments, struct kd_buffer *picture, struct kd_scene *scene,
                            struct kd_error *error)
 {
@@ -67,7 +67,7 @@ static enum kd_status look(const struct arguments *arguments, struct kd_buffer *
     struct stat about;
     enum kd_status status;
     if (!options->document || !strcmp(options->document, "-") || stat(options->document, &about) ||
-        !S_ISREG(about.st_mode)) /* a pipe can be read only once, so it is not read here */
+        !S_ISREG(about.st_mode)) /* a pipe can be read only once, so it is left for later */
         return KD_OK;
     KD_TRY(kd_file_read(options->document, PICTURE_MAX, picture, error));
     if (!picture->size || kd_format_of_bytes(picture->data, picture->size) != &kd_format_png) {
@@ -102,7 +102,7 @@ done:
     return status;
 }
 
-/* Shows the picture unchanged, and a line about its scene. */
+/* Shows the picture unchanged, followed by a line about its scene. */
 static enum kd_status show_picture(const struct arguments *arguments, const struct kd_buffer *png,
                                    const struct kd_scene *scene, struct kd_buffer *out, struct kd_error *error)
 {

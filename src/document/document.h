@@ -38,20 +38,21 @@
 #include <stdint.h>
 
 enum kd_kind {
-    KD_KIND_REAL, /* double: a number or, with `words`, also that one word */
+    KD_KIND_REAL, /* double: a number; if the row has `words`, that one word is also accepted */
     KD_KIND_INT,  /* uint32_t */
     KD_KIND_BOOL, /* bool */
-    KD_KIND_WORD, /* int or an enumeration: one of `words`, stored as its index plus `first` */
-    /* struct kd_number_list: an array of `fewest` to `room` numbers within the range; `fewest` 0 means one */
+    KD_KIND_WORD, /* int or an enumeration: one of `words`, stored as the word's index plus `first` */
+    /* uint32_t: an array of some of `words`, stored as one bit for each word */
     KD_KIND_WORDS,
     KD_KIND_LIST,   /* struct kd_number_list: an array of `fewest` (0: one) to `room` numbers within the range */
     KD_KIND_VECTOR, /* double[room]: an array of `room` numbers within the range */
     KD_KIND_TEXT,   /* char[room]: a string shorter than `room` */
     KD_KIND_ASSET,  /* char[KD_ASSET_NAME]: null, stored as "", or an asset (document/asset_name.h) */
     KD_KIND_SERIES, /* struct kd_words: some of `words` in any order, each once (document/words.h) */
-    KD_KIND_JSON,   /* const cJSON *: any value, which the caller reads while the tree exists; NULL: not given */
+    KD_KIND_JSON,   /* const cJSON *: any value; the caller reads it while the tree exists; NULL if not given */
 };
-enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW }; /* ends of the range that are not allowed */
+/* which ends of the range are excluded: none, both, the upper one, or the lower one */
+enum kd_open { KD_CLOSED, KD_OPEN, KD_OPEN_ABOVE, KD_OPEN_BELOW };
 
 struct kd_number_list {
     double *at; /* malloc'd */
@@ -59,33 +60,34 @@ struct kd_number_list {
 };
 
 struct kd_row {
-    /* object: the member of the document that contains the field. It may be a nested one such as "disk.gas". NULL or
-     * "": the document itself */
+    /* object: the member of the document that contains the field, such as "disk.gas"; NULL or "": the document
+     * itself */
     const char *object, *name;
     enum kd_kind kind;
-    bool needed, fixed;          /* needed: must be given; fixed: cannot be changed afterwards */
-    size_t offset;               /* offset in the struct that is filled */
-    double initial, least, most; /* for numbers; `initial` is also the default of a WORD and a BOOL */
+    bool needed, fixed;          /* needed: the field must be given; fixed: the field cannot be changed later */
+    size_t offset;               /* offset of the field in the struct that is filled */
+    double initial, least, most; /* range and default of numbers; `initial` is also the default of a WORD and a BOOL */
     enum kd_open open;
-    double above_0;    /* the smallest allowed value above 0, if 0 itself is allowed too */
+    double above_0;    /* smallest allowed value above 0, for fields that may also be 0 */
     const char *words; /* "a|b|c" */
-    double stands;     /* value for which the word of a REAL stands: INFINITY or NAN; the word of an INT is stored as
-                        * 0 */
+    /* number that the word of a REAL stands for: INFINITY or NAN; the word of an INT is stored as 0 */
+    double stands;
     int first;
     const char *typed; /* default as typed text, for a row that may be a range (kd_row_range) */
     size_t room, fewest;
-    unsigned of;             /* bit mask of the kinds of documents that have this field; 0: all kinds */
-    const char *unit, *help; /* unit NULL, "" or "1": none */
-    /* Texts that replace the generated ones: the allowed values in words, and the members of the JSON Schema without
-     * the description, such as "\"type\":\"number\"". They are for limits that depend on more than one field. */
+    unsigned of;             /* bit mask of the kinds of documents that have this field; 0: all kinds have it */
+    const char *unit, *help; /* unit: NULL, "" or "1" if there is none */
+    /* Texts that replace generated ones, for limits that depend on more than one field. allowed: the accepted values
+     * in words. schema: members of the JSON Schema without the description, such as "\"type\":\"number\"". */
     const char *allowed, *schema;
 };
 
-/* An object that is a list: an array of objects with the same fields. The rows of such an object are those of the
+/* An object that is a list: an array of objects that all have the same fields. The rows of the list describe its
  * first element. */
 struct kd_list {
     const char *object;
-    /* limit of elements; bytes from one element to the next; offset of the number of elements */
+    /* most: limit of the number of elements; stride: bytes from one element to the next; size_at: offset of the
+     * number of elements */
     size_t most, stride, size_at;
 };
 /* A former name of an element. */
@@ -97,117 +99,119 @@ struct kd_former {
 struct kd_document {
     const struct kd_row *rows;
     size_t n;
-    unsigned of;        /* only rows of these kinds of documents are renamed; 0: all rows */
-    const char *others; /* "a|b": further members, which the caller reads; NULL: none */
-    /* Combinations of members that an object cannot have, as JSON Schema; the list ends with a NULL name. May be
-     * NULL. */
+    unsigned of;        /* bit mask: only the rows of these kinds of documents are renamed; 0: all rows */
+    const char *others; /* names of other members, as "a|b", which the caller reads; NULL if there are none */
+    /* Combinations of members that an object must not have, as JSON Schemas. The list ends with an entry whose name
+     * is NULL. The list may be NULL. */
     const struct kd_document_not { const char *object, *schema; } *nots;
     const struct kd_list *lists;
     size_t n_lists;
     const struct kd_former *formers;
     size_t n_formers;
-    bool paths; /* true: a typed name is the whole path of a field, such as "table.milk" or "spots.0.r"; false: "milk"
-                 * is sufficient */
+    /* true: a typed name must be the whole path of a field, such as "table.milk" or "spots.0.r"; false: "milk" is
+     * sufficient */
+    bool paths;
 };
 
 void kd_document_defaults(const struct kd_document *document, void *to);
 
-/* Finds a row of the document by "name" or "object.name"; NULL: none. */
+/* Finds a row of the document by "name" or "object.name". Returns NULL if there is none. */
 const struct kd_row *kd_document_find(const struct kd_document *document, const char *name);
 
-/* Reads the members that an object has; other fields keep their values. pointer: the object's own. given: receives the
- * bit of each row that was given, with 64 rows to a word; may be NULL. A member that is unknown or given twice is an
- * error.
+/* Reads the members of an object; all other fields keep their values. pointer: JSON pointer of the object. given:
+ * bit set that receives a bit for each row that was given, 64 rows per word; may be NULL. A member that is unknown
+ * or given twice is an error.
  *
- * An array replaces a whole list. An object {"0": {...}} changes elements by index; the next free index appends one. If
- * the document uses a former name of an element, the elements before that element are created. New elements at the end
- * of the list that still have all defaults are removed again. */
+ * An array replaces a whole list. An object {"0": {...}} changes elements by index; the next free index appends one.
+ * If the document uses a former name of an element, the elements before that element are created. New elements at
+ * the end of the list that still have all defaults are removed again. */
 enum kd_status kd_document_read(const struct kd_document *document, void *to, const cJSON *object, const char *pointer,
                                 uint64_t *given, struct kd_error *error);
-/* Like kd_document_read, as a merge patch (RFC 7396): null resets a field, or all fields of an object or element, and
- * empties a list. */
+/* Like kd_document_read, but as a merge patch (RFC 7396): null resets a field, resets all fields of an object or
+ * element, or empties a list. */
 enum kd_status kd_document_patch(const struct kd_document *document, void *to, const cJSON *object, const char *pointer,
                                  uint64_t *given, struct kd_error *error);
-/* Sets one field by "name" or "object.name" from typed text; lists and sets have commas between their items. */
+/* Sets one field, named as "name" or "object.name", from typed text. The items of lists and sets are separated by
+ * commas. */
 enum kd_status kd_document_set(const struct kd_document *document, void *to, const char *name, const char *text,
                                uint64_t *given, struct kd_error *error);
-/* The place that a typed path names. The element need not exist. */
+/* The place that a typed path leads to. Its element need not exist. */
 struct kd_typed_place {
     const struct kd_row *row;
     const struct kd_list *list; /* NULL: none */
     size_t index;
-    bool former; /* the path uses a former name of the element */
+    bool former; /* true if the path uses a former name of the element */
 };
 enum kd_status kd_document_place(const struct kd_document *document, const char *path, struct kd_typed_place *out,
                                  struct kd_error *error);
 
-/* kd_document_list finds a list by name. kd_list_resize sets the number of elements; elements that are added or
- * removed get their defaults. */
+/* kd_document_list finds a list by its name. kd_list_resize sets the number of elements. Elements that are added or
+ * removed are set to their defaults. */
 const struct kd_list *kd_document_list(const struct kd_document *document, const char *object);
 size_t kd_list_size(const struct kd_list *list, const void *from);
 void kd_list_resize(const struct kd_document *document, const struct kd_list *list, void *to, size_t size);
-/* KD_EINVAL at the first element beyond the limit. */
+/* Returns KD_EINVAL, with a pointer to the first element beyond the limit, if there are too many. */
 enum kd_status kd_list_check(const struct kd_list *list, size_t size, struct kd_error *error);
 
-/* Sets one field from a value; not for arrays. called: the field's name in messages. */
+/* Sets one field from a value. Not for arrays. called: name of the field in messages. */
 enum kd_status kd_row_put(const struct kd_row *row, void *to, const struct kd_value *value, const char *called,
                           const char *pointer, struct kd_error *error);
-/* The two halves of kd_row_put. kd_row_take stores the value and returns whether the row accepts it. kd_row_refuse
- * returns KD_EINVAL with "X is V; it must be ...". */
+/* The two halves of kd_row_put. kd_row_take stores the value if the row accepts it, and returns whether it did.
+ * kd_row_refuse returns KD_EINVAL with the message "X is V; it must be ...". */
 bool kd_row_take(const struct kd_row *row, void *to, const struct kd_value *value);
 enum kd_status kd_row_refuse(const struct kd_row *row, const struct kd_value *value, const char *called,
                              const char *pointer, struct kd_error *error);
-/* A row's value as a double, for every kind except TEXT, LIST, WORDS and VECTOR. A BOOL is 0 or 1, a WORD is its
- * index, and the word of an INT is INFINITY. An ASSET is 1 if it is set; putting 0 removes it. A SERIES of exactly
- * one word without a number is the index of that word. Any other SERIES is NAN. */
+/* Returns a row's value as a double, for every kind except TEXT, LIST, WORDS and VECTOR. A BOOL gives 0 or 1, a WORD
+ * its index, and the word of an INT gives INFINITY. An ASSET gives 1 if it is set; writing 0 removes the asset. A
+ * SERIES with exactly one word, and no number after it, gives the index of that word. Any other SERIES gives NAN. */
 double kd_row_get(const struct kd_row *row, const void *from);
 void kd_row_put_number(const struct kd_row *row, void *to, double value);
-/* True if the row allows this value: the value is in the row's range (and whole if the kind requires that), or
- * stands for the row's word. */
+/* True if the row accepts this value. Either the value is in the row's range (and whole, if the kind requires that),
+ * or it stands for the row's word. */
 bool kd_row_holds(const struct kd_row *row, double value);
-/* Replaces a LIST by room for n numbers. KD_EINVAL at the pointer if the row does not allow n numbers. */
+/* Replaces a LIST by one with room for n numbers. Returns KD_EINVAL with this pointer if the row does not accept n
+ * numbers. */
 enum kd_status kd_row_make_room(const struct kd_row *row, void *to, size_t n, const char *pointer,
                                 struct kd_number_list **list, struct kd_error *error);
 /* Evenly spaced numbers, both ends included. */
 enum { KD_RANGE_MOST = 100000 };
 struct kd_range {
     double first, last;
-    size_t count; /* 1: a single number */
+    size_t count; /* 1 for a single number */
 };
 double kd_range_at(const struct kd_range *range, size_t i);
-/* Reads a row of numbers from typed text: a number or the row's word, or "first:last:count". For a WORD, the range
- * consists of the word's index. On an error *range is unchanged. */
+/* Reads a row of numbers from typed text: a number or the row's word, or "first:last:count". For a WORD, the result
+ * is a single number, the index of the word. On an error *range is unchanged. */
 enum kd_status kd_row_range(const struct kd_row *row, const char *text, const char *pointer, struct kd_range *range,
                             struct kd_error *error);
-/* Writes the schema of what kd_row_range reads, with the default, as a member. */
+/* Writes a member with the schema, including the default, of the text that kd_row_range reads. */
 void kd_row_range_schema(struct kd_json *json, const char *name, const struct kd_row *row);
 
-/* KD_EINVAL with "there is no parameter X; did you mean Y?", or with a list of the known ones. */
+/* Returns KD_EINVAL with "there is no parameter X; did you mean Y?", or with a list of all known parameters. */
 enum kd_status kd_document_unknown(const struct kd_document *document, const char *name, struct kd_error *error);
-/* Describes the values that a row allows: "0 to 10 M, or \"isco\"". */
+/* Describes the values that a row accepts, for example "0 to 10 M, or \"isco\"". */
 void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE]);
 
-/* Writes all fields but LISTs, as members of the object that is open. */
+/* Writes all fields except LISTs as members of the open object. */
 void kd_document_write(struct kd_json *json, const struct kd_document *document, const void *from);
-/* Writes one row's value as a member. A list is left out. */
+/* Writes the value of a row as a member. A LIST is left out. */
 void kd_row_write(struct kd_json *json, const struct kd_row *row, const void *from);
-/* Like kd_row_write, under another name. Within an array, the name is NULL. */
+/* Like kd_row_write, but with another name. Within an array, the name is NULL. */
 void kd_row_write_as(struct kd_json *json, const char *name, const struct kd_row *row, const void *from);
-/* Writes the value that kd_row_get returns, in the form that it has in a document. */
+/* Writes a value as returned by kd_row_get, in the form that it has in a document. */
 void kd_row_write_value(struct kd_json *json, const char *name, const struct kd_row *row, double value);
-/* Writes the schema of each field, as members of the object "properties" that is open. */
+/* Writes the schema of each field as members of the open object "properties". */
 void kd_document_properties(struct kd_json *json, const struct kd_document *document);
-/* Writes the members of one row's schema without its description. */
+/* Writes the members of a row's schema, without the description. */
 void kd_row_type_members(struct kd_json *json, const struct kd_row *row);
 /* Writes one row's schema as a member. */
 void kd_row_schema(struct kd_json *json, const char *name, const struct kd_row *row);
 /* Like kd_row_schema, without the row's description. */
 void kd_row_type(struct kd_json *json, const char *name, const struct kd_row *row);
-/* Writes the member "required" if a field must be given. The field may be one of the document itself or of one of
- * its objects. */
+/* Writes the member "required" if a field of the document, or of one of its objects, must be given. */
 void kd_document_required(struct kd_json *json, const struct kd_document *document);
-/* Writes the array `name` of {"name", "type", "default", "least", "most", "words", "fixed", "help"}, for a page's
- * controls. Lists, vectors and texts are left out. */
+/* Writes the array `name` for the controls of a page. Each entry is {"name", "type", "default", "least", "most",
+ * "words", "fixed", "help"}. Lists, vectors and texts are left out. */
 void kd_document_describe(struct kd_json *json, const char *name, const struct kd_document *document);
 
 #endif

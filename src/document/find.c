@@ -10,8 +10,8 @@ bool kd_row_is_of(const struct kd_document *document, const struct kd_row *row, 
     return (!document->of || !row->of || row->of & document->of) && !strcmp(own(row->object), own(object));
 }
 
-/* after: the row that was found last. The search begins after it, because fields mostly come in the order of the
- * rows. */
+/* after: the row that was found last. The search starts after this row, because fields mostly come in the order of
+ * the rows. */
 const struct kd_row *kd_find_row(const struct kd_document *document, const char *object, const char *name,
                                  const struct kd_row *after)
 {

@@ -7,11 +7,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MARK '\xff' /* placeholder for a long string; never a byte of UTF-8, so no text or escape contains it */
+/* placeholder of a long string; this byte never occurs in UTF-8, so no text or escape can contain it */
+#define MARK '\xff'
 #define PIECE ((size_t)1 << 20)
 
-/* Returns the index of the closing quote of the string whose first byte is at `at`. *escapes: whether the string
- * contains escapes. */
+/* Returns the index of a string's closing quote; the string begins at `at`. *escapes: true if the string contains
+ * escapes. */
 static size_t end_of(const char *text, size_t length, size_t at, bool *escapes)
 {
     const char *quote = memchr(text + at, '"', length - at);
@@ -82,7 +83,7 @@ static unsigned digits(const char *text)
     return (unsigned)strtoul(four, NULL, 16);
 }
 
-/* Encodes a character by RFC 3629, section 3. */
+/* Encodes a character in UTF-8 (RFC 3629, section 3). */
 static char *put_utf8(char *to, unsigned code)
 {
     if (code < 0x80) {
@@ -96,7 +97,7 @@ static char *put_utf8(char *to, unsigned code)
     return to;
 }
 
-/* Decodes one escape, which the scan has validated. Returns what follows the escape. */
+/* Decodes one escape, which was validated by the scan. Returns the position after the escape. */
 static const char *unescape(const char *from, char **to)
 {
     static const char names[] = "bfnrt", are[] = "\b\f\n\r\t";
@@ -106,12 +107,13 @@ static const char *unescape(const char *from, char **to)
         return from + 2;
     }
     const unsigned unit = digits(from + 2);
-    const bool pair = unit >= 0xd800 && unit < 0xdc00; /* a pair: the other half follows (RFC 8259, section 7) */
+    /* a surrogate pair: its second half follows (RFC 8259, section 7) */
+    const bool pair = unit >= 0xd800 && unit < 0xdc00;
     *to = put_utf8(*to, pair ? 0x10000 + ((unit - 0xd800) << 10) + (digits(from + 8) - 0xdc00) : unit);
     return from + (pair ? 12 : 6);
 }
 
-/* Copies a string while decoding its escapes. No escape is shorter than the character it stands for. */
+/* Copies a string and decodes its escapes. The result always fits, because no escape is shorter than its character. */
 static char *copy_unescaped(char *to, const char *from, size_t n)
 {
     const char *const end = from + n;
@@ -125,7 +127,7 @@ static char *copy_unescaped(char *to, const char *from, size_t n)
     return to;
 }
 
-/* State of the walk through the tree: the next string to insert. */
+/* State of the walk through the tree, with the next string to insert. */
 struct fill {
     const struct kd_long_strings *strings;
     size_t next;
@@ -147,7 +149,7 @@ static bool put(struct fill *f, char **string)
     return true;
 }
 
-/* Inserts the strings in the order of the document, which is at most 32 levels deep. */
+/* Inserts the strings in the order of the document. The recursion is at most 32 levels deep. */
 static bool fill(struct fill *f, cJSON *item)
 {
     for (; item && f->next < f->strings->n; item = item->next) {

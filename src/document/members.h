@@ -1,5 +1,5 @@
-/* Single values of a request that are in no table of rows. Errors name the member, its value and the allowed values.
- * Their pointer leads to the member within the request. Any thread. */
+/* Reads single values of a request that no table of rows describes. An error message contains the member, its value
+ * and the accepted values. The error's pointer leads to the member within the request. Any thread. */
 #ifndef KD_DOCUMENT_MEMBERS_H
 #define KD_DOCUMENT_MEMBERS_H
 
@@ -8,14 +8,14 @@
 #include <cjson/cJSON.h>
 #include <stddef.h>
 
-/* Returns KD_EINVAL with a message that says that the item must be what `allowed` describes. */
+/* Returns KD_EINVAL with a message that the item must be as `allowed` says. */
 enum kd_status kd_member_refuse(const cJSON *item, const char *pointer, const char *allowed, struct kd_error *error);
 
-/* Reads an integer from `least` to `most`. */
+/* Reads a whole number in the range `least` to `most`. */
 enum kd_status kd_member_whole(const cJSON *item, const char *pointer, unsigned least, unsigned most, unsigned *out,
                                struct kd_error *error);
 
-/* Reads one of n words and stores its index. If item is NULL, *out stays unchanged. */
+/* Reads one of n words and stores the word's index. If item is NULL, *out stays unchanged. */
 enum kd_status kd_member_word(const cJSON *item, const char *pointer, const char *const *words, size_t n, unsigned *out,
                               struct kd_error *error);
 

@@ -21,7 +21,7 @@ static const struct {
     { "null", "a word in capitals, which is null in JSON" },
 };
 
-/* Length of the word that begins here, including a sign. */
+/* Length of the word that starts here, including a sign. */
 static size_t span(const char *text, size_t length)
 {
     size_t n = length && *text == '-';
@@ -50,7 +50,7 @@ static const char *about_word(const char *text, size_t length, char before)
     return NULL;
 }
 
-static bool is_quote(const char *text, size_t length) /* a quote from U+2018 to U+201F */
+static bool is_quote(const char *text, size_t length) /* True for a typographic quote (U+2018 to U+201F). */
 {
     return length > 2 && !memcmp(text, "\xe2\x80", 2) && (unsigned char)text[2] >= 0x98 &&
            (unsigned char)text[2] <= 0x9f;

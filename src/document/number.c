@@ -7,7 +7,7 @@
 
 struct kd_number_locale kd_number_locale_enter(void)
 {
-    /* libc has this locale ready, so nothing is allocated. */
+    /* The C library has this locale built in, so nothing is allocated. */
     locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     return (struct kd_number_locale) { c, uselocale(c) };
 }
@@ -26,7 +26,7 @@ static size_t digits(const char *text, size_t i, size_t length)
     return i;
 }
 
-/* Returns the position after the exponent, or i if there is no exponent; 0 if the exponent has no digits. */
+/* Returns the position after the exponent; i if there is no exponent; 0 if the exponent has no digits. */
 static size_t exponent(const char *text, size_t i, size_t length)
 {
     if (i >= length || (text[i] != 'e' && text[i] != 'E'))
@@ -38,7 +38,7 @@ static size_t exponent(const char *text, size_t i, size_t length)
     return end > i ? end : 0;
 }
 
-/* Length of the number at the beginning of the text. open: the digits before or after the decimal point may be
+/* Length of the number at the start of the text. open: if true, the digits before or after the decimal point may be
  * missing. */
 static size_t span(const char *text, size_t length, bool open)
 {

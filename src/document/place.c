@@ -32,8 +32,8 @@ struct kd_mention kd_mention_of(const char *pointer, const struct kd_object *obj
     return place;
 }
 
-/* Copies the part of the path before the next dot; "" if there is no dot or the part is too long. *rest is the text
- * after the dot. */
+/* Copies the part of the path up to the next dot; copies "" if there is no dot, or if the part is too long. *rest:
+ * the text after the dot. */
 static void next_token(const char **rest, char out[TOKEN_SIZE])
 {
     const char *dot = strchr(*rest, '.');
@@ -46,7 +46,7 @@ static void next_token(const char **rest, char out[TOKEN_SIZE])
     *rest = dot + 1;
 }
 
-/* Refuses a path that ends at an object, a list or an element. */
+/* Refuses a path that ends at an object, a list or an element instead of a field. */
 static enum kd_status whole(const struct kd_document *document, const struct kd_object *object, const char *what,
                             struct kd_error *error)
 {
@@ -75,7 +75,7 @@ static enum kd_status whole_element(const struct kd_document *document, const st
     return whole(document, object, "an element; name one of its fields", error);
 }
 
-/* Finds the object that a path names, and the name that follows. */
+/* Finds the object to which a path leads, and the name after it. */
 static enum kd_status find_object(const struct kd_document *document, const char *path, struct kd_object *object,
                                   struct kd_typed_place *out, const char **name, struct kd_error *error)
 {
@@ -109,7 +109,7 @@ static enum kd_status find_object(const struct kd_document *document, const char
         enum kd_status status = kd_list_index(object->list, *token ? token : *name, "", &object->index, error);
         return status || *token ? status : whole_element(document, object, error);
     } else if (*token)
-        /* not split: the object has no such member, so the dot belongs to the name */
+        /* the path is not split here: the object has no such member, so the dot is part of the name */
         *name = *name - strlen(token) - 1;
     return KD_OK;
 }

@@ -1,4 +1,4 @@
-/* Checks values against rows, stores them, and describes what a row allows. */
+/* Checks values against rows, stores them, and describes the values that a row accepts. */
 #include "document/document_internal.h"
 
 #include "base/utf8.h"
@@ -44,7 +44,7 @@ double kd_row_get(const struct kd_row *row, const void *from)
     case KD_KIND_BOOL: return *(const bool *)at;
     case KD_KIND_WORD: {
         int word;
-        memcpy(&word, at, sizeof word); /* every enumeration here is as wide as int */
+        memcpy(&word, at, sizeof word); /* all enumerations in these structs have the width of int */
         return word - row->first;
     }
     case KD_KIND_ASSET: return *(const char *)at != 0;
@@ -64,7 +64,7 @@ void kd_row_put_number(const struct kd_row *row, void *to, double value)
     switch (row->kind) {
     case KD_KIND_REAL:
         *(double *)at = value == 0 ? 0 : value;
-        break; /* 0 instead of -0, so that equal documents have equal texts */
+        break; /* 0 is stored instead of -0, so that equal documents have equal texts */
     case KD_KIND_INT: *(uint32_t *)at = isinf(value) ? 0 : (uint32_t)(int64_t)value; break;
     case KD_KIND_BOOL: *(bool *)at = value != 0; break;
     case KD_KIND_WORD: memcpy(at, &(int) { (int)value + row->first }, sizeof(int)); break;
@@ -90,7 +90,7 @@ static void list_words(const char *words, char out[KD_ALLOWED_SIZE])
                                  kd_text_or((size_t)i, (size_t)i + (kd_word_at(words, i + 1, next) ? 2 : 1)), word);
 }
 
-/* Describes the words as in "1 to 3 of a, b[_N] and c, each once, N a number". */
+/* Describes the words of a series, for example as "1 to 3 of a, b[_N] and c, each once, N a number". */
 static void list_series(const char *words, char out[KD_ALLOWED_SIZE])
 {
     const int count = kd_word_count(words);
@@ -148,7 +148,8 @@ void kd_row_allowed(const struct kd_row *row, char out[KD_ALLOWED_SIZE])
         list_range(row, out);
 }
 
-/* The value as a number that the row may hold; NAN: the value has another type, or is none of the words. */
+/* Converts the value to the number that the row stores; NAN if the value has the wrong type, or is none of the row's
+ * words. */
 static double convert(const struct kd_row *row, const struct kd_value *value)
 {
     const bool string = value->kind == KD_VALUE_STRING;
@@ -167,7 +168,7 @@ static double convert(const struct kd_row *row, const struct kd_value *value)
 
 static bool put_text(void *at, size_t room, const char *text)
 {
-    memset(at, 0, room); /* the rest is cleared, so that equal texts have equal bytes */
+    memset(at, 0, room); /* the rest is set to 0, so that equal texts have equal bytes */
     memcpy(at, text, strlen(text));
     return true;
 }
@@ -195,7 +196,7 @@ bool kd_row_take(const struct kd_row *row, void *to, const struct kd_value *valu
     }
 }
 
-/* True if the text was meant as a number: the row has no words, or the text is a number in quotes. */
+/* True if the user probably meant a number: the row has no words, or the text is a number in quotes. */
 static bool wants_number(const struct kd_row *row, const struct kd_value *value)
 {
     if (row->kind != KD_KIND_REAL && row->kind != KD_KIND_INT && row->kind != KD_KIND_LIST &&

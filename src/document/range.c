@@ -15,7 +15,7 @@ double kd_range_at(const struct kd_range *range, size_t i)
     return range->first + (range->last - range->first) * (double)i / (double)(range->count - 1);
 }
 
-/* Reads a number. Returns what follows it; NULL if text does not start with one. */
+/* Reads a number and returns the position after it; NULL if text does not start with a number. */
 static const char *number(const char *text, double *value)
 {
     const size_t n = kd_number_span_typed(text, strlen(text));
@@ -25,7 +25,7 @@ static const char *number(const char *text, double *value)
     return text + n;
 }
 
-/* Reads a number, or a range of any count. False if the text has another form. */
+/* Reads a number, or a range with any count. Returns false if the text has another form. */
 static bool parse(const char *text, struct kd_range *range, double *count)
 {
     const char *rest = number(text, &range->first);
@@ -40,8 +40,8 @@ static bool parse(const char *text, struct kd_range *range, double *count)
 
 static bool holds(const struct kd_row *row, double value) { return isfinite(value) && kd_row_holds(row, value); }
 
-/* True if the row allows all values of the range. If not, *wrong is a value that it does not allow, if possible an end
- * of the range. */
+/* True if the row accepts all values of the range. Otherwise *wrong is a value that it does not accept, preferably
+ * an end of the range. */
 static bool all_hold(const struct kd_row *row, const struct kd_range *range, double *wrong)
 {
     const size_t inner = row->kind == KD_KIND_INT ? range->count : 0;
@@ -54,8 +54,8 @@ static bool all_hold(const struct kd_row *row, const struct kd_range *range, dou
     return true;
 }
 
-/* Checks a number or range that was typed. On failure `fault` describes the error. `fault` is empty if the text has
- * the wrong form. */
+/* Checks a number or range that was typed. On failure `fault` describes the error; it is empty if the text has the
+ * wrong form. */
 static bool check(const struct kd_row *row, const char *text, struct kd_range *range, char fault[KD_VALUE_SIZE])
 {
     char told[KD_NUMBER_SIZE];
@@ -94,7 +94,7 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
         kd_row_allowed(row, allowed);
         snprintf(allowed + strlen(allowed), sizeof allowed - strlen(allowed),
                  ", or a range first:last:count of 2 to %d such values", KD_RANGE_MOST);
-        if (strchr(text, ':')) { /* the value is a range, so it is not a string in place of a number */
+        if (strchr(text, ':')) { /* for a range, the message does not say "a string where a number is needed" */
             kd_value_describe(&value, given);
             return kd_error_field(error, pointer, "%s is %s%s; it must be %s", row->name, given, fault, allowed);
         }
@@ -105,7 +105,7 @@ enum kd_status kd_row_range(const struct kd_row *row, const char *text, const ch
     return KD_OK;
 }
 
-/* Pattern of a typed range whose count is at most KD_RANGE_MOST. */
+/* Pattern of a typed range with a count of at most KD_RANGE_MOST. */
 #define PATTERN "^" KD_SCHEMA_DECIMAL ":" KD_SCHEMA_DECIMAL ":([2-9]|[1-9][0-9]{1,4}|100000)$"
 _Static_assert(KD_RANGE_MOST == 100000, "the pattern says so");
 
@@ -117,8 +117,8 @@ void kd_row_range_schema(struct kd_json *json, const char *name, const struct kd
         kd_row_type_members(json, row);
     } else {
         kd_json_array(json, "anyOf");
-        /* The word comes first. Generators of clients take the first type that fits the default, and "infinity" also
-         * parses as a number. */
+        /* The type of the word comes first. Generators of clients take the first type that fits the default, and
+         * "infinity" also parses as a number. */
         if (row->words)
             kd_schema_word(json, NULL, row->words);
         kd_json_object(json, NULL);

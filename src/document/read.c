@@ -1,4 +1,4 @@
-/* Reads documents and typed text by tables of rows. */
+/* Reads documents and typed text according to tables of rows. */
 #include "document/document_internal.h"
 
 #include "document/tree.h"
@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Items of an array, or of typed text with commas. */
+/* Items of a JSON array, or of typed text with commas between the items. */
 struct items {
-    const cJSON *item; /* next item of the array; NULL: items come from the text */
+    const cJSON *item; /* next item of the array; NULL if the items come from typed text */
     const char *text;
     size_t n;
     char one[KD_WORD_ROOM];
@@ -71,7 +71,7 @@ static enum kd_status read_numbers(const struct kd_row *row, void *to, struct it
         snprintf(place, sizeof place, "%.130s/%zu", pointer, k);
         if (value.kind != KD_VALUE_NUMBER || !kd_row_holds(row, value.number))
             return kd_row_refuse(row, &value, called, place, error);
-        at[k] = value.number == 0 ? 0 : value.number; /* 0 instead of -0, as in kd_row_put_number */
+        at[k] = value.number == 0 ? 0 : value.number; /* 0 is stored instead of -0, as in kd_row_put_number */
     }
     return KD_OK;
 }
@@ -96,7 +96,7 @@ static enum kd_status read_series(const struct kd_row *row, void *to, const cJSO
                           cJSON_IsArray(array) && bad ? "holds" : "is", bad ? given : "an empty array", allowed);
 }
 
-/* Reads a row that is an array, from an item or from typed text. */
+/* Reads a row that is an array, from a JSON item or from typed text. */
 static enum kd_status read_array_row(const struct kd_row *row, void *to, const cJSON *item, const char *text,
                                      const char *called, const char *pointer, struct kd_error *error)
 {
@@ -119,7 +119,8 @@ static enum kd_status read_array_row(const struct kd_row *row, void *to, const c
                  : read_numbers(row, to, &items, called, pointer, error);
 }
 
-/* Reads a row from an item, or from typed text. named: name of the row in messages, if that is not its path. */
+/* Reads a row from a JSON item or from typed text. named: name of the row in messages, if it differs from the row's
+ * path. */
 static enum kd_status read_row(const struct kd_row *row, void *to, const cJSON *item, const char *text,
                                const struct kd_object *object, const char *pointer, const char *named,
                                struct kd_error *error)
@@ -142,7 +143,7 @@ static enum kd_status read_row(const struct kd_row *row, void *to, const cJSON *
 struct reader {
     const struct kd_document *document;
     void *to;
-    const char *pointer; /* pointer of the document */
+    const char *pointer; /* JSON pointer of the document */
     uint64_t *given;
     struct kd_error *error;
     bool patch; /* null resets */
@@ -200,7 +201,7 @@ static enum kd_status read_object(struct reader *r, const struct kd_object *obje
                                 : refuse(r, object, item, "an object with fields");
 }
 
-/* Reads an element, and creates it if it does not exist; null does not create one. */
+/* Reads an element of a list. The element is created if it does not exist, except by null. */
 static enum kd_status read_element(struct reader *r, const struct kd_list *list, size_t index, const cJSON *item,
                                    bool patch)
 {
@@ -213,7 +214,7 @@ static enum kd_status read_element(struct reader *r, const struct kd_list *list,
     return read_object(r, &object, item, patch);
 }
 
-/* Reads an array, which replaces the whole list. */
+/* Reads an array, which replaces all elements of the list. */
 static enum kd_status read_array(struct reader *r, const struct kd_list *list, const cJSON *array)
 {
     size_t index = 0;
@@ -292,8 +293,8 @@ static enum kd_status read_list(struct reader *r, const struct kd_list *list, co
     return refuse(r, &object, item, allowed);
 }
 
-/* Creates the element of a former name. If this element lies beyond the next free index, the elements before it are
- * created with defaults. */
+/* Creates the element to which a former name refers. If it lies beyond the next free index, the elements before it
+ * are created with defaults. */
 static enum kd_status read_former(struct reader *r, const struct kd_former *former, const cJSON *members,
                                   const cJSON *item)
 {
@@ -331,8 +332,8 @@ static enum kd_status read_part(struct reader *r, const struct kd_object *object
 static enum kd_status read_members(struct reader *r, const struct kd_object *object, const cJSON *members, bool patch)
 {
     enum kd_status status = KD_OK;
-    /* last: the row that was given last; highest: the highest row given so far. A row beyond the highest cannot have
-     * been given before */
+    /* last: the row that was given last; highest: the highest row that was given so far. A row above `highest`
+     * cannot have been given before. */
     const struct kd_row *last = NULL, *highest = NULL;
     for (const cJSON *item = members->child; item && !status; item = item->next) {
         const struct kd_row *row = kd_find_row(r->document, object->name, item->string, last);
@@ -373,7 +374,7 @@ enum kd_status kd_document_patch(const struct kd_document *document, void *to, c
     return read_whole(&reader, object);
 }
 
-/* Sets a field of an element. If the element is the next one after the end of the list, it is created. */
+/* Sets a field of an element. If the element would be the next one after the end of the list, it is created. */
 static enum kd_status set_in_list(const struct kd_document *document, void *to, const struct kd_typed_place *place,
                                   const char *text, struct kd_error *error)
 {

@@ -14,14 +14,14 @@
 
 enum {
     DEPTH_MAX = 32,
-    NUMBER_MAX = 60, /* limit of a number's bytes, because cJSON reads only 63 of them */
+    NUMBER_MAX = 60, /* limit of the length of a number in bytes; cJSON reads only 63 bytes of a number */
 };
 
 struct scan {
     const char *text;
     size_t length, at, values, most;
     int depth;
-    char before; /* the last syntax character; 'v' stands for the end of a value; 0: none yet */
+    char before; /* the last syntax character; 'v' stands for the end of a value, and 0 for the beginning */
     struct kd_error *error;
 };
 
@@ -36,7 +36,7 @@ static enum kd_status fail(struct scan *s, size_t at, const char *what)
                         what, at, place.line, place.column);
 }
 
-/* The value of the \u escape at `at`. 0 if there is none; no escape may have that value. */
+/* Returns the value of the \u escape at `at`, or 0 if there is none. (An escape with the value 0 is refused anyway.) */
 static unsigned unit_at(const struct scan *s, size_t at)
 {
     char digits[5] = "";
@@ -46,7 +46,7 @@ static unsigned unit_at(const struct scan *s, size_t at)
     return (unsigned)strtoul(digits, NULL, 16);
 }
 
-/* Checks the escape that begins with the backslash at s->at. */
+/* Checks the escape whose backslash is at s->at. */
 static enum kd_status escape(struct scan *s)
 {
     char c = s->at + 1 < s->length ? s->text[s->at + 1] : 0;
@@ -142,7 +142,7 @@ static enum kd_status mark(struct scan *s, char c)
     } else if (c == '}' || c == ']') {
         if (s->before == ',' || s->before == ':')
             return fail(s, s->at, "a bracket where a value is missing");
-        s->depth--; /* cJSON itself finds brackets that do not match */
+        s->depth--; /* no check here, because cJSON itself finds brackets that do not match */
     } else if (c == ',') {
         if (s->before && strchr(",{[:", s->before))
             return fail(s, s->at, "a comma where a value is missing");
@@ -206,7 +206,7 @@ enum kd_status kd_scan_json_part(const char *text, size_t start, size_t end, str
     return scan(text, start, end, KD_SCAN_FEW, error);
 }
 
-/* Index of the closing quote of the string that begins at `at`; the text's length if there is none. */
+/* Index of the closing quote of the string that starts at `at`; length of the text if there is none. */
 static size_t end_of(const char *text, size_t length, size_t at)
 {
     for (at++; at < length && text[at] != '"'; at++)
@@ -214,7 +214,7 @@ static size_t end_of(const char *text, size_t length, size_t at)
     return at < length ? at : length;
 }
 
-/* True if the text of a string spells the name. Any letter may be written in the form \u0061. */
+/* True if the text of a string spells the name. Letters in the text may be escaped, as in \u0061. */
 static bool spells(const char *text, size_t n, const char *name)
 {
     char digits[5] = "";

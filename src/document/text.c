@@ -23,7 +23,7 @@ void kd_text_clip(char *out, size_t size, const char *text)
         used += plain ? n : 1;
         i += step;
         if (used + 3 < size)
-            whole = used; /* end of the last character after which "..." still fits */
+            whole = used; /* end of the longest part after which "..." still fits */
     }
     out[used] = 0;
 }

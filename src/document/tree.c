@@ -29,13 +29,14 @@ cJSON *kd_tree_read(const char *text, size_t length, bool *starved)
     struct kd_number_locale locale = kd_number_locale_enter();
     errno = 0;
     cJSON *root = cJSON_ParseWithLength(text, length);
-    /* cJSON reports lack of memory in the same way as invalid JSON, but malloc then sets errno */
+    /* cJSON reports a lack of memory like invalid JSON. But malloc sets errno in that case, so errno tells them
+     * apart. */
     *starved = !root && errno == ENOMEM;
     kd_number_locale_leave(locale);
     return root;
 }
 
-/* True while this thread reads or frees a large tree. cJSON takes up to a second for that, so other requests may run in
+/* True while this thread reads or frees a large tree. That takes cJSON up to a second, so other requests may run in
  * between. */
 static _Thread_local bool shares;
 static _Thread_local uint64_t allocations;
@@ -73,8 +74,8 @@ void kd_tree_free(cJSON *root)
     shares = false;
 }
 
-/* Parses text without its long strings. A NUL that length does not count must follow the text, because cJSON reads one
- * byte beyond the end. */
+/* Parses text that contains no long strings. The byte after the text must be a NUL that length does not count,
+ * because cJSON reads one byte beyond the end. */
 static enum kd_status parse(const char *text, size_t length, const struct kd_long_strings *strings, cJSON **out,
                             struct kd_error *error)
 {
@@ -118,7 +119,7 @@ enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_
     if (length > most)
         return kd_error_set(error, KD_EINVAL, "the document has %zu bytes; it must have at most %zu", length, most);
     if (!text)
-        text = ""; /* adding 0 to a null pointer is undefined in C */
+        text = ""; /* because adding 0 to a null pointer is undefined in C */
     kd_scan_skip_mark(&text, &length);
     enum kd_status status = kd_scan_json(text, length, values, error);
     if (status)

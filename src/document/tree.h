@@ -1,4 +1,4 @@
-/* Reads a JSON document into cJSON's tree, and refuses what cJSON accepts by mistake (scan.h). Any thread. */
+/* Reads a JSON document into cJSON's tree, and refuses what cJSON accepts by mistake (see scan.h). Any thread. */
 #ifndef KD_DOCUMENT_TREE_H
 #define KD_DOCUMENT_TREE_H
 
@@ -9,9 +9,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Reads a document. The text need not end in a NUL. KD_EINVAL without a pointer: the text is not a JSON document, or
- * has more than `most` bytes or `values` values. While it reads, other requests may run (base/pause.h). Free *out
- * with kd_tree_free, which lets other requests run too. For a small tree cJSON_Delete is sufficient. */
+/* Reads a document. The text need not end in a NUL. Returns KD_EINVAL without a pointer if the text is not a JSON
+ * document, has more than `most` bytes, or has more than `values` values. Other requests may run during the call
+ * (base/pause.h). Free *out with kd_tree_free, during which other requests may run as well. For a small tree
+ * cJSON_Delete is sufficient. */
 enum kd_status kd_tree_parse(const char *text, size_t length, size_t most, size_t values, cJSON **out,
                              struct kd_error *error);
 void kd_tree_free(cJSON *root); /* accepts NULL */

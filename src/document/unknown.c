@@ -1,4 +1,4 @@
-/* Names that a document does not have. */
+/* Suggestions for names that a document does not have. */
 #include "document/document_internal.h"
 
 #include "base/spelling.h"
@@ -11,7 +11,7 @@ struct search {
     const struct kd_document *document;
     const struct kd_object *in;
     const char *name;
-    bool bare; /* a typed name does not include the name of its object */
+    bool bare; /* true if a typed name is given without the name of its object */
     int best;
     char meant[120];
 };
@@ -25,8 +25,9 @@ static void offer(struct search *s, const char *known, int worse, const char *me
     }
 }
 
-/* If the name is that of a field in another object, the distance grows by one edit, or by two if that object has a
- * much different name. So the same name in another object is as near as a misspelt name in this object. */
+/* Offers the name of a row as a suggestion. A field in another object counts one edit more, or two edits more if
+ * that object's name is very different. The same name in another object is thus as near as a misspelt name in this
+ * object. */
 static void offer_row(struct search *s, const struct kd_row *row)
 {
     const char *object = row->object ? row->object : "";
@@ -64,7 +65,7 @@ enum kd_status kd_unknown(const struct kd_document *document, const struct kd_ob
                           bool typed, const char *pointer, struct kd_error *error)
 {
     const bool bare = typed && !document->paths, top = !bare && !*object->name;
-    if (!error) /* a caller without an error needs no suggestion; the search for one takes long */
+    if (!error) /* a caller without an error needs no suggestion, which takes long to find */
         return KD_EINVAL;
     struct search s = { document, object, name, bare, KD_SPELLING_FAR, "" };
     char list[400] = "", other[KD_WORD_ROOM], in[48], shown[60];

@@ -48,7 +48,7 @@ struct kd_word kd_words_root(const char *known, int i, bool *numbered)
     return (struct kd_word) { word.text, word.length - (*numbered ? mark : 0) };
 }
 
-/* Parses "_0" to "_99" without leading zeros; -1 if the text is something else. */
+/* Parses "_0" to "_99" without leading zeros. Returns -1 for any other text. */
 static int number_of(const char *text, size_t length)
 {
     if (length < 2 || length > 3 || text[0] != '_' || (length == 3 && text[1] == '0'))

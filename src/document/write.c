@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Writes the words that are in a set, or all words. */
+/* Writes those words that are in a set, or all words. */
 static void write_words(struct kd_json *json, const char *name, const char *words, uint32_t set)
 {
     char word[KD_WORD_ROOM];
@@ -173,8 +173,8 @@ static void add_number_or_word(struct kd_json *json, const struct kd_row *row)
     kd_json_end(json);
 }
 
-/* Appends words of a series as alternatives. numbered: true: only the words that a number may follow; false: only
- * the other words. */
+/* Appends words of a series as alternatives of a pattern. numbered: true selects the words that a number may follow,
+ * false selects all others. */
 static size_t add_roots(char *pattern, size_t used, size_t size, const char *words, bool numbered)
 {
     const char *separator = "";

@@ -47,7 +47,8 @@ static void write_letter(const struct kd_canvas *canvas, uint32_t x, uint32_t y,
     for (uint32_t j = 0; j < KD_FONT_HEIGHT * dot; j++)
         for (uint32_t i = 0; i < KD_FONT_WIDTH * dot; i++) {
             const double off = kd_font_distance(letter, (i + 0.5) / dot - 0.5, (j + 0.5) / dot - 0.5),
-                         share = (0.5 - off) * dot + 0.5; /* a stroke is a dot wide; its edge takes one pixel */
+                         /* a stroke is one dot wide, and its edge is smoothed over one pixel */
+                share = (0.5 - off) * dot + 0.5;
             if (share > 0)
                 kd_canvas_mix(canvas, x + i, y + j, KD_CANVAS_INK, fmin(share, 1));
         }

@@ -2,10 +2,10 @@
 
 #include <math.h>
 
-/* Linear sRGB, which may be outside [0, 1]. */
+/* A colour in linear sRGB; the values may be outside [0, 1]. */
 struct linear { double r, g, b; };
 
-/* The inverse of f(t) of CIE 15:2004, which is t^(1/3) above (6/29)^3 and its tangent below. */
+/* The inverse of f(t) in CIE 15:2004. f(t) is t^(1/3) above (6/29)^3, and the tangent at that point below. */
 static double inverse_f(double t)
 {
     const double d = 6.0 / 29;
@@ -25,13 +25,14 @@ static struct linear of_lab(double lightness, double chroma, double hue)
     };
 }
 
-/* True if sRGB can show the colour. The tolerance is for the white of the matrix, which is (1, 1, 1) only to 1e-6. */
+/* True if the colour is inside sRGB. A tolerance is needed for the white of the matrix, which is (1, 1, 1) only to
+ * 1e-6. */
 static bool shows(struct linear c)
 {
     return fmin(fmin(c.r, c.g), c.b) >= -2e-6 && fmax(fmax(c.r, c.g), c.b) <= 1 + 2e-6;
 }
 
-/* Largest chroma in sRGB for this lightness and hue, bisected to 1e-5. */
+/* Maximum chroma inside sRGB for this lightness and hue, found by bisection to 1e-5. */
 static double most_chroma(double lightness, double hue)
 {
     double low = 0, high = 140;
@@ -81,12 +82,13 @@ static struct kd_map_colour diverging(double x)
     return colour(lightness, chroma_of(lightness, hue, chroma_of(36, hue, 140) * far), hue);
 }
 
-/* At L* 70 all hues have a chroma of at least 38.4. */
+/* At L* 70 the maximum chroma is at least 38.4 for all hues. */
 static struct kd_map_colour cyclic(double x) { return colour(70, 38, x < 1 ? 360 * x : 0); }
 
 static struct kd_map_colour categorical(double x)
 {
-    static const double lightnesses[] = { 82, 62, 72 }; /* adjacent classes also differ in grey */
+    /* adjacent classes get different lightness, so that they differ in grey as well */
+    static const double lightnesses[] = { 82, 62, 72 };
     double n = fmax(floor(x), 0), lightness = lightnesses[(int)fmod(n, 3)], hue = 80 + 137.50776 * n;
     return colour(lightness, chroma_of(lightness, hue, 140), hue);
 }

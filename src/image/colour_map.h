@@ -15,14 +15,15 @@
 
 enum kd_colour_map { KD_MAP_SEQUENTIAL, KD_MAP_HEAT, KD_MAP_DIVERGING, KD_MAP_CYCLIC, KD_MAP_CATEGORICAL };
 
-/* Encoded sRGB in [0, 1]. */
+/* A colour in encoded sRGB, each value in [0, 1]. */
 struct kd_map_colour { double r, g, b; };
 
-/* The colour at x. x is clamped to [0, 1]; for CATEGORICAL it is a whole number, 0 or more. Takes 2 us. */
+/* Returns the colour at x. x is clamped to [0, 1]. For CATEGORICAL, x is the number of a class, 0 or more. Takes 2
+ * us. */
 struct kd_map_colour kd_colour_map_at(enum kd_colour_map map, double x);
 
-/* The colours of kd_colour_map_at from a table, for many pixels. The error is at most 1/150 in each channel. For
- * CATEGORICAL at[i] is the colour of class i. Takes 2 ms. */
+/* A table of the colours of kd_colour_map_at, for use with many pixels. The error is at most 1/150 in each channel.
+ * For CATEGORICAL, at[i] is the colour of class i. Making the table takes 2 ms. */
 enum { KD_MAP_ENTRIES = 1024 };
 struct kd_map_table { struct kd_map_colour at[KD_MAP_ENTRIES]; };
 void kd_colour_map_fill(struct kd_map_table *table, enum kd_colour_map map);
@@ -32,12 +33,13 @@ static inline struct kd_map_colour kd_map_table_at(const struct kd_map_table *ta
     return table->at[(size_t)(x * (KD_MAP_ENTRIES - 1) + 0.5)];
 }
 
-/* Mapping from values to places on the map. */
+/* The mapping from values to positions on the map. */
 struct kd_map_scale {
-    double low, high; /* values at the ends of the map; if logarithmic, both must be above 0 */
+    double low, high; /* values at the ends of the map; on a logarithmic scale both must be above 0 */
     bool logarithmic;
 };
-/* Place on the map: 0 for the value `low`, 1 for `high`. Values beyond these are not clamped. 0 if low equals high. */
+/* Position on the map: 0 for the value `low`, 1 for `high`. Values outside are not clamped. The result is 0 if low
+ * equals high. */
 double kd_map_scale_place(const struct kd_map_scale *scale, double value);
 
 #endif

@@ -70,12 +70,13 @@ void kd_deflate_destroy(struct kd_deflate *deflate)
     free(deflate);
 }
 
-/* An empty stored block (RFC 1951, 3.2.4): the bytes after its three header bits and the padding to a whole byte. */
+/* An empty stored block (RFC 1951, 3.2.4). These four bytes follow its three header bits and the padding to a whole
+ * byte. */
 static const uint8_t empty_block[4] = { 0, 0, 0xff, 0xff };
 
-/* Turns a complete stream into a piece: its last block is no longer marked as last, and an empty block follows. The
- * bits after a stream's end are zeros, and so are the three header bits of the empty block. Returns the size; there
- * must be room for 5 more bytes. 0: the bytes are not a deflate stream. */
+/* Turns a complete stream into a piece: its last block is no longer marked as the last, and an empty block is
+ * appended. The bits after the end of a stream are zeros, as are the three header bits of the empty block. Returns
+ * the new size, or 0 if the bytes are not a deflate stream. There must be room for 5 more bytes. */
 static size_t make_piece(uint8_t *stream, size_t size)
 {
     struct kd_deflate_walk walk;
@@ -106,7 +107,7 @@ static enum kd_status by_libdeflate(struct kd_deflate *deflate, const void *data
 }
 
 #ifdef KD_HAVE_ISAL
-/* The output grows step by step, because igzip gives no bound for its size. */
+/* Compresses by igzip. The output buffer grows step by step, because igzip gives no bound for the size. */
 static enum kd_status by_isal(struct kd_deflate *deflate, const void *data, size_t size, bool last,
                               struct kd_buffer *out)
 {
@@ -123,7 +124,7 @@ static enum kd_status by_isal(struct kd_deflate *deflate, const void *data, size
     do {
         stream->next_out = deflate->piece;
         stream->avail_out = sizeof deflate->piece;
-        isal_deflate(stream); /* fails only for invalid arguments */
+        isal_deflate(stream); /* can fail only because of invalid arguments, which do not occur here */
         status = kd_buffer_append(out, deflate->piece, sizeof deflate->piece - stream->avail_out);
     } while (!status && (last ? stream->internal_state.state != ZSTATE_END : !stream->avail_out));
     return status;
@@ -146,7 +147,8 @@ enum kd_status kd_deflate_piece(struct kd_deflate *deflate, const void *data, si
     return status;
 }
 
-/* The two bytes state a window of 32 KiB and the level, and are chosen to be a multiple of 31 (RFC 1950, 2.2). */
+/* The two bytes state a window of 32 KiB and the compression level. Together, as a big-endian number, they must be a
+ * multiple of 31 (RFC 1950, 2.2). */
 void kd_zlib_head(int level, uint8_t to[2])
 {
     to[0] = 0x78;
@@ -155,9 +157,9 @@ void kd_zlib_head(int level, uint8_t to[2])
 
 uint32_t kd_zlib_sum(const void *data, size_t size) { return libdeflate_adler32(1, data, size); }
 
-/* Adler-32 (RFC 1950, 8.2): a is 1 plus the sum of all bytes, b the sum of a after each byte, modulo a prime. If
- * other data precede, every a is larger by a constant: the value of a after the preceding data, minus the initial
- * 1. b contains this constant once for each byte. */
+/* Adler-32 (RFC 1950, 8.2) has two sums, modulo a prime: a is 1 plus the sum of all bytes, and b is the sum of the
+ * values of a after each byte. If other data precede, every a grows by a constant: the value of a after those data,
+ * minus the initial 1. b then contains this constant once for each byte. */
 uint32_t kd_zlib_sum_join(uint32_t sum, uint32_t other, size_t size)
 {
     enum { PRIME = 65521 };

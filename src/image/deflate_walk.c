@@ -6,14 +6,14 @@ enum { BITS_MAX = 15, FAST = 11, LITERALS = 288, DISTANCES = 32, LENGTHS = 19, E
 
 struct bits {
     const uint8_t *begin, *at, *end;
-    uint64_t held; /* the next bits, the first one lowest */
+    uint64_t held; /* the next bits of the stream; the first one is the lowest */
     unsigned n;    /* number of bits in `held` */
     size_t taken;
 };
 
-/* A Huffman code (RFC 1951, 3.2.2). A table indexed by the next bits has the codes of up to FAST bits. Its entries have
- * the number of bits of a symbol with its extra bits, and the symbol's kind. Longer codes are searched among the sorted
- * symbols, as in Mark Adler's puff.c. */
+/* A Huffman code (RFC 1951, 3.2.2). Codes of up to FAST bits are found in a table that is indexed by the next bits.
+ * An entry of the table has the kind of the symbol, and the number of bits of the symbol including its extra bits.
+ * Longer codes are searched for among the sorted symbols, as in Mark Adler's puff.c. */
 enum kind { LONG, PLAIN, LENGTH, END };
 struct entry { uint8_t bits, kind; };
 struct code {
@@ -21,13 +21,13 @@ struct code {
     uint16_t count[BITS_MAX + 1], symbols[LITERALS];
 };
 
-/* Extra bits of lengths, from symbol 257 on, and of distances (section 3.2.5). */
+/* Number of extra bits of each length, from symbol 257 on, and of each distance (section 3.2.5). */
 static const uint8_t length_extra[29] = { 0, 0, 0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2,
                                           2, 3, 3, 3, 3, 4, 4, 4, 4, 5, 5, 5, 5, 0 };
 static const uint8_t distance_extra[30] = { 0, 0, 0, 0, 1, 1, 2, 2,  3,  3,  4,  4,  5,  5,  6,
                                             6, 7, 7, 8, 8, 9, 9, 10, 10, 11, 11, 12, 12, 13, 13 };
 
-/* Loads bits until at least 56 are held, with zeros after the last. */
+/* Loads bits until at least 56 are held. After the end of the stream, zeros are loaded. */
 static inline void refill(struct bits *b)
 {
     if (b->end - b->at >= 8) {
@@ -54,7 +54,7 @@ static inline bool drop(struct bits *b, unsigned n)
     return true;
 }
 
-/* Takes n bits, 0 to 16. BAD: there are not enough bits. */
+/* Takes n bits, 0 to 16. Returns BAD if there are not enough bits. */
 static int take(struct bits *b, unsigned n)
 {
     refill(b);
@@ -94,7 +94,7 @@ static bool make(struct code *code, const uint8_t *lengths, unsigned n, bool dis
         next[l + 1] = (next[l] + code->count[l]) << 1;
         place[l + 1] = place[l] + code->count[l];
     }
-    if (all > 1u << BITS_MAX) /* there are more codes than possible */
+    if (all > 1u << BITS_MAX) /* more codes than are possible */
         return false;
     for (unsigned i = 0; i < n; i++) {
         const unsigned l = lengths[i];
@@ -109,7 +109,7 @@ static bool make(struct code *code, const uint8_t *lengths, unsigned n, bool dis
     return true;
 }
 
-/* Finds the symbol whose code is in the next bits. *bits: length of the code. BAD: there is no such symbol. */
+/* Finds the symbol whose code comes next. *bits: length of the code. Returns BAD if there is no such symbol. */
 static int find(const struct code *code, uint64_t held, unsigned *bits)
 {
     int value = 0, first = 0, place = 0;
@@ -142,7 +142,7 @@ static inline struct entry next_entry(const struct code *code, uint64_t held, bo
     return e;
 }
 
-/* A length takes up to 20 bits and a distance 28, so that one refill is enough for both. */
+/* One refill is enough for a length and a distance, which take up to 20 and 28 bits. */
 static bool symbols(struct bits *b, const struct code *literals, const struct code *distances)
 {
     for (;;) {
@@ -174,7 +174,7 @@ static bool stored(struct bits *b)
     return true;
 }
 
-/* Reads the lengths of both codes, run by run (3.2.7). */
+/* Reads the code lengths of both Huffman codes, which are stored as runs (section 3.2.7). */
 static bool read_lengths(struct bits *b, const struct code *runs, uint8_t *lengths, unsigned n)
 {
     for (unsigned i = 0; i < n;) {

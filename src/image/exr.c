@@ -7,10 +7,10 @@
 
 enum { MOST_CHANNELS = 64 };
 
-/* Output or input of OpenEXR's core, and the core's last error message. */
+/* Output or input of OpenEXR's core, with the last error message of the core. */
 struct file {
     struct kd_buffer *out;
-    size_t from; /* size of the buffer before the file */
+    size_t from; /* size of the buffer before the file begins */
     const uint8_t *data;
     size_t size;
     bool no_memory;
@@ -22,7 +22,7 @@ static int64_t write_at(exr_const_context_t context, void *user, const void *dat
 {
     struct file *f = user;
     size_t end = f->from + offset + size;
-    while (f->out->size < end) { /* also writes the skipped bytes as zeros */
+    while (f->out->size < end) { /* if bytes were skipped, they are written as zeros */
         static const uint8_t zeros[4096];
         size_t more = end - f->out->size;
         if (kd_buffer_append(f->out, zeros, more < sizeof zeros ? more : sizeof zeros)) {
@@ -91,7 +91,7 @@ done:
     return code;
 }
 
-/* Connects channels by name, because the core has its own order. */
+/* Matches channels by name, because the core has its own order of channels. */
 static exr_result_t connect(exr_encode_pipeline_t *encoder, const struct kd_exr *image, uint32_t y)
 {
     for (int c = 0; c < encoder->channel_count; c++) {

@@ -1,5 +1,5 @@
-/* Writes OpenEXR files of named channels of 32-bit numbers, with OpenEXR's C core: one part, scan lines, ZIP. Any
- * thread. */
+/* Writes OpenEXR files with named channels of 32-bit numbers, by OpenEXR's C core. A file has one part, scan lines
+ * and ZIP compression. Any thread. */
 #ifndef KD_IMAGE_EXR_H
 #define KD_IMAGE_EXR_H
 
@@ -10,11 +10,11 @@
 #include <stdint.h>
 
 struct kd_exr_channel {
-    char name[40];     /* "R", "kerrd.g": must be unique */
+    char name[40];     /* name such as "R" or "kerrd.g"; must be unique */
     const float *data; /* rows from the top */
-    size_t step;       /* distance between pixels, in numbers */
+    size_t step;       /* distance between two pixels, counted in numbers */
 };
-struct kd_exr_text { const char *name, *value; }; /* a string attribute; name: at most 31 bytes */
+struct kd_exr_text { const char *name, *value; }; /* a string attribute; its name has at most 31 bytes */
 
 struct kd_exr {
     uint32_t width, height;
@@ -24,11 +24,11 @@ struct kd_exr {
     size_t n_texts;
 };
 
-/* Appends a file. KD_ENOMEM; KD_EINVAL for content that the format cannot hold. */
+/* Appends a file. KD_ENOMEM; KD_EINVAL if the format cannot hold the content. */
 enum kd_status kd_exr_encode(const struct kd_exr *image, struct kd_buffer *out, struct kd_error *error);
 
-/* Appends the value of a file's string attribute to *out. KD_EINVAL if the attribute is missing, or the file is not a
- * complete EXR file. */
+/* Appends the value of a string attribute of the file to *out. Returns KD_EINVAL if the attribute is missing, or if
+ * the file is not a complete EXR file. */
 enum kd_status kd_exr_find_text(const void *data, size_t size, const char *name, struct kd_buffer *out,
                                 struct kd_error *error);
 

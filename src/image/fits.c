@@ -9,8 +9,9 @@ enum {
     VALUE = 10,
     PIECE = 67,
     ROOM = 20
-}; /* VALUE: column at which a value starts. PIECE: most characters between the quotes of a text, including a "&". ROOM:
-      width of a number */
+    /* VALUE: column at which a value starts. PIECE: maximum number of characters between the quotes of a text,
+     * including a "&". ROOM: width of a number. */
+};
 
 static enum kd_status put_card(struct kd_buffer *cards, const char *text)
 {
@@ -61,8 +62,8 @@ enum kd_status kd_fits_comment(struct kd_buffer *cards, const char *text)
     return put_card(cards, card);
 }
 
-/* Length of the next piece of a text. Quotes within the text are doubled, and a doubled pair is not split between
- * pieces. */
+/* Length of the next piece of a text. Quotes in the text are doubled, and the two quotes of a pair always stay in
+ * the same piece. */
 static size_t piece_of(const char *text, size_t most, char *out)
 {
     size_t used = 0, n = 0;
@@ -81,7 +82,7 @@ enum kd_status kd_fits_text(struct kd_buffer *cards, const char *key, const char
 {
     char piece[KD_FITS_CARD], text[KD_FITS_CARD + 8];
     size_t n = piece_of(value, PIECE + 1, piece);
-    if (!value[n]) { /* the whole value fits one card; a text has at least eight characters */
+    if (!value[n]) { /* the whole text fits into one card; a text is padded to at least eight characters */
         snprintf(text, sizeof text, "'%-8s'", piece);
         return put_value(cards, key, text, comment);
     }
@@ -115,8 +116,8 @@ uint32_t kd_fits_sum(uint32_t sum, const void *bytes, size_t size)
     return (uint32_t)all;
 }
 
-/* Encodes a sum as sixteen letters and digits. At their place in the header, their own sum is the complement of `sum`:
- * appendix J.2 of the standard. */
+/* Encodes a sum as sixteen letters and digits, whose own sum at their place in the header is the complement of `sum`
+ * (appendix J.2 of the standard). */
 static void encode_sum(uint32_t sum, char out[17])
 {
     uint32_t value = ~sum;
@@ -125,7 +126,7 @@ static void encode_sum(uint32_t sum, char out[17])
         int byte = (int)(value >> (24 - 8 * i) & 0xff), ch[4];
         for (int j = 0; j < 4; j++)
             ch[j] = byte / 4 + '0' + (j ? 0 : byte % 4);
-        for (bool again = true; again;) { /* avoids punctuation by shifting pairs of characters */
+        for (bool again = true; again;) { /* shifts pairs of characters until none of them is punctuation */
             again = false;
             for (int j = 0; j < 4; j += 2)
                 for (int k = 0; k < 2; k++)
@@ -256,7 +257,7 @@ size_t kd_fits_head_size(const void *data, size_t size)
     return 0;
 }
 
-/* Text after the "= " of a card; "" if there is no such card. */
+/* Gets the text after the "= " of a card; "" if there is no such card. */
 static void value_of(const void *head, size_t size, const char *key, char out[KD_FITS_CARD - VALUE + 1])
 {
     char wanted[12];
@@ -283,7 +284,7 @@ double kd_fits_find_real(const void *head, size_t size, const char *key)
     return end > value ? number : NAN;
 }
 
-/* Appends the text between the quotes of a card; *more: whether another piece follows. */
+/* Appends the text between the quotes of a card. *more: true if another piece follows. */
 static enum kd_status unquote(const char *card, struct kd_buffer *out, bool *more)
 {
     const char *at = card + VALUE, *end = card + KD_FITS_CARD;

@@ -7,7 +7,7 @@
 
 enum { LETTERS = 0xb6, NO_LETTER = 0xfffd, DEGREE = 0xb0, MICRO = 0xb5 };
 
-/* Seven rows from the top, five bits each, the highest bit leftmost. */
+/* Shapes of the letters: seven rows from the top, each with five bits; the highest bit is the leftmost dot. */
 static const uint8_t glyphs[LETTERS][KD_FONT_HEIGHT] = {
     [DEGREE] = { 0x0c, 0x12, 0x12, 0x0c, 0x00, 0x00, 0x00 }, [MICRO] = { 0x00, 0x00, 0x11, 0x11, 0x13, 0x1d, 0x10 },
     ['%'] = { 0x18, 0x19, 0x02, 0x04, 0x08, 0x13, 0x03 },    ['\''] = { 0x04, 0x04, 0x08, 0x00, 0x00, 0x00, 0x00 },
@@ -52,7 +52,7 @@ static const uint8_t glyphs[LETTERS][KD_FONT_HEIGHT] = {
     ['z'] = { 0x00, 0x00, 0x1f, 0x02, 0x04, 0x08, 0x1f },
 };
 
-/* Box for characters without a shape. */
+/* A box, which is drawn for characters without a shape. */
 static const uint8_t unknown[KD_FONT_HEIGHT] = { 0x1f, 0x11, 0x11, 0x11, 0x11, 0x11, 0x1f };
 
 static const uint8_t *rows_of(uint32_t letter) { return kd_font_has(letter) ? glyphs[letter] : unknown; }
@@ -62,7 +62,7 @@ uint32_t kd_font_next(const char **text)
     const unsigned char *c = (const unsigned char *)*text;
     const size_t n = kd_utf8_sequence(*text, strlen(*text));
     *text += n ? n : 1;
-    /* sequences of more bytes have no shape in this font */
+    /* longer sequences have no shape in this font */
     return n == 1 ? c[0] : n == 2 ? (c[0] & 0x1fu) << 6 | (c[1] & 0x3fu) : NO_LETTER;
 }
 
@@ -100,7 +100,7 @@ double kd_font_distance(uint32_t letter, double x, double y)
             least = fmin(least, (i - x) * (i - x) + (j - y) * (j - y));
             for (int k = 0; k < 4; k++) {
                 const int dx = ways[k][0], dy = ways[k][1];
-                /* Dots that meet at a corner are joined along its sides, not diagonally. */
+                /* At a corner, dots are joined along its two sides, and not diagonally. */
                 const bool corner = dx && dy && (kd_font_dot(letter, i + dx, j) || kd_font_dot(letter, i, j + dy));
                 if (kd_font_dot(letter, i + dx, j + dy) && !corner)
                     least = fmin(least, square_of(i - x, j - y, dx, dy));

@@ -6,10 +6,10 @@
 
 #include <stdbool.h>
 
-/* ONCE: for an answer that is sent once; fast. KEPT: for a document that is sent many times; as small as possible. */
+/* ONCE: fast, for an answer that is sent once. KEPT: as small as possible, for a document that is sent many times. */
 enum kd_gzip { KD_GZIP_ONCE, KD_GZIP_KEPT };
 
-/* Returns false if the buffer is unchanged, because the stream would not be shorter or memory ran out. */
+/* Returns false, with the buffer unchanged, if the stream would not be shorter or memory has run out. */
 bool kd_gzip(struct kd_buffer *buffer, enum kd_gzip use);
 
 #endif

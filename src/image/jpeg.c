@@ -3,7 +3,7 @@
 #include "image/strips.h"
 
 #include <setjmp.h>
-#include <stdio.h> /* needed by jpeglib.h, which does not include it */
+#include <stdio.h> /* jpeglib.h needs this header but does not include it */
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,8 +11,8 @@
 
 enum {
     PIECE = 16 << 10,
-    STRIP = 256 << 10,      /* least number of pixels in a strip */
-    INTERVAL_MOST = 0xffff, /* MCUs between two restart markers (ITU-T T.81, B.2.4.4) */
+    STRIP = 256 << 10,      /* minimum number of pixels in a strip */
+    INTERVAL_MOST = 0xffff, /* maximum number of MCUs between two restart markers (ITU-T T.81, B.2.4.4) */
     SOF0 = 0xc0,
     RST0 = 0xd0,
     SOI = 0xd8,
@@ -25,9 +25,10 @@ enum {
 /* name of the namespace; a NUL separates it from the packet */
 static const char xmp_name[] = "http://ns.adobe.com/xap/1.0/";
 
-/* State of one compression: the state of libjpeg, and that of the callbacks. */
+/* State of one compression, for libjpeg and for its callbacks. */
 struct work {
-    struct jpeg_compress_struct info; /* first member, so that libjpeg's pointer can be cast to ours */
+    /* must be the first member, so that libjpeg's pointer can be cast to struct work */
+    struct jpeg_compress_struct info;
     struct jpeg_error_mgr errors;
     struct jpeg_destination_mgr destination;
     struct kd_buffer *out;
@@ -56,7 +57,7 @@ static void append(struct work *work, size_t size)
         longjmp(work->back, 1);
 }
 
-/* libjpeg requires that the buffer be emptied completely, regardless of the free space that it reports */
+/* libjpeg requires that the whole buffer is emptied, whatever free space it reports */
 static boolean put_piece(j_compress_ptr info)
 {
     append((struct work *)info, PIECE);
@@ -80,7 +81,7 @@ static void choose(struct jpeg_compress_struct *info, unsigned quality)
         info->comp_info[0].h_samp_factor = info->comp_info[0].v_samp_factor = 1;
 }
 
-/* strip_rows: MCU rows from one restart marker to the next; 0: no markers. */
+/* strip_rows: number of MCU rows between two restart markers; 0: no markers. */
 static void compress(struct work *work, const uint8_t *pixels, unsigned quality, unsigned strip_rows)
 {
     struct jpeg_compress_struct *info = &work->info;
@@ -99,9 +100,9 @@ static void compress(struct work *work, const uint8_t *pixels, unsigned quality,
 
 /* A picture divided into strips. */
 struct picture {
-    uint32_t width, height, rows; /* rows: pixel rows of a strip; the last may have fewer */
+    uint32_t width, height, rows; /* rows: number of pixel rows in a strip; the last strip may have fewer */
     const uint8_t *pixels;
-    unsigned quality, strip_rows; /* MCU rows in a strip; 0: there is one strip */
+    unsigned quality, strip_rows; /* strip_rows: number of MCU rows in a strip; 0: there is only one strip */
     size_t n;
     struct kd_buffer *out;
 };
@@ -128,15 +129,16 @@ static enum kd_status encode_strip(void *user, size_t strip, struct kd_buffer *o
         work->info.image_height = (JDIMENSION)(rest < p->rows ? rest : p->rows);
         compress(work, p->pixels + 3 * first * p->width, p->quality, p->strip_rows);
     } else {
-        status = KD_ENOMEM; /* compress() can fail for lack of memory only */
+        status = KD_ENOMEM; /* out of memory is the only possible failure of compress() */
     }
     jpeg_destroy_compress(&work->info);
     free(work);
     return status;
 }
 
-/* Offset of the scan's data. On the way the function sets the height in the frame header to that of all strips. Up to
- * the scan libjpeg writes segments: a marker, a length of two bytes that counts itself, and data (T.81, B.1.1.4). */
+/* Returns the offset of the scan's data. While it looks for them, it sets the height in the frame header to that of
+ * all strips together. Before the scan, libjpeg writes segments; each has a marker, a length of two bytes that
+ * counts itself, and data (T.81, B.1.1.4). */
 static size_t scan_of(const struct kd_buffer *jpeg, uint32_t height)
 {
     for (size_t at = 2;; at += 2 + (size_t)(jpeg->data[at + 2] << 8 | jpeg->data[at + 3])) {
@@ -150,9 +152,9 @@ static size_t scan_of(const struct kd_buffer *jpeg, uint32_t height)
     }
 }
 
-/* The file of the first strip is copied with its header. From the files of the other strips only the scans are
- * copied, each after a restart marker. All strips have the same tables, and a decoder resets its state at such a
- * marker, as an encoder of the whole picture does (T.81, F.1.1.5.1). */
+/* Appends the file of a strip. The file of the first strip is copied with its header. From all others only the scans
+ * are copied, each after a restart marker. This works because all strips have the same tables, and a decoder resets
+ * its state at such a marker, as an encoder of the whole picture does (T.81, F.1.1.5.1). */
 static enum kd_status join_strip(void *user, size_t strip, const struct kd_buffer *bytes)
 {
     const struct picture *p = user;
@@ -168,7 +170,8 @@ static enum kd_status join_strip(void *user, size_t strip, const struct kd_buffe
     return status;
 }
 
-/* Cuts a picture into strips. Optimised tables are made for the whole picture, which is then one strip. */
+/* Divides a picture into strips. Optimised Huffman tables are made for a whole picture, which then is a single
+ * strip. */
 static void cut(struct picture *p)
 {
     const uint32_t side = p->quality < KD_JPEG_FULL_COLOUR ? 16 : 8, across = (p->width + side - 1) / side;
@@ -213,7 +216,7 @@ enum kd_status kd_jpeg_add_xmp(const struct kd_buffer *file, const void *xmp, si
             size, KD_JPEG_XMP_MAX);
     const size_t length = 2 + sizeof xmp_name + size, before = out->size;
     const uint8_t *data = file->data, head[4] = { 0xff, APP1, (uint8_t)(length >> 8), (uint8_t)length };
-    /* libjpeg writes the segment JFIF first, and readers expect it there */
+    /* inserted after the JFIF segment, which libjpeg writes first because readers expect it there */
     const size_t first = 2 + (data[3] == APP0 ? 2 + (size_t)(data[4] << 8 | data[5]) : 0);
     enum kd_status status;
     KD_TRY(kd_buffer_append(out, data, first));
@@ -235,7 +238,8 @@ const void *kd_jpeg_xmp(const void *data, size_t size, size_t *length)
     if (size < 4 || bytes[0] != 0xff || bytes[1] != SOI)
         return NULL;
     for (size_t at = 2; at + 4 <= size && bytes[at] == 0xff && bytes[at + 1] != SOS;) {
-        const size_t segment = (size_t)(bytes[at + 2] << 8 | bytes[at + 3]); /* the length includes its own two bytes */
+        /* this length includes its own two bytes */
+        const size_t segment = (size_t)(bytes[at + 2] << 8 | bytes[at + 3]);
         if (segment < 2 || segment > size - at - 2)
             return NULL;
         if (bytes[at + 1] == APP1 && segment >= 2 + sizeof xmp_name &&

@@ -15,19 +15,20 @@ enum {
     GAP = 3,
     MARGIN = 4,
     PANEL_WIDTH = BAR_WIDTH + 2 * PADDING +
-        4 * KD_FONT_ADVANCE, /* numbers at the ends of the bar extend beyond it by half their length */
+        /* room at the ends of the bar, because the outermost numbers extend beyond it by half their length */
+        4 * KD_FONT_ADVANCE,
     PANEL_HEIGHT = 2 * PADDING + 2 * KD_FONT_HEIGHT + BAR_HEIGHT + TICK + 2 * GAP,
 };
 _Static_assert(PANEL_WIDTH + 2 * MARGIN <= KD_LEGEND_LEAST_WIDTH && PANEL_HEIGHT + 2 * MARGIN <= KD_LEGEND_LEAST_HEIGHT,
                "it fits");
 
-/* A panel on a canvas: its origin in pixels, the number of pixels a dot, and its width in pixels. */
+/* A panel on a canvas: its origin in pixels, the size of a dot in pixels, and its width in pixels. */
 struct panel {
     const struct kd_canvas *canvas;
     uint32_t left, top, dot, width;
 };
 
-/* x, y, width and height in pixels, relative to the panel. */
+/* Fills a rectangle. x, y, width and height are in pixels, relative to the panel. */
 static void fill(const struct panel *p, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
                  struct kd_map_colour colour)
 {
@@ -46,15 +47,15 @@ static void write_centred(const struct panel *p, double x, uint32_t y, const cha
     write_text(p, (uint32_t)fmax(fmin(x - 0.5 * width, most), p->dot), y, text);
 }
 
-/* Round numbers between the ends of a scale. They are multiples of a step or, on a logarithmic scale, a few numbers
- * in each decade. */
+/* Round numbers between the ends of a scale. On a linear scale they are multiples of a step; on a logarithmic scale
+ * they are a few numbers in each decade. */
 struct row {
     double step;
     const double *of_decade;
     int decades;
 };
 
-/* Writes a number in four digits, with an exponent if that is shorter by two characters. */
+/* Writes a number with four digits. An exponent is used if it makes the text shorter by at least two characters. */
 static void label(double value, char out[12])
 {
     char plain[32], power[32];
@@ -93,7 +94,7 @@ static size_t numbers(const struct kd_map_scale *scale, const struct row *row, s
     return n;
 }
 
-/* True if between any two numbers there is room for at least two characters. */
+/* True if there is room for at least two characters between neighbouring numbers. */
 static bool fit(const struct kd_map_scale *scale, double room, const struct kd_tick *ticks, size_t n)
 {
     if (n > KD_LEGEND_TICKS)
@@ -125,12 +126,13 @@ size_t kd_legend_ticks(const struct kd_map_scale *scale, double room, struct kd_
 {
     double length = fabs(scale->high - scale->low), step = length > 0 ? pow(10, floor(log10(length)) - 1) : 1;
     if (!(length > 0) || !isfinite(length) || (scale->logarithmic && !(fmin(scale->low, scale->high) > 0)))
-        return take(scale, scale->low, out, 0); /* invalid scale: one number, or none */
+        return take(scale, scale->low, out, 0); /* the scale is not valid: one number or none */
     size_t n = scale->logarithmic ? logarithmic_ticks(scale, room, out) : 0;
     if (n > 1 || (n && fmax(scale->low, scale->high) > 10 * fmin(scale->low, scale->high)))
         return n;
-    /* The step is 1, 2, 5, 10, ... or 500 times a power of ten between a hundredth and a tenth of the bar's range.
-     * The finest step that fits is used. A logarithmic scale within one decade has such steps, too. */
+    /* The steps that are tried are 1, 2, 5, 10, ... and 500 times the power of ten that lies between a hundredth and
+     * a tenth of the bar's range. The finest step that fits is used. A logarithmic scale within one decade uses such
+     * steps too. */
     static const double factors[] = { 1, 2, 5 };
     for (int i = 0; i < 9; i++) {
         const struct row row = { .step = step * factors[i % 3] * pow(10, i / 3) };
@@ -138,7 +140,8 @@ size_t kd_legend_ticks(const struct kd_map_scale *scale, double room, struct kd_
         if (n && fit(scale, room, out, n))
             return n;
     }
-    return take(scale, scale->low, out, 0); /* numbers of many digits may not fit next to each other */
+    /* numbers with many digits may not fit next to each other; then there is only one */
+    return take(scale, scale->low, out, 0);
 }
 
 static void draw_bar(const struct panel *p, const struct kd_legend *legend, uint32_t x, uint32_t y)
@@ -155,7 +158,7 @@ static void draw_bar(const struct panel *p, const struct kd_legend *legend, uint
     }
 }
 
-/* Draws as many boxes as fit the panel. */
+/* Draws a box for each class, as many as fit into the panel. */
 static void draw_classes(const struct panel *p, const struct kd_legend *legend, uint32_t x, uint32_t y)
 {
     uint32_t n = legend->classes < 12 ? legend->classes : 12, each = BAR_WIDTH * p->dot / (n ? n : 1);
@@ -173,7 +176,7 @@ uint32_t kd_legend_dot(const struct kd_canvas *canvas)
     return kd_canvas_dot(canvas, PANEL_WIDTH + 2 * MARGIN, PANEL_HEIGHT);
 }
 
-/* Width of the panel: the width of the bar, or of a title that ends at `title_end`. It is limited by the picture's
+/* Width of the panel: that of the bar or that of the title (which ends at `title_end`), limited by the picture's
  * width. */
 static uint32_t panel_width(const struct kd_canvas *canvas, uint32_t dot, uint32_t title_end)
 {

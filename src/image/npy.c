@@ -66,12 +66,13 @@ done:
     return status;
 }
 
-/* The header is a Python dict of three known keys; this parser accepts only that subset of Python. */
+/* The header is a Python dict with three known keys. This parser accepts only such dicts, not other Python
+ * expressions. */
 struct reader {
-    const char *at; /* NUL at the end of the header */
+    const char *at; /* position in the header, which ends with a NUL */
     struct kd_npy *array;
     struct kd_error *error;
-    bool text; /* text is accepted as well */
+    bool text; /* true if elements may be text */
 };
 
 static enum kd_status fail(struct reader *r, const char *what)
@@ -100,7 +101,7 @@ static bool take_word(struct reader *r, const char *word)
     return true;
 }
 
-/* Parses 'text' or "text", without escapes. */
+/* Parses a string 'text' or "text" that contains no escapes. */
 static bool take_string(struct reader *r, char *out, size_t size)
 {
     skip_blanks(r);
@@ -129,7 +130,7 @@ static bool take_number(struct reader *r, uint64_t *out)
     return r->at > start && (*start != '0' || r->at == start + 1);
 }
 
-/* Parses a shape: (), (3,), (3, 2) */
+/* Parses a shape, such as (), (3,) or (3, 2). */
 static enum kd_status take_shape(struct reader *r, uint64_t *shape, size_t most, size_t *n)
 {
     bool comma = true;
@@ -148,7 +149,7 @@ static enum kd_status take_shape(struct reader *r, uint64_t *shape, size_t most,
     return *n == 1 && !comma ? fail(r, "the shape is not a tuple") : KD_OK;
 }
 
-/* True if a type code is that of text, such as "<U12" or "|S12"; sets its type and count. */
+/* True if a type code is one of text, such as "<U12" or "|S12". Sets the type and the count of *out. */
 static bool is_text(const char *code, struct kd_npy_field *out)
 {
     for (size_t i = KD_NPY_TEXT; i <= KD_NPY_BYTES; i++) {
@@ -190,7 +191,7 @@ static bool good_name(const struct kd_npy *array, const char *name)
     return *name && !name[strspn(name, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")];
 }
 
-/* Parses a field: ('name', '<f8') or ('name', '<f8', (3,)) */
+/* Parses a field, such as ('name', '<f8') or ('name', '<f8', (3,)). */
 static enum kd_status take_field(struct reader *r)
 {
     struct kd_npy *array = r->array;
@@ -274,7 +275,8 @@ static enum kd_status take_header(struct reader *r)
     return seen[0] && seen[1] && seen[2] ? KD_OK : fail(r, "its header lacks descr, fortran_order or shape");
 }
 
-/* Returns the offset of the header, and its length; 0 if this is not an NPY file of a known version. */
+/* Returns the offset of the header and gets its length. Returns 0 if the data are not an NPY file of a known
+ * version. */
 static size_t find_header(const uint8_t *p, size_t size, size_t *length)
 {
     if (size < 10 || memcmp(p, MAGIC, sizeof MAGIC - 1) || p[7] || p[6] < 1 || p[6] > 2 || (p[6] == 2 && size < 12))
@@ -306,7 +308,7 @@ static enum kd_status read_all(const void *data, size_t size, bool text, struct 
     uint64_t items = 1, bytes;
     out->header_size = start + length;
     out->item_size = kd_npy_item_size(out);
-    bool overflow = false; /* checked even if a later dimension is 0, as in NumPy */
+    bool overflow = false; /* overflow is checked even if a later dimension is 0, as in NumPy */
     for (size_t i = 0; i < out->n_dimensions; i++)
         overflow |= __builtin_mul_overflow(items, out->shape[i], &items);
     if (overflow || __builtin_mul_overflow(items, (uint64_t)out->item_size, &bytes))
@@ -324,7 +326,7 @@ enum kd_status kd_npy_read(const void *data, size_t size, struct kd_npy *out, st
     return read_all(data, size, false, out, error);
 }
 
-/* Encodes a UTF-32 character in UTF-8; 0 bytes if it is invalid. */
+/* Encodes a UTF-32 character in UTF-8. Returns the number of bytes, 0 if the character is invalid. */
 static size_t to_utf8(uint32_t c, char out[4])
 {
     static const uint32_t least[] = { 0, 0x80, 0x800, 0x10000, 0x110000 };
@@ -347,7 +349,7 @@ enum kd_status kd_npy_read_text(const void *data, size_t size, struct kd_buffer 
     const enum kd_npy_type type = array.fields[0].type;
     if (status)
         return status;
-    /* computed after the check above, because an empty array may have no valid address */
+    /* Computed only after the check above, because the data of an empty array may have no valid address. */
     const uint8_t *p = (const uint8_t *)data + array.header_size;
     if (array.n_fields != 1 || array.fields[0].name[0] ||
         !(type == KD_NPY_U1 ? array.n_dimensions == 1 : type >= KD_NPY_TEXT && array.n_dimensions == 0))

@@ -11,10 +11,11 @@
 
 #define MAX_SIDE 32768u
 #define MAX_TEXT (1u << 20)
-#define MAX_CHUNKS 100 /* text chunks; a compressed chunk of 1 KiB may still unpack to MAX_TEXT */
+#define MAX_CHUNKS 100 /* maximum number of text chunks; even a compressed chunk of 1 KiB may unpack to MAX_TEXT */
 
-/* libpng leaves a failing call by longjmp. All variables that such a call changes are in this struct, in the stack
- * frame of the function that cleans up. So a jump cannot clobber a register variable, and cannot skip a free. */
+/* libpng leaves a failing call by longjmp. This struct holds all variables that such a call changes, and it lies in
+ * the stack frame of the function that cleans up. A jump therefore cannot clobber a variable in a register, and
+ * cannot skip a free. */
 struct job {
     png_structp png;
     png_infop info;
@@ -36,7 +37,7 @@ static void on_error(png_structp png, png_const_charp message)
 static void on_warning(png_structp png, png_const_charp message)
 {
     (void)png;
-    (void)message; /* a malformed ancillary chunk has no effect on the picture */
+    (void)message; /* ignored, because a malformed ancillary chunk has no effect on the picture */
 }
 
 static png_voidp job_malloc(png_structp png, png_alloc_size_t size)
@@ -73,7 +74,7 @@ static bool key_ok(const char *key)
     if (length < 1 || length > 79 || key[0] == ' ' || key[length - 1] == ' ' || strstr(key, "  "))
         return false;
     for (size_t i = 0; i < length; i++)
-        if (key[i] < ' ' || key[i] > '~') /* PNG allows Latin-1, but only ASCII reads the same everywhere */
+        if (key[i] < ' ' || key[i] > '~') /* PNG permits Latin-1, but only ASCII is read in the same way everywhere */
             return false;
     return true;
 }
@@ -99,7 +100,7 @@ static enum kd_status check_params(const struct kd_png_params *params, struct kd
             return kd_error_set(error, KD_EINVAL, "PNG text \"%s\" is not UTF-8", text->key);
         total += strlen(text->key) + strlen(text->value);
     }
-    /* more text could be written, but kerrd could not read it again */
+    /* PNG could hold more text, but kerrd could not read it again */
     if (total > MAX_TEXT || params->n_text >= MAX_CHUNKS)
         return kd_error_set(error, KD_EINVAL,
                             "a PNG has %zu bytes of text in %zu chunks; it must have at most %u bytes in %d chunks",
@@ -182,10 +183,10 @@ static void source_read(png_structp png, png_bytep data, size_t size)
     job->left -= size;
 }
 
-/* Text in one block: the array, then its strings. Latin-1 chunks become UTF-8. libpng skips a text chunk, with only
- * a warning, if it is too long, unpacks to too much, is damaged, or comes after too many others; which of these
- * chunks it skips differs between 1.6.39 and 1.6.48. A skipped chunk may have held the scene, so a missing text is
- * an error. */
+/* Copies all texts into one block: first the array, then its strings. Latin-1 chunks become UTF-8. libpng skips some
+ * text chunks with only a warning: chunks that are too long, unpack to too much, are damaged, or follow too many
+ * others. (The exact set differs between 1.6.39 and 1.6.48.) A skipped chunk may have held the scene, so a missing
+ * text is an error. */
 static enum kd_status take_text(struct job *job)
 {
     png_textp text = NULL;
@@ -220,8 +221,8 @@ static enum kd_status take_text(struct job *job)
     return KD_OK;
 }
 
-/* Deflate expands at most by 1032: a header that promises more pixels than the file can hold is refused before
- * memory is allocated. */
+/* Deflate expands data at most by a factor 1032. A header that promises more pixels than the file can hold is
+ * therefore refused before memory is allocated. */
 static void check_promise(struct job *job, uint32_t height)
 {
     uint64_t packed = (uint64_t)png_get_rowbytes(job->png, job->info) * height;
@@ -229,7 +230,7 @@ static void check_promise(struct job *job, uint32_t height)
         png_error(job->png, "the file is too short for its width and height");
 }
 
-/* Requests RGB of 8 or 16 bits from libpng, for every type of file. Alpha is dropped, not blended. */
+/* Makes libpng return RGB of 8 or 16 bits for every type of file. Alpha is dropped, not blended. */
 static int set_transforms(struct job *job)
 {
     png_set_expand(job->png);
@@ -256,7 +257,7 @@ static void read_pixels(struct job *job)
         job->no_memory = true;
         png_error(job->png, "out of memory");
     }
-    /* the passes of an interlaced file read the previous contents before they write */
+    /* cleared, because the passes of an interlaced file read the previous contents before they write */
     memset(picture->pixels, 0, stride * picture->height);
     for (int pass = 0; pass < passes; pass++)
         for (uint32_t y = 0; y < picture->height; y++)
@@ -268,7 +269,8 @@ static void read_info(struct job *job)
     png_set_read_fn(job->png, job, source_read);
     png_set_user_limits(job->png, MAX_SIDE, MAX_SIDE);
     png_set_chunk_malloc_max(job->png, MAX_TEXT + 128); /* room for MAX_TEXT and the key */
-    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);  /* libpng accepts two chunks fewer than this limit */
+    /* one more than needed: libpng accepts two chunks fewer than this limit */
+    png_set_chunk_cache_max(job->png, MAX_CHUNKS + 1);
     /* damaged text counts as damage of the file */
     png_set_crc_action(job->png, PNG_CRC_ERROR_QUIT, PNG_CRC_ERROR_QUIT);
     png_read_info(job->png, job->info);
@@ -291,8 +293,9 @@ static uint32_t big_endian(const uint8_t *p)
     return (uint32_t)p[0] << 24 | (uint32_t)p[1] << 16 | (uint32_t)p[2] << 8 | p[3];
 }
 
-/* Checks a file before libpng reads it, so that the error can name the fault. Moreover, libpng 1.6 trusts the length
- * in a text chunk's header: it allocates up to 2 GiB before it checks whether so many bytes follow. */
+/* Checks a file before libpng reads it. There are two reasons: the error message can then name the fault, and libpng
+ * 1.6 trusts the length in a text chunk's header, so that it allocates up to 2 GiB before it checks whether so many
+ * bytes follow. */
 static enum kd_status check_header(const uint8_t *data, size_t size, size_t *texts, size_t *end, struct kd_error *error)
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
@@ -330,7 +333,7 @@ enum kd_status kd_png_decode(const void *data, size_t size, struct kd_png *out, 
     job.png = png_create_read_struct_2(PNG_LIBPNG_VER_STRING, &job, on_error, on_warning, &job, job_malloc, job_free);
     job.info = job.png ? png_create_info_struct(job.png) : NULL;
     bool done = job.info && decode(&job);
-    if (!job.info || job.no_memory) /* libpng itself would continue without a text for which there is no memory */
+    if (!job.info || job.no_memory) /* libpng itself would drop a text for which there is no memory, and continue */
         status = kd_error_set(error, KD_ENOMEM, "out of memory for a PNG of %u x %u pixels", out->width, out->height);
     else if (!done)
         status = kd_error_set(error, KD_EINVAL, "damaged PNG file: %s", job.message);

@@ -13,15 +13,15 @@ void kd_png_filter_sub(uint8_t *restrict to, const uint8_t *restrict row, size_t
         to[1 + i] = (uint8_t)(row[i] - row[i - step]);
 }
 
-/* Returns whichever of left, above and corner is closest to left + above - corner. */
+/* Returns the one of left, above and corner that is closest to left + above - corner. */
 static int paeth(int left, int above, int corner)
 {
     const int l = abs(above - corner), a = abs(left - corner), c = abs(left + above - 2 * corner);
     return l <= a && l <= c ? left : a <= c ? above : corner;
 }
 
-/* Results of all filters for bytes from `first` to `end`. left: 1 if the pixels of these bytes have a left neighbour;
- * otherwise the neighbour counts as 0. */
+/* Computes the results of all filters for the bytes from `first` to `end`. left: 1 if the pixels of these bytes have
+ * a left neighbour; otherwise the neighbour counts as 0. */
 static void all_of(const uint8_t *row, const uint8_t *above, size_t first, size_t end, size_t step, int left,
                    uint8_t *restrict room[FILTERS])
 {

@@ -1,7 +1,6 @@
-/* Filters rows of a PNG before compression (PNG specification, third edition, W3C 2025, section 9). Pure, any thread.
- *
- * A row is `stride` bytes, `step` of them a pixel. The filtered row is one byte longer: it begins with the filter's
- * number. */
+/* Filters rows of a PNG before compression (PNG specification, third edition, W3C 2025, section 9). Pure, any
+ * thread. A row has `stride` bytes, `step` bytes per pixel. The filtered row is one byte longer, because it begins
+ * with the filter's number. */
 #ifndef KD_IMAGE_PNG_FILTER_H
 #define KD_IMAGE_PNG_FILTER_H
 
@@ -11,9 +10,9 @@
 /* Filter 1: each byte minus the corresponding byte of the pixel to the left. */
 void kd_png_filter_sub(uint8_t *restrict to, const uint8_t *restrict row, size_t stride, size_t step);
 
-/* Uses the filter, of the five, for which the sum of the bytes as signed numbers is smallest (section 12.7). If
- * several sums are equal, the first filter is used. above: the unfiltered row before, or zeros for the first row.
- * room: scratch of 5 strides. */
+/* Uses the one of the five filters whose output, as signed numbers, has the smallest sum of magnitudes (section
+ * 12.7). If several sums are equal, the first such filter is used. above: the unfiltered row before this one, or
+ * zeros for the first row. room: working memory of 5 strides. */
 void kd_png_filter_least(uint8_t *restrict to, const uint8_t *row, const uint8_t *above, size_t stride, size_t step,
                          uint8_t *restrict room);
 

@@ -40,13 +40,13 @@ static enum kd_status put_file(struct kd_png_live *live, const struct kd_png_par
                                struct kd_error *error)
 {
     static const uint8_t signature[8] = { 0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n' };
-    uint8_t header[13] = { [8] = 8, [9] = 2 }; /* bits a channel; RGB */
+    uint8_t header[13] = { [8] = 8, [9] = 2 }; /* 8 bits per channel; colour type 2, RGB */
     big_endian(header, params->width);
     big_endian(header + 4, params->height);
     enum kd_status status;
     KD_TRY(kd_buffer_append(out, signature, sizeof signature));
     KD_TRY(kd_png_chunk(out, "IHDR", header, sizeof header));
-    KD_TRY(kd_png_chunk(out, "sRGB", "", 1)); /* perceptual intent, as in image/png.c */
+    KD_TRY(kd_png_chunk(out, "sRGB", "", 1)); /* perceptual rendering intent, as in image/png.c */
     if ((status = kd_png_strips_append(live->strips, params, out, error)))
         return status;
     KD_TRY(kd_png_chunk(out, "IEND", NULL, 0));

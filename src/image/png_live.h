@@ -9,11 +9,11 @@
  *         pass png on; its last user calls kd_buffer_finish
  *     kd_png_live_destroy(live);
  *
- * One thread at a time uses a struct kd_png_live: one for each encoder thread. Frames may differ in size; working
- * memory is kept (png_strips.h). Costs of a frame: bench/results, *-encode.md.
- *
- * The file: IHDR, sRGB, an IDAT for each strip, IEND. It has no text. The metadata of a live frame are sent separately.
- * To save a frame, it is rendered again as a file that contains its scene (render/output/png.h). */
+ * Only one thread at a time may use a struct kd_png_live, so each encoder thread needs its own. Frames may differ in
+ * size. Working memory is kept between frames (png_strips.h). For the cost of a frame see bench/results,
+ * *-encode.md. The file consists of IHDR, sRGB, an IDAT for each strip, and IEND. It has no text, because the
+ * metadata of a live frame are sent separately. When a user saves a frame, it is rendered again as a file that
+ * contains its scene (render/output/png.h). */
 #ifndef KD_IMAGE_PNG_LIVE_H
 #define KD_IMAGE_PNG_LIVE_H
 
@@ -23,15 +23,15 @@
 
 #include <stdint.h>
 
-#define KD_PNG_LIVE_MAX ((size_t)1 << 30) /* bytes of filtered rows */
+#define KD_PNG_LIVE_MAX ((size_t)1 << 30) /* limit of the size of all filtered rows, in bytes */
 
 struct kd_png_live;
 enum kd_status kd_png_live_create(enum kd_deflate_engine engine, struct kd_png_live **out, struct kd_error *error);
 void kd_png_live_destroy(struct kd_png_live *live); /* accepts NULL */
 
-/* Appends one file. pixels: rows from the top, three bytes a pixel, no padding, as in a kd_frame of 8 bits. Returns
- * KD_EINVAL if a side is outside 1 to 32768 pixels, KD_ETOOBIG if the filtered rows exceed KD_PNG_LIVE_MAX,
- * KD_ENOMEM. On error out->size is unchanged, and the next frame may be encoded. */
+/* Appends one file. pixels: rows from the top, three bytes per pixel, no padding, as in a kd_frame of 8 bits.
+ * Returns KD_EINVAL if width or height is outside 1 to 32768 pixels, KD_ETOOBIG if the filtered rows exceed
+ * KD_PNG_LIVE_MAX, or KD_ENOMEM. On error out->size is unchanged, and the next frame may be encoded. */
 enum kd_status kd_png_live_encode(struct kd_png_live *live, uint32_t width, uint32_t height, const uint8_t *pixels,
                                   struct kd_buffer *out, struct kd_error *error);
 

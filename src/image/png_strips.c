@@ -8,9 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { STRIP = 512 << 10, MIB = 1 << 20, ROW_ROOM = 7 /* two rows, and scratch of the filters */ };
+enum {
+    STRIP = 512 << 10,
+    MIB = 1 << 20,
+    ROW_ROOM = 7 /* ROW_ROOM: number of rows in the working memory: two rows, and five for the filters */
+};
 
-/* Working memory of one thread; kept in a list while unused. */
+/* Working memory of one thread. It is kept in a list while it is not used. */
 struct workspace {
     struct workspace *next;
     struct kd_deflate *deflate;
@@ -22,17 +26,17 @@ struct workspace {
 struct kd_png_strips {
     enum kd_deflate_engine engine;
     pthread_mutex_t lock;
-    struct workspace *idle; /* guarded by the lock */
+    struct workspace *idle; /* the list of unused workspaces, guarded by the lock */
 };
 
 /* State of one picture. */
 struct work {
     struct kd_png_strips *strips;
     const struct kd_png_params *p;
-    size_t step, stride, n; /* bytes of a pixel and of a row; number of strips */
-    uint32_t rows;          /* rows of a strip; the last may have fewer */
+    size_t step, stride, n; /* step: bytes per pixel; stride: bytes per row; n: number of strips */
+    uint32_t rows;          /* rows in a strip; the last strip may have fewer */
     uint32_t *sums;         /* checksum of each strip */
-    uint32_t sum;           /* checksum of the joined strips */
+    uint32_t sum;           /* checksum of all strips that are joined so far */
     struct kd_buffer *out;
 };
 
@@ -42,7 +46,7 @@ static void big_endian(uint8_t to[4], uint32_t value)
         to[i] = (uint8_t)(value >> (24 - 8 * i));
 }
 
-/* Writes a chunk of up to three parts. */
+/* Writes a chunk whose data consist of up to three parts. */
 static enum kd_status put_chunk(struct kd_buffer *out, const char type[5], const void *const parts[3],
                                 const size_t sizes[3])
 {
@@ -73,7 +77,7 @@ static void workspace_destroy(struct workspace *workspace)
     free(workspace);
 }
 
-/* Takes an unused workspace, or makes one; NULL: out of memory. */
+/* Takes an unused workspace, or makes one. Returns NULL when out of memory. */
 static struct workspace *workspace_take(struct kd_png_strips *strips, int level)
 {
     pthread_mutex_lock(&strips->lock);
@@ -100,14 +104,14 @@ static bool make_room(uint8_t **memory, size_t *size, size_t wanted)
 {
     if (wanted <= *size)
         return true;
-    /* the old contents are not needed, so the buffer is freed first to avoid the copy that realloc makes */
+    /* The buffer is freed first, because its contents are not needed and realloc would copy them. */
     free(*memory);
     *memory = malloc(wanted);
     *size = *memory ? wanted : 0;
     return *memory;
 }
 
-/* Converts 16-bit samples to big-endian. */
+/* Returns a row with its 16-bit samples converted to big-endian. */
 static const uint8_t *row_at(const struct work *w, uint32_t y, uint8_t *room)
 {
     const uint8_t *from = (const uint8_t *)w->p->pixels + y * w->stride;
@@ -122,13 +126,13 @@ static const uint8_t *row_at(const struct work *w, uint32_t y, uint8_t *room)
     return room;
 }
 
-/* At the lowest levels trying all filters costs more than it gains. Among the filters whose cost is negligible
- * compared with deflate, Sub makes the smallest files of kerrd's pictures (docs/decisions/0004-live-png.md). */
+/* At the lowest levels, trying all filters costs more time than it is worth. Of the filters that are cheap compared
+ * with deflate, Sub makes the smallest files of kerrd's pictures (docs/decisions/0004-live-png.md). */
 static void filter(const struct work *w, uint32_t first, uint32_t end, struct workspace *workspace)
 {
     const size_t stride = w->stride;
     uint8_t *to = workspace->rows, *room[2] = { workspace->room, workspace->room + stride };
-    memset(room[1], 0, stride); /* the row above the first row of a picture */
+    memset(room[1], 0, stride); /* zeros stand for the row above the first row of a picture */
     const uint8_t *above = first ? row_at(w, first - 1, room[1]) : room[1];
     for (uint32_t y = first; y < end; y++, to += stride + 1) {
         const uint8_t *row = row_at(w, y, room[(y - first) % 2]);
@@ -203,8 +207,8 @@ void kd_png_strips_destroy(struct kd_png_strips *strips)
     free(strips);
 }
 
-/* A piece that libdeflate makes takes a quarter longer than a whole stream (deflate_walk.h). So pictures that one
- * core encodes in some ten milliseconds are not divided. */
+/* A picture smaller than this is not divided, because one core encodes it in some ten milliseconds, and libdeflate
+ * takes a quarter longer for a piece than for a whole stream (deflate_walk.h). */
 static size_t least_in_strips(enum kd_deflate_engine engine) { return engine == KD_DEFLATE_ISAL ? MIB : 4 * MIB; }
 
 enum kd_status kd_png_strips_append(struct kd_png_strips *strips, const struct kd_png_params *params,

@@ -16,7 +16,7 @@ double kd_sky_scale_bar(const struct kd_sky_scale *scale, uint32_t width)
 
 struct bar {
     char text[24];
-    uint32_t length, wide; /* in pixels: length of the line; width of the text */
+    uint32_t length, wide; /* in pixels: length of the line, and width of the text */
 };
 
 static struct bar bar_of(const struct kd_sky_scale *scale, uint32_t width, uint32_t dot)
@@ -29,8 +29,8 @@ static struct bar bar_of(const struct kd_sky_scale *scale, uint32_t width, uint3
     return bar;
 }
 
-/* Draws a line with end ticks, and its length below. `right`: its right end; `top`: its upper edge. Returns the
- * lower edge. */
+/* Draws a line with ticks at its ends and its length below. right: the line's right end. top: its upper edge.
+ * Returns the lower edge of the drawing. */
 static uint32_t draw_bar(const struct kd_canvas *c, const struct bar *bar, uint32_t dot, uint32_t right, uint32_t top)
 {
     const uint32_t line = dot > 1 ? dot / 2 : 1, tick = TICK * dot, text = top + tick + GAP * dot;
@@ -42,7 +42,7 @@ static uint32_t draw_bar(const struct kd_canvas *c, const struct bar *bar, uint3
     return text + KD_FONT_HEIGHT * dot;
 }
 
-/* Draws a grey disk round (x0, y0) with an edge of ink, which is visible on any background. */
+/* Draws a grey disk round (x0, y0) with an edge in the colour of the lines, so that it is visible on any background. */
 static void draw_beam(const struct kd_canvas *c, double radius, double line, double x0, double y0)
 {
     static const struct kd_map_colour grey = { 0.45, 0.45, 0.45 };

@@ -15,7 +15,7 @@ struct work {
     const struct kd_strips *strips;
     pthread_mutex_t lock;
     /* Guarded by the lock: */
-    struct bytes *waiting; /* one for each strip */
+    struct bytes *waiting; /* encoded bytes of the strips that are not joined yet, one entry for each strip */
     size_t joined;
     enum kd_status status;
 };

@@ -4,7 +4,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-#define LEVEL 12 /* best compression, since the texts are short */
+#define LEVEL 12 /* strongest compression, because the texts are short */
 
 static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
 
@@ -26,7 +26,7 @@ static void to_letters(const uint8_t *bytes, size_t size, char *out)
     *out = 0;
 }
 
-/* Decodes base64url to *size bytes. Returns false if the code is not in the form that to_letters writes. */
+/* Decodes base64url to *size bytes. Returns false if the code differs from what to_letters would write. */
 static bool to_bytes(const char *code, size_t length, uint8_t *out, size_t *size)
 {
     uint32_t bits = 0;

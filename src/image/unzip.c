@@ -8,7 +8,7 @@
 enum { END = 22, END64 = 56, LOCATOR = 20, ENTRY = 46, HEADER = 30, COMMENT_MOST = 65535 };
 enum { STORED = 0, DEFLATED = 8, ENCRYPTED = 1 };
 #define SATURATED 0xffffffffu
-#define DENSEST 1032 /* largest expansion by deflate: 258 bytes from two bits (RFC 1951) */
+#define DENSEST 1032 /* maximum expansion factor of deflate: 258 bytes from two bits (RFC 1951) */
 
 static uint16_t u16(const uint8_t *p) { return (uint16_t)(p[0] | p[1] << 8); }
 static uint32_t u32(const uint8_t *p) { return u16(p) | (uint32_t)u16(p + 2) << 16; }
@@ -19,7 +19,7 @@ static enum kd_status damaged(struct kd_error *error, const char *what)
     return kd_error_set(error, KD_EINVAL, "%s", what);
 }
 
-/* Finds the end record. Only the record's own comment may follow it. */
+/* Finds the end record. Nothing but the record's own comment may follow it. */
 static bool find_end(const uint8_t *data, size_t size, size_t *at)
 {
     for (size_t n = END; n <= size && n <= END + COMMENT_MOST; n++)
@@ -32,11 +32,11 @@ static bool find_end(const uint8_t *data, size_t size, size_t *at)
 
 struct directory {
     uint64_t n, size, at;
-    size_t end; /* position up to which the directory may extend */
+    size_t end; /* limit of the end of the directory, as an offset */
 };
 
-/* Takes the counts of a ZIP64 file from its own end record (APPNOTE 4.3.14), to which a locator before the end
- * record points. */
+/* Reads the counts of a ZIP64 file, which are in a separate end record (APPNOTE 4.3.14). A locator before the usual
+ * end record points to it. */
 static bool read_end64(const uint8_t *data, size_t end, struct directory *out)
 {
     if (end < LOCATOR + END64 || memcmp(data + end - LOCATOR, "PK\6\7", 4))
@@ -68,7 +68,7 @@ static enum kd_status read_end(const uint8_t *data, size_t size, struct director
                                                                 : KD_OK;
 }
 
-/* Takes values that exceed 32 bits from the ZIP64 extra field, which has them in this order (APPNOTE 4.5.3). */
+/* Reads values that exceed 32 bits from the ZIP64 extra field, which contains them in this order (APPNOTE 4.5.3). */
 static bool read_long(const uint8_t *extra, size_t size, struct kd_unzip_member *m)
 {
     uint64_t *const wanted[] = { &m->size, &m->packed, &m->at };
@@ -92,7 +92,7 @@ static bool read_long(const uint8_t *extra, size_t size, struct kd_unzip_member 
     return true;
 }
 
-/* Reads an entry of the directory; returns its length, or 0 if it is damaged. */
+/* Reads an entry of the directory. Returns its length, or 0 if it is damaged. */
 static size_t read_entry(const uint8_t *p, size_t left, struct kd_unzip_member *m)
 {
     if (left < ENTRY || memcmp(p, "PK\1\2", 4))
@@ -152,7 +152,8 @@ const struct kd_unzip_member *kd_unzip_find(const struct kd_unzip *zip, const ch
     return NULL;
 }
 
-/* Data of a member, behind the member's own header. NULL unless all of the data are before the directory. */
+/* Returns the data of a member, which follow the member's own header. Returns NULL unless all of the data lie before
+ * the directory. */
 static const uint8_t *bytes_of(const struct kd_unzip *zip, const struct kd_unzip_member *m)
 {
     if (zip->directory < HEADER || m->at > zip->directory - HEADER || memcmp(zip->data + m->at, "PK\3\4", 4))

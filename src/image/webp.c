@@ -6,8 +6,8 @@
 #include <webp/mux.h>
 
 enum {
-    METHOD = 4,       /* of 0 (fastest) to 6 (smallest) */
-    LARGE = 16 << 20, /* pixels from which libwebp saves memory at the cost of time */
+    METHOD = 4,       /* compression method, from 0 (fastest) to 6 (smallest) */
+    LARGE = 16 << 20, /* number of pixels from which on libwebp is told to save memory at the cost of time */
 };
 
 uint64_t kd_webp_bytes(uint32_t width, uint32_t height)
@@ -27,7 +27,8 @@ static enum kd_status fault(int code)
     case VP8_ENC_ERROR_PARTITION0_OVERFLOW:
     case VP8_ENC_ERROR_PARTITION_OVERFLOW:
     case VP8_ENC_ERROR_FILE_TOO_BIG: return KD_ETOOBIG;
-    default: return KD_ENOMEM; /* after the checks of kd_webp_encode, any other code means a lack of memory */
+    /* kd_webp_encode has checked everything else, so any other code means a lack of memory */
+    default: return KD_ENOMEM;
     }
 }
 

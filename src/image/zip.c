@@ -5,26 +5,26 @@
 #include <string.h>
 
 enum { LEVEL = 6 };
-#define SATURATED 0xffffffffu /* value of a 32-bit field that refers to the ZIP64 field (APPNOTE 4.4.8) */
-#define FIRST_DAY 0x21        /* 1 January 1980, the earliest possible date */
+#define SATURATED 0xffffffffu /* value of a 32-bit field that means: see the ZIP64 extra field (APPNOTE 4.4.8) */
+#define FIRST_DAY 0x21        /* 1 January 1980, the earliest date that the format can store */
 #define FILE_MODE (0100644u << 16)
 
 struct entry {
     char *name;
-    uint64_t size, packed, at; /* at: offset of the member's header */
+    uint64_t size, packed, at; /* size, packed: bytes before and after compression; at: offset of the member's header */
     uint32_t crc;
-    bool deflated, streamed; /* streamed: the checksum follows the bytes */
+    bool deflated, streamed; /* streamed: true if the checksum follows the data instead of preceding them */
 };
 
 struct kd_zip {
     struct kd_buffer *out;
     bool deflated;
-    uint64_t at, left; /* bytes written so far; missing bytes of the open member */
+    uint64_t at, left; /* at: bytes written so far; left: bytes that the open member still lacks */
     struct entry *entries;
     size_t n, room;
 };
 
-/* The little-endian fields of one record. */
+/* Builds one record from little-endian fields. */
 struct record {
     uint8_t bytes[80];
     size_t size;
@@ -48,7 +48,7 @@ static enum kd_status emit(struct kd_zip *zip, const void *data, size_t size)
 
 static bool is_long(const struct entry *e) { return e->size >= SATURATED || e->packed >= SATURATED; }
 
-/* The fields shared by both headers of a member, from the version needed to read it to the length of its name
+/* The fields that both headers of a member contain, from the version needed for reading to the length of the name
  * (APPNOTE 4.3.7 and 4.3.12). */
 static void put_common(struct record *r, const struct entry *e, bool directory)
 {
@@ -112,7 +112,8 @@ static enum kd_status put_directory_entry(struct kd_zip *zip, const struct entry
     put(&r, 3 << 8 | 45, 2); /* made on Unix */
     put_common(&r, e, true);
     put(&r, extra.size, 2);
-    put(&r, 0, 2 + 2 + 2); /* length of the comment, disk number and internal attributes */
+    /* three fields that are 0: the length of the comment, the disk number and the internal attributes */
+    put(&r, 0, 2 + 2 + 2);
     put(&r, FILE_MODE, 4);
     put(&r, saturate(e->at), 4);
     KD_TRY(emit(zip, r.bytes, r.size));
@@ -122,7 +123,7 @@ done:
     return status;
 }
 
-/* APPNOTE 4.3.14 to 4.3.16. */
+/* Writes the end records (APPNOTE 4.3.14 to 4.3.16). */
 static enum kd_status put_end(struct kd_zip *zip, uint64_t directory)
 {
     struct record r = { 0 };
@@ -167,7 +168,7 @@ enum kd_status kd_zip_create(struct kd_buffer *out, bool deflated, struct kd_zip
     return KD_OK;
 }
 
-/* Appends an entry to the directory; NULL: out of memory. */
+/* Appends an entry to the directory. Returns NULL when out of memory. */
 static struct entry *enter(struct kd_zip *zip, const char *name)
 {
     if (zip->n == zip->room) {
@@ -217,7 +218,8 @@ enum kd_status kd_zip_pass_over(struct kd_zip *zip)
     return put_descriptor(zip, &zip->entries[zip->n - 1]);
 }
 
-/* Deflates; false if the result is not smaller, or out of memory. The caller frees *out. */
+/* Compresses the data by deflate. Returns false if the result is not smaller, or when out of memory. The caller
+ * frees *out. */
 static bool deflate(const void *data, size_t size, void **out, size_t *packed)
 {
     struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(LEVEL);

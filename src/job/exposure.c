@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* True if a scene's exposure is automatic. Maps of numbers in false colour have no exposure. */
+/* True if the exposure of a scene is automatic. Maps of numbers in false colour have no exposure. */
 static bool takes_one(const struct kd_scene *scene)
 {
     const struct kd_words *layers = &scene->image.layers;
@@ -22,7 +22,7 @@ static bool is_auto(const struct kd_job_spec *spec, unsigned frame)
     return !kd_job_spec_scene(spec, frame, &scene, NULL) && takes_one(&scene);
 }
 
-/* Words are not interpolated between keyframes. So a frame has "auto" only if a keyframe has it. */
+/* Words are not interpolated between keyframes, so a frame can have "auto" only if a keyframe has it. */
 static bool any_auto(const struct kd_job_spec *spec)
 {
     for (size_t i = 0; i < spec->timeline.n_keys; i++)

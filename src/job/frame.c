@@ -31,7 +31,7 @@ enum kd_status kd_job_frame_plan(const struct kd_job_spec *spec, unsigned frame,
         snprintf(pointer, sizeof pointer, "/scenes/%u", frame);
     else
         snprintf(pointer, sizeof pointer, spec->sweep ? "/axes" : among_keyframes ? "/keyframes" : "/scene");
-    /* the pointer is cleared, because it would not refer to a member of the request */
+    /* cleared, because the pointer would not lead to a member of the request */
     if (spec->sweep || among_keyframes)
         *inner.pointer = '\0';
     kd_error_inside(&inner, pointer);

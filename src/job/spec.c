@@ -11,7 +11,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#define VALUES_MAX 400000 /* limit of JSON values in a request: some 40 fields for each scene */
+#define VALUES_MAX 400000 /* limit of the number of JSON values in a request; a scene has some 40 fields */
 
 enum { ONE, EACH };
 static const char *const exposures[] = { [ONE] = "one", [EACH] = "each" };
@@ -110,7 +110,7 @@ done:
     return status;
 }
 
-/* Parses a scene with axes. */
+/* Parses a request for a scene with axes. */
 static enum kd_status read_sweep(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;
@@ -129,7 +129,7 @@ done:
     return status;
 }
 
-/* Checks that the scene of each keyframe can show the playground. */
+/* Checks, for each keyframe, that its scene can show the playground. */
 static enum kd_status look_through(struct reader *r, const struct kd_playground *p)
 {
     const struct kd_timeline *timeline = &r->spec->timeline;
@@ -156,7 +156,7 @@ static enum kd_status read_every(struct reader *r)
 
 static const char *named(const struct kd_job_base *base) { return base->preset && *base->preset ? base->preset : NULL; }
 
-/* Parses a film of a playground; its frames are a sequence. */
+/* Parses a request for a film of a playground. Its frames form a sequence. */
 static enum kd_status read_film(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;
@@ -221,8 +221,8 @@ static enum kd_status read_output(struct reader *r)
 
 static bool makes_pictures(const struct kd_job_spec *spec) { return spec->series->frame->carries & KD_CARRIES_PICTURE; }
 
-/* Parses "exposure". The frames of a film of a playground have no common exposure, because they are not known in
- * advance. Scenes of a sweep are independent. */
+/* Parses "exposure". A common exposure is refused in two cases: the frames of a film of a playground are not known
+ * in advance, and the scenes of a sweep are independent of each other. */
 static enum kd_status read_exposure(struct reader *r)
 {
     struct kd_job_spec *spec = r->spec;
@@ -245,7 +245,7 @@ static enum kd_status read_exposure(struct reader *r)
     return KD_OK;
 }
 
-/* Returns the part of the request that excludes motion blur, in words; NULL: motion blur is possible. */
+/* Returns the words for the part of the request that excludes motion blur; NULL if motion blur is possible. */
 static const char *unblurred(const struct reader *r)
 {
     return r->playground              ? "a playground, whose bodies move from frame to frame"

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* At a horizon E, L and Delta p_r are no longer independent (tetrad.h). A camera that is closer to the horizon than
- * this, in M, is therefore treated as if it were at this distance. */
+/* At a horizon, E, L and Delta p_r are no longer independent (tetrad.h). A camera nearer to the horizon than this
+ * distance, in M, is therefore treated as if it were at this distance. */
 static const double BESIDE = 1e-7;
 
 static struct kd_vantage beside_horizon(struct kd_vantage at)

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-/* Checks that the asset is of the kind that the field requires. */
+/* Checks that the asset has the type that the field requires. */
 static enum kd_status suits(const struct kd_scene *scene, const char *path, const char *pointer,
                             const struct kd_asset_found *found, struct kd_error *error)
 {

@@ -2,8 +2,9 @@
 
 #include <math.h>
 
-#define ALONE 0.2 /* sky.brightness "auto" for a grid, or if nothing but the sky shines */
-/* sky.brightness "auto" in all other cases, so that bright stars beside a disk do not make the whole sky white */
+#define ALONE 0.2 /* value for sky.brightness "auto" if the volume is a grid, or if nothing shines except the sky */
+/* value for sky.brightness "auto" in all other cases; it is small, so that bright stars beside a disk do not make
+ * the whole sky white */
 #define BEHIND 0.01
 
 static bool shines_before(const struct kd_scene *scene)
@@ -22,8 +23,8 @@ double kd_scene_sky_brightness(const struct kd_scene *scene)
     return scene->sky.model != KD_SKY_GRID && shines_before(scene) ? BEHIND : ALONE;
 }
 
-/* largest brightness of the sky's unit, as a fraction of white. It is small, so that space between the stars stays
- * black */
+/* maximum brightness of one unit of the sky, as a fraction of white; it is small, so that the space between the
+ * stars stays black */
 #define DARK 0.25
 
 double kd_scene_exposure_most(const struct kd_scene *scene)

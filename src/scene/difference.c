@@ -4,17 +4,16 @@
 
 #include <string.h>
 
-/* State while a difference is written. `base` is the base scene with all fields applied that have been written so
- * far. */
+/* State while a difference is written. `base` is the base scene, with all fields that were written so far applied. */
 struct telling {
     const struct kd_scene *scene;
     struct kd_scene made;
     char between;
-    size_t before; /* size of *out before the difference */
+    size_t before; /* size of *out before the difference was written */
     struct kd_buffer *out, value;
 };
 
-/* Converts a value from the form of a document to that of --set, without quotes and brackets. */
+/* Converts a value from its form in a document to its form in --set, which has no quotes and brackets. */
 static void strip(char *text)
 {
     char *to = text;
@@ -24,7 +23,8 @@ static void strip(char *text)
     *to = 0;
 }
 
-/* Compares values, not their texts. Writing texts would be most of the work, because a link compares 30 presets. */
+/* Compares values instead of their texts. Writing texts would take most of the time, because making a link compares
+ * 30 presets. */
 static bool same(const struct kd_scene *a, const struct kd_scene *b, const struct kd_row *field, size_t index)
 {
     if (field->kind == KD_KIND_ASSET)
@@ -67,8 +67,8 @@ static enum kd_status tell(struct telling *t, const struct kd_row *field, size_t
     return status ? status : kd_buffer_printf(t->out, "%s=%s", path, value);
 }
 
-/* Writes the fields of a section or list element that differ. If the base lacks the element, the first field is
- * written even if it has its default, because writing a field creates the element. */
+/* Writes those fields of a section or list element that differ. If the base has no such element, the first field is
+ * written even if it has its default, because this creates the element. */
 static enum kd_status tell_fields(struct telling *t, const struct kd_section *section, size_t index)
 {
     enum kd_status status = KD_OK;
@@ -81,7 +81,7 @@ static enum kd_status tell_fields(struct telling *t, const struct kd_section *se
     return status;
 }
 
-/* Writes the style first, because it sets other fields, as in a document. */
+/* Writes the difference. The style comes first because it sets other fields, as in a document. */
 static enum kd_status tell_all(struct telling *t)
 {
     enum kd_status status = KD_OK;

@@ -4,14 +4,15 @@
 
 #include "scene/scene.h"
 
-/* Appends the difference, such as "style.name=film spacetime.spin=0.99 camera.r=40", with `between` as separator. If
+/* Appends the difference, such as "style.name=film spacetime.spin=0.99 camera.r=40". `between` is the separator. If
  * these fields are applied in this order to *base, the result is *scene. Returns KD_EINVAL, with *out unchanged, if
- * no such difference exists. This is so if a list of *base is longer, or if *scene names an asset by an unresolved
- * name. The only other error is KD_ENOMEM. */
+ * no such difference exists: a list of *base is longer, or *scene names an asset by an unresolved name. The only
+ * other error is KD_ENOMEM. */
 enum kd_status kd_scene_difference(const struct kd_scene *base, const struct kd_scene *scene, char between,
                                    struct kd_buffer *out);
 
-/* Appends the difference from the default scene, separated by blanks. If there is none, appends "the default scene". */
+/* Appends the difference from the default scene, separated by blanks. If there is no difference, appends "the
+ * default scene". */
 enum kd_status kd_scene_line(const struct kd_scene *scene, struct kd_buffer *out);
 
 #endif

@@ -1,8 +1,8 @@
-/* The table of scene fields, version 1 of the scene document. Each row is a field; rows are grouped in sections and in
- * lists of sections.
+/* The table of scene fields, version 1 of the scene document. Each row is a field; rows are grouped in sections and
+ * in lists of sections.
  *
- * Each row expands to the struct member, the default, the JSON parser, --set, the query parameter, the JSON Schema and
- * docs/scene.md. A new field is added here and nowhere else.
+ * Each row expands to the struct member, the default, the JSON parser, --set, the query parameter, the JSON Schema
+ * and docs/scene.md. A new field must be added only here.
  *
  *     REAL(section, name, nature, place, default, minimum, maximum, unit, help)
  *     WORD(section, name, nature, place, default, minimum, maximum, unit, help, word)
@@ -12,19 +12,19 @@
  *     ENUM(section, name, nature, place, default, help, words)
  *          words "a|b|c": the value is the index of one of them
  *     ASSET(section, name, nature, place, help)
- *          bytes that are named by their SHA-256, or none (scene/asset.h)
+ *          an asset, named by the SHA-256 of its bytes, or none (scene/asset.h)
  *     WORDS(section, name, nature, place, help, words)
  *          a set of words of "a|b_N|c", in any order; b_N stands for b, b_0, b_1, ...; default: the first word
  *
- * The nature says what a change of the field in a picture means. Every row must have one.
+ * The nature says what it means to change the field. Every row must have a nature.
  *     PHYSICS  an exact consequence of general relativity or radiative transfer, or its numerical accuracy
  *     MODEL    chooses a model of matter or of a source, or a parameter of the model
  *     LOOK     a choice of presentation, which changes the picture but not the physics
  * The place tells where the page shows the field: FRONT among the few that most visitors use, REST among the others.
  * The group of a section (LOOK, GAS, HOLE, CAMERA or MORE) is the group in which the page shows its fields.
  *
- * Bounds are inclusive. Lengths are in M = GM/c^2; the unit "1" means a pure number. The order here is that of the
- * canonical form and of the reference. */
+ * Bounds are inclusive. Lengths are in M = GM/c^2; the unit "1" means a pure number. The canonical form and the
+ * reference have the fields in the order of this table. */
 #ifndef KD_SCENE_FIELDS_H
 #define KD_SCENE_FIELDS_H
 
@@ -199,7 +199,7 @@
          "g^(3 + index)") \
     REAL(spots, temperature_k, MODEL, REST, 9000.0, 300.0, 1e9, "K", \
          "colour: that of a black body of this temperature, shifted by g")
-#define KD_SPOTS 16 /* limit of the number of spots; the kernels have room for this many */
+#define KD_SPOTS 16 /* maximum number of spots, for which the kernels have room */
 
 #define KD_FLASH_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(flash, brightness, MODEL, REST, 0.0, 0.0, 1e6, "1", \
@@ -494,7 +494,7 @@
          "rate of the observer's proper time: the observer moves along its path, a fall to the last possible " \
          "position or an orbit; coordinate time follows")
 
-/* Words that requests for rays have in common with scenes. */
+/* Words that both scenes and requests for rays use. */
 #define KD_PROFILE_WORDS "draft|interactive|balanced|high|reference"
 #define KD_ENGINE_WORDS "auto|closed|mino-rkn4|mino-rkn6|ks-euler|ks-rk4|ks-tao6"
 #define KD_PRECISION_WORDS "auto|f32|f64"
@@ -518,8 +518,9 @@
 #define KD_TOP_FIELDS(REAL, WORD, INT, BOOL, ENUM, ASSET, WORDS) \
     REAL(top, time, PHYSICS, FRONT, 0.0, -1e12, 1e12, "M", "coordinate time of the picture")
 
-/* The sections, in order. SECTION(name, rows, group, help) is one object. LIST(name, element, rows, group, most, help)
- * is a list of up to `most` elements, each with these rows. The rows of "top" are members of the document itself. */
+/* The sections, in order. SECTION(name, rows, group, help) is one object. LIST(name, element, rows, group, most,
+ * help) is a list of up to `most` elements that all have these rows. The rows of the section "top" are members of
+ * the document itself. */
 #define KD_SCENE_SECTIONS(SECTION, LIST) \
     SECTION(spacetime, KD_SPACETIME_FIELDS, HOLE, "the hole") \
     SECTION(camera, KD_CAMERA_FIELDS, CAMERA, "position, motion and view of the observer") \
@@ -543,21 +544,22 @@
     SECTION(accuracy, KD_ACCURACY_FIELDS, MORE, "accuracy of the rays") \
     SECTION(top, KD_TOP_FIELDS, CAMERA, "members of the document itself")
 
-/* Sections that are nested in another section of the document: PART(s, name, section). s is passed through. */
+/* Sections that are members of another section of the document: PART(s, name, section). s is passed through to PART. */
 #define KD_SCENE_PARTS(PART, s) PART(s, gas, disk) PART(s, tile, image)
 
-/* Styles. A document that names a style in style.name gets the style's values for these fields, except for fields that
- * the document sets itself (scene/style.h). ROW(section, name, values) has one value for each word of style.name except
- * "none". Values have the form that kd_field_put accepts. The fields belong to sections that are not lists. NAN: the
- * style leaves the field unchanged.
+/* Styles. A document that names a style in style.name gets the style's values for these fields, except for fields
+ * that the document sets itself (scene/style.h). ROW(section, name, values) has one value of the field for each word
+ * of style.name except "none". Values have the form that kd_field_put accepts. The fields belong to sections that
+ * are not lists. NAN: the style leaves the field unchanged.
  *
- * film: a bright scene, seen by the eye through a lens. raw: light without post-processing. dngr: as in Interstellar,
- * without the frequency shifts of the disk's gas, with lens flare (O. James et al. 2015, section 4.3). eht: as the
- * Event Horizon Telescope shows its pictures, at its resolution of about 20 microarcseconds (EHT Collaboration 2019,
- * ApJL 875, L4). starless: no disk, but a lensed synthetic sky, as in R. Antonelli's ray tracer of that name (2015). */
+ * film: a bright scene, seen by the eye through a lens. raw: light without post-processing. dngr: as in
+ * Interstellar, without the frequency shifts of the disk's gas, with lens flare (O. James et al. 2015, section 4.3).
+ * eht: as the Event Horizon Telescope shows its pictures, at its resolution of about 20 microarcseconds (EHT
+ * Collaboration 2019, ApJL 875, L4). starless: no disk, but a lensed synthetic sky, as in R. Antonelli's ray tracer
+ * of that name (2015). */
 #define KD_STYLES 5
 #define KD_SCENE_STYLES(ROW) \
-    /*                      film               raw                dngr               eht                starless */ \
+    /* columns: film, raw, dngr, eht, starless */ \
     ROW(disk, model, NAN, NAN, NAN, NAN, KD_DISK_NONE) \
     ROW(disk, doppler, 1, 1, 0, 1, 1) \
     ROW(disk, redshift, 1, 1, 0, 1, 1) \
@@ -570,7 +572,7 @@
     ROW(style, colour_bar, 0, 0, 0, 1, 0) \
     ROW(style, dither, 1, 0, 1, 1, 1)
 
-/* Sky models that have diffuse light between the stars, or a picture of that light. */
+/* Sky models that include diffuse light between the stars, or that are a picture of it. */
 /* clang-format off */
 #define KD_WITH_SPREAD_(WITH, path) \
     WITH(path, "model", KD_SKY_STARS) WITH(path, "model", KD_SKY_CATALOGUE) WITH(path, "model", KD_SKY_IMAGE)
@@ -578,8 +580,8 @@
 
 #define KD_HOLE_SPAN_(SPAN, name, member, least, most, shown, ...) SPAN("spacetime." #name, least, shown)
 
-/* Controls of the page (scene/control.h). Fields are named by their paths, without an index for lists. Rows of one
- * section are adjacent. */
+/* Controls of the page (scene/control.h). Fields are named by their paths, without an index for lists. The rows of a
+ * section must be adjacent. */
 /* clang-format off */
 #define KD_SCENE_CONTROLS(SPAN, FIRST, SWITCH, WITH, VARIES, BUTTON) \
     SPAN("spacetime.spin", -0.998, 0.998) \
@@ -698,7 +700,7 @@
     SPAN("time", -1000, 1000) VARIES("time", "moves_with_time|dims_with_time")
 /* clang-format on */
 
-/* Obsolete names of list elements: OLD(name, list, index). Such names are still read, but never written. */
+/* Obsolete names of list elements: OLD(name, list, index). They are still read, but never written. */
 #define KD_SCENE_OLD_NAMES(OLD) OLD(spot1, spots, 0) OLD(spot2, spots, 1) OLD(spot3, spots, 2)
 
 enum kd_projection {
@@ -747,6 +749,6 @@ enum kd_profile {
     KD_PROFILE_HIGH,
     KD_PROFILE_REFERENCE,
 };
-enum { KD_ENGINE_WORD_AUTO, KD_PRECISION_WORD_AUTO = 0 }; /* the further words are in render/accuracy/engine.h */
+enum { KD_ENGINE_WORD_AUTO, KD_PRECISION_WORD_AUTO = 0 }; /* all other words are in render/accuracy/engine.h */
 
 #endif

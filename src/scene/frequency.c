@@ -1,4 +1,4 @@
-/* Scenes that are seen at one frequency, and the temperature of their disk. */
+/* Scenes that show light of a single frequency, and the temperature of their disk. */
 #include "scene/scene.h"
 
 #include "physics/disk/thin_disk.h"
@@ -44,7 +44,8 @@ void kd_scene_set_frequency(struct kd_scene *scene, double ghz)
     *(kd_scene_is_radio(scene) ? &scene->volume.frequency_ghz : &scene->disk.frequency_ghz) = ghz;
 }
 
-/* The largest effective temperature of the disk without light that returns, in K in the gas's own frame. */
+/* Maximum effective temperature of the disk in K, in the frame of the gas. Light that returns to the disk is
+ * ignored. */
 static double peak_k(const struct kd_scene *scene)
 {
     if (scene->disk.colour == KD_COLOUR_PEAK)

@@ -1,4 +1,4 @@
-/* The hole of a scene, as a value. */
+/* Makes a value for the hole of a scene. */
 #ifndef KD_SCENE_HOLE_H
 #define KD_SCENE_HOLE_H
 

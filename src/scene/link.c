@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-#define TOLD 4 /* limit of the changes that a preview mentions */
+#define TOLD 4 /* maximum number of changes that the text of a preview mentions */
 
 enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -23,7 +23,7 @@ enum kd_status kd_scene_link_check(const struct kd_scene *scene, struct kd_error
     return KD_OK;
 }
 
-/* Gets the preset at index i; after the last preset, the default scene. */
+/* Gets the preset at index i. After the last preset comes the default scene. */
 static enum kd_status base_of(size_t i, struct kd_scene *base, struct kd_buffer *text)
 {
     const char *name = kd_scene_preset_name(i);
@@ -79,8 +79,8 @@ done:
     return status;
 }
 
-/* Writes the name and value of one field: "inclination" for camera.inclination_deg, because the unit follows the
- * value. */
+/* Writes name and value of one field. The name is "inclination" for camera.inclination_deg, because the unit follows
+ * the value. */
 static enum kd_status tell_one(const struct kd_scene_changed *one, struct kd_buffer *out)
 {
     static const char degrees[] = "_deg";
@@ -115,8 +115,8 @@ enum kd_status kd_scene_link_tell(const struct kd_scene_changed *changed, size_t
     return status || n == told ? status : kd_buffer_printf(out, " and %zu more", n - told);
 }
 
-/* Presets are composed for 16:9. A wider picture gets a wider field, so that the vertical field stays the same, as in
- * the page (clients/web/picture/fit.js). */
+/* Presets are composed for 16:9. A wider picture gets a wider field of view, so that the vertical field of view
+ * stays the same, as in the page (clients/web/picture/fit.js). */
 static void fit(struct kd_scene *scene, double by)
 {
     static const double widest_deg = 150, widest_m = 1e4, degree = 3.14159265358979323846 / 180;
@@ -139,8 +139,9 @@ void kd_scene_link_preview(struct kd_scene *scene, int32_t width, int32_t height
     scene->image.width = width;
     scene->image.height = height;
     scene->image.samples = 2;
-    /* Light from a volume varies slowly over a picture, and each of its rays takes a hundred times as long. The profile
-     * "draft" changes the pixels of presets with volumes by at most 2 of 255. */
+    /* One ray per pixel is enough for a volume: its light varies slowly over the picture, and a ray takes a hundred
+     * times as long as without a volume. The profile "draft" changes the pixels of presets with volumes by at most 2
+     * of 255. */
     if (scene->volume.model != KD_VOLUME_NONE || scene->jets.brightness > 0) {
         scene->image.samples = 1;
         scene->accuracy.profile = KD_PROFILE_DRAFT;

@@ -9,7 +9,7 @@
 #include "physics/waves/ringdown.h"
 #include "scene/hole.h"
 
-#define TIME_END 1e12 /* limit of `time` in fields.h, for both signs */
+#define TIME_END 1e12 /* limit of |time|, as in fields.h */
 
 static void turn(struct kd_scene *scene, double degrees)
 {
@@ -135,8 +135,8 @@ struct kd_observer_motion kd_body_motion(const struct kd_body *body)
     return motion;
 }
 
-/* m counts around the hole's own axis. If the spin a is negative, the disk turns against the hole. The hole itself
- * rings as for |a|. */
+/* The mode's m is counted around the hole's own axis. If the spin a is negative, the disk rotates against the hole,
+ * but the hole itself rings as for |a|. */
 bool kd_scene_ringdown(const struct kd_scene *scene, double *wave)
 {
     double t = scene->top.time - scene->style.ringdown_time;

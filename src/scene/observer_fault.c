@@ -15,7 +15,7 @@ static struct shown show(double value)
     return s;
 }
 
-/* Rounds a bound up, so that the number in the message is itself valid. */
+/* Rounds a bound up, so that the number in the message is itself an accepted value. */
 static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1e9); }
 
 static enum kd_status fault(const struct kd_observer_names *names, const char *field, struct kd_error *error,

@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Sets the fields that follow from those that were given. */
+/* Sets fields that depend on the fields that were given. */
 static void settle(struct kd_scene *scene, const uint64_t *given)
 {
     if (kd_style_field() && kd_field_is_given(given, kd_style_field()))

@@ -13,7 +13,7 @@
     "{\"disk\":{\"emission_opacity\":0,\"peak_temperature_k\":5600,\"gas\":{\"amplitude\":0}},\"style\":{\"name\":" \
     "\"none\",\"bloom\":0}}"
 
-/* A scene of R. Gold et al. 2020 (ApJ 897, 148), 3.2: the picture is 30 M wide and high. */
+/* A scene of R. Gold et al. 2020 (ApJ 897, 148), section 3.2: the picture is 30 M wide and high. */
 #define GOLD(spin, rest) \
     "{\"spacetime\":{\"spin\":" spin ",\"mass_msun\":4.063e6,\"distance_pc\":7778}," \
     "\"camera\":{\"inclination_deg\":60,\"field_m\":30}," \
@@ -22,9 +22,9 @@
     "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"}," \
     "\"image\":{\"width\":512,\"height\":512}}"
 
-/* Coordinates of M87*: S. B. Lambert & A.-M. Gontier 2009 (A&A 493, 317); of Sagittarius A*: M. J. Reid & A. Brunthaler
- * 2004 (ApJ 616, 872). The dates are those of the pictures that the Event Horizon Telescope has published: 11 and 7
- * April 2017 (ApJL 875, L1; ApJL 930, L12). */
+/* The coordinates of M87* are those of S. B. Lambert & A.-M. Gontier 2009 (A&A 493, 317), and those of Sagittarius
+ * A* are from M. J. Reid & A. Brunthaler 2004 (ApJ 616, 872). The dates are those of the pictures that the Event
+ * Horizon Telescope has published: 11 and 7 April 2017 (ApJL 875, L1; ApJL 930, L12). */
 #define M87_(rest) "\"source\":{\"name\":\"m87\",\"ra_deg\":187.7059308,\"dec_deg\":12.3911233" rest "},"
 #define SGRA_(rest) "\"source\":{\"name\":\"sgra\",\"ra_deg\":266.4168371,\"dec_deg\":-29.0078106" rest "},"
 #define M87 M87_("")
@@ -68,9 +68,9 @@ const struct kd_preset kd_presets[] = {
       "\"disk\":{\"inner\":9.26,\"outer\":18.7,\"taper\":0.15,\"peak_temperature_k\":14000},"
       "\"image\":{\"samples\":2}}" },
     /* The next two presets have the same scale: 214 microarcseconds across. The inner edge of the flow is chosen so
-     * that the ring, seen through the beam, has the measured diameter. The density of the flow is chosen so that the
-     * flux is close to the measured one, 0.6 or 2.4 Jy. The beam is much wider than a pixel, so one ray a pixel is
-     * enough, even at the critical curve. */
+     * that the ring has the measured diameter when it is seen through the beam. The density is chosen so that the
+     * flux is close to the measured flux, 0.6 or 2.4 Jy. The beam is much wider than a pixel, so one ray per pixel
+     * is enough, even at the critical curve. */
     { "m87", "M87*",
       "A hot flow round a hole of the mass of M87*, seen at 230 GHz as the Event Horizon Telescope would: a beam of 20 "
       "microarcseconds, north up, brightness in false colour; the flow's inner edge is chosen so that the ring is as "
@@ -243,7 +243,7 @@ const struct kd_preset kd_presets[] = {
       "Test 5 of the comparison of programs for radiation near black holes: a thin layer (h = 100/3), orbiting, "
       "optically thick (A = 1e6); 230 GHz",
       true, GOLD("0.9", "\"gold_flattening\":33.333333333333336,\"gold_momentum\":1,\"gold_absorption\":1e6") },
-    /* The picture is 200 microarcseconds wide, as in ipole's model/riaf. */
+    /* This picture is 200 microarcseconds wide, as in ipole's model/riaf. */
     { "riaf", "A hot flow at 223 GHz",
       "A hot, thin flow with the mass and the distance of Sagittarius A*: its synchrotron light at 223 GHz, as in the "
       "program ipole",
@@ -254,7 +254,7 @@ const struct kd_preset kd_presets[] = {
       "\"volume\":{\"model\":\"riaf\",\"inner\":1.4479853,\"outer\":100,\"frequency_ghz\":223.005},"
       "\"style\":{\"name\":\"raw\",\"palette\":\"heat\"},"
       "\"image\":{\"width\":512,\"height\":512}}" },
-    /* The usual initial torus of GRMHD simulations, with the density that gives the 2.4 Jy of Sagittarius A*. */
+    /* The usual initial torus of GRMHD simulations. Its density is chosen to give the 2.4 Jy of Sagittarius A*. */
     { "torus", "A torus at 230 GHz",
       "The torus of Fishbone and Moncrief 1976, in equilibrium, with the mass and the distance of Sagittarius A*: its "
       "synchrotron light at 230 GHz",
@@ -285,8 +285,8 @@ static enum kd_status unknown(const char *name, struct kd_error *error)
 
 void kd_scene_smooth(struct kd_scene *scene)
 {
-    /* These lines repeat SMOOTH; a test compares the two. SMOOTH is not parsed here, because parsing could fail for
-     * lack of memory and the callers of this function rely on its success. */
+    /* These lines repeat SMOOTH, and a test compares the two. SMOOTH is not parsed here, because parsing could run
+     * out of memory, and callers of this function rely on its success. */
     kd_scene_defaults(scene);
     scene->disk.emission_opacity = 0;
     scene->disk.peak_temperature_k = 5600;

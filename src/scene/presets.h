@@ -1,4 +1,4 @@
-/* The table of presets behind kd_scene_preset. Internal to src/scene. */
+/* The table of presets that kd_scene_preset uses. Internal to src/scene. */
 #ifndef KD_SCENE_PRESETS_H
 #define KD_SCENE_PRESETS_H
 
@@ -6,8 +6,8 @@
 #include <stddef.h>
 
 struct kd_preset {
-    const char *name, *label, *title; /* label: name for people; title: one sentence without a full stop */
-    /* true: the preset is merged over the preset "smooth"; false: over the defaults */
+    const char *name, *label, *title; /* label: readable name; title: one sentence without a full stop */
+    /* true: the preset is merged onto the preset "smooth"; false: onto the defaults */
     bool smooth;
     const char *json;
 };

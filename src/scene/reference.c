@@ -57,7 +57,8 @@ static void write_field(struct kd_writer *w, const struct kd_row *field)
              kd_natures[kd_field_pages[field - kd_fields].nature].word, types[field->kind], or_word ? " or word" : "");
     write_value(w, field, field->initial);
     kd_write(w, "` | ");
-    const char *whole = "a whole number from "; /* left out, because the type column already says "whole number" */
+    /* this part of the text is left out, because the type column already says "whole number" */
+    const char *whole = "a whole number from ";
     write_escaped(w, strncmp(allowed, whole, strlen(whole)) ? allowed : allowed + strlen(whole));
     kd_write(w, " | ");
     write_escaped(w, field->help);

@@ -23,7 +23,7 @@ static struct shown show(double value)
     return s;
 }
 
-/* The hole's fields and their values, for messages. */
+/* The fields of the hole and their values, for messages. */
 struct hole_shown { char text[(1 + KD_HOLE_MORE_COUNT) * (KD_NUMBER_SIZE + 40)]; };
 
 static struct hole_shown show_hole(const struct kd_scene *scene)
@@ -39,7 +39,7 @@ static struct hole_shown show_hole(const struct kd_scene *scene)
     return s;
 }
 
-/* Rounds a computed bound up to a number with few digits that is itself accepted. */
+/* Rounds a computed bound up to a number with few digits that is itself an accepted value. */
 static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1e9); }
 
 #define WORD_OF_NEAR(projection) \
@@ -47,7 +47,7 @@ static struct shown show_bound(double value) { return show(ceil(value * 1e9) / 1
      : (projection) == KD_PROJECTION_FULLDOME      ? "fulldome" \
                                                    : "pinhole")
 
-/* True if the projection is that of a camera at a finite radius. */
+/* True if the projection requires a camera at a finite radius. */
 static bool is_near(enum kd_projection projection)
 {
     return projection == KD_PROJECTION_PINHOLE || projection == KD_PROJECTION_EQUIRECTANGULAR ||
@@ -63,13 +63,14 @@ enum { BITS = 8, STEPS = 4, BEAM_WIDTHS = 1000 };
 
 static enum kd_status bit_depth(const struct kd_scene *scene, struct kd_error *error)
 {
-    if (scene->image.bit_depth % BITS == 0) /* the field's range is 8 to 16 */
+    /* the range of the field is 8 to 16, of which only two values are accepted */
+    if (scene->image.bit_depth % BITS == 0)
         return KD_OK;
     return kd_error_field(error, "/image/bit_depth", "image.bit_depth is %d; it must be 8 or 16 bits",
                           scene->image.bit_depth);
 }
 
-/* Like the largest spin, the largest charge is such that the horizons differ by at least 1e-6. */
+/* The largest charge is defined like the largest spin: the horizons differ by at least 1e-6. */
 static enum kd_status charge(const struct kd_scene *scene, struct kd_error *error)
 {
     const double least = 1e-12, a = scene->spacetime.spin;
@@ -81,7 +82,7 @@ static enum kd_status charge(const struct kd_scene *scene, struct kd_error *erro
                           show(floor(sqrt(fmax(0, (1 - a) * (1 + a) - least)) * 1e9) / 1e9).text);
 }
 
-/* The modes of a ringdown are known for an uncharged hole only. */
+/* The modes of a ringdown are known only for a hole without charge. */
 static enum kd_status uncharged(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->spacetime.charge == 0 || scene->style.ringdown == 0)
@@ -113,8 +114,8 @@ static enum kd_status projection(const struct kd_scene *scene, struct kd_error *
     return KD_OK;
 }
 
-/* A field that is set but has no effect is an error. Otherwise the user would change a value and nothing would
- * happen. */
+/* A field that is set but has no effect is an error. Otherwise a user could change the value without any visible
+ * result. */
 static enum kd_status aim(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *camera = &scene->camera;
@@ -170,7 +171,7 @@ static enum kd_status observer(const struct kd_scene *scene, struct kd_error *er
     return kd_observer_check_place(&observer_names, (enum kd_observer)scene->camera.observer, &at, error);
 }
 
-/* Checks the numbers of the observer's own motion. */
+/* Checks the numbers that describe the observer's own motion. */
 static enum kd_status motion(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
@@ -178,7 +179,7 @@ static enum kd_status motion(const struct kd_scene *scene, struct kd_error *erro
     return isfinite(scene->camera.r) ? kd_observer_check_numbers(&observer_names, &m, &at, error) : KD_OK;
 }
 
-/* As in aim(), numbers that have no effect are an error. */
+/* Numbers that have no effect are an error, for the same reason as in aim(). */
 static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_camera *c = &scene->camera;
@@ -207,7 +208,7 @@ static enum kd_status idle_motion(const struct kd_scene *scene, struct kd_error 
     return KD_OK;
 }
 
-/* An observer on a path determines both azimuth and time, so neither may advance independently. */
+/* The motion of an observer on a path determines azimuth and time, so neither may also advance at a rate of its own. */
 static enum kd_status path(const struct kd_scene *scene, struct kd_error *error)
 {
     const struct kd_motion *m = &scene->motion;
@@ -263,7 +264,7 @@ static enum kd_status stereo(const struct kd_scene *scene, struct kd_error *erro
     return KD_OK;
 }
 
-/* Whether anything shines between the disk's edges. */
+/* True if something between the disk's edges shines. */
 static bool has_edges(const struct kd_scene *scene)
 {
     return scene->disk.model != KD_DISK_NONE || scene->flash.brightness > 0;
@@ -289,7 +290,7 @@ static enum kd_status outer_edge(const struct kd_scene *scene, struct kd_error *
                           show(scene->disk.outer).text, show_bound(least).text, isco ? ", which is the ISCO" : "");
 }
 
-#define LEAST_HEIGHT 1e-5 /* least height at which single precision resolves positions within the disk */
+#define LEAST_HEIGHT 1e-5 /* minimum height at which single precision resolves positions within the disk */
 static enum kd_status height(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->disk.height > 0 && scene->disk.height < LEAST_HEIGHT)
@@ -312,7 +313,7 @@ static enum kd_status disk_frequency(const struct kd_scene *scene, struct kd_err
                           show(floor(kd_scene_disk_most_ghz(scene) * 1e9) * 1e-9).text, KD_DISK_QUANTA);
 }
 
-/* The light of a thick disk is integrated along rays, because such a disk has no surface. */
+/* A thick disk has no atmosphere: its light is integrated along rays, because such a disk has no surface. */
 static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *error)
 {
     if (!scene->disk.atmosphere || scene->disk.height == 0)
@@ -324,12 +325,12 @@ static enum kd_status atmosphere(const struct kd_scene *scene, struct kd_error *
                           show(scene->disk.height).text);
 }
 
-/* Limits of the spin if light returns to the disk. Beyond FASTEST_RETURNS the error of the energy balance exceeds
- * 1e-3. Beyond FASTEST_REFLECTS, light that is reflected repeatedly would gain energy without bound. */
+/* Limits of the spin for a disk on which its own light falls. Above FASTEST_RETURNS the error of the energy balance
+ * exceeds 1e-3. Above FASTEST_REFLECTS, light that is reflected repeatedly would gain energy without bound. */
 #define FASTEST_RETURNS 0.999999
 #define FASTEST_REFLECTS 0.998
 
-/* The kernel of returning light is that of a thin disk that begins at the ISCO and has Page & Thorne's flux. */
+/* The kernel of returning light was computed for a thin disk that starts at the ISCO and has Page & Thorne's flux. */
 static enum kd_status returning(const struct kd_scene *scene, struct kd_error *error)
 {
     const bool reflects = scene->disk.returning == KD_RETURNS_REFLECTED;
@@ -405,7 +406,8 @@ static enum kd_status volume(const struct kd_scene *scene, struct kd_error *erro
                           show(v->outer).text, show_bound(least).text);
 }
 
-/* limit of the growth of a jet's brightness between its edges, in octaves; more growth overflows single precision */
+/* limit, in octaves, of the growth of a jet's brightness between its edges; more growth would overflow single
+ * precision */
 #define JETS_GROWTH 60
 static enum kd_status jets(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -442,11 +444,12 @@ static enum kd_status spots(const struct kd_scene *scene, struct kd_error *error
     return KD_OK;
 }
 
-/* least time between two flashes, in durations of a flash: half-way between them exp(-18) of the peak is left */
+/* minimum time between two flashes, in units of the duration of a flash; half-way between two flashes, exp(-18) of
+ * the peak is left */
 #define FLASH_APART 12
-#define BODIES_CLEAR 1.05 /* a body's smallest radius as a multiple of the horizon's */
+#define BODIES_CLEAR 1.05 /* minimum radius at which a body may be, in units of the horizon's radius */
 
-/* Refuses a field of a body. */
+/* Returns the error for a field of a body. */
 static enum kd_status body_field(const char *name, size_t index, const char *is, const char *allowed,
                                  struct kd_error *error)
 {
@@ -548,7 +551,7 @@ static enum kd_status field_uas(const struct kd_scene *scene, struct kd_error *e
 static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
 {
     const double width = kd_scene_width_uas(scene), most = BEAM_WIDTHS * width;
-    /* for a width of NAN the comparisons are false, so the beam is refused */
+    /* Both comparisons are false for a width of NAN, so the beam is then refused. */
     if (scene->style.beam_uas == 0 || scene->style.beam_uas <= most)
         return KD_OK;
     if (isnan(width))
@@ -563,7 +566,7 @@ static enum kd_status beam(const struct kd_scene *scene, struct kd_error *error)
         show(scene->style.beam_uas).text, show(most).text, BEAM_WIDTHS);
 }
 
-/* A colour bar is possible only for the heat palette with the sRGB tone map. */
+/* A colour bar is possible only with the heat palette and the sRGB tone map. */
 static enum kd_status colour_bar(const struct kd_scene *scene, struct kd_error *error)
 {
     const bool heat = scene->style.palette == KD_PALETTE_HEAT;
@@ -575,7 +578,7 @@ static enum kd_status colour_bar(const struct kd_scene *scene, struct kd_error *
         "because otherwise a brightness has no unique colour, or the scale is not linear");
 }
 
-/* The other rules about accuracy.* depend on the device: render/accuracy/engine.h. */
+/* All other rules about accuracy.* depend on the device; they are in render/accuracy/engine.h. */
 static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->accuracy.steps % STEPS == 0)
@@ -584,7 +587,7 @@ static enum kd_status steps(const struct kd_scene *scene, struct kd_error *error
                           scene->accuracy.steps);
 }
 
-/* A tile must lie within its picture. Effects that need the whole picture are refused when a plan is made
+/* A tile must lie inside its picture. Effects that need the whole picture are refused later, when a plan is made
  * (render/plan/tile.h). */
 static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
 {
@@ -612,8 +615,8 @@ static enum kd_status tile(const struct kd_scene *scene, struct kd_error *error)
     return KD_OK;
 }
 
-/* Polarised transfer needs a magnetic field. No other source of light is permitted with it, because the polarisation
- * of the other sources is not modelled. */
+/* Polarised transfer needs a magnetic field. No other light source is permitted with it, because the polarisation of
+ * other sources is not modelled. */
 static enum kd_status transfer(const struct kd_scene *scene, struct kd_error *error)
 {
     if (scene->polarization.model != KD_POLARIZATION_TRANSFER)

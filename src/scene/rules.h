@@ -1,4 +1,5 @@
-/* Rules about several fields. Each has a sentence for the reference, and a function that checks it. Any thread. */
+/* Rules that concern several fields. Each rule has a sentence for the reference, and a function that checks it. Any
+ * thread. */
 #ifndef KD_SCENE_RULES_H
 #define KD_SCENE_RULES_H
 
@@ -7,8 +8,8 @@
 struct kd_rule {
     const char *text;
     enum kd_status (*check)(const struct kd_scene *scene, struct kd_error *error);
-    /* For rules that a JSON Schema can express. Either an integer must be a multiple of `multiple`, or a number must
-     * be 0 or at least `above_0`. For all other rules the members are NULL, NULL, 0, 0. */
+    /* For rules that a JSON Schema can express: the integer section.name must be a multiple of `multiple`, or the
+     * number must be 0 or at least `above_0`. For all other rules these members are NULL, NULL, 0 and 0. */
     const char *section, *name;
     int32_t multiple;
     double above_0;

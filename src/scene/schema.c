@@ -1,4 +1,4 @@
-/* Writes the JSON Schema of the scene document. It is made from the table of fields. */
+/* Writes the JSON Schema of the scene document from the table of fields. */
 #include "scene/control.h"
 #include "scene/rules.h"
 #include "scene/style.h"
@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Writes the rules of a field that a schema can express. */
+/* Writes those rules of a field that a schema can express. */
 static void add_rules(struct kd_json *json, const struct kd_row *field)
 {
     for (size_t i = 0; i < kd_rule_count; i++) {
@@ -29,7 +29,7 @@ static void add_group(struct kd_json *json, const struct kd_section *section)
     kd_json_string(json, "x-group", kd_groups[section->group]);
 }
 
-/* Writes the fields that each style sets. They are named by path. */
+/* Writes, for each style, the fields that it sets, by path. */
 static void add_styles(struct kd_json *json, const struct kd_row *names)
 {
     kd_json_object(json, "x-sets");
@@ -50,7 +50,7 @@ static void add_styles(struct kd_json *json, const struct kd_row *names)
     kd_json_end(json);
 }
 
-/* Writes the value of a control, or an array if it has several. */
+/* Writes the value of a control's entry, or an array if there are several. */
 static void add_with(struct kd_json *json, const struct kd_row *field, const struct kd_control *control)
 {
     const struct kd_row *other = kd_field_find(field->object, control->text);
@@ -156,7 +156,7 @@ static void add_section(struct kd_json *json, const struct kd_section *section)
     kd_json_end(json);
 }
 
-/* Writes the schema of an old name; x-now is the present path. */
+/* Writes the schema of an obsolete name. Its member x-now is the present path. */
 static void add_old_name(struct kd_json *json, const struct kd_former *old)
 {
     char now[KD_PATH_SIZE], description[KD_PATH_SIZE + 24];
@@ -170,7 +170,8 @@ static void add_old_name(struct kd_json *json, const struct kd_former *old)
     kd_json_end(json);
 }
 
-/* Writes the possible values of x-nature and x-group: natures with their meanings, groups in the order of the page. */
+/* Writes the possible values of x-nature and x-group: the natures with their meanings, and the groups in the order
+ * of the page. */
 static void add_natures_and_groups(struct kd_json *json)
 {
     kd_json_object(json, "x-natures");
@@ -183,7 +184,7 @@ static void add_natures_and_groups(struct kd_json *json)
     kd_json_end(json);
 }
 
-/* A document with the old name must not contain the list. */
+/* Forbids documents that contain both an obsolete name and the list to which it refers. */
 static void add_exclusions(struct kd_json *json)
 {
     kd_json_object(json, "dependentSchemas");
@@ -212,7 +213,7 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
     kd_json_bool(json, "additionalProperties", false);
     add_natures_and_groups(json);
     kd_json_object(json, "properties");
-    /* both forms, because client generators mishandle a number that is given only as a const */
+    /* as "const" and as "enum", because client generators mishandle a number that is given only as "const" */
     kd_json_object(json, "version");
     kd_json_members(json,
                     "\"type\":\"integer\",\"enum\":[" DIGITS(KD_SCENE_VERSION) "],\"const\":" DIGITS(KD_SCENE_VERSION));
@@ -221,7 +222,8 @@ enum kd_status kd_scene_schema(struct kd_buffer *out)
     for (size_t i = 0; i < KD_SECTION_COUNT; i++) {
         if (!*kd_sections[i].name)
             add_fields(json, &kd_sections[i]);
-        else if (!strchr(kd_sections[i].name, '.')) /* a nested section is written as part of its parent */
+        /* a nested section is skipped, because it is written as part of its parent */
+        else if (!strchr(kd_sections[i].name, '.'))
             add_section(json, &kd_sections[i]);
     }
     for (size_t i = 0; i < KD_OLD_NAME_COUNT; i++)

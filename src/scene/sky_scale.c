@@ -20,7 +20,7 @@ void kd_scene_settle(struct kd_scene *scene, const uint64_t *given)
         scene->camera.field_m = width;
 }
 
-/* Width in M that the field of view of a camera at a finite radius spans at the hole. */
+/* Width in M, at the hole, of the field of view of a camera at a finite radius. */
 static double width_m(const struct kd_camera *camera)
 {
     return isfinite(camera->r) ? 2 * camera->r * tan(0.5 * camera->fov_deg * (M_PI / 180)) : camera->field_m;

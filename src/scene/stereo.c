@@ -1,4 +1,4 @@
-/* Computes where the two eyes of a stereo pair are. */
+/* Computes the places of the two eyes of a stereo pair. */
 #include "scene/scene.h"
 
 #include "physics/math/angle.h"
@@ -15,7 +15,7 @@ static struct vec mix(double a, struct vec p, double b, struct vec q)
 
 static double dot(struct vec p, struct vec q) { return p.x[0] * q.x[0] + p.x[1] * q.x[1] + p.x[2] * q.x[2]; }
 
-/* The local directions e_r, e_theta, e_phi in flat space, in Cartesian coordinates around the hole. */
+/* The local directions e_r, e_theta and e_phi in flat space, in Cartesian coordinates with the hole at the origin. */
 struct basis { struct vec r, theta, phi; };
 
 static struct basis basis_at(double u, double s, double azimuth)
@@ -29,8 +29,8 @@ static struct vec outwards(const struct basis *b, const double local[3])
     return mix(1, mix(local[0], b->r, local[1], b->theta), local[2], b->phi);
 }
 
-/* Viewing direction of the camera, and the picture's right and up, as components along (e_r, e_theta, e_phi). They
- * agree with render/view/camera.c. */
+/* The camera's viewing direction, and the picture's right and up, as components along (e_r, e_theta, e_phi). They
+ * must agree with render/view/camera.c. */
 struct view { double ahead[3], right[3], up[3]; };
 
 static struct view view_of(const struct kd_camera *c)

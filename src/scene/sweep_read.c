@@ -10,16 +10,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HITS 1e-9 /* a range is complete if its last value comes this close to the end, as a fraction of a step */
+#define HITS 1e-9 /* a range reaches its end if the last value differs from it by less than this fraction of a step */
 #define EVEN 1e-12
 
 struct reader {
     struct kd_sweep *sweep;
     const struct kd_assets *assets;
     struct kd_error *error;
-    /* The axis that is being read; always the last axis of the sweep so far. */
+    /* field of the axis that is being read, which is always the last axis of the sweep so far */
     const struct kd_row *field;
-    size_t index; /* index of the list element that has the field */
+    size_t index; /* index of the list element to which the field belongs */
     char pointer[100];
 };
 
@@ -59,13 +59,13 @@ static enum kd_status begin(struct reader *r, const char *path)
     return KD_OK;
 }
 
-/* Text of a value in the form in which the scene stores it: an asset is named by its hash. */
+/* Text of a value in the form in which the scene stores it: an asset's name is replaced by its hash. */
 static const char *resolved(const struct reader *r, const struct kd_scene *scene, const char *text)
 {
     return r->field->kind == KD_KIND_ASSET ? kd_field_asset(scene, r->field, r->index) : text;
 }
 
-/* Appends a value to the axis. at: the value's pointer. */
+/* Appends a value to the axis. at: JSON pointer of the value. */
 static enum kd_status add(struct reader *r, const char *text, const char *at)
 {
     struct kd_sweep_axis *axis = last(r);
@@ -78,7 +78,7 @@ static enum kd_status add(struct reader *r, const char *text, const char *at)
         return kd_error_field(r->error, at, "%.440s", inner.message);
     if (axis->n >= KD_SWEEP_MOST)
         return too_many(r, (double)axis->n + 1);
-    if (!(axis->n & (axis->n - 1))) { /* the array is full: doubles it */
+    if (!(axis->n & (axis->n - 1))) { /* the array is full and is doubled */
         struct kd_sweep_value *more = realloc(axis->values, (axis->n ? 2 * axis->n : 1) * sizeof *more);
         if (!more)
             return no_memory(r);
@@ -106,7 +106,7 @@ static enum kd_status add_number(struct reader *r, double value, const char *at)
     return add(r, text, at);
 }
 
-/* A parsed range. by: ':' if the range has a step, '/' if it has a count, 0 if the text is not a range. */
+/* A parsed range. by: ':' if the range has a step, '/' if it has a count, or 0 if the text is not a range. */
 struct range {
     double from, to, step;
     char by;
@@ -180,7 +180,7 @@ static enum kd_status refuse_twins(struct reader *r)
     return status;
 }
 
-/* Completes the axis: checks its values and finds out whether they are numbers and evenly spaced. */
+/* Completes the axis: checks its values, and determines whether they are numbers and evenly spaced. */
 static enum kd_status end(struct reader *r)
 {
     struct kd_sweep *s = r->sweep;
@@ -220,7 +220,7 @@ static enum kd_status finish(struct reader *r, enum kd_status status, struct kd_
     return status;
 }
 
-/* Joins the words of a value of image.layers, which is an array, to "a,b". */
+/* Joins the words of an array, which is a value of image.layers, to "a,b". */
 static enum kd_status join(struct reader *r, const cJSON *words, struct kd_buffer *out)
 {
     enum kd_status status = KD_OK;
@@ -291,7 +291,7 @@ done:
     return finish(&r, status, out);
 }
 
-/* Adds the values of a text "a,b" one after another. */
+/* Adds the values of a text "a,b", one after the other. */
 static enum kd_status add_typed(struct reader *r, char *values)
 {
     enum kd_status status = KD_OK;
@@ -307,7 +307,7 @@ static enum kd_status add_typed(struct reader *r, char *values)
     return status;
 }
 
-/* Reads a text FIELD=VALUES, which is modified. */
+/* Reads a text FIELD=VALUES. The text is modified. */
 static enum kd_status read_typed(struct reader *r, char *text)
 {
     char *values = strchr(text, '=');

@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Names of sections: "" for "top", whose members belong to the document itself, and "disk.gas" for a nested section. */
+/* Names of sections: "" for "top", whose members belong to the document itself; "disk.gas" for a nested section. */
 #define PART_NAME(s, part, whole) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, part) ? #whole "." #part:
 #define SECTION_NAME(s) \
     (KD_SCENE_PARTS(PART_NAME, s) offsetof(struct kd_scene, s) == offsetof(struct kd_scene, top) ? "" : #s)
 
-/* For each section, the type of its rows, and the offset of its struct in the scene. */
+/* For each section: the type of its rows, and the offset of its struct in the scene. */
 #define PLACE(name, ROWS, group, help) \
     struct rows_of_##name { KD_M_ROWS(ROWS) }; \
     enum { BASE_##name = offsetof(struct kd_scene, name) };
@@ -50,7 +50,7 @@ const struct kd_row kd_fields[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(FIELDS, LIST
 #define LIST_PAGES(name, element, ROWS, group, most, help) PAGES(name, ROWS, group, help)
 const struct kd_field_page kd_field_pages[KD_FIELD_COUNT] = { KD_SCENE_SECTIONS(PAGES, LIST_PAGES) };
 
-/* Enumerators that count rows across sections: FIRST_ is the section's first row. */
+/* Enumerators that count rows over all sections: FIRST_ is the first row of a section. */
 #define EXTENT(name, ROWS, group, help) \
     FIRST_##name, LAST_##name = FIRST_##name - 1 + (KD_COUNT_ROWS(name, ROWS, group, help)),
 #define LIST_EXTENT(name, element, ROWS, group, most, help) EXTENT(name, ROWS, group, help)
@@ -181,7 +181,7 @@ enum kd_status kd_scene_version(const struct kd_value *value, struct kd_error *e
     return kd_error_field(error, "/version", "version is %s; it must be %d", given, KD_SCENE_VERSION);
 }
 
-/* Writes a field's section, list index and name, with `mark` between them. */
+/* Writes section, list index and name of a field, with `mark` between them. */
 static void spell(const struct kd_row *field, size_t index, const char *mark, char out[KD_PATH_SIZE])
 {
     char element[24] = "";
@@ -198,7 +198,7 @@ void kd_field_pointer(const struct kd_row *field, size_t index, char out[KD_PATH
     spell(field, index, "/", path);
     snprintf(out, KD_PATH_SIZE, "/%.*s", KD_PATH_SIZE - 2, path);
     for (char *c = out; *c; c++)
-        *c = *c == '.' ? '/' : *c; /* nested sections are separated by a dot */
+        *c = *c == '.' ? '/' : *c; /* a dot in the name of a nested section becomes a slash */
 }
 
 void kd_scene_defaults(struct kd_scene *scene)

@@ -1,5 +1,5 @@
-/* The rows of scene/fields.h as data. Everything about scenes is generated from this table. Internal to src/scene and
- * its tests. Constant data and pure functions, any thread. */
+/* The rows of scene/fields.h as data, from which everything about scenes is generated. Internal to src/scene and its
+ * tests. Constant data and pure functions, any thread. */
 #ifndef KD_SCENE_TABLE_H
 #define KD_SCENE_TABLE_H
 
@@ -20,12 +20,12 @@ struct kd_field_page {
 struct kd_nature { const char *word, *help; };
 
 struct kd_section {
-    /* "" for the document itself, which is the last section; "disk.gas" for a section nested in another */
+    /* "" for the document itself, which is the last section; "disk.gas" for a section that is nested in another one */
     const char *name;
     const char *help;
     enum kd_section_group group;
-    size_t first, count; /* the section's rows in kd_fields */
-    size_t most;         /* limit of the elements of a list; 0: the section is not a list */
+    size_t first, count; /* first: index of the section's first row in kd_fields; count: number of rows */
+    size_t most;         /* maximum number of elements of a list; 0 if the section is not a list */
 };
 
 #define KD_ONE(...) +1
@@ -35,66 +35,67 @@ enum {
     KD_FIELD_COUNT = 0 KD_SCENE_SECTIONS(KD_COUNT_ROWS, KD_COUNT_LIST_ROWS),
     KD_SECTION_COUNT = 0 KD_SCENE_SECTIONS(KD_ONE, KD_ONE),
     KD_OLD_NAME_COUNT = 0 KD_SCENE_OLD_NAMES(KD_ONE),
-    KD_FIELD_WORDS = (KD_FIELD_COUNT + 63) / 64, /* words of the bit mask of the fields that a document has */
+    /* number of words in the bit mask of fields that a document contains */
+    KD_FIELD_WORDS = (KD_FIELD_COUNT + 63) / 64,
 };
 
-/* The rows of a list exist only once, for all of its elements. So functions on fields also take the index of the
- * element. For sections that are not lists the index is 0. */
+/* The rows of a list exist only once for all of its elements, so functions for fields also take the index of the
+ * element. For sections that are not lists this index is 0. */
 extern const struct kd_nature kd_natures[KD_NATURE_COUNT];
 extern const char *const kd_groups[KD_GROUP_COUNT]; /* "look", "gas", ... */
-/* Rows of struct kd_scene; for a list, of its first element. `object` is the section's name. */
+/* The rows of struct kd_scene. Rows of a list are those of its first element. `object` is the name of the section. */
 extern const struct kd_row kd_fields[KD_FIELD_COUNT];
 extern const struct kd_field_page kd_field_pages[KD_FIELD_COUNT];
 extern const struct kd_section kd_sections[KD_SECTION_COUNT];
 extern const struct kd_former kd_old_names[KD_OLD_NAME_COUNT];
-extern const struct kd_document kd_scene_document; /* the rows as a document, whose target is struct kd_scene */
+extern const struct kd_document kd_scene_document; /* the rows as a document that is read into a struct kd_scene */
 
-/* Both functions find an entry by its name; NULL if there is none. The section "" is the document itself. Names are
- * case-sensitive. */
+/* Both functions find an entry by its name, and return NULL if there is none. The section "" is the document itself.
+ * Names are case-sensitive. */
 const struct kd_section *kd_section_find(const char *section);
-/* kd_section_is_part tells whether `section` is nested in `whole`. kd_section_member returns its name within the
+/* kd_section_is_part: true if `section` is nested in `whole`. kd_section_member: name of a section within its
  * parent. */
 enum { KD_PATH_SIZE = 80 };
 bool kd_section_is_part(const struct kd_section *section, const struct kd_section *whole);
 const char *kd_section_member(const struct kd_section *section);
 const struct kd_row *kd_field_find(const char *section, const char *name);
 
-/* kd_section_size: number of elements of a list; 1 for other sections. kd_section_resize sets all elements that it
- * removes or adds to their defaults. */
+/* kd_section_size: number of elements of a list; 1 for other sections. kd_section_resize sets the number of
+ * elements; all elements that it removes or adds are set to their defaults. */
 size_t kd_section_size(const struct kd_scene *scene, const struct kd_section *section);
 void kd_section_resize(struct kd_scene *scene, const struct kd_section *section, size_t size);
 
-/* The address at which a row's offset counts: the scene, moved to the given element of a list. Functions of rows
- * take this pointer. */
+/* The address to which the offset of a row refers: the scene, shifted to the given element of a list. Functions for
+ * rows take this pointer. */
 const void *kd_field_in(const struct kd_scene *scene, const struct kd_row *field, size_t index);
-/* True if a document has the field (kd_document_read). */
+/* True if a document contains the field (see kd_document_read). */
 static inline bool kd_field_is_given(const uint64_t *given, const struct kd_row *field)
 {
     const size_t i = (size_t)(field - kd_fields);
     return given[i / 64] >> i % 64 & 1;
 }
-/* Like kd_row_get and kd_row_put_number. */
+/* Like kd_row_get and kd_row_put_number, for a field of a scene. */
 double kd_field_get(const struct kd_scene *scene, const struct kd_row *field, size_t index);
 void kd_field_put(struct kd_scene *scene, const struct kd_row *field, size_t index, double value);
-/* Stores the value. On failure returns KD_EINVAL with the field's pointer, the value and what is allowed; *scene is
- * then unchanged. */
+/* Stores the value. If the field does not accept it, returns KD_EINVAL with the field's pointer, the value and the
+ * accepted values, and leaves *scene unchanged. */
 enum kd_status kd_field_store(struct kd_scene *scene, const struct kd_row *field, size_t index,
                               const struct kd_value *value, struct kd_error *error);
-/* True if the row allows the scene's value. For an asset, the value must be a hash. */
+/* True if the row accepts the value that the scene has. An asset must be named by a hash. */
 bool kd_field_is_sound(const struct kd_scene *scene, const struct kd_row *field, size_t index);
-/* The text of an ASSET; "": none. */
+/* The text of an ASSET; "" if there is none. */
 const char *kd_field_asset(const struct kd_scene *scene, const struct kd_row *field, size_t index);
-/* Begins a JSON text whose numbers have the form of the canonical document: 1e-5, not 0.00001. */
+/* Begins a JSON text whose numbers have the form of the canonical document, for example 1e-5 instead of 0.00001. */
 struct kd_json kd_scene_json(struct kd_buffer *out);
 /* Checks the member "version", which must be 1. */
 enum kd_status kd_scene_version(const struct kd_value *value, struct kd_error *error);
 
-/* Finds a field and the index of its list element, by a dotted path like that of kd_scene_set. The element need not
- * exist yet. Returns KD_EINVAL with a pointer. */
+/* Finds a field, and the index of its list element, by a dotted path as for kd_scene_set. The element need not exist
+ * yet. Returns KD_EINVAL with a pointer if there is no such field. */
 enum kd_status kd_field_at(const char *path, const struct kd_row **out, size_t *index, struct kd_error *error);
 
-/* Write a field's path and its JSON pointer: "camera.r" and "/camera/r"; "time" and "/time"; "spots.3.r" and
- * "/spots/3/r"; "disk.gas.seed" and "/disk/gas/seed". */
+/* These functions write a field's path and its JSON pointer. Examples: "camera.r" and "/camera/r"; "time" and
+ * "/time"; "spots.3.r" and "/spots/3/r"; "disk.gas.seed" and "/disk/gas/seed". */
 void kd_field_path(const struct kd_row *field, size_t index, char out[KD_PATH_SIZE]);
 void kd_field_pointer(const struct kd_row *field, size_t index, char out[KD_PATH_SIZE]);
 

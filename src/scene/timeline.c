@@ -18,14 +18,14 @@ double kd_timeline_end(const struct kd_timeline *t) { return t->n_keys ? t->keys
 
 static bool continuous(const struct kd_row *field) { return field->kind == KD_KIND_REAL; }
 
-/* A number that every key has: a field, or the proper time if `field` is NULL. */
+/* A number that all keys have: a field, or the proper time if `field` is NULL. */
 struct column {
     const struct kd_timeline *timeline;
     const struct kd_row *field;
     size_t index;
-    size_t from; /* the key at which t is 0; at other keys whole turns are counted relative to this key */
-    bool ratios; /* the member is interpolated logarithmically */
-    bool turns;  /* the member is an angle, which takes the shorter way from key to key */
+    size_t from; /* the key at which t is 0; whole turns of an angle at other keys are counted from this key */
+    bool ratios; /* true if the logarithm of the member is interpolated */
+    bool turns;  /* true if the member is an angle that takes the shorter way from key to key */
     enum kd_interpolation by;
 };
 
@@ -35,7 +35,7 @@ static double given(const struct column *c, size_t key)
     return c->field ? kd_field_get(&k->scene, c->field, c->index) : k->proper_time;
 }
 
-/* The value at a key. Slopes need values that are at most two keys away from the interval. */
+/* The value at a key. To compute a slope, values at most two keys away from the interval are needed. */
 static double value_at(const struct column *c, size_t key)
 {
     double value = given(c, c->turns ? c->from : key);
@@ -51,12 +51,13 @@ static double apart(const struct column *c, size_t key)
     return c->timeline->keys[key + 1].at - c->timeline->keys[key].at;
 }
 
-/* Slope of the straight line from a key to the next. NAN if there is no next key, or if one of the values is a word. */
+/* Slope of the straight line from a key to the next one. NAN if there is no next key, or if one of the two values is
+ * a word. */
 static double secant(const struct column *c, size_t key)
 {
     if (key + 1 >= c->timeline->n_keys)
         return NAN;
-    double rise = value_at(c, key + 1) - value_at(c, key); /* also NAN for inf - inf */
+    double rise = value_at(c, key + 1) - value_at(c, key); /* NAN also for inf - inf */
     return isfinite(rise) ? rise / apart(c, key) : NAN;
 }
 
@@ -71,8 +72,8 @@ static double monotone_slope(const struct column *c, size_t key, double before, 
     return (w0 + w1) / (w0 / before + w1 / after);
 }
 
-/* Slope of the parabola through a key and its two neighbours. If a key has only one neighbour, the slope of the
- * straight line to this neighbour. */
+/* Slope, at a key, of the parabola through this key and its two neighbours. If the key has only one neighbour, the
+ * slope of the straight line to it. */
 static double parabola_slope(const struct column *c, size_t key, double before, double after)
 {
     if (isnan(before) || isnan(after))
@@ -101,7 +102,7 @@ static double between(const struct column *c, size_t key, double t)
         return c->ratios ? exp(from) : from;
     double value = c->by == KD_LINEAR ? from + t * (to - from) : cubic(c, key, t, from, to);
     if (c->by != KD_CATMULL_ROM)
-        /* the monotone cubic lies between the two values, but rounding may exceed them */
+        /* clamped, because the monotone cubic lies between the two values, but rounding may exceed them */
         value = fmax(fmin(from, to), fmin(fmax(from, to), value));
     if (c->turns && !(value >= c->field->least && value <= c->field->most))
         value = remainder(value, 360);
@@ -119,8 +120,8 @@ static bool is_turn(const struct kd_row *field)
     return !strcmp(field->unit, "degrees") && field->most - field->least >= 360;
 }
 
-/* True if a field keeps its value between two keys. With Catmull and Rom's cubic a field may change even if both
- * keys have the same value. */
+/* True if a field keeps its value between two keys. With the Catmull-Rom cubic, a field may change even if both keys
+ * have the same value. */
 static bool stays(const struct kd_timeline *timeline, size_t key, const struct kd_row *field, size_t index)
 {
     const struct kd_scene *from = &timeline->keys[key].scene, *to = &timeline->keys[key + 1].scene;
@@ -128,8 +129,8 @@ static bool stays(const struct kd_timeline *timeline, size_t key, const struct k
            kd_field_get(from, field, index) == kd_field_get(to, field, index);
 }
 
-/* Interpolates a section. If only one of the two keyframes has an element of a list, the element of the other
- * keyframe is taken to have all defaults. */
+/* Interpolates a section. If only one of the two keyframes has a certain list element, that element has all defaults
+ * in the other keyframe. */
 static void section_between(const struct kd_timeline *timeline, size_t key, double t, const struct kd_section *section,
                             struct kd_scene *out)
 {
@@ -183,7 +184,7 @@ static bool same_aim(const struct kd_aim *a, const struct kd_aim *b)
            (a->kind != KD_AIM_PLACE || (a->r == b->r && a->theta_deg == b->theta_deg && a->phi_deg == b->phi_deg));
 }
 
-/* Turns the camera in the direction that the keyframes set. to: the next keyframe, or NULL. */
+/* Turns the camera as the keyframes require. to: the next keyframe, or NULL. */
 static enum kd_status aim(struct kd_scene *scene, const struct kd_timeline_key *from, const struct kd_timeline_key *to,
                           double t, struct kd_error *error)
 {
@@ -202,7 +203,7 @@ done:
     return status;
 }
 
-/* The last key at or before a place. It is found by bisection, because a list of scenes has a key for each scene. */
+/* The last key at or before a place, found by bisection, because a list of scenes has a key for each scene. */
 static size_t key_before(const struct kd_timeline *timeline, double at)
 {
     size_t key = 0, end = timeline->n_keys;
@@ -232,7 +233,7 @@ enum kd_status kd_timeline_scene(const struct kd_timeline *timeline, double at, 
         t = eased(to->ease, (at - from->at) / (to->at - from->at));
         for (size_t i = 0; i < KD_SECTION_COUNT; i++)
             section_between(timeline, key, t, &kd_sections[i], out);
-        if (isinf(to->scene.camera.field_uas)) /* the two keys use different units, so the interpolation is made in M */
+        if (isinf(to->scene.camera.field_uas)) /* the two keys use different units, so the width in M is interpolated */
             out->camera.field_uas = INFINITY;
         kd_scene_settle(out, NULL);
         proper_time = between(&clock, key, t);

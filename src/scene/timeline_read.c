@@ -23,7 +23,7 @@ struct reader {
 
 static struct kd_timeline_key *last(const struct reader *r) { return &r->out->keys[r->out->n_keys - 1]; }
 
-/* Reads a keyframe's place, which must be greater than the place of the key before. */
+/* Reads the place of a keyframe. It must be greater than the place of the previous key. */
 static enum kd_status read_place(struct reader *r, const cJSON *item, const char *pointer, bool first, double *out)
 {
     unsigned frame = 0;
@@ -46,8 +46,8 @@ static enum kd_status read_place(struct reader *r, const cJSON *item, const char
     return kd_member_refuse(item, pointer, allowed, r->error);
 }
 
-/* The proper time that "horizon" or "end" means for a falling observer. The parameters of the fall come from the
- * keyframe. */
+/* The proper time that the word "horizon" or "end" stands for, for a falling observer. The parameters of the fall
+ * are those of the keyframe. */
 static double proper_time_to(const struct kd_scene *scene, const char *word)
 {
     const struct kd_vantage at = kd_scene_vantage(scene);
@@ -158,7 +158,7 @@ static enum kd_status read_key(struct reader *r, const cJSON *item, size_t index
                               r->form->place, key.place ? "scene" : r->form->place));
     snprintf(at, sizeof at, "%s/%s", pointer, r->form->place);
     KD_TRY(read_place(r, key.place, at, index == 0, &where));
-    if (where > 0) { /* a keyframe at place 0 replaces the first key */
+    if (where > 0) { /* otherwise the keyframe is at place 0 and replaces the first key */
         r->out->keys[r->out->n_keys] = *last(r);
         r->out->keys[r->out->n_keys++].at = where;
     }

@@ -1,4 +1,4 @@
-/* Validates scenes: the range of every field, and the rules about several fields. */
+/* Validates scenes: the range of every field, and all rules about several fields. */
 #include "scene/asset.h"
 #include "document/number.h"
 #include "scene/rules.h"
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Checks that an asset is named by its hash. A name that is not resolved is an error. */
+/* Checks that an asset is named by its hash. A name that was not replaced by a hash is an error. */
 static enum kd_status asset(const struct kd_scene *scene, const struct kd_row *field, size_t index,
                             struct kd_error *error)
 {
@@ -20,7 +20,7 @@ static enum kd_status asset(const struct kd_scene *scene, const struct kd_row *f
                           name);
 }
 
-/* Checks a field's range. The parser checks it too, but a scene that a caller has filled in was never parsed. */
+/* Checks a field's range. The parser checks it too, but a caller may have filled in the scene without the parser. */
 static enum kd_status range(const struct kd_scene *scene, const struct kd_row *field, size_t index,
                             struct kd_error *error)
 {

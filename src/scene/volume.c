@@ -7,13 +7,14 @@
 
 #include <math.h>
 
-/* Smallest inner edge as a multiple of the horizon's radius. Matter at rest that is closer to the hole is no longer
- * visible, and the length of the path to this edge is finite. */
+/* Minimum of the inner edge, as a multiple of the horizon's radius. Matter at rest that is closer to the hole is no
+ * longer visible, and the length of the path to this edge is finite. */
 #define CLEAR 1.01
-/* the same for a radio frequency, whose energy in the matter's frame grows as 1/sqrt(distance to the horizon) */
+/* the same minimum for light of a radio frequency, whose energy in the frame of the matter grows as 1/sqrt(distance
+ * to the horizon) */
 #define CLEAR_RADIO 1.0005
 
-#define TORUS 0.5 /* ratio of the inner edge to the radius of the largest pressure, as in most simulations */
+#define TORUS 0.5 /* ratio of the inner edge to the radius of maximum pressure, as in most simulations */
 
 bool kd_scene_is_radio(const struct kd_scene *scene) { return scene->volume.model > KD_VOLUME_UNIFORM; }
 

@@ -23,7 +23,7 @@
 
 #define BODIES_TOO_MANY "too many bodies are being received"
 #define BODIES_OF_CLIENT "too many bytes of your requests are being received at once (limit for one client)"
-/* largest body that can arrive at 32 kB/s within the default deadline of 30 s */
+/* the largest body that can arrive at 32 kB/s within the default deadline of 30 s, in bytes */
 #define PACE ((size_t)960000)
 
 static int socket_of(struct MHD_Connection *mhd)
@@ -48,7 +48,8 @@ void kd_request_connection(void *cls, struct MHD_Connection *mhd, void **socket_
         kd_library_works_on(socket);
         *socket_context = kd_connections_find(server->connections, socket);
         if (kd_connection_is_health(*socket_context))
-            kd_sched_short_slices(); /* this is the first of our functions that runs on a daemon's thread */
+            /* called here, because this is kerrd's first function that runs on a thread of the daemon */
+            kd_sched_short_slices();
     } else {
         kd_connections_remove(server->connections, *socket_context);
         *socket_context = NULL;
@@ -60,15 +61,15 @@ static void stage(struct kd_request *request, enum kd_stage to)
     kd_connections_stage(request->server->connections, request->connection, to, 0);
 }
 
-/* libmicrohttpd 0.9.75 parses the query itself, into memory of the connection. Some hundred parameters exhaust that
- * memory, and the connection then hangs. This function runs before the library parses. It replaces each "&", so that
- * the library finds only one parameter; target.c parses the query from our own copy. */
+/* libmicrohttpd 0.9.75 parses the query itself, into the memory of the connection. Some hundred parameters exhaust
+ * that memory, and then the connection hangs. This function runs before the library parses. It replaces every "&",
+ * so that the library finds only one parameter; target.c parses the query from kerrd's own copy. */
 static void hide_pairs(const char *uri)
 {
     union {
         const char *in;
         char *out;
-    } text = { uri }; /* the library's own copy, in which the library decodes escapes in place */
+    } text = { uri }; /* the library's own copy, in which it decodes escapes in place */
     for (char *p = text.out; *p; p++)
         if (*p == '&')
             *p = '_';
@@ -84,7 +85,7 @@ void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd)
     request->server = server;
     request->mhd = mhd;
     request->connection = connection_of(mhd);
-    /* A connection to the health routes serves only one request, because the next request may belong to the other
+    /* A connection to the health routes serves only one request, because the next request might belong to the other
      * daemon. */
     request->close = kd_connection_is_health(request->connection);
     kd_client_of(mhd, request->client);
@@ -177,7 +178,7 @@ static bool media_type_fault(const struct kd_request *request, bool patch, struc
     return true;
 }
 
-/* True if the body that the header announces must be refused. *problem may point into *told. */
+/* True if the body that the header announces must be refused. *problem may then point into *told. */
 static bool body_fault(const struct kd_request *request, struct told *told, struct kd_problem *problem)
 {
     bool patch = !strcmp(request->method, "PATCH");
@@ -202,8 +203,8 @@ static bool body_fault(const struct kd_request *request, struct told *told, stru
 }
 
 /* True if a page of another site has made the browser send this request (Fetch Metadata, W3C). Such a page could use
- * the visitor's access to this server, so the request is refused. Two kinds are permitted: navigations, such as a
- * link to a picture, and signed links, which work without the visitor's access. */
+ * the visitor's access to this server, so the request is refused. Two kinds of requests are permitted nevertheless:
+ * navigations, such as a link to a picture, and signed links, which do not use the visitor's access. */
 static bool is_foreign(const struct kd_request *request)
 {
     const char *site = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Sec-Fetch-Site");
@@ -216,7 +217,7 @@ static bool is_foreign(const struct kd_request *request)
     return !visit && !strncmp(request->route->path, "/v1/", 4);
 }
 
-/* Finds the route and checks access. Clients without access do not learn which routes exist. */
+/* Finds the route, and checks the access. Clients without access do not learn which routes exist. */
 static bool find_route(struct kd_request *request, struct kd_problem *problem, struct kd_error *error)
 {
     struct kd_problem nowhere;
@@ -232,8 +233,8 @@ static bool find_route(struct kd_request *request, struct kd_problem *problem, s
     return found;
 }
 
-/* True if the request creates an object whose address is not known yet, so that If-Match cannot be fulfilled. If the
- * object already has an address, the handler evaluates If-Match. */
+/* True if the request creates an object that has no address yet, so that If-Match can never be true. If the object
+ * already has an address, the handler evaluates If-Match. */
 static bool makes_something(const struct kd_request *request)
 {
     return !request->route->question && !strchr(request->route->path, '{') &&
@@ -242,14 +243,14 @@ static bool makes_something(const struct kd_request *request)
 
 static bool is_options(const struct kd_request *request) { return !strcmp(request->method, "OPTIONS"); }
 
-/* True if OPTIONS concerns the whole server. Its target is then "*", or an address without a path (RFC 9112 3.2.4). */
+/* True for OPTIONS on the whole server. Its target is then "*", or an address without a path (RFC 9112 3.2.4). */
 static bool asks_of_all(const struct kd_request *request)
 {
     return is_options(request) && !request->body_announced &&
            (!strcmp(request->raw, "*") || (request->authority && !strcmp(request->raw, "/")));
 }
 
-/* True if the query has a parameter that the route does not have. error: holds the problem's text. */
+/* True if the query has a parameter that the route does not support. error: storage for the problem's text. */
 static bool query_fault(const struct kd_request *request, struct kd_error *error, struct kd_problem *problem)
 {
     *error = (struct kd_error) { 0 };
@@ -261,7 +262,7 @@ static bool query_fault(const struct kd_request *request, struct kd_error *error
     return true;
 }
 
-/* Decides whether the request is handled. Returns false if it has been answered; the caller then returns *result. */
+/* Decides whether the request is handled. Returns false if it was already answered; the caller then returns *result. */
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_problem problem;
@@ -278,7 +279,8 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
         problem = (struct kd_problem) {
             .type = KD_PROBLEM_CROWDED, .retry_after = 1, .close = true, .detail = "too many connections are open"
         };
-    else if (kd_cors_is_preflight(request)) { /* browsers send preflights without an access token */
+    /* handled here, because browsers send preflights without an access token */
+    else if (kd_cors_is_preflight(request)) {
         *result = kd_cors_preflight(request);
         return false;
     } else if (asks_of_all(request)) {
@@ -315,7 +317,7 @@ static bool choose(struct kd_request *request, enum MHD_Result *result)
     return false;
 }
 
-/* Reads traceparent. If there are several such lines, they are malformed and ignored. */
+/* Reads the header traceparent. If it occurs more than once, it counts as malformed and is ignored. */
 static void read_trace(struct kd_request *request)
 {
     struct kd_buffer value = kd_reply_header_list(request, "traceparent");
@@ -323,8 +325,9 @@ static void read_trace(struct kd_request *request)
     kd_buffer_finish(&value);
 }
 
-/* Handles the complete header. If the announced body must be refused, this happens here, and libmicrohttpd then
- * closes the connection. A request without a body is answered in the next call, so that the connection stays open. */
+/* Handles the complete header. If the announced body must be refused, this is done here, and libmicrohttpd then
+ * closes the connection. A request without a body is answered only in the next call, so that its connection stays
+ * open. */
 static enum MHD_Result begin(struct kd_request *request, const char *version)
 {
     struct kd_server *server = request->server;
@@ -351,8 +354,8 @@ static enum MHD_Result begin(struct kd_request *request, const char *version)
     return MHD_YES;
 }
 
-/* Refuses a request in the middle of its body. At that point libmicrohttpd cannot answer, so the answer is written
- * to the socket and the connection is closed. */
+/* Refuses a request while its body is arriving. libmicrohttpd cannot send an answer at that point, so the answer is
+ * written directly to the socket, and the connection is closed. */
 static enum MHD_Result cut_body(struct kd_request *request, enum kd_problem_type type, const char *detail)
 {
     request->status = kd_problem_status(type);
@@ -382,7 +385,8 @@ static enum MHD_Result receive(struct kd_request *request, const char *data, siz
     }
     kd_once_take(request, data, *size);
     *size = 0;
-    if (all - request->body_mark >= PACE) { /* the body arrives fast enough, so its next part gets as much time again */
+    /* the body arrives fast enough, so its next part gets the same time again */
+    if (all - request->body_mark >= PACE) {
         request->body_mark = all;
         stage(request, KD_STAGE_BODY);
     }

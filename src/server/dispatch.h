@@ -1,11 +1,11 @@
-/* Dispatches requests from libmicrohttpd to the handlers of routes: receives and checks header and body, and cancels
- * the work of clients that disconnect. HTTP thread only. */
+/* Passes requests from libmicrohttpd to the handlers of routes. Receives and checks header and body, and cancels the
+ * work of clients that disconnect. HTTP thread only. */
 #ifndef KD_SERVER_DISPATCH_H
 #define KD_SERVER_DISPATCH_H
 
 #include <microhttpd.h>
 
-/* Callbacks of libmicrohttpd; cls is the struct kd_server. */
+/* Callbacks for libmicrohttpd; cls is the struct kd_server. */
 void *kd_request_open(void *cls, const char *uri, struct MHD_Connection *mhd);
 enum MHD_Result kd_request_handle(void *cls, struct MHD_Connection *mhd, const char *url, const char *method,
                                   const char *version, const char *data, size_t *size, void **state);

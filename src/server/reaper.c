@@ -12,13 +12,13 @@
 #include <poll.h>
 #include <unistd.h>
 
-#define TICK_MS 100          /* interval of the checks for deadlines and disconnected clients */
-#define LAST_ANSWERS_MS 10e3 /* time for sending the last answers, and for waiting for a driver that may hang */
+#define TICK_MS 100          /* time in ms between two checks for deadlines and clients that have disconnected */
+#define LAST_ANSWERS_MS 10e3 /* time in ms for sending the last answers, and for waiting for a driver that may hang */
 
 static void sleep_a_tick(struct kd_server *server)
 {
     struct pollfd p = { .fd = server->stop_fd, .events = POLLIN };
-    /* not polled during the shutdown, because the eventfd stays readable and poll would return at once */
+    /* Not polled during the shutdown: the eventfd stays readable, so poll would always return at once. */
     if (atomic_load(&server->phase) == KD_SERVING)
         poll(&p, 1, TICK_MS);
     else
@@ -47,7 +47,7 @@ static bool cut_short(struct kd_server *server)
     return atomic_load(&server->abandon) || hangs(server) || kd_render_queue_lost(server->renders, NULL);
 }
 
-/* Counts unfinished work. One request may count several times. */
+/* Counts unfinished work. A request may be counted more than once. */
 static unsigned unfinished(struct kd_server *server)
 {
     return kd_render_queue_unfinished(server->renders) + kd_scheduler_unfinished(server->rays) +
@@ -72,7 +72,7 @@ static void cancel_all(struct kd_server *server)
     kd_scheduler_cancel(server->scheduler);
 }
 
-/* Cancels accepted work whose time is over. */
+/* Cancels accepted work whose time has run out. */
 static void end_the_rest(struct kd_server *server)
 {
     if (!atomic_load(&server->ended))
@@ -82,7 +82,8 @@ static void end_the_rest(struct kd_server *server)
     cancel_all(server);
 }
 
-/* Advances the shutdown by one check. *since: when the present phase began. Returns true when all is done. */
+/* Advances the shutdown by one check. *since: time when the present phase began. Returns true when the shutdown is
+ * complete. */
 static bool step_down(struct kd_server *server, double *since)
 {
     double age = kd_clock_ms() - *since;
@@ -112,7 +113,7 @@ static bool step_down(struct kd_server *server, double *since)
         enter(server, KD_CLOSING, since);
         return false;
     default:
-        kd_thumbnails_cancel(server->thumbnails); /* includes requests that arrived since the phase began */
+        kd_thumbnails_cancel(server->thumbnails); /* repeated, for requests that have arrived since the phase began */
         kd_connections_cut_stalled(server->connections);
         return !atomic_load(&server->requests) || age >= LAST_ANSWERS_MS || atomic_load(&server->abandon);
     }
@@ -132,7 +133,7 @@ void *kd_reaper_main(void *user)
         kd_jobs_sweep(server->jobs);
         kd_lessons_sweep(server->lessons);
     } while (!step_down(server, &since));
-    if (!hangs(server)) { /* the queues are empty and closed, so no connection is suspended */
+    if (!hangs(server)) { /* all queues are empty and closed, so no connection is suspended */
         stop_listening(server);
         MHD_stop_daemon(server->daemon);
         MHD_stop_daemon(server->health_daemon);

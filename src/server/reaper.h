@@ -1,4 +1,4 @@
-/* The housekeeping thread: deadlines, disconnected clients, and the shutdown. */
+/* The housekeeping thread. It handles deadlines, clients that have disconnected, and the shutdown. */
 #ifndef KD_SERVER_REAPER_H
 #define KD_SERVER_REAPER_H
 

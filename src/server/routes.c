@@ -1,4 +1,4 @@
-/* Table of routes, declared in http/route.h. */
+/* The table of routes that http/route.h declares. */
 #include "base/json.h"
 #include "render/output/format.h"
 #include "server/http/query.h"

@@ -42,7 +42,8 @@ static bool add_host(struct kd_server *server, size_t *n, const char *name)
 }
 
 /* Collects the accepted Host names: loopback by name and number, the host of the public URL, the names in `more`,
- * and the listening address. If that is a wildcard address, the machine's own addresses and name take its place. */
+ * and the address on which the server listens. If that is a wildcard address, the addresses and the name of this
+ * machine replace it. */
 static enum kd_status collect_hosts(struct kd_server *server, const char *listen, const char *public_host,
                                     const char *const *more, struct kd_error *error)
 {
@@ -90,7 +91,7 @@ static struct MHD_Daemon *start_daemon(struct kd_server *server, unsigned connec
         kd_request_connection, server, MHD_OPTION_END);
 }
 
-/* The daemons' own limits are above the server's, because a daemon at its limit closes a connection without an
+/* The daemons' limits are higher than the server's, because a daemon at its limit closes connections without an
  * answer. */
 static enum kd_status start_http(struct kd_server *server, int listener, unsigned connections, struct kd_error *error)
 {
@@ -113,7 +114,7 @@ static enum kd_status start_reaper(struct kd_server *server, struct kd_error *er
     return KD_OK;
 }
 
-/* A client's share of a limit, at least one. */
+/* The part of a limit that one client may use, at least 1. */
 static unsigned share_of(const struct kd_server_params *params, unsigned limit)
 {
     unsigned percent = or_default(params->client_share, 75);
@@ -208,7 +209,7 @@ static enum kd_status start_renders(struct kd_server *server, const struct kd_se
                                   params->reopenings, &server->renders, error);
 }
 
-/* Keeps the name of the key for shared scenes, if the token file has it. */
+/* Stores the name of the key for shared scenes, if the token file contains this key. */
 static enum kd_status take_share_key(struct kd_server *server, const char *name, struct kd_error *error)
 {
     uint8_t ignored[KD_ACCESS_SIGNATURE];
@@ -260,7 +261,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
     KD_TRY(kd_public_url_make(params->public_url, &server->base, &server->public_url, &public_host, error));
     KD_TRY(collect_hosts(server, address, public_host, params->hosts, error));
     KD_TRY(kd_cached_documents_create(server->base.path, server->access != NULL, &server->documents, error));
-    /* Opens the socket first: opening a device takes long, and "address in use" is the most common failure. */
+    /* The socket comes first, because opening a device takes long, and "address in use" is the most common failure. */
     KD_TRY(kd_listen_open(address, &server->port, &fd, error));
     const unsigned tasks = or_default(params->queue, 16);
     KD_TRY(make_assets(server, params, error));
@@ -278,8 +279,8 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         KD_TRY(kd_error_set(error, KD_ENOMEM, "out of memory"));
     KD_TRY(start_plays(server, params, error));
     KD_TRY(start_jobs(server, params, error));
-    /* the assets are opened after the jobs, because the jobs lock the folder, and before kd_jobs_begin, because jobs
-     * may use assets */
+    /* Assets are opened after the jobs, which lock the folder, and before kd_jobs_begin, because jobs may use
+     * assets. */
     if (params->state)
         KD_TRY(kd_asset_store_open(server->assets, params->state, error));
     if (params->sky)
@@ -288,7 +289,7 @@ static enum kd_status start(struct kd_server *server, const struct kd_server_par
         KD_TRY(kd_link_budgets_open(server->links, params->state, error));
     kd_jobs_begin(server->jobs);
     const int listening = fd;
-    fd = -1; /* from here on the front owns and closes the socket */
+    fd = -1; /* from here on, the front owns the socket and closes it */
     KD_TRY(start_http(server, listening, connections, error));
     KD_TRY(start_reaper(server, error));
 done:
@@ -325,7 +326,7 @@ void kd_server_stop(struct kd_server *server)
     uint64_t one = 1;
     atomic_compare_exchange_strong(&server->phase, &serving, KD_DRAINING);
     if (write(server->stop_fd, &one, sizeof one) < 0) {
-        /* The write fails only if the counter is full. In that case the reaper has already been woken. */
+        /* The write can fail only if the counter is full. Then the reaper was already woken. */
     }
 }
 
@@ -364,7 +365,7 @@ void kd_server_destroy(struct kd_server *server)
     kd_scheduler_destroy(server->rays);
     kd_thumbnails_destroy(server->thumbnails);
     kd_render_queue_destroy(server->renders);
-    /* destroyed after the queue, because the queue's last frames refer to sessions */
+    /* Destroyed after the queue, whose last frames refer to sessions. */
     kd_sessions_destroy(server->sessions);
     kd_lessons_destroy(server->lessons);
     kd_jobs_destroy(server->jobs);

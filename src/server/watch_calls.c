@@ -1,12 +1,12 @@
-/* Compiled with -Dwatch=true. The linker then redirects calls for locks and disks to this file, which reports them
- * to base/watch.h. */
+/* Compiled only with -Dwatch=true. The linker then redirects calls that concern locks and disks to this file, which
+ * reports them to base/watch.h. */
 #include "base/watch.h"
 
 #ifdef KD_WATCH
 #include <pthread.h>
 #include <unistd.h>
 
-/* The linker's --wrap redirects our calls of NAME to __wrap_NAME, which calls __real_NAME. */
+/* The linker's option --wrap redirects kerrd's calls of NAME to __wrap_NAME, which in turn calls __real_NAME. */
 #define REAL(type, name, ...) \
     type __real_##name(__VA_ARGS__); \
     type __wrap_##name(__VA_ARGS__)
@@ -93,5 +93,5 @@ int __wrap_unlinkat(int folder, const char *path, int flags)
     return __real_unlinkat(folder, path, flags);
 }
 #else
-typedef int kd_watch_calls_are_off; /* a translation unit must not be empty (C11, 6.9) */
+typedef int kd_watch_calls_are_off; /* because a translation unit must not be empty (C11, section 6.9) */
 #endif

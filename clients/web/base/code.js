@@ -2,9 +2,9 @@
 import { svg } from './dom.js';
 import { t } from '../words/i18n.js';
 
-const quiet = 4; // least white margin of a QR code, in modules (ISO/IEC 18004)
+const quiet = 4; // minimum width of the white margin of a QR code, in modules (ISO/IEC 18004)
 
-// Throws a sentence if the library cannot be loaded, or if the address is too long for a code.
+// Throws a readable sentence if the library cannot be loaded, or if the address is too long for a QR code.
 export async function drawCode(url) {
   const drawn = await import('../vendor/lean-qr/nano.mjs').catch(() => {
     throw new Error(t('common.the-server-does-not', 'The server does not answer'));

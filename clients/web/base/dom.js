@@ -1,4 +1,4 @@
-// Elements in one expression: el('p', { class: 'help' }, 'text', child).
+// Creates elements in one expression, for example el('p', { class: 'help' }, 'text', child).
 function maker(create) {
   return (tag, attributes = {}, ...children) => {
     const node = create(tag);
@@ -17,9 +17,9 @@ export const svg = maker(tag => document.createElementNS('http://www.w3.org/2000
 export const math = maker(tag => document.createElementNS('http://www.w3.org/1998/Math/MathML', tag));
 export const byId = id => document.getElementById(id);
 
-// Protects a field from being overwritten while somebody types. typed: the field has a value that has not been
-// submitted. held: as typed, or the field has the focus; use it for values that arrive continuously and may be older
-// than the input. given(): to be called when the value was submitted by a key.
+// Keeps a field from being overwritten while somebody types. typed: true if the field has a value that has not been
+// submitted. held: true if `typed` is true or the field has the focus. Use `held` for values that arrive continuously
+// and may be older than the input. Call given() when a key has submitted the value.
 export function typing(input) {
   let typed = false;
   const given = () => (typed = false);
@@ -38,8 +38,8 @@ export function typing(input) {
 
 export const still = matchMedia('(prefers-reduced-motion: reduce)');
 
-// Calls a function back at the first press, key or turn of the wheel, before other listeners. Returns a function that
-// cancels this.
+// Calls `told` once, at the first press of a pointer or key or the first turn of the wheel, before other listeners run.
+// Returns a function that cancels the call.
 export function atFirstTouch(told) {
   const heard = new AbortController();
   for (const touch of ['pointerdown', 'keydown', 'wheel'])
@@ -88,7 +88,8 @@ export function latest(task) {
 
 const pace_ms = 250;
 
-// Runs a task after changes: at once after the first, then at most four times a second while changes continue.
+// Runs a task after changes: at once after the first change, and then at most four times a second while changes
+// continue.
 export function paced(task) {
   let timer = 0,
     late = false;

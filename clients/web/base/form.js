@@ -16,9 +16,9 @@ function slider(spec, input, tell) {
 }
 
 // specs: [{ name, label, unit, help, value, min, max, step, choices, words, auto, nature, about }]. label replaces the
-// label made from the name, and about the server's help. The default nature is physics. changed() is called after a
-// change. An auto field is empty until somebody enters a value, and again when it is cleared. Returns values() by name,
-// and put({ name: value }).
+// label that is made from the name; about replaces the server's help; nature is "physics" by default. changed() is
+// called after each change. A field with auto is empty until somebody enters a value, and after somebody has cleared
+// it. Returns two functions: values(), the values by name, and put({ name: value }).
 export function buildForm(root, prefix, specs, changed) {
   const inputs = new Map();
   for (const spec of specs) {
@@ -91,7 +91,7 @@ export function buildForm(root, prefix, specs, changed) {
         link.set(key, input.value === String(spec.value) ? null : input.value);
       }
     },
-    // Shows the value that an auto field has by default, unless somebody has entered or is entering one.
+    // Shows the default value of an auto field, unless somebody has entered a value or is entering one.
     suggest(name, value) {
       const { input, hand, follow } = inputs.get(name);
       if (!input.chosen && !hand.typed) (input.value = value), follow();

@@ -28,11 +28,11 @@ function memory(key) {
 
 export const remembered = key => Boolean(memory(key).read()?.id);
 
-// key: of the entry in sessionStorage. starts: buttons that are disabled while a job runs. cancel: the button that
-// cancels it. bar: the progress bar. told and fault: elements for sentences. words: { done, cancelled, written,
-// before(n) }. take(job) fetches the result and may return a sentence. seen(status, job) is called at each poll and may
-// return a promise. Returns { begin(request, about), resume() }: request() returns a document of POST /v1/jobs; about
-// is stored with the job.
+// key: key of the entry in sessionStorage. starts: buttons that are disabled while a job runs. cancel: the button that
+// cancels the job. bar: the progress bar. told, fault: elements that show messages and errors. words: { done,
+// cancelled, written, before(n) }. take(job) fetches the result and may return a message. seen(status, job) is called
+// at each poll and may return a promise. Returns { begin(request, about), resume() }. request() returns the document
+// that is sent to POST /v1/jobs. about is stored with the job.
 export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen = () => {}, free = () => true }) {
   const kept = memory(key);
   let job = null,
@@ -67,14 +67,13 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
   const remove = ({ id, token }) =>
     ask('v1/jobs/' + id, { method: 'DELETE', headers: { Authorization: `Bearer ${token}` } });
 
-  // Called when the result has been fetched and the last poll has been handled. From then on the server may delete the
-  // job.
+  // Called when the result has been fetched and the last poll has been handled. The server may then delete the job.
   async function fetched(done, looked) {
     const sentence = await take(done, () => job === done);
     await looked;
     if (job !== done) return;
     end(sentence ?? words.done);
-    remove(done).catch(() => {}); // ignored: without this request the job expires within a day
+    remove(done).catch(() => {}); // errors are ignored: if this request fails, the job expires within a day
   }
 
   async function follow() {
@@ -92,7 +91,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
         await pause(poll_ms);
       } catch (error) {
         if (job !== now) return;
-        // returns, because another attempt would fail as well
+        // stops polling, because another attempt would fail as well
         if (!passes(error) || error.status === 500) return end(error.message, true);
         tell(fault, error.message).append(t('common.trying-again', ' – trying again'));
         await pause(again_ms);
@@ -116,7 +115,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
       show({ fraction: 0 });
       try {
         const { id, token } = await postJson('v1/jobs', await request());
-        // the job was cancelled before the server answered
+        // the user cancelled the job before the server answered the request for it
         if (job !== asked) return void remove({ id, token }).catch(() => {});
         job = { id, token, ...about };
         kept.write(job);
@@ -135,7 +134,7 @@ export function jobOf({ key, starts, cancel, bar, told, fault, words, take, seen
   };
 }
 
-// File name: the name of what the file shows, if it has one, and its size in pixels.
+// Name of a file: the name of the scene, if it has one, and the size in pixels.
 export const fileName = (names, width, height) => ['kerrd', ...names.filter(Boolean), `${width}x${height}`].join('-');
 
 // Puts a file into a download link, and clicks it.

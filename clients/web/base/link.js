@@ -1,7 +1,8 @@
-// The page's address is its state. After the # it has the view, the language, the fields that differ from the default
-// scene, and the parameters of the other views, in the form of a query.
+// The page's address holds its state. After the # it has, in the form of a query: the view, the language, the fields
+// that differ from the default scene, and the parameters of the other views.
 const state = new URLSearchParams(location.hash.slice(1));
-const load = performance.timeOrigin; // marks entries of the browser's history that this load of the page made
+// marks the entries of the browser's history that were made since this load of the page
+const load = performance.timeOrigin;
 let timer = 0;
 
 function write(how) {
@@ -25,17 +26,17 @@ export function flush(how = 'replaceState') {
   if (timer || how !== 'replaceState') clearTimeout(timer), write(how);
 }
 
-// Opens another view as a new entry of the history, so that Back returns.
+// Opens another view as a new entry of the browser's history, so that the Back button returns.
 export function enter(view) {
   flush();
   set('view', view);
   flush('pushState');
 }
 
-// Calls a function when Back or Forward changes the view. Other changes of the address are kept.
+// Calls a function when Back or Forward changes the view. All other parts of the address stay as they are.
 export function onReturn(show) {
   addEventListener('popstate', event => event.state?.load === load && show(event.state.view));
 }
 
-// The address was typed, or the entry is from an earlier load of the page: the page is reloaded.
+// If the address was typed, or the entry comes from an earlier load of the page, the page is reloaded.
 addEventListener('hashchange', () => history.state?.load === load || location.reload());

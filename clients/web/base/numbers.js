@@ -2,11 +2,11 @@
 import { el } from './dom.js';
 import { number, t } from '../words/i18n.js';
 
-const live_ms = 1000; // least time between two updates of a table
+const live_ms = 1000; // minimum time between two updates of a table
 
 export const shared = spec => spec.series.every(s => s.x === spec.series[0].x);
 
-// The curves in groups of equal x.
+// Groups the curves that have the same values of x.
 function groups({ series }) {
   const by = new Map();
   for (const s of series) {
@@ -51,8 +51,8 @@ function table(spec) {
 
 const cell = text => `"${String(text ?? '').replaceAll('"', '""')}"`;
 
-// The page makes the CSV, because no route of the server returns these numbers. A curve with other x has its own column
-// of x.
+// The page makes the CSV itself, because no route of the server returns these numbers. Each curve whose values of x
+// differ from the others gets its own column of x.
 function sheet(spec) {
   const all = groups(spec),
     rows = [
@@ -64,8 +64,8 @@ function sheet(spec) {
   return URL.createObjectURL(new Blob([rows.map(row => row.join(',') + '\n').join('')], { type: 'text/csv' }));
 }
 
-// Shows the numbers of a chart under a heading. The table is made when a user opens it. From then on the table of a
-// live chart is updated.
+// Shows the numbers of a chart under a heading. The table is made when a user opens it. After that, the table of a live
+// chart is kept up to date.
 export function numbers(id) {
   const box = el('div', { class: 'scroll', tabindex: 0, role: 'region', 'aria-labelledby': id }),
     links = el('p', {});

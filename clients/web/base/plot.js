@@ -7,7 +7,7 @@ import { numbers, shared } from './numbers.js';
 document.head.append(
   el('link', { rel: 'stylesheet', href: new URL('../vendor/uplot/uPlot.min.css', import.meta.url) }),
 );
-// The smaller of uPlot's two builds is a script, not a module: it sets a global variable.
+// uPlot has two builds. The smaller one is a script, not a module: it sets a global variable.
 const uPlot = await new Promise((done, fail) =>
   document.head.append(
     el('script', {
@@ -41,7 +41,7 @@ function extent(given, values) {
   return [given.min ?? low - room, given.max ?? high + room];
 }
 
-// The power of ten by which the numbers of ticks far from 1 are divided; the axis label states it.
+// Ticks far from 1 are divided by a power of ten, which the axis label states. This is its exponent.
 function power([low, high], log) {
   const p = Math.floor(Math.log10(Math.max(Math.abs(low), Math.abs(high))));
   return log || (p > -3 && p < 6) ? 0 : p;
@@ -49,7 +49,7 @@ function power([low, high], log) {
 
 const shown = (value, given) => (finite(value) && !(given.log && value <= 0) ? value : null);
 
-// One column of x and one of y for each curve, the form that uPlot takes.
+// Data in uPlot's form: for each curve, one column of x and one of y.
 function columns(spec) {
   const tables = spec.series.map(({ x, y }) => {
     const rows = x.map((value, i) => [value, shown(y[i], spec.y)]).filter(([value]) => shown(value, spec.x) != null);
@@ -88,8 +88,9 @@ function drawMarks(u, marks) {
   ctx.restore();
 }
 
-// Brightness by x and y beneath the curves: rows from below upwards, each from left to right. The square root of the
-// brightness is drawn, because the brightest cell may be many times brighter than all others.
+// Draws a map of brightness over x and y beneath the curves. Rows go from bottom to top, and each row from left to
+// right. The colour shows the square root of the brightness, because the brightest cell may be many times brighter than
+// all others.
 function drawMap(u, { rows, x, y }) {
   const wide = rows[0].length,
     tall = rows.length,
@@ -108,7 +109,7 @@ function drawMap(u, { rows, x, y }) {
   u.ctx.drawImage(picture, left, above, right - left, below - above);
 }
 
-// Draws the errors of dots as vertical lines.
+// Draws the error bars of dots as vertical lines.
 function drawErrors(u, { series, y: { log } }) {
   const { ctx, bbox } = u;
   ctx.save();
@@ -149,7 +150,7 @@ function axis(label, values, more) {
   };
 }
 
-// Width of the axis for its longest number.
+// Width of an axis, in pixels, that leaves room for its longest number.
 const room = (u, values) => 12 + 7 * Math.max(2, ...(values ?? []).map(text => text.length));
 
 function key(style) {
@@ -179,7 +180,7 @@ export function plot(first) {
     made = '',
     u = null,
     limits = null;
-  const hidden = new Set(); // names of curves that were switched off
+  const hidden = new Set(); // names of curves that the user has hidden
 
   const shift = axis => power(limits[axis], spec[axis].log),
     label = axis => spec[axis].label + (shift(axis) ? ` / ${number(10 ** shift(axis))}` : '');
@@ -188,7 +189,8 @@ export function plot(first) {
     height: Math.round(Math.min(Math.max(chart.clientWidth * 0.6, 200), 340)),
   });
 
-  // Shows the values at the cursor in the legend, and as the value of the chart, which is a slider for screen readers.
+  // Shows the values at the cursor: in the legend, and as the value of the chart, which screen readers treat as a
+  // slider.
   function read() {
     const at = u.cursor.idx ?? 0,
       on = u.cursor.idx != null;

@@ -1,12 +1,12 @@
-// Estimates the remaining time: the time since the start, multiplied by the share left and divided by the share done.
-const least_ms = 3000; // time that must have passed before the first estimate
-const least_share = 0.02; // share that must be done before the first estimate
+// Estimates the remaining time as (time since the start) × (fraction left) / (fraction done).
+const least_ms = 3000; // no estimate is made before this time has passed
+const least_share = 0.02; // no estimate is made before this fraction is done
 const smoothing = 0.2; // weight of the newest estimate
 
 // Returns left(share): the remaining seconds, or null if there is no estimate yet. share: 0 to 1, or null before the
 // work begins.
 export function remaining(clock = () => performance.now()) {
-  let first = null, // time and share of the first call that has a share
+  let first = null, // time and fraction at the first call that has a fraction
     end = null;
   return share => {
     const now = clock();

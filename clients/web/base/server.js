@@ -88,8 +88,8 @@ export const holeOf = scene => ({
   ...(scene.get('spacetime.charge') ? { charge: scene.get('spacetime.charge') } : {}),
 });
 
-// Digits of numbers for lines over a picture, which can be enlarged, and for charts and their tables. With all digits
-// the answers would be three times as large.
+// Number of digits that is enough for charts, their tables, and lines over a picture, even when it is enlarged. With
+// all digits the answers would be three times as large.
 export const drawn = { digits: 6 },
   charted = { digits: 5 };
 

@@ -1,6 +1,6 @@
-// In a narrow, upright window, the controls of a view lie in a sheet over its lower edge, while the picture stays in
-// place. A handle switches between three heights by a drag, a tap or arrow keys. In any other window the controls stand
-// beside the picture, and the handle is hidden (style.css).
+// In a narrow, upright window, the controls of a view lie in a sheet over the lower edge of the view, while the picture
+// stays in place. A handle moves the sheet between three heights by a drag, a tap or arrow keys. In any other window
+// the controls stand beside the picture, and style.css hides the handle.
 import { el } from './dom.js';
 import { t } from '../words/i18n.js';
 
@@ -10,11 +10,11 @@ const heights = [
   ['whole', t('sheet.all-of-the-window', 'all of the window')],
 ];
 const tap_px = 6;
-const flick_px_ms = 0.5; // a faster drag moves the sheet to the next height
+const flick_px_ms = 0.5; // a drag faster than this, in pixels per ms, moves the sheet to the next height
 
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
-// The picture of each panel. The page is scrolled so that the picture is visible above the sheet.
+// Selector of the picture of each panel. The page is scrolled so that this picture is visible above the sheet.
 const pinned = { 'orbit-panel': '#orbit-picture', 'scale-panel': '#scale-pictures', 'play-panel': '#play-pictures' };
 
 export function sheet(node) {
@@ -35,7 +35,7 @@ export function sheet(node) {
   const picture = pinned[node.id] && document.querySelector(pinned[node.id]);
   let at = 0,
     drag = null,
-    left = false; // true if a hand has scrolled or typed since the sheet was raised
+    left = false; // true if the user has scrolled or typed since the sheet was raised
 
   function show() {
     if (at && picture?.offsetHeight && handle.offsetParent) picture.scrollIntoView();
@@ -53,7 +53,7 @@ export function sheet(node) {
     handle.setAttribute('aria-valuetext', words);
   }
 
-  // The nearest of the three heights; after a flick, the next one in its direction.
+  // The height, of the three, that is nearest; after a flick, the next height in the direction of the flick.
   function nearest(height, speed) {
     const sizes = [handle.offsetHeight, innerHeight / 2, innerHeight],
       near = sizes.reduce((best, size, i) => (Math.abs(size - height) < Math.abs(sizes[best] - height) ? i : best), 0);
@@ -79,7 +79,7 @@ export function sheet(node) {
     if (!drag) return;
     const up = drag.y - event.clientY,
       took = event.timeStamp - drag.time;
-    // a sideways movement changes the preset (swipe.js)
+    // a sideways drag is left to swipe.js, which changes the preset
     drag.moved ||= Math.hypot(up, event.clientX - drag.x) > tap_px;
     if (took > 0) drag.speed = (drag.last - event.clientY) / took;
     Object.assign(drag, { time: event.timeStamp, last: event.clientY });
@@ -109,7 +109,7 @@ export function sheet(node) {
     else if (keys[event.key]) rest(keys[event.key]());
     else return;
     event.preventDefault();
-    event.stopPropagation(); // stops the event, so that the space key does not pause the clock
+    event.stopPropagation(); // otherwise the space key would also pause the clock
   });
   // Raises the sheet when the keyboard moves the focus into it.
   node.addEventListener(
@@ -120,12 +120,13 @@ export function sheet(node) {
   node.prepend(handle);
   rest(0);
   if (picture) {
-    // The picture, or the content that makes the page long enough to scroll to it, may be loaded after the sheet was
-    // raised. While the page is too short, the browser scrolls back. Afterwards the picture is placed again.
+    // The picture may be loaded after the sheet was raised, and so may the content that makes the page long enough to
+    // scroll to the picture. While the page is too short, the browser scrolls back. The picture is therefore scrolled
+    // into place again afterwards.
     for (const kind of ['wheel', 'touchmove', 'keydown'])
       addEventListener(kind, () => (left = true), { passive: true, capture: true });
     const grows = new ResizeObserver(() => {
-      left &&= picture.offsetHeight > 0; // when the view is opened again, the picture must be placed again
+      left &&= picture.offsetHeight > 0; // when the view is opened again, the picture must be scrolled into place again
       if (!left) show();
     });
     grows.observe(picture);

@@ -1,9 +1,9 @@
 // Sliders and arrow keys for a number with known range, unit and default: { minimum, maximum, unit, default, type }.
-const decades = 30; // ratio of a range's ends from which on its slider is logarithmic
+const decades = 30; // if the ends of a range have at least this ratio, its slider is logarithmic
 const positions = 1000;
 
-// The scale of a range, and its inverse; null: linear. A wide range is logarithmic; if it begins at 0, it is linear
-// below a hundredth of the default.
+// Returns the scale of a range and its inverse, or null if the slider is linear. A wide range is logarithmic. If such a
+// range begins at 0, it is linear below a hundredth of the default.
 function spread({ minimum: low, maximum: high, unit, type, default: usual }) {
   if (unit === 'degrees' || low < 0) return null;
   if (low > 0) return high / low > decades ? [x => Math.log(x / low), u => low * Math.exp(u)] : null;
@@ -28,13 +28,13 @@ export function scale(range) {
 
 const power = x => 10 ** Math.floor(Math.log10(x));
 
-// The step of an arrow key: about a hundredth of a linear range, a tenth of the leading digit on a logarithmic one. In
-// a logarithmic range that begins at 0, about ten steps reach the default, and below a tenth of the default a step is
-// one unit of the leading digit.
+// The step of an arrow key. In a linear range it is about a hundredth of the range; in a logarithmic range, a tenth of
+// the leading digit. In a logarithmic range that begins at 0, about ten steps lead from 0 to the default, and below a
+// tenth of the default a step is one unit of the leading digit.
 function step(range, value) {
   const size = Math.abs(value);
   if (!spread(range)) return power(range.maximum - range.minimum) / 100;
-  // a value of 0 is switched on by the value of its button, if there is one
+  // at 0, the first step goes to the value that the field's button sets, if it has a button
   if (range.minimum > 0) return size ? power(size) / 10 : (range.button?.value ?? range.minimum);
   const usual = power(Number(range.default) || 1) / 10;
   return size === 0 ? usual : size < usual ? power(size) : Math.max(power(size) / 10, usual);
@@ -44,8 +44,8 @@ const across = { ArrowRight: 1, ArrowLeft: -1 };
 const steps = { ArrowUp: 1, ArrowDown: -1 };
 
 // By default, arrow keys change a number box by 1, for example from 0.9 to 1.9. They change a slider by a thousandth of
-// its length, which may be invisible or less than the field's step. These handlers use step() instead. range.step: for
-// numbers that have a step. node: the box, or the slider beside it.
+// its length, which may be invisible or less than the field's step. These handlers use step() instead. range.step: the
+// field's own step, if it has one. node: the element that handles the keys: the box, or the slider beside it.
 export function stepByArrows(node, range, give, box = node) {
   const way = node.type === 'range' ? { ...steps, ...across } : steps;
   node.addEventListener('keydown', event => {

@@ -1,15 +1,16 @@
 // Makes a ringdown audible. A pitch outside the range of hearing is shifted by whole octaves, which makes the whole
-// sound faster or slower. The wave fades after one or two oscillations, so its fading is stretched at the same pitch.
-// The page states both changes.
+// sound faster or slower. The wave dies out after one or two oscillations, too soon to hear a pitch, so its decay is
+// made longer at the same pitch. The page states both changes.
 import { el } from './dom.js';
 import { duration, number, t, tell } from '../words/i18n.js';
 import { physicsUrl } from './server.js';
 
 const heard = { least: 20, most: 20000, best: 300 }; // Hz
-const fading_s = 0.5; // time in which the sound fades by a factor e: long enough to hear a pitch
+const fading_s = 0.5; // decay time of the sound (to 1/e), long enough to hear a pitch
 const repeated_ms = 2000;
 
-// v: values of the quantity qnm for `asked`; octaves: a shift, or undefined for one that makes it audible.
+// v: values of the quantity qnm for the parameters `asked`. octaves: number of octaves by which the pitch is shifted;
+// undefined: as many as make it audible.
 export function ringing(v, asked, octaves) {
   const [hertz] = [v.frequency_hz].flat(),
     [damping] = [v.damping_s].flat(),
@@ -64,7 +65,7 @@ function shifted(octaves) {
     : t('sound.octaves-lower', ' {0} octaves lower, and slower, than the hole rings.', n);
 }
 
-const speaker = new Audio(); // a single one for all sounds, so that they do not overlap
+const speaker = new Audio(); // one audio element for all sounds, so that they do not overlap
 let timer = 0;
 
 export function play(url, repeated) {

@@ -1,7 +1,8 @@
-// A sideways swipe over the line below the picture, or over the handle of a sheet, chooses the next preset. A drag of
-// the picture turns the camera, and telephones use the screen's edges for Back.
+// A sideways swipe chooses the next preset. It may be made over the line below the picture, or over the handle of a
+// sheet. It cannot be made elsewhere: a drag of the picture turns the camera, and telephones use the edges of the
+// screen for Back.
 const turn_px = 48;
-const steeper = 2; // least ratio of the sideways movement to the vertical one
+const steeper = 2; // minimum ratio of the sideways movement to the vertical one
 
 export function swipe(node, turn) {
   let begun = null;

@@ -5,7 +5,7 @@ import { t, tell } from '../words/i18n.js';
 import { ask, module } from '../base/server.js';
 
 export function assetRow(field, scene, id, hint) {
-  let taken = null; // { chosen, hash }: the file that was chosen last, and the value that the field got from it
+  let taken = null; // { chosen, hash }: the file that was chosen last, and the SHA-256 that the field got from it
   const name = el('output', { class: 'asset' }),
     fault = el('p', { class: 'fault', hidden: true }),
     none = el(
@@ -23,7 +23,8 @@ export function assetRow(field, scene, id, hint) {
     onchange: choose,
   });
 
-  // For a picture of the sky: the operator's photograph, or how to get one, and the coordinates of a file.
+  // Only for a picture of the sky: the choice of coordinates of the file, and the operator's photograph or the way to
+  // get one.
   const turned = el('input', { type: 'checkbox', id: id + '-equatorial', onchange: again }),
     about = el(
       'p',

@@ -1,10 +1,10 @@
-// The badge of a field: physics, model or look. Its tooltip is the server's sentence on the meaning of this nature, as
-// in the legend.
+// The badge of a field: physics, model or look. Its tooltip is the server's sentence about this category; the legend
+// shows the same sentence.
 import { el } from '../base/dom.js';
 import { nature } from '../words/i18n.js';
 
 let means = {};
-let waiting = []; // [node, name] of badges that were made before the server's sentences came
+let waiting = []; // [node, name] of each badge that was made before the server's sentences arrived
 
 function explain(node, name) {
   const { text, lang } = nature(name, means[name]);

@@ -1,4 +1,4 @@
-// One sentence for each choice of a field, where the server's help would have to describe all choices.
+// A sentence for each choice of a field. It replaces the server's help, which describes all choices together.
 import { t } from '../words/i18n.js';
 
 const observers = {

@@ -1,4 +1,4 @@
-// The controls of a scene, generated from the schema: one row for each field, in the groups of the page.
+// The controls of a scene, generated from the schema: one row for each field, in the groups that the page defines.
 import { badge, know } from './badge.js';
 import { assetRow } from './asset.js';
 import { hint } from './choices.js';
@@ -31,7 +31,7 @@ function numberRow(field, scene, id, hint) {
     'aria-describedby': hint,
   });
   const hand = typing(box);
-  let own = null; // the last value that this control set itself
+  let own = null; // the value that this control set last
   const give = value => {
     hand.given();
     own = value;
@@ -56,8 +56,8 @@ function numberRow(field, scene, id, hint) {
       given = value !== special;
     if (check) check.checked = !given;
     slider.disabled = box.disabled = !given;
-    // While somebody has selected a number that time changes, the number is not updated, because they are about to
-    // type.
+    // While somebody has selected a number that time changes, the number is not updated, because this person is about
+    // to type.
     const selected = hand.held && value !== own && moving.includes(field.path) && scene.goesOn();
     if (!given) box.value = '';
     else if (!hand.typed && !selected)
@@ -86,7 +86,7 @@ function choiceRow(field, scene, id, hint) {
     show: () => {
       const value = scene.get(field.path);
       select.value = value;
-      // adds an option for a list of several words, or for a word with a number
+      // the value is a list of several words, or a word with a number: the list of options gets an option for it
       if (select.value !== value) select.add(new Option(word(value, field.path), value, false, true));
     },
   };
@@ -124,7 +124,7 @@ function row(field, scene) {
   control.label?.setAttribute('aria-label', mark ? `${label} (${mark})` : label);
   const fault = el('p', { class: 'fault', hidden: true }),
     about = el('p', { class: 'help', id: id + '-help', lang: helpLang }, help);
-  // Shows the help of the chosen value. A control that already shows the value is not touched, unless somebody has
+  // Shows the help of the chosen value. A control that already shows this value is not changed, unless somebody has
   // typed into it.
   let shown;
   function show() {
@@ -166,7 +166,8 @@ function row(field, scene) {
   };
 }
 
-// The names of open details are kept in sessionStorage. They survive a reload, but are not part of a link.
+// The names of open <details> elements are kept in sessionStorage. They survive a reload, but a link does not contain
+// them.
 function remember(details, usual) {
   const key = 'open ' + details.id;
   try {
@@ -177,7 +178,7 @@ function remember(details, usual) {
   }
 }
 
-const in_front = 'hole'; // the group that is open at first
+const in_front = 'hole'; // the group that is open when the page is first loaded
 
 export function buildControls(scene, living_root) {
   know(scene.natures);
@@ -186,7 +187,7 @@ export function buildControls(scene, living_root) {
   for (const details of document.querySelectorAll('#panel > details, #fields > details'))
     remember(details, details.id === 'group-' + in_front);
 
-  // home: 'camera', 'spots.0', or '' for the top level of the document.
+  // home: path of a section, such as 'camera' or 'spots.0'; '' is the top level of the document.
   function add(home) {
     const own = [...scene.fields.values()].filter(
       ({ path }) => path.slice(0, Math.max(0, path.lastIndexOf('.'))) === home && !left_out.includes(path),
@@ -194,7 +195,7 @@ export function buildControls(scene, living_root) {
     return own.map(field => rows[rows.push(row(field, scene)) - 1]);
   }
 
-  // Fields marked as `front` stand first; the others are folded under a summary.
+  // Fields marked as `front` stand first. The other fields are folded under a summary.
   function parts(home, title) {
     const own = add(home).filter(r => !beside_time.includes(r.path)),
       [front, rest] = [true, false].map(yes => own.filter(r => Boolean(r.front) === yes).map(r => r.node));
@@ -221,7 +222,7 @@ export function buildControls(scene, living_root) {
   living_root.append(...beside_time.map(path => rows.find(r => r.path === path).node));
   byId('natures').append(...legend(scene.natures));
 
-  // A list shows its elements and one more, which is new.
+  // Shows the elements of a list, followed by one empty element for adding another.
   function grow({ name, most, groups, node }) {
     const wanted = Math.min(most, scene.count(name) + 1),
       grew = groups.length < wanted;
@@ -243,7 +244,7 @@ export function buildControls(scene, living_root) {
     return grew || before !== wanted;
   }
 
-  // Hides a part of which no field has an effect.
+  // Hides a part if none of its fields has an effect.
   function showParts() {
     for (const rest of document.querySelectorAll('.parts .rest, .part'))
       rest.hidden = !rest.querySelector('.field:not([hidden])');
@@ -251,7 +252,7 @@ export function buildControls(scene, living_root) {
 
   function show() {
     const grown = lists.map(grow).some(yes => yes);
-    let others = false; // true if the visible fields have changed
+    let others = false; // true if the set of visible fields has changed
     for (const r of rows) {
       const hidden = !meansSomething(scene, r.path);
       if (r.node.hidden !== hidden) (r.node.hidden = hidden), (others = true);
@@ -264,7 +265,8 @@ export function buildControls(scene, living_root) {
   scene.addEventListener('tick', () => moved.forEach(r => r.node.contains(document.activeElement) || r.show()));
   show();
 
-  // Shows a refusal of the server beside the field that its pointer names. Returns whether there is such a field.
+  // Shows an error of the server beside the field that the error's JSON pointer names. Returns false if there is no
+  // such field.
   return function complain(pointer, text) {
     const path = (pointer ?? '').slice(1).replaceAll('/', '.');
     for (const r of rows) r.complain(r.path === path ? text : '');

@@ -1,11 +1,12 @@
-// A search through all settings by label, help, choice or name of the field, in the page's language and in English.
-// Matching fields stay in their groups, which open; all others are hidden until the search is empty.
+// A search through all settings, in the page's language and in English. It searches the label, the help, the choices
+// and the name of each field. Matching fields stay in their groups, which open. All other fields are hidden until the
+// search is cleared.
 import { byId } from '../base/dom.js';
 import { english, t } from '../words/i18n.js';
 
-const most = 4; // limit of the matching fields without effect that are named
+const most = 4; // limit of the number of matching fields that are named although they have no effect now
 
-// Text for comparison: lower case, without accents, with straight apostrophes.
+// Normalises text for comparison: lower case, without accents, with straight apostrophes.
 export const plain = text => text.normalize('NFD').replace(/\p{M}/gu, '').replace(/[’‘]/g, "'").toLowerCase();
 
 export async function buildFind(scene) {
@@ -13,10 +14,10 @@ export async function buildFind(scene) {
     told = byId('found'),
     form = byId('fields'),
     texts = new Map(), // texts of nodes
-    opened = new Set(); // details that the search has opened
+    opened = new Set(); // <details> elements that the search has opened
 
-  // Elements of a list are searched by the names of the first one. A field's name is also found with spaces for its
-  // underscores.
+  // In a list, only the names of the first element are searched. A field's name is also found if its underscores are
+  // typed as spaces.
   function read(node) {
     const { path = '' } = node.dataset,
       name = path.replace(/\.\d+\./, '.'),

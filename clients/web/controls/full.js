@@ -1,10 +1,10 @@
-// Shows the picture alone in the window. The key F or a button begins this, and Esc ends it. If the browser allows, the
-// window also fills the screen.
+// Shows the picture alone in the window. The key F or a button starts this mode, and Esc ends it. If the browser
+// permits, the window also fills the screen.
 import { byId } from '../base/dom.js';
 import { t } from '../words/i18n.js';
 import * as link from '../base/link.js';
 
-const awake_ms = 2500; // time for which the buttons stay visible after a pointer has moved
+const awake_ms = 2500; // time for which the buttons stay visible after the pointer has moved
 
 export function buildFull(stage) {
   const body = document.body,

@@ -8,7 +8,8 @@ import { swipe } from '../base/swipe.js';
 // A preset without a caption shows its title.
 export const caption = (name, title) => captions[name] ?? title;
 
-// The best known presets come first, and presets for testing programs come last. All others keep the server's order.
+// Order of the presets: the best known come first, and presets for testing programs come last. All others keep the
+// server's order.
 const wanted = [first_view, 'gargantua-gas', 'milky-way', 'jet', 'infall', 'm87', 'polarised-ring'];
 function order(name) {
   if (wanted.includes(name)) return wanted.indexOf(name) - wanted.length;
@@ -36,7 +37,7 @@ export function buildGallery(scene, select, presets) {
     select.dispatchEvent(new Event('change'));
   }
 
-  // Chooses the neighbouring preset, if there is one.
+  // Chooses the next or the previous preset, if there is one.
   function turn(by) {
     const card = cards[cards.findIndex(card => card.dataset.preset === select.value) + by];
     if (!card) return;
@@ -49,7 +50,7 @@ export function buildGallery(scene, select, presets) {
     for (const other of cards) other.tabIndex = other === card ? 0 : -1;
   }
 
-  let shown = null; // the card that was last scrolled into view
+  let shown = null; // the card that was last scrolled into view because its preset is shown
   function follow() {
     const now = cards.find(card => card.dataset.preset === select.value);
     if (now && shown !== select.value && !strip.matches(':hover'))
@@ -70,7 +71,7 @@ export function buildGallery(scene, select, presets) {
   });
   strip.addEventListener('focusin', event => reach(event.target.closest('button')));
 
-  // The small pictures are files of the program (scripts/stills). Each is loaded when its card comes into view.
+  // The small pictures are files of the program, made by scripts/stills. Each is loaded when its card comes into view.
   const eyes = new IntersectionObserver(
     entries => {
       for (const { target, isIntersecting } of entries) {

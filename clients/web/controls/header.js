@@ -1,4 +1,4 @@
-// Above the picture: the languages, the list of keys, and the line that introduces the page.
+// The parts above the picture: the languages, the list of keys, and the line that introduces the page.
 import { atFirstTouch, byId } from '../base/dom.js';
 import { lang } from '../words/i18n.js';
 import * as link from '../base/link.js';
@@ -14,7 +14,7 @@ export function buildLanguages() {
   }
 }
 
-// The list of keys, opened by ? or a button.
+// The list of keys. The key ? or a button opens it.
 export function buildKeys() {
   const keys = byId('keys'),
     show = () => keys.open || keys.showModal();
@@ -25,7 +25,8 @@ export function buildKeys() {
   });
 }
 
-// The line that introduces the page is shown until the first input, and not to visitors of a link to a scene.
+// The line that introduces the page. It is shown until the first input; visitors who opened a link to a scene do not
+// see it.
 export function welcome() {
   const line = byId('welcome');
   line.hidden = link.entries('').some(([key]) => !['lang', 'pause', 'view'].includes(key));

@@ -2,13 +2,14 @@
 import { byId } from '../base/dom.js';
 import { valueAt } from '../picture/scene.js';
 
-const together_ms = 400; // changes that follow each other within this time, such as those of a drag, are one step
+// changes that follow each other within this time, such as those of a drag, form one step of undo
+const together_ms = 400;
 const most = 200;
 
 export function buildHistory(scene) {
-  // text: the scene without time and without the values that the server moves. Undo does not change these, with one
-  // exception: when undo crosses the start or the end of a motion, they return to their values at that moment. fitted:
-  // see fit.js.
+  // text: the scene without the time and without the values that the server moves. Undo does not change these values,
+  // with one exception: when undo crosses the start or the end of a motion, it restores the values of that moment.
+  // fitted: see fit.js.
   function whole() {
     const { time, ...document } = scene.document({}, true);
     return { text: JSON.stringify(document), time: scene.get('time'), fitted: scene.fitted() };
@@ -55,7 +56,8 @@ export function buildHistory(scene) {
     clearTimeout(timer);
     timer = setTimeout(note, together_ms);
   });
-  // The next change begins from the values that the server has set, and from the place to which a camera has drifted.
+  // The next step of undo starts from the values that the server has set, and from the place to which a camera has
+  // drifted.
   scene.addEventListener('settle', () => timer || (now = whole()));
   scene.addEventListener('tick', () => timer || (now.time = scene.get('time')));
   buttons[0].addEventListener('click', () => go(past, future));

@@ -1,10 +1,12 @@
-// What the page knows about single fields beyond the schema. A field that is not listed here has a control as well.
+// Knowledge of the page about single fields that the schema does not contain. Fields that are not listed here get a
+// control too.
 
-export const left_out = ['image.width', 'image.height']; // set by the window
-export const beside_time = ['time', 'motion.time_rate']; // shown beside the buttons that start and stop time
+export const left_out = ['image.width', 'image.height']; // fields that the window's size sets
+// fields that are shown beside the buttons that start and stop time
+export const beside_time = ['time', 'motion.time_rate'];
 
-// Fields that have no effect without another section or value. Emitters other than the disk may use the disk's colours
-// and inner edge.
+// The fields that have an effect only together with another section or value. Emitters other than the disk may use the
+// disk's colours and inner edge.
 const has_disk = scene => scene.get('disk.model') !== 'none',
   is_map = scene => scene.get('image.layers') !== 'rgb',
   uses_disk = scene =>
@@ -12,11 +14,11 @@ const has_disk = scene => scene.get('disk.model') !== 'none',
     is_map(scene) ||
     scene.get('camera.projection') === 'ring' ||
     scene.emitters.some(({ name }) => name !== 'sky');
-// also shown if it has a value, so that a value that the scene refuses can be removed
+// with a disk, a field that has a value is always shown, so that a value that the scene refuses can be removed
 const or_set = (path, possible) => scene => has_disk(scene) && (possible(scene) || scene.get(path) !== 'none');
 const only_with = {
   'disk.flare': scene => has_disk(scene) && scene.get('disk.height') > 0,
-  // shown even for a thick disk, so that a refused atmosphere can be reset
+  // also shown for a thick disk, although the server refuses an atmosphere there, so that the value can be reset
   'disk.atmosphere': scene =>
     has_disk(scene) && (scene.get('disk.height') === 0 || scene.get('disk.atmosphere') !== 'isotropic'),
   'disk.returning': or_set(
@@ -25,7 +27,7 @@ const only_with = {
   ),
   'disk.albedo': has_disk,
   'style.ringdown_time': scene => scene.get('style.ringdown') > 0,
-  // layers and rings show crossings of the plane within this radius
+  // with layers or rings, this radius limits which crossings of the plane are shown
   'disk.outer': scene => has_disk(scene) || is_map(scene) || scene.get('camera.projection') === 'ring',
   ...Object.fromEntries(
     [
@@ -45,8 +47,8 @@ const only_with = {
 
 const far = scene => scene.get('camera.r') === 'infinity';
 
-// Fields of the camera that have an effect only with certain choices. `chosen` returns the choice that is made; the
-// other members list the fields that have an effect with each choice.
+// Fields of the camera that have an effect only with certain choices. `chosen` returns the present choice. The other
+// members list, for each choice, the fields that have an effect.
 const of_camera = [
   {
     chosen: scene =>
@@ -74,7 +76,7 @@ function hasChoice(scene, name) {
 // The value by which a switch turns its section off.
 const off = field => field.choices?.[0] ?? field.minimum;
 
-// True if a field has an effect, by the schema and by the server's statements on the current scene.
+// True if a field has an effect, according to the schema and to the server's description of the current scene.
 export function meansSomething(scene, path) {
   const field = scene.fields.get(path),
     dot = path.lastIndexOf('.'),

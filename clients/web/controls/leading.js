@@ -1,5 +1,5 @@
-// Four large sliders above all others: spin, tilt, distance and glow. Each sets the same field as its control under
-// "All settings"; both show the scene's value.
+// Four large sliders above all other controls: spin, tilt, distance and glow. Each sets the same field as its control
+// under "All settings", and both show the scene's value.
 import { byId } from '../base/dom.js';
 import { duration, lang, number, t, unit } from '../words/i18n.js';
 import { meansSomething } from './known.js';
@@ -8,7 +8,8 @@ import { light_m_s, sun_m } from '../picture/scene.js';
 
 const au_m = 149597870700;
 
-// The fields of each slider; one of them is in use. For an observer at infinity, "distance" sets the picture's width.
+// The fields of each slider; the scene decides which of them the slider sets. For an observer at infinity, "distance"
+// sets the width of the picture.
 const sliders = {
   spin: ['spacetime.spin'],
   tilt: ['camera.inclination_deg'],

@@ -1,10 +1,11 @@
-// Converts a panorama of the sky to the server's form: PNG, twice as wide as high, in galactic coordinates. JPEG is
-// decoded; a panorama in equatorial coordinates (J2000) is rotated.
+// Converts a panorama of the sky to the form that the server accepts: PNG, twice as wide as high, in galactic
+// coordinates. JPEG is decoded; a panorama in equatorial coordinates (J2000) is rotated.
 import { t } from '../words/i18n.js';
 
 const widest = 4096; // larger panoramas are scaled down
 const rows_at_once = 32;
-// Rows: the axes of galactic coordinates in equatorial ones, J2000 (Hipparcos catalogue, ESA 1997, volume 1, 1.5.3).
+// Rotation matrix: each row is an axis of galactic coordinates, in equatorial coordinates J2000 (Hipparcos catalogue,
+// ESA 1997, volume 1, section 1.5.3).
 const galactic = [
   [-0.0548755604, -0.8734370902, -0.4838350155],
   [0.4941094279, -0.44482963, 0.7469822445],
@@ -12,8 +13,8 @@ const galactic = [
 ];
 const equatorial = galactic[0].map((_, j) => galactic.map(axis => axis[j])); // the transpose of `galactic`
 
-// Turns pixels of a panorama in equatorial coordinates, with the same convention: longitude 0 in the middle and growing
-// to the left, latitude upwards.
+// Converts the pixels of a panorama from equatorial to galactic coordinates. In both, longitude 0 is in the middle and
+// grows to the left, and latitude grows upwards.
 async function turned({ data, width, height }) {
   const out = new ImageData(width, height),
     [x_of, y_of, z_of] = equatorial,

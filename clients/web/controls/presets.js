@@ -1,5 +1,5 @@
-// The list of presets. It shows the preset that the scene matches, whatever its time and azimuth. The link has the
-// preset's name.
+// The list of presets. It shows the preset that the scene matches; time and azimuth do not count in the comparison. A
+// link contains the preset's name.
 import { firstDocument, first_view } from '../picture/ahead.js';
 import { byId, el } from '../base/dom.js';
 import { label, t, tell } from '../words/i18n.js';
@@ -8,9 +8,9 @@ import { left_out } from './known.js';
 import { told, valueAt } from '../picture/scene.js';
 import { getJson } from '../base/server.js';
 
-const plain = 'default'; // the default scene's name in a link
+const plain = 'default'; // name of the default scene in a link
 
-const renamed = { 'm87-eht': 'm87' }; // older names in links
+const renamed = { 'm87-eht': 'm87' }; // old names of presets, which existing links still use
 const document_of = name => getJson('v1/presets/' + encodeURIComponent(renamed[name] ?? name));
 
 // Shows the first view again.
@@ -34,7 +34,7 @@ export async function openPreset(scene) {
           if (error.status !== 404) throw error;
           scene.unknown.push('preset');
         }));
-  // A width that equals the preset's was not chosen by the user.
+  // If the width equals the preset's, the user has not chosen it.
   const given = Object.fromEntries(
     Object.entries(linked).filter(([path, value]) => value !== valueAt(document ?? {}, path)),
   );
@@ -45,8 +45,8 @@ export async function openPreset(scene) {
 // Fields that do not change which preset a scene matches: the picture, the time and the azimuth.
 const besides = path => ['image', 'time'].includes(path.split('.')[0]) || path === 'camera.azimuth_deg';
 
-// A scene without these fields as a text, for comparing scenes. fitted: if the window has set the scene's width, the
-// scene's own width is used.
+// Returns a scene without these fields as text, so that scenes can be compared. fitted: if the window has set the
+// scene's width, the scene's own width is used.
 function essence(scene, document, fitted = null) {
   const own = {};
   for (const [path, { default: usual }] of scene.fields) {
@@ -56,8 +56,8 @@ function essence(scene, document, fitted = null) {
   return JSON.stringify(own);
 }
 
-// A link with a preset has the fields that differ from the preset, even if their values are defaults. A width that the
-// window set is left out.
+// A link that names a preset contains the fields that differ from the preset, even if their values are defaults. A
+// width that the window has set is left out.
 function linkBeside(scene, document, fitted) {
   for (const [path, { default: usual }] of scene.fields) {
     const theirs = told(valueAt(document, path)) ?? usual;
@@ -71,7 +71,7 @@ export async function buildPresets(scene) {
   const [{ presets }, { buildGallery, caption }] = await Promise.all([getJson('v1/presets'), import('./gallery.js')]),
     select = byId('preset'),
     help = byId('preset-help'),
-    known = new Map([['', { text: '{}', document: {} }]]); // texts and documents of presets, by name
+    known = new Map([['', { text: '{}', document: {} }]]); // text and document of each preset, by name
   const own = el('option', { value: 'own', disabled: true }, t('presets.a-scene-of-your', 'a scene of your own'));
   select.append(
     el('option', { value: '' }, t('presets.default', 'default')),
@@ -97,7 +97,7 @@ export async function buildPresets(scene) {
     help.textContent = chosen ? caption(chosen.name, chosen.title) : '';
   }
 
-  let newest = 0; // number of the newest choice; an older one may be answered later
+  let newest = 0; // number of the newest choice; a late answer to an older choice is ignored
   select.addEventListener('change', async () => {
     const mine = ++newest;
     try {

@@ -1,5 +1,5 @@
-// Moves the camera by hand. A drag goes round the hole, or looks around when the camera is near it. The wheel or a
-// pinch comes nearer or narrows the field of view. Keys can do all of these.
+// Moves the camera by hand. A drag moves it round the hole, or, when the camera is near the hole, turns it to look
+// around. The wheel or a pinch moves the camera nearer or narrows the field of view. Keys can do all of this.
 import { byId } from '../base/dom.js';
 import { t } from '../words/i18n.js';
 import * as link from '../base/link.js';
@@ -9,8 +9,8 @@ const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));
 const radians = Math.PI / 180;
-const tap_px = 4; // a tap may move by up to this
-const pace_ms = 30; // least time between two updates of the scene during a drag: pictures follow no faster
+const tap_px = 4; // largest movement, in pixels, that still counts as a tap
+const pace_ms = 30; // minimum time between two updates of the scene during a drag, because pictures are not faster
 const near_r = 10; // radius in M within which a drag looks around by default
 
 // True if a drag turns the camera itself rather than moving it round the hole. A choice by hand is kept in the address.
@@ -55,8 +55,8 @@ export function handle(stage, scene) {
   const pointers = new Map(),
     { looks, toggle } = looker(scene);
   let begin = null,
-    tapped = null, // place at which the only finger was put down, as long as it has not moved
-    since = -Infinity, // time at which the fingers were last followed
+    tapped = null, // place where the only finger was put down; null after it has moved
+    since = -Infinity, // time at which the fingers' movement was last applied
     timer = 0;
 
   const get = name => scene.get('camera.' + name),
@@ -65,8 +65,8 @@ export function handle(stage, scene) {
   const far = () => get('r') === 'infinity';
   const narrows = () => looks() && !['equirectangular', 'fulldome'].includes(get('projection'));
 
-  // The field that the wheel and a pinch change. At infinity, and where a drag looks around, it is the field of view.
-  // Elsewhere it is the distance, which stays outside every static limit (r = 2) unless the camera is already inside.
+  // The field that the wheel and a pinch change. At infinity, or if a drag looks around, this is the field of view.
+  // Otherwise it is the distance, which stays outside every static limit (r = 2 M) unless the camera is already inside.
   function reach() {
     if (get('projection') === 'ring')
       return { name: 'ring_decades_min', low: -13, high: Math.min(get('ring_decades_max') - 0.5, -1) };
@@ -143,7 +143,7 @@ export function handle(stage, scene) {
     timer ||= setTimeout(follow, since + pace_ms - performance.now());
   });
 
-  // Updates the scene by the places of the fingers.
+  // Applies the movement of the fingers to the scene.
   function follow() {
     clearTimeout(timer);
     timer = 0;
@@ -160,10 +160,10 @@ export function handle(stage, scene) {
       if (!pointers.size) scene.rest();
       note();
     });
-  // A tap: a finger or a button that goes down and up at one place.
+  // A tap: a finger or a button that goes down and up at the same place.
   stage.addEventListener('pointerup', event => {
     if (!tapped || event.target.closest('button, a, input')) return;
-    const box = stage.getBoundingClientRect(); // a second picture beside it (pair.js) has no taps
+    const box = stage.getBoundingClientRect(); // taps on the second picture (pair.js) are ignored
     if (tapped.x < box.right && tapped.y < box.bottom)
       stage.dispatchEvent(new CustomEvent('tap', { detail: { x: tapped.x - box.left, y: tapped.y - box.top } }));
     tapped = null;

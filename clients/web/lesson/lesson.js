@@ -1,5 +1,5 @@
-// A lesson, from the teacher's side: a class follows this page's session and answers questions, and the answers are
-// counted. In a pupil's copy this module shows the way back to the lesson.
+// A lesson, on the teacher's page: a class follows this page's session and answers questions, and the answers are
+// counted. In a pupil's copy of the page, this module shows the way back to the lesson.
 import { describe } from '../words/describe.js';
 import { byId, el } from '../base/dom.js';
 import { lang, number, t, tell } from '../words/i18n.js';
@@ -8,12 +8,12 @@ import { linkedTime } from '../picture/scene.js';
 import { ask, module } from '../base/server.js';
 
 const beat_ms = 1000; // time between two requests for the answers
-const choice_most = 60; // characters of an answer
+const choice_most = 60; // maximum number of characters of an answer
 
-// fields of this page that copies do not get; pair.FIELD is not copied either
+// fields of this page that are left out of a pupil's copy, as are all keys that begin with "pair."
 const own = ['lang', 'full', 'lesson', 'view', 'pace'];
 
-// The browser may block the storage; then the lesson ends with the page.
+// If the browser blocks the storage, the lesson ends when the page is closed.
 const memory = {
   get: () => {
     try {
@@ -41,8 +41,8 @@ const tooNear = () => /^(localhost|127\.|\[::1\])/.test(location.hostname);
 
 let section = null;
 
-// session(): the address of the session that shows the scene, or null. begins: a lesson is started, also in a pupil's
-// copy; otherwise the lesson from before a reload continues, or a copy shows the way back.
+// session(): returns the address of the session that shows the scene, or null. begins: if true, starts a lesson, even
+// in a pupil's copy. If false, the lesson from before a reload continues, or a copy shows the way back to its lesson.
 export function teach(scene, session, begins) {
   document.head.querySelector('[href$="lesson.css"]') ??
     document.head.append(el('link', { rel: 'stylesheet', href: new URL('lesson.css', import.meta.url) }));
@@ -67,11 +67,11 @@ function wayBack(id) {
 
 function panel(scene, session) {
   let lesson = memory.get(),
-    sent = {}, // session, link and words that this page sent last
+    sent = {}, // session, link and words that this page has sent last
     turn = Promise.resolve(), // the previous request
     timer = 0,
     ended = false,
-    drawn = ''; // state of the question that the panel shows now
+    drawn = ''; // the question that the panel shows now, with its state, as JSON
   const title = el('h2', { tabindex: -1 }, t('lesson.your-class', 'Your class')),
     count = el('p', { id: 'lesson-count', role: 'status' }, '…'),
     fault = el('p', { class: 'fault', role: 'status' }),
@@ -110,7 +110,7 @@ function panel(scene, session) {
   const present = () => ({
     session: session()?.split('/').at(-1),
     link: linkOf(scene).slice(0, 8000),
-    about: describe(scene).slice(0, 300), // 300 characters are at most 900 bytes
+    about: describe(scene).slice(0, 300), // cut to 300 characters, which are at most 900 bytes
     lang,
   });
 
@@ -119,7 +119,7 @@ function panel(scene, session) {
   async function exchange(more) {
     if (ended) return;
     const now = present(),
-      // Sends only the values that changed on this page, since the same lesson may be open in another tab with another
+      // Sends only values that this page has changed, because another tab may show the same lesson with another
       // session.
       news = Object.entries(now).filter(([name, value]) => value != null && sent[name] !== value),
       fresh = { ...Object.fromEntries(news), ...more };
@@ -130,31 +130,33 @@ function panel(scene, session) {
     if (ended) return void (opened && deleteLesson());
     if (opened) {
       memory.set(lesson);
-      scene.dispatchEvent(new Event('change')); // now that a lesson runs, the server draws the scales into the picture
+      // redraws the picture: while a lesson runs, the server draws the scales into it
+      scene.dispatchEvent(new Event('change'));
       showInvitation();
     }
     Object.assign(sent, Object.fromEntries(news));
     fault.textContent = '';
     show(state);
   }
-  // One request at a time, so that a lesson is not opened twice.
+  // Sends one request at a time, so that a lesson is not opened twice.
   function change(more) {
     turn = turn.catch(() => {}).then(() => exchange(more));
     return turn;
   }
 
-  // The lesson is gone: the server was restarted, or the lesson was idle for too long. The next beat opens another one.
+  // The lesson no longer exists: the server was restarted, or the lesson was idle for too long. The next beat opens a
+  // new lesson.
   function lose() {
     lesson = null;
     sent = {};
     memory.set(null);
-    if (drawn && JSON.parse(drawn)[0]) drawn = ''; // the question is lost as well
+    if (drawn && JSON.parse(drawn)[0]) drawn = ''; // the question was lost with the lesson
     invite.replaceChildren();
     byId('lesson-large')?.close();
     renewed.textContent = t('lesson.the-lesson-ended-pupils', 'The lesson ended. Pupils must open the new link.');
   }
 
-  // An error of one beat is repaired by the next.
+  // Sends one beat. If it fails, the next beat makes up for it.
   async function beat() {
     clearTimeout(timer);
     try {
@@ -163,9 +165,9 @@ function panel(scene, session) {
       if (error.status === 404 && lesson) lose();
       else if (error.pointer !== '/session') {
         tell(fault, error.message);
-        // stops, because another attempt would be refused as well
+        // no further attempt is made, because the server would refuse it as well
         if (!lesson && [403, 422].includes(error.status)) return;
-      } // otherwise the session has just ended, and the page opens another one
+      } // any other error means that the session has just ended; the page opens another session
     }
     if (!ended) timer = setTimeout(beat, beat_ms);
   }
@@ -248,7 +250,7 @@ function panel(scene, session) {
     showHands(question, hands);
   }
 
-  // The teacher's own question in these inputs; null, with the reason, if it is not complete.
+  // The question that the teacher has typed into these inputs. If it is incomplete, returns null and shows the reason.
   function written(text, choices) {
     const plain = words => words.replace(/[\s\p{Cc}]+/gu, ' ').trim(),
       refuse = (input, words) => ((wrong.textContent = words), input.focus(), null),

@@ -1,9 +1,9 @@
-// The page of a pupil: the picture that the teacher moves, the teacher's question, and the way to a copy. It loads no
-// other module of the page except the language, so that thirty telephones load little.
+// A pupil's page: the picture that the teacher moves, the teacher's question, and the way to a copy. Of the page's
+// other modules it loads only the language, so that a class of thirty telephones causes little traffic.
 import { lang, t } from '../words/language.js';
 
-const beat_ms = 1000; // time between two requests for the state of the lesson
-const again_ms = 2000; // time from a failed request to the next one
+const beat_ms = 1000; // time between two requests for the lesson's state
+const again_ms = 2000; // waiting time after a failed request
 const quality = 80, // JPEG quality of moving pictures
   fine = 92; // JPEG quality of a picture at rest: less than a third of the bytes of an exact one
 
@@ -17,7 +17,8 @@ document.title = `${at('title').textContent} – kerrd`;
 at('copy').textContent = t('pupil.take-a-copy-to', 'Take a copy to try it yourself');
 document.querySelector('label').textContent = t('pupil.your-name-for-your', 'Your name, for your teacher');
 
-// A random key of this page, so that the server counts a pupil once. The browser may block the storage.
+// A random key of this page, so that the server counts each pupil once. The browser may block the storage in which the
+// key is kept.
 function remember(key, make) {
   try {
     const kept = sessionStorage.getItem(key) ?? make();
@@ -32,12 +33,12 @@ const pupil = remember('pupil', () =>
 );
 at('name').value = remember('pupil-name', () => '');
 
-let session = null, // the session that the teacher shows
+let session = null, // the session that the teacher's page shows
   question = null,
-  refused = '', // the reason why the pupil's last choice was not taken
+  refused = '', // the reason why the server refused the pupil's last choice
   ended = false;
 
-// Messages about problems of the lesson, and of its pictures. The first message that is not empty is shown.
+// Error messages: lesson: about the lesson; pictures: about its pictures. The first message that is not empty is shown.
 const wrong = { lesson: '', pictures: '…' };
 function tell(of, words) {
   wrong[of] = words;
@@ -46,7 +47,7 @@ function tell(of, words) {
   at('told').hidden = !first;
 }
 
-// The server's own sentences are for programmers, and in English.
+// Replaces the server's messages, which are in English and written for programmers.
 function sentence(status, pointer) {
   if (pointer === '/pupil') return t('pupil.the-lesson-is-full', 'The lesson is full.');
   if (pointer === '/question') return t('pupil.this-question-is-closed', 'This question is closed.');
@@ -56,7 +57,7 @@ function sentence(status, pointer) {
   return t('pupil.the-server-has-refused', 'The server has refused this (HTTP {0}).', status);
 }
 
-// Translates a ready question into the pupil's language. A question of the teacher's own is not translated.
+// Translates a ready question into the pupil's language. A question that the teacher wrote is not translated.
 async function translated(question, from) {
   if (!question || from === lang) return question;
   const [theirs, ours] = await import('./questions.js')
@@ -66,7 +67,7 @@ async function translated(question, from) {
   return choices?.length === question.choices.length ? { ...question, text, choices } : { ...question, lang: from };
 }
 
-// A text without the attribute is in the language of the page.
+// Sets the language of a text for screen readers. Without the attribute, the text is read in the language of the page.
 const speaks = (node, tongue) =>
   tongue && tongue !== lang ? node.setAttribute('lang', tongue) : node.removeAttribute('lang');
 
@@ -117,7 +118,7 @@ function draw(asked) {
     }),
   );
   at('question').hidden = false;
-  // a pupil who is typing keeps the focus, and hears the question
+  // while a pupil types, the focus stays in the field and the question is only announced
   if (document.activeElement !== at('name')) at('asked').focus();
   else at('heard').textContent = asked.text;
 }
@@ -125,7 +126,8 @@ function draw(asked) {
 function mark({ choices, open, right, tally }, chosen) {
   [...at('choices').children].forEach((item, i) => {
     const [button, votes] = item.children;
-    button.setAttribute('aria-disabled', !open); // a disabled button would lose the focus
+    // aria-disabled instead of disabled, because a disabled button would lose the focus
+    button.setAttribute('aria-disabled', !open);
     button.setAttribute('aria-pressed', i === chosen);
     item.toggleAttribute('data-right', !open && i === right);
     votes.textContent = tally
@@ -171,7 +173,7 @@ async function follow() {
 // Shows the pictures one after the other, each newer than the one before.
 async function watch() {
   let after = 0,
-    of = null, // the session of the last picture
+    of = null, // the session to which the last picture belongs
     shown = '';
   while (!ended) {
     await visible();

@@ -1,5 +1,5 @@
-// Ready questions for a class: each asks for a prediction. `right` is the right choice; `shows` has the changes of the
-// scene that demonstrate it.
+// Ready questions for a class; each asks for a prediction. `right` is the correct choice. `shows` holds the changes of
+// the scene that demonstrate it.
 import { speak } from '../words/language.js';
 
 const ready = t => [
@@ -67,5 +67,6 @@ const ready = t => [
   },
 ];
 
-// The questions in a language, the same in each language; throws if the page does not have the language.
+// The questions in a language. Every language has the same questions. Throws an error if the page does not support the
+// language.
 export const questions = async lang => ready(await speak(lang));

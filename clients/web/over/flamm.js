@@ -1,12 +1,12 @@
-// Curved space over the picture: Flamm's paraboloid, generalised to a spinning hole, with spokes that the hole drags
-// round.
+// Draws curved space over the picture: Flamm's paraboloid, generalised to a spinning hole, with spokes that the hole's
+// rotation drags along.
 import { t } from '../words/i18n.js';
 import { drawn, holeOf, physics } from '../base/server.js';
 
 const radians = Math.PI / 180;
 const dragged_for = 10; // time in M for which the spokes are dragged
 
-// The grid in space, projected along straight lines from the camera.
+// The grid of the surface, projected into the picture along straight lines from the camera.
 export async function flamm(scene, look, path) {
   const hole = holeOf(scene),
     far = scene.get('camera.r') === 'infinity',

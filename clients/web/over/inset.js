@@ -25,17 +25,17 @@ export function buildInset() {
     pitch = 0.5,
     grip = null;
 
-  // Distance from the axis at which a point of the equatorial plane at the radius r is drawn. The server's x and y of
-  // the path contain the same factor, sqrt(r^2 + a^2).
+  // Distance from the axis at which a point of the equatorial plane is drawn; r is its radius. The x and y of the path
+  // from the server contain the same factor, sqrt(r^2 + a^2).
   const wider = r => Math.hypot(r, spin);
 
-  // The radius that is shown, M: it contains the bend and the visible crossings.
+  // Radius of the region that is drawn, in M. It includes the bend of the ray and the visible crossings, up to 60 M.
   function reach({ path, crossings }) {
     const crossed = crossings.filter(({ seen }) => seen).map(({ r }) => r);
     return Math.min(Math.max(8, 2.2 * path.least_r, 1.15 * Math.max(0, ...crossed)), 60);
   }
 
-  // The view from far away: right, up and towards the viewer.
+  // A point as seen from far away: its components to the right, upwards and towards the viewer.
   function turned([x, y, z]) {
     const [c, s] = [Math.cos(yaw), Math.sin(yaw)],
       [right, away] = [c * y - s * x, c * x + s * y];
@@ -53,7 +53,7 @@ export function buildInset() {
     context.stroke();
   }
 
-  // Draws a name, shifted so that it is inside the picture.
+  // Draws a name, shifted if necessary so that it stays inside the picture.
   function name(text, [right, up], scale) {
     const most = wide / 2 - 4 - context.measureText(text).width,
       x = Math.min(Math.max(right * scale + 6, 4 - wide / 2), most),

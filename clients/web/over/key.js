@@ -1,5 +1,5 @@
-// Scales over a picture in false colour, where the server would draw them into its pixels (style.colour_bar): a bar of
-// brightness, a length on the sky, and the telescope's beam.
+// Scales over a picture in false colour: a bar of brightness, a length on the sky, and the telescope's beam. The page
+// draws them here; with style.colour_bar the server would draw them into the pixels.
 import { el } from '../base/dom.js';
 import { number, t } from '../words/i18n.js';
 import { m_uas } from '../picture/scene.js';
@@ -15,7 +15,7 @@ function round(most) {
   return decade * (most >= 5 * decade ? 5 : most >= 2 * decade ? 2 : 1);
 }
 
-// The picture's width on the sky, as in src/scene/sky_scale.c; NaN where it has none.
+// The picture's width on the sky in microarcseconds, as in src/scene/sky_scale.c; NaN if the picture has no such width.
 function width_uas(scene) {
   const get = name => scene.get('camera.' + name),
     flat = ['auto', 'plane', 'pinhole'].includes(get('projection')),
@@ -23,7 +23,7 @@ function width_uas(scene) {
   return flat ? (wide * m_uas * scene.get('spacetime.mass_msun')) / scene.get('spacetime.distance_pc') : NaN;
 }
 
-// Returns shown(frame), to be called with each picture. root: the element with the picture.
+// Returns shown(frame); the caller calls it with each picture. root: the element that contains the picture.
 export function buildKey(root, scene) {
   const title = el('span', {}),
     ticks = el('div', { class: 'key-ticks' }),
@@ -40,7 +40,7 @@ export function buildKey(root, scene) {
       !scene.get('style.colour_bar') || goesOn('lesson') || scene.get('image.layers').split(',')[0] !== 'rgb';
     if (key.hidden) return;
     const kelvin = scene.get('disk.model') === 'none' && flux.kelvin,
-      most = 2 ** -exposure * (kelvin ? kelvin / 1e9 : 1), // the brightness of white
+      most = 2 ** -exposure * (kelvin ? kelvin / 1e9 : 1), // the brightness that is shown as white
       step = round(most / 3);
     title.textContent = kelvin
       ? t('key.brightness-10-k', 'brightness, 10⁹ K')

@@ -1,5 +1,6 @@
-// A slider over the picture, for a hole whose ring the Event Horizon Telescope measured. It goes from the picture
-// without a beam, through the scene blurred by its beam, to the measured ring with its error, drawn to scale.
+// A slider over the picture, for a hole whose ring the Event Horizon Telescope has measured. At its start, the picture
+// has no beam. Further on, the scene is blurred by the telescope's beam. At the end, the measured ring and its error
+// are drawn over it, to scale.
 import { byId, el } from '../base/dom.js';
 import { stops } from '../views/scale/eht.js';
 import { number, t } from '../words/i18n.js';
@@ -8,8 +9,8 @@ import { ask, drawn, holeOf as blackHole, physics } from '../base/server.js';
 const isMeasured = scene =>
   scene.get('source.name') !== 'none' && scene.get('camera.r') === 'infinity' && scene.get('style.beam_uas') > 0;
 
-// The measured ring and the limits of its error, as lines over the picture. Its place on the sky was not measured: it
-// is drawn round the centre of the shadow.
+// Draws the measured ring and the limits of its error as lines over the picture. The ring's position on the sky was not
+// measured, so the ring is drawn round the centre of the shadow.
 export async function ring(scene, look, path) {
   const hole = scene.get('source.name');
   if (hole === 'none') throw new Error(t('measured.of-m87-and-sgr', 'only for scenes of M87* and Sgr A*'));
@@ -48,7 +49,7 @@ export async function ring(scene, look, path) {
   };
 }
 
-// choose(yes): sets whether the ring is drawn. size(): size of the pictures.
+// choose(yes): sets whether the ring is drawn. size(): returns the size of the pictures.
 export function buildMeasured(stage, scene, size, choose) {
   const slider = el('input', {
       type: 'range',
@@ -64,14 +65,14 @@ export function buildMeasured(stage, scene, size, choose) {
     sharp = el('img', { id: 'sharp', alt: '', draggable: false, hidden: true });
   byId('moving').after(sharp);
   stage.parentNode.append(root);
-  let key = '', // the scene that the sharp picture shows
+  let key = '', // key of the scene that the sharp picture shows
     old = '',
     asking = false;
 
   const without = () => {
     const { width, height } = size();
-    // A march through a volume takes long, so its pixels have more than one ray only where the photon ring is thinner
-    // than a pixel.
+    // Ray marching through a volume is slow, so pixels of a volume get more than one ray only where the photon ring is
+    // thinner than a pixel.
     const volume = scene.get('volume.model') !== 'none',
       rays = volume ? { 'image.samples': 1, 'image.critical_factor': 4 } : { 'image.samples': 2 };
     return scene.document({ 'image.width': width, 'image.height': height, ...rays });

@@ -1,5 +1,5 @@
-// Lines over the picture. Each is made of values from /v1/physics: points of the image plane, or directions from a
-// camera near the hole. This module projects them with the camera.
+// Lines over the picture. The values of each line come from /v1/physics: points of the image plane, or directions from
+// a camera near the hole. This module projects them with the camera.
 import { byId, el, latest, svg } from '../base/dom.js';
 import { number, t, tell } from '../words/i18n.js';
 import { nameLines } from '../words/naming.js';
@@ -8,8 +8,8 @@ import * as link from '../base/link.js';
 
 const radians = Math.PI / 180;
 
-// The projection of values to pixels of a window of the given size, as in src/render/view/camera.c: `plane` takes alpha
-// and beta, `direction` takes components towards -r, +phi and -theta.
+// The projection from values to pixels of a window of the given size, as in src/render/view/camera.c. `plane` takes the
+// coordinates alpha and beta. `direction` takes the components towards -r, +phi and -theta.
 function camera(scene, width, height) {
   const get = name => scene.get('camera.' + name),
     roll = get('roll_deg') * radians;
@@ -17,8 +17,8 @@ function camera(scene, width, height) {
     width / 2 + (x * Math.cos(roll) - y * Math.sin(roll)) * unit,
     height / 2 - (x * Math.sin(roll) + y * Math.cos(roll)) * unit,
   ];
-  // Projections in which angles become distances. c and s: cosine and sine of the roll, which rotates the camera's
-  // right and up.
+  // Projections that map angles to distances. c and s: cosine and sine of the roll angle, by which the camera's right
+  // and up are rotated.
   function turned(projection, ahead, side, upward) {
     const [c, s] = [Math.cos(roll), Math.sin(roll)],
       right = side * c - upward * s,
@@ -50,8 +50,8 @@ function camera(scene, width, height) {
   };
 }
 
-// Neighbouring points that are more than this number of pixels apart lie on different sides of the seam of a picture of
-// all directions.
+// A picture of all directions has a seam. If neighbouring points are more than this number of pixels apart, they lie on
+// different sides of the seam.
 let seam = Infinity;
 const beyondSeam = (a, b) => a && b && Math.abs(a[0] - b[0]) > seam;
 
@@ -98,7 +98,7 @@ async function shadow(scene, look) {
   return {
     lines: [path(points, true)],
     tags: [t('overlay.edge-of-the-shadow', 'edge of the shadow')],
-    // The server gives no width or height for an observer that moves in latitude.
+    // If the observer moves in latitude, the server gives no width or height.
     words:
       v.width === null
         ? ''
@@ -112,13 +112,13 @@ async function shadow(scene, look) {
   };
 }
 
-// Messages where a circle has no image to draw.
+// Messages for a circle that has no image in the picture.
 const refusals = {
   '/inclination_deg': t('overlay.a-line-seen-from', 'a line, seen from the plane itself'),
 };
 
-// The image of order 0 or 1 of a circle in the equatorial plane. Where a degree of it covers many pixels, more points
-// are requested.
+// The image of order 0 or 1 of a circle in the equatorial plane. Where one degree of the circle covers many pixels,
+// more points are requested.
 async function circle(scene, look, r, order = 0) {
   const far = at_infinity(scene);
   const ask = async angle_deg => {
@@ -234,7 +234,7 @@ const overlays = [
   ['orbit', orbit, t('overlay.orbit-of-the-orbits', 'Orbit of the Orbits view, lensed')],
 ];
 
-const slow = ['orbit']; // drawn after the other lines, because it takes seconds
+const slow = ['orbit']; // lines that are drawn after all others, because they take seconds
 
 export function buildOverlays(root, stage, scene) {
   const chosen = new Set((link.get('over') ?? '').split(',').filter(Boolean)),
@@ -296,7 +296,8 @@ export function buildOverlays(root, stage, scene) {
     layer.classList.remove('late');
   });
 
-  // Lets a slider over the picture switch an overlay. A click of the user on the overlay's box takes precedence.
+  // Lets a slider over the picture switch an overlay on or off. If the user has clicked the overlay's box, that choice
+  // has priority.
   const boxes = new Map(),
     asked = new Map();
   function choose(name, yes) {
@@ -315,7 +316,7 @@ export function buildOverlays(root, stage, scene) {
       'aria-describedby': `over-${name}-words`,
       onchange: () => {
         box.checked ? chosen.add(name) : chosen.delete(name);
-        asked.set(name, null); // now set by the user
+        asked.set(name, null); // the user has set this box, so the slider no longer does
         leave.abort();
         link.set('over', [...chosen].filter(one => !asked.get(one)).join(','));
         draw();
@@ -343,9 +344,9 @@ export function buildOverlays(root, stage, scene) {
   // the lines are dimmed until the picture is at rest
   for (const event of ['change', 'move'])
     scene.addEventListener(event, () => (leave.abort(), layer.classList.add('late')));
-  // a falling observer has moved meanwhile
+  // a falling observer has moved on, so the old lines are removed
   scene.addEventListener('tick', () => scene.get('motion.proper_time_rate') && layer.replaceChildren());
-  // The axes of the ring projection are drawn for coarse pictures too.
+  // The axes of the "ring" projection are drawn over coarse pictures as well.
   const axes = () => scene.get('camera.projection') === 'ring' && draw();
   scene.addEventListener('change', axes);
   axes();

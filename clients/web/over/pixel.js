@@ -1,7 +1,7 @@
-// The card "What is this light?" explains in sentences where the light of one pixel comes from. A drawing beside them
-// shows the pixel's ray past the hole, and the numbers are folded below. A tap or the arrow keys choose the pixel. If
-// the card was opened by its button or key, it explains the pixel under the pointer whenever the pointer rests. This
-// ends when a tap or an arrow key pins a pixel.
+// The card "What is this light?" explains in sentences where the light of one pixel comes from. A drawing beside the
+// sentences shows the pixel's ray past the hole, and the numbers are folded below. A tap or the arrow keys choose a
+// pixel. If the card was opened by its button or key, it explains the pixel under the pointer whenever the pointer
+// rests, until a tap or an arrow key chooses a pixel.
 import { byId, el, latest } from '../base/dom.js';
 import { duration, number, said, t, tell } from '../words/i18n.js';
 import { buildInset } from './inset.js';
@@ -13,11 +13,11 @@ const rest_ms = 40; // a pointer must rest for this time before a request is sen
 const late_ms = 150; // time after which the old text is replaced by "Following this light back …"
 const change_ms = 400; // the scene must be unchanged for this time before the next request is sent
 const star_px = 6;
-const sideways = 0.005; // gas with a smaller velocity, in c, counts as neither approaching nor receding
-const faint = 0.005; // share of the light below which a source goes unmentioned
+const sideways = 0.005; // speed of gas along the light, in c, below which it is called neither approaching nor receding
+const faint = 0.005; // a source with a smaller share of the light is not mentioned
 
-// Values that make the pixel independent of the rest of the picture, so that no other pixel is rendered. The card shows
-// light as it arrives, before exposure, bloom and beam.
+// Values that make the pixel independent of all other pixels, so that only this pixel is rendered. The card describes
+// light as it arrives, before exposure, bloom and the telescope's beam.
 const alone = {
   'image.samples': 1,
   'style.exposure': 0,
@@ -30,7 +30,8 @@ const degrees = radians => ((((radians * 180) / Math.PI) % 360) + 360) % 360;
 const angle = radians => number(degrees(radians), 3) + '°';
 const length = r => number(r, 4) + ' M';
 
-// The sources of the ray's light, the brightest first: { seen, kind, name, ...the known numbers of the place }.
+// The sources of the ray's light, brightest first: { seen, kind, name, ... }, followed by all numbers that are known
+// about the place.
 function sources({ crossings, met, along, end }) {
   const all = [
     ...crossings.flatMap(crossing =>
@@ -61,8 +62,8 @@ function sources({ crossings, met, along, end }) {
   return all.map(source => ({ ...source, share: source.seen / whole })).sort((a, b) => b.seen - a.seen);
 }
 
-// For an observer at infinity only differences of travel time are finite, because the travel time from the hole grows
-// as r + 2 ln r.
+// For an observer at infinity, only differences of travel time are finite: the travel time from the hole to radius r
+// grows as r + 2 ln r (in M).
 const ago = (delay, far) =>
   far
     ? [
@@ -92,7 +93,7 @@ function shifted(g) {
     : t('pixel.its-light-is-redder', 'Its light is {0} % redder and {1} times fainter.', per_cent, times);
 }
 
-// second: one M of time, in seconds.
+// second: 1 M of time, in seconds.
 function when(delay, { far, second }) {
   const time = duration(Math.abs(delay) * second);
   if (!far) return t('pixel.it-left-ago', 'It left {0} ago.', time);
@@ -108,7 +109,7 @@ function round(order) {
     : t('pixel.it-is-the-photon', 'It is the photon ring: light that went {0} times half way round the hole.', order);
 }
 
-// The gas's component of velocity along the light, as an observer beside the gas measures it.
+// The component of the gas's velocity along the light, as measured by an observer beside the gas.
 function motion({ kind, approach }) {
   if (kind !== 'crossing' || approach == null || Math.abs(approach) < sideways) return '';
   const speed = `${number(Math.abs(approach), 2)} c`;
@@ -117,7 +118,7 @@ function motion({ kind, approach }) {
     : t('pixel.going-away-from-you', ', going away from you at {0}', speed);
 }
 
-// The sentences and the numbers for one source.
+// Returns the sentences and the numbers for one source.
 function wording(source, place) {
   const { title, far, star } = place,
     { kind, points, g, delay, r } = source,
@@ -189,8 +190,8 @@ function none({ end }) {
   return t('pixel.no-light', 'No light.');
 }
 
-// size() → { width, height } of the picture in its own pixels. Returns look({ x, y }), a place in the stage, and
-// close().
+// size() returns { width, height } of the picture in its own pixels. Returns two functions: look({ x, y }) explains the
+// pixel at a place in the stage, and close() closes the card.
 export function buildPixel(stage, scene, size) {
   const card = byId('pixel'),
     cross = byId('cross'),
@@ -220,7 +221,8 @@ export function buildPixel(stage, scene, size) {
     error,
   );
   card.replaceChildren(close_button, head, inset.node, numbers, fault);
-  // { u, v }: fractions of the picture's width and height, which remain valid when the window is resized; null: closed
+  // { u, v }: place of the pixel as fractions of the picture's width and height, so that it remains valid when the
+  // window is resized; null: the card is closed
   let at = null,
     pinned = false,
     timer = 0,
@@ -228,7 +230,7 @@ export function buildPixel(stage, scene, size) {
 
   const placed = () => ({ x: at.u * stage.clientWidth, y: at.v * stage.clientHeight });
 
-  // The star at the pixel, if the sky has named ones.
+  // Finds the star at the pixel, if the sky has stars with names.
   async function starAt() {
     if (!hasNames(scene)) return null;
     const { images } = await starsIn(scene, stage).catch(() => ({ images: [] }));
@@ -273,7 +275,8 @@ export function buildPixel(stage, scene, size) {
   }
 
   const seeks = () => t('pixel.following-this-light-back', 'Following this light back …');
-  // The list of a sky's stars may take longer than the pixel. The card shows the star's name when the list is there.
+  // The list of the sky's stars may take longer than the pixel. The star's name is added to the card when the list
+  // arrives.
   let shown = null;
   async function nameStar(answer, place) {
     const star = await starAt();
@@ -340,7 +343,7 @@ export function buildPixel(stage, scene, size) {
     look({ x: event.clientX - box.left, y: event.clientY - box.top }, false);
   });
   const steps = { ArrowUp: [0, -1], ArrowDown: [0, 1], ArrowLeft: [-1, 0], ArrowRight: [1, 0] };
-  // Handles these keys before the camera's handler does.
+  // Handles these keys before the handler of the camera gets them.
   stage.addEventListener(
     'keydown',
     event => {

@@ -1,6 +1,6 @@
-// Axes of the projection "ring" (src/render/view/ring.c): across, the angle round the critical curve; upwards, the
-// distance to it in decades, outside the curve above and inside below; and the image orders, placed by where the disk's
-// edges are seen.
+// Axes of the projection "ring" (src/render/view/ring.c). Horizontal: the angle round the critical curve. Vertical: the
+// distance to the curve, in decades; points outside the curve are above, points inside are below. The image orders are
+// marked at the places where the edges of the disk are seen.
 import { svg } from '../base/dom.js';
 import { drawn, holeOf, physics } from '../base/server.js';
 
@@ -36,7 +36,7 @@ export async function ringAxes(scene, width, height) {
     lines.push(`M${x} ${height}v-8`);
     nodes.push(text(x, height - 12, `${degrees}°`, { 'text-anchor': 'middle' }));
   }
-  // Labels are a third of the way across, in the middle of each band that is tall enough on the screen.
+  // Each label stands at a third of the width, in the middle of its band, if the band is tall enough on the screen.
   const x = width / 3,
     [inner, outer] = [scene.get('disk.inner'), scene.get('disk.outer')];
   const { values } = await physics('photon-rings', {

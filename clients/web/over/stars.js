@@ -1,14 +1,14 @@
-// Names of stars in a sky of real stars. The server lists the images of bright stars in the picture. The star under the
-// pointer is named, and all its other images are marked.
+// Names the stars in a sky of real stars. The server lists the images of bright stars in the picture. The star under
+// the pointer is named, and all other images of this star are marked.
 import { byId, el, latest, svg } from '../base/dom.js';
 import { number, t } from '../words/i18n.js';
 import { ask } from '../base/server.js';
 
 const near_px = 16;
-const rest_ms = 250; // time for which the camera must be at rest
-const hidden = 0.3; // share of a star's light below which it is not seen through shining gas
-const stale_px = 6; // limit of the extrapolation of places; beyond it, a new list is requested
-const again_ms = 1500; // least time between two lists: a list costs the device as much as a picture
+const rest_ms = 250; // the camera must be at rest for this time before the list is requested
+const hidden = 0.3; // a star behind shining gas counts as hidden if less than this fraction of its light gets through
+const stale_px = 6; // limit, in pixels, of extrapolating the places of stars; beyond it, a new list is requested
+const again_ms = 1500; // minimum time between two lists, because a list costs the device as much as a picture
 
 export const hasNames = scene =>
   scene.get('sky.model') === 'catalogue' &&
@@ -16,7 +16,7 @@ export const hasNames = scene =>
   scene.get('camera.stereo') !== 'pair';
 export const nameOf = ({ name, designation }) => [name, designation].filter(Boolean).join(' · ');
 
-// The values on which the places of stars depend, as a key; the clock is not among them. moved: fields that the server
+// The values on which the places of stars depend, as a key. The time is not one of them. moved: fields that the server
 // has moved.
 function sceneOf(scene, { clientWidth: width, clientHeight: height }, moved) {
   const { time, motion, style, ...document } = scene.document({
@@ -31,7 +31,8 @@ function sceneOf(scene, { clientWidth: width, clientHeight: height }, moved) {
 let kept = { key: '', answer: null };
 
 // { width, height, azimuth_deg, images: [{ name, designation, magnitude, x, y, x_by_azimuth, y_by_azimuth,
-// magnification, g, through, seen_magnitude, mirrored }] } of the current stage, the brightest first.
+// magnification, g, through, seen_magnitude, mirrored }] } for the current stage; the images are sorted, brightest
+// first.
 export function starsIn(scene, stage, moved) {
   const key = sceneOf(scene, stage, moved);
   if (kept.key !== key) {
@@ -50,7 +51,7 @@ export function starsIn(scene, stage, moved) {
   return kept.answer;
 }
 
-// The places of the brightest stars: of each star, its brightest image.
+// The places of the brightest stars. For each star, this is the place of its brightest image.
 export async function brightest(scene, stage, most) {
   const { images } = await starsIn(scene, stage),
     seen = new Set();
@@ -72,8 +73,8 @@ export function buildStars(stage, scene) {
   let timer = 0,
     pointer = null,
     azimuth = null, // azimuth of the latest picture
-    last = null, // list of stars for a turning picture
-    pace = 0, // pixels per degree by which the named star moves
+    last = null, // the last list of stars; its places are extrapolated while the picture turns
+    pace = 0, // speed of the named star in the picture, in pixels per degree of azimuth
     asked = 0;
 
   const turns = () => azimuth != null && scene.turns() !== 0;
@@ -89,7 +90,7 @@ export function buildStars(stage, scene) {
       by = gone(list),
       images = list.images.map(one => ({ ...one, x: one.x + by * one.x_by_azimuth, y: one.y + by * one.y_by_azimuth })),
       image = images.find(one => Math.hypot(one.x - x, one.y - y) < near_px);
-    // if the speed is not known, the list is out of date after a degree
+    // if this speed is unknown, the list counts as out of date after one degree
     pace = image ? Math.hypot(image.x_by_azimuth, image.y_by_azimuth) : stale_px;
     clear();
     if (!image) return;
@@ -110,7 +111,7 @@ export function buildStars(stage, scene) {
   const look = latest(async () => {
     if (!pointer || !hasNames(scene) || (scene.goesOn() && scene.get('motion.proper_time_rate'))) return clear();
     asked = performance.now();
-    // after a failure the picture stays as it is
+    // if the request fails, the picture stays as it is
     const list = await starsIn(scene, stage, turns() && { 'camera.azimuth_deg': azimuth }).catch(() => null);
     last = turns() ? list : null;
     if (list && pointer) name(list);
@@ -138,7 +139,7 @@ export function buildStars(stage, scene) {
   });
 
   return {
-    // Names move with a turning picture; a new list is requested now and then.
+    // While the picture turns, the names move with it, and a new list is requested from time to time.
     shown(frame) {
       azimuth = frame.azimuth;
       if (!last || !pointer || !turns()) return;

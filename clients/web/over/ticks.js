@@ -1,14 +1,14 @@
-// Ticks over the picture show polarisation: each points along the electric field, and its length is the polarised
-// fraction. Stokes I, Q and U are numbers of a small picture of the same view.
+// Ticks over the picture show polarisation. The direction of a tick is that of the electric field, and its length is
+// the polarised fraction. Stokes I, Q and U are numbers of a small picture of the same view.
 import { number, t } from '../words/i18n.js';
 import { ask } from '../base/server.js';
 
-const across = 32; // ticks across the picture
-const faint = 0.02; // share of the brightest below which no tick is drawn
-const long = 0.42; // half of the longest tick, in distances between ticks
+const across = 32; // number of ticks across the picture
+const faint = 0.02; // no tick is drawn where the brightness is below this share of the maximum
+const long = 0.42; // half of the length of the longest tick, in units of the distance between ticks
 const layers = 'intensity,stokes_q,stokes_u';
 
-// Records of three floats, row by row, after the header of an NPY file; its bytes 8 and 9 give the header's length.
+// Reads an NPY file: after the header come records of three floats, row by row. Bytes 8 and 9 hold the header's length.
 export function stokesOf(buffer) {
   const view = new DataView(buffer),
     from = 10 + view.getUint16(8, true),
@@ -21,7 +21,7 @@ export function stokesOf(buffer) {
 const degrees = (q, u) => (90 / Math.PI) * Math.atan2(u, q);
 
 // Sums over the picture: the polarised fraction, its angle, and beta 2 (Palumbo, Wong & Prather 2020). beta 2 is the
-// part that turns with the azimuth round the middle, from north to east.
+// part of the polarisation whose direction turns with the azimuth round the middle, counted from north to east.
 function sums(pixels, columns, rows) {
   const all = { i: 0, q: 0, u: 0, re: 0, im: 0 };
   for (const [k, [i, q, u]] of pixels.entries()) {

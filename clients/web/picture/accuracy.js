@@ -2,7 +2,7 @@
 import { byId, el } from '../base/dom.js';
 import { number, readable, said, t, tell, word } from '../words/i18n.js';
 
-// A pass that belongs to one emitter has the emitter's title.
+// The name of each rendering pass. A pass that belongs to one emitter gets the emitter's title.
 const pass_names = {
   queue: t('accuracy.waiting', 'waiting'),
   trace: t('accuracy.rays', 'rays'),
@@ -93,7 +93,7 @@ export function showAccuracy(frame, scene) {
   );
 }
 
-// One sentence on a freely falling observer: the time left to the horizon, and to the end.
+// One sentence about a freely falling observer: its proper time left until the horizon, and until the end.
 function fallen({ r, proper_time_to_horizon: left }) {
   const horizon =
     left == null
@@ -102,7 +102,7 @@ function fallen({ r, proper_time_to_horizon: left }) {
   return `r = ${number(r, 3)} M, ${horizon}; `;
 }
 
-// The reason why a picture has fewer pixels than the window.
+// Returns the reason why a picture has fewer pixels than the window.
 function lessened({ narrow, part }) {
   if (narrow) return t('accuracy.a-wider-one-would', ' (a wider one would take over 0.1 s)');
   if (part < 1)
@@ -114,8 +114,8 @@ function lessened({ narrow, part }) {
   return '';
 }
 
-// The line below the picture: its state, its size in numbers, and why it is small. goes_on: time or camera moves by
-// itself.
+// The line below the picture: the state of the picture, its size in pixels, and the reason if it is small. goes_on:
+// true if time or the camera moves by itself.
 export function brief(frame, goes_on) {
   const state =
     goes_on || frame.lossy

@@ -1,10 +1,10 @@
-// Until the next picture comes, the one that is shown is moved and scaled with the camera, as if everything in it were
-// far away. This is exact for a change of the field of view, nearly right for a turn of the camera, and a rough guess
-// for a change of distance. A picture at rest is faded in over the coarse one before it.
+// Until the next picture arrives, the present picture is shifted and scaled with the camera, as if everything in it
+// were far away. This is exact when the field of view changes, nearly exact when the camera turns, and a rough guess
+// when the distance changes. A picture at rest is faded in over the coarse picture before it.
 import { el, still } from '../base/dom.js';
 import { sizeOf } from './sizes.js';
 
-// degrees by which the cameras of two pictures that are shown at once may differ
+// two pictures are shown at once only if their cameras differ by at most these angles, in degrees
 const sides = { inclination_deg: 3, azimuth_deg: 10 };
 const names = [
   'r',
@@ -19,11 +19,12 @@ const names = [
   ...Object.keys(sides),
 ];
 const radians = Math.PI / 180;
-const most = 4; // largest scaling up or down: beyond it, the picture shows too little, or leaves too much empty
+// limit of the scaling, up or down; beyond it, the picture would show too little or leave too much of the stage empty
+const most = 4;
 const half = fov_deg => Math.tan((fov_deg / 2) * radians);
 
-// Position and scale of a picture of the camera `then` in the view of the camera `now`: { scale, right, down }. Shifts
-// are in widths of the picture. Null if the cameras differ too much.
+// Returns { scale, right, down }: how a picture of the camera `then` is scaled and shifted for the view of the camera
+// `now`. Shifts are in units of the picture's width. Returns null if the cameras differ too much.
 export function carried(then, now, height) {
   const same = name => then[name] === now[name];
   if (
@@ -45,16 +46,16 @@ export function carried(then, now, height) {
   return Math.hypot(right, down / height) < 1 ? { scale, right, down } : null;
 }
 
-// Shows pictures in the stage, each with the camera that it was rendered for. The last picture of a scene is an exact
-// <img>, which can be saved like any other. Pictures in motion are drawn on a canvas over it, in half the time of a new
-// <img>; the last full picture below the canvas moves along. A picture with all its pixels is faded in over one with
-// fewer.
+// Shows pictures in the stage, each with the camera for which it was rendered. The last picture of a scene is an exact
+// <img>, which can be saved like any other image. Pictures in motion are drawn on a canvas over the <img>, which takes
+// half the time of a new <img>. The last full picture stays below the canvas and moves with the camera. A picture with
+// all its pixels is faded in over a coarser one.
 export function buildCarry(stage, scene) {
   const camera = document =>
       Object.fromEntries(names.map(name => [name, document?.[name] ?? scene.fields.get('camera.' + name).default])),
     canvas = el('canvas', { id: 'moving', 'aria-hidden': 'true', hidden: true }),
     context = canvas.getContext('bitmaprenderer', { alpha: false }),
-    seen = new Map(); // the camera of each picture
+    seen = new Map(); // the camera for which each picture was rendered
   let picture = stage.querySelector('#picture'),
     begun = 0;
   picture.after(canvas);
@@ -69,8 +70,8 @@ export function buildCarry(stage, scene) {
     if (node.style.transform !== transform) node.style.transform = transform;
   }
 
-  // Where the coarse picture shrinks, the picture at rest below it appears round it. It is hidden if it was rendered
-  // for another direction.
+  // When the coarse picture shrinks, the picture at rest below it becomes visible at its edges. If that one was
+  // rendered for another direction, it is hidden.
   function cover() {
     const [below, over] = [picture, canvas].map(node => seen.get(node)),
       other =
@@ -113,7 +114,7 @@ export function buildCarry(stage, scene) {
     const mine = ++begun,
       old = picture,
       before = picture.getAttribute('src'), // ahead.js may have set the picture already
-      next = old.cloneNode(); // the old picture stays until the new one is decoded
+      next = old.cloneNode(); // the clone is decoded while the old picture stays visible
     next.src = URL.createObjectURL(blob);
     if (alt != null) next.alt = alt;
     await next.decode();
@@ -138,7 +139,7 @@ export function buildCarry(stage, scene) {
     if (before) URL.revokeObjectURL(before);
   }
 
-  // alt: alternative text of the picture; null leaves the one before.
+  // alt: alternative text of the picture; null keeps the present text.
   return async function show(blob, frame, alt) {
     if (frame.final || !picture.getAttribute('src') || !context || !globalThis.createImageBitmap)
       return rest(blob, frame, alt);

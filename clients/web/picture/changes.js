@@ -1,4 +1,5 @@
-// Compares a scene with its session: what is sent to the session, and which values the scene takes over from it.
+// Compares the scene with its session, and decides what is sent to the session and which values the scene takes over
+// from it.
 import { goesOn } from '../share/share.js';
 import { mergePatch } from './merge.js';
 
@@ -8,17 +9,17 @@ const least_samples = 2;
 export const samples = scene =>
   scene.get('image.samples') === 'auto' ? 'auto' : Math.max(scene.get('image.samples'), least_samples);
 
-// True if the page draws the scales of a scene (over/key.js). If the scene cannot have scales, the page requests them
-// even so, and the server's refusal states the reason. During a lesson the scales are in the picture, which the pupils'
-// pages show as it is.
+// True if the page draws the scales of a scene itself (over/key.js). If the scene cannot have scales, the page requests
+// them from the server all the same, whose error message states the reason. During a lesson the server draws the scales
+// into the picture, because the pupils' pages show the picture unchanged.
 const keyed = scene =>
   !goesOn('lesson') &&
   scene.get('style.colour_bar') &&
   scene.get('style.palette') === 'heat' &&
   scene.get('style.tone_map') === 'srgb';
 
-// The document of a scene for a window of this size. part: the share of its width for which the server accepts a
-// picture.
+// The document of a scene for a window of this size. part: the share of the window's width for which the server accepts
+// a picture.
 export function document(scene, { width, height }, part) {
   const over = {
     'image.width': Math.round(width * part),
@@ -33,8 +34,8 @@ export function document(scene, { width, height }, part) {
   return scene.document(over, true);
 }
 
-// The patch from the session's document. Time and the place of a falling observer are left to the server, unless the
-// user has set them.
+// The patch that changes the session's document into this one. Time and the place of a falling observer are left to the
+// server, unless the user has set them.
 export function difference(scene, session, document) {
   const { time: then, ...before } = session.document,
     { time, ...after } = document;
@@ -45,8 +46,8 @@ export function difference(scene, session, document) {
   return patch;
 }
 
-// When motion has stopped, takes over the final values of the server. document: the one that was sent; it gets these
-// values too. now: the server's document.
+// When motion has stopped, takes over the final values from the server. document: the document that was sent; it also
+// gets these values. now: the server's document.
 export function follow(scene, document, now) {
   if (scene.goesOn()) return;
   const { time, camera } = now,
@@ -56,7 +57,7 @@ export function follow(scene, document, now) {
     ['r', 'infinity'],
   ]) {
     const there = document.camera?.[name] ?? usual;
-    if (scene.begun('camera.' + name) !== there) continue; // the user has moved this value since
+    if (scene.begun('camera.' + name) !== there) continue; // the user has changed this value in the meantime
     moved['camera.' + name] = camera[name];
     (document.camera ??= {})[name] = camera[name];
   }

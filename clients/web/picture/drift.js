@@ -1,15 +1,15 @@
-// In the first view the camera drifts round the hole until the user touches anything. With reduced motion preferred it
-// does not. If the server renders too few pictures of the drift per second, a recording of it plays (loop.js). At the
-// first touch live pictures continue from the recording's camera.
+// In the first view the camera drifts round the hole until the user touches anything. It does not drift if the user
+// prefers reduced motion. If the server renders too few pictures per second, a recording of the drift plays instead
+// (loop.js). At the first touch, live pictures continue from the camera of the recording.
 import { atFirstTouch, still } from '../base/dom.js';
 import { begun, end, leave, length_s, play, rate_deg, seconds } from './loop.js';
 import { goesOn } from '../share/share.js';
 
-const trial_ms = 3000; // duration of the trial in which pictures are counted
-const least_pace = 4; // least number of pictures a second for live pictures
+const trial_ms = 3000; // duration of the trial in which live pictures are counted
+const least_pace = 4; // minimum pictures per second; below it, the recording plays
 const tell_ms = 250; // time between two updates of the scene while the recording plays
 
-// fresh: the user has not touched anything yet. Returns shown(frame), to be called with each picture that is shown.
+// fresh: true if the user has not touched anything yet. Returns shown(frame); the caller calls it with each picture.
 export function begin(stage, scene, fresh) {
   const drifts =
     fresh &&
@@ -19,7 +19,8 @@ export function begin(stage, scene, fresh) {
     scene.get('motion.proper_time_rate') === 0;
   let pictures = 0,
     timer = 0,
-    jumps = -1; // the scene's counter of jumps when live pictures continued; -1: live pictures always ran
+    // value of scene.jumps when live pictures continued after the recording; -1 if the recording never played
+    jumps = -1;
   if (!drifts) {
     end();
     return () => begun() && leave();
@@ -27,7 +28,7 @@ export function begin(stage, scene, fresh) {
 
   const tell = () =>
     scene.tick(seconds() * scene.get('motion.time_rate'), false, {
-      'camera.azimuth_deg': Number((seconds() * rate_deg).toFixed(3)), // rounded as for live pictures
+      'camera.azimuth_deg': Number((seconds() * rate_deg).toFixed(3)), // rounded like the azimuth of live pictures
     });
 
   // Returns a promise of whether the recording plays.
@@ -41,11 +42,12 @@ export function begin(stage, scene, fresh) {
   }
 
   const sees = () => !document.hidden && document.body.dataset.view === 'lensing';
-  let seen; // true if the pictures were seen during the whole trial
+  let seen; // true if the stage was visible during the whole trial
   const look = () => (seen &&= sees());
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, look);
   function judge() {
-    if (scene.get('camera.azimuth_deg') > rate_deg * (length_s - 1)) return; // the recording ends before this azimuth
+    // the recording would end before it reaches this azimuth
+    if (scene.get('camera.azimuth_deg') > rate_deg * (length_s - 1)) return;
     if (seen && pictures < (least_pace * trial_ms) / 1000) return void record();
     trial();
   }
@@ -77,7 +79,7 @@ export function begin(stage, scene, fresh) {
   scene.addEventListener('drift', stop);
   scene.drifts(rate_deg);
   if (goesOn('lesson'))
-    stand(); // live pictures are shown, because the class follows the session
+    stand(); // live pictures are used instead of the recording, because the class follows the session
   else if (begun()) record().then(plays => plays || (scene.drift && trial()));
   else trial();
   return frame => {

@@ -1,13 +1,13 @@
-// Fits presets into the window, whatever its shape. In windows up to 16:9, the shape that scenes are composed for, the
-// field of view has the width that the scene states. In wider windows it is larger, so that the same height is seen. It
-// follows the window until somebody sets the field of view.
+// Fits presets into windows of any shape. Scenes are composed for 16:9. In windows that are not wider than that, the
+// field of view has the width that the scene states. In wider windows it is wider, so that the same height is seen. It
+// changes with the window until somebody sets the field of view.
 import { byId } from '../base/dom.js';
 
 const widest = 16 / 9;
 const most = { 'camera.fov_deg': 150, 'camera.field_m': 1e4 };
 const half = degrees => (degrees * Math.PI) / 360;
 
-// The camera field that sets the width; null if there is none, as for a picture of all directions.
+// The field of the camera that sets the width; null if there is none, for example in a picture of all directions.
 function widthOf(get) {
   const projection = get('camera.projection'),
     far = get('camera.r') === 'infinity';
@@ -22,13 +22,13 @@ function wide(path, base) {
   return by > 1 ? Math.max(base, Math.min(Number(value.toPrecision(4)), most[path])) : base;
 }
 
-// True if the window is high enough to show a preset at its own width.
+// True if the window is high enough to show a preset at the preset's own width.
 export const fits = ({ clientWidth: width, clientHeight: height }) => width > 0 && width <= widest * height;
 
 export function buildFit(scene) {
   let held = null; // { path, base: the scene's own width, value: the fitted one }
 
-  // Returns values of a scene by path, with the width fitted. given: values that the user chose.
+  // Returns values of a scene by path, with the width fitted to the window. given: values that the user chose.
   scene.fits = (values, given = {}) => {
     const get = path => values[path] ?? scene.fields.get(path).default,
       path = widthOf(get);
@@ -37,14 +37,14 @@ export function buildFit(scene) {
     held = { path, base: get(path), value: wide(path, get(path)) };
     return { ...values, [path]: held.value };
   };
-  // Restores what fitted() returned earlier.
+  // Restores a value that fitted() has returned.
   scene.refit = fitted => (held = fitted && { ...fitted });
-  // The scene's own width, if the window has changed it; else null.
+  // The scene's own width if the window has changed it; otherwise null.
   scene.fitted = () => (held && scene.get(held.path) === held.value ? held : null);
 
   new ResizeObserver(() => {
     const now = scene.fitted();
-    // skipped, because during a fall the width is another field
+    // during a fall another field sets the width, so nothing is fitted
     if (!now || byId('lensing').hidden || widthOf(path => scene.get(path)) !== now.path) return;
     const value = wide(now.path, now.base);
     if (value === now.value) return;

@@ -1,15 +1,16 @@
-// Requests for pictures. While something moves, several requests are in flight, each for the frame after that of the
-// request before. The server then renders the next picture while the page reads and draws one; over a line of high
-// latency the server renders several. New requests are sent as answers arrive, so a slow answer slows all of them down.
-// At rest there is one request. Over a line of high latency a change of the camera is sent with a request, which saves
-// a round trip; from.pending is the next change to send.
+// Requests for pictures. While something moves, several requests are in progress at once; each asks for the frame after
+// that of the previous request. The server can then render the next picture while the page reads and draws one. If the
+// latency is high, the server renders several. New requests are sent as answers arrive, so a slow answer slows down all
+// of them. At rest there is one request. If the latency is high, a change of the camera is sent with a request for a
+// picture, which saves a round trip. from.pending is the next change to send.
 import { Problem, ask } from '../base/server.js';
 
-export const still_ms = 600; // after this time without a change or an unfinished picture, one request is sufficient
+// if nothing has changed for this time, and the last picture is finished, one request at a time is enough
+export const still_ms = 600;
 
-// moving(): whether something has moved recently. goesOn(): whether pictures come without changes. options(change):
-// options of fetch. arrived(from, request, answer) is called when the server has accepted a change, refused(from) when
-// it has refused one.
+// moving(): true if something has moved recently. goesOn(): true if pictures come without changes. options(change):
+// returns options of fetch. arrived(from, request, answer) is called when the server has accepted a change, and
+// refused(from) when it has refused a change.
 export function buildFlight(line, { moving, goesOn, options, arrived, refused }) {
   let kick = () => {};
 
@@ -27,12 +28,12 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
     from.flight.push(one);
   }
 
-  // If pictures come only after changes, further requests would wait in vain, and would occupy connections that are
-  // needed for requests with changes.
+  // If pictures come only after changes, additional requests would wait in vain. They would also occupy connections
+  // that are needed for requests with changes.
   const depth = () => (!moving() ? 1 : line.far() && !goesOn() ? 2 : line.depth());
   const behind = from => Math.max(from.frame - 1, ...from.flight.map(({ after }) => after)) + 1;
 
-  // Over a line of high latency requests are spaced out: pictures of requests that are sent together arrive together
+  // If the latency is high, requests are spaced out. Pictures of requests that are sent together would arrive together
   // and share the bandwidth.
   function top(from) {
     if (!from.flight.some(({ after }) => after === from.frame)) poll(from, from.frame);
@@ -48,12 +49,12 @@ export function buildFlight(line, { moving, goesOn, options, arrived, refused })
 
   return {
     kick: () => kick(),
-    // The next answer with a newer picture, or null if there is none yet.
+    // Returns the next answer with a newer picture, or null if there is none yet.
     async newest(from) {
       top(from);
       const kicked = new Promise(resolve => (kick = () => resolve({})));
       const { one, answer, error, took } = await Promise.race([...from.flight.map(({ answer }) => answer), kicked]);
-      if (!one) return null; // requests can be sent again
+      if (!one) return null; // returns early, because more requests can now be sent
       from.flight.splice(from.flight.indexOf(one), 1);
       if (error && one.carries) refused(from);
       if (error && one.carries && error instanceof Problem && error.status !== 404) return null;

@@ -1,7 +1,7 @@
-// Parsers of the headers of a picture.
+// Parsers of the headers of a picture's answer.
 import { getJson } from '../base/server.js';
 
-// "width=640 height=360 ..." as an object of numbers.
+// Parses "width=640 height=360 ..." into an object of numbers.
 export const figures = header =>
   Object.fromEntries(
     (header ?? '')
@@ -13,7 +13,7 @@ export const figures = header =>
       }),
   );
 
-// The sentence of each approximation by its name. A failed request is repeated at the next call.
+// The sentence of each approximation, by name. If the request fails, it is repeated at the next call.
 let known = null;
 export function sentences() {
   known ??= getJson('v1/approximations')
@@ -24,8 +24,8 @@ export function sentences() {
 
 const names = header => (header ?? '').split(', ').filter(Boolean);
 
-// The approximations of a picture: names and sentences. If the set differs from the one whose number the request gave,
-// the server sends the names; otherwise it sends none. The session stores the sets by number.
+// The approximations of a picture: their names and sentences. The server numbers each set of approximations. It sends
+// the names only if the set differs from the one whose number the request gave. The session stores the sets by number.
 export async function approximations(session, get) {
   session.told = get('Kerrd-Sentences');
   if (!session.sentences.has(session.told)) session.sentences.set(session.told, names(get('Kerrd-Approximations')));
@@ -44,8 +44,8 @@ export const passes = header =>
       ms: Number(/dur=([\d.]+)/.exec(entry)?.[1] ?? 0),
     }));
 
-// Describes the size of a picture. all: it has all pixels of a picture at rest. narrow: it has fewer pixels than the
-// minimum for motion.
+// Describes the size of a picture in words. all: it has all pixels of a picture at rest. narrow: it has fewer pixels
+// than the minimum in motion.
 export function fits(quality, { width }, { keeps, part }) {
   const all = Math.round(width * part);
   return {
@@ -54,9 +54,9 @@ export function fits(quality, { width }, { keeps, part }) {
   };
 }
 
-// Takes the state of a newer picture over into the scene and the session. Returns this state with three further
-// members. get(header): the value of a header. current: whether the picture is of the current scene. final: whether it
-// is also the last picture of that scene.
+// Copies the state of a newer picture into the scene and the session. Returns this state with three more members:
+// get(header), the value of a header; current, true if the picture shows the current scene; final, true if it is also
+// the last picture of that scene.
 export function head({ headers }, scene, from) {
   const get = name => headers.get(name),
     now = state(get, scene),
@@ -68,8 +68,8 @@ export function head({ headers }, scene, from) {
   return { ...now, get, current, final };
 }
 
-// The state of a picture, from its headers: quality, revision, an observer's clock, and the camera's place. falls: the
-// observer moves by proper time.
+// The state of a picture from its headers: quality, revision, the observer's clock, and the camera's place. falls: true
+// if the observer moves by proper time.
 function state(get, scene) {
   const clock = get('Kerrd-Clock') && figures(get('Kerrd-Clock')),
     falls = clock && scene.get('motion.proper_time_rate'),
@@ -85,7 +85,8 @@ function state(get, scene) {
   };
 }
 
-// The page's description of a picture, from its headers and its state. from: its session; size: of the window.
+// Returns the page's description of a picture, from its headers and its state. from: the session of the picture. size:
+// size of the window.
 export const said = (get, { quality, revision, clock, falls, azimuth }, from, size) => ({
   ...quality,
   revision,
@@ -94,7 +95,7 @@ export const said = (get, { quality, revision, clock, falls, azimuth }, from, si
   ...fits(quality, size, from),
   camera: falls ? null : from.cameras.get(revision),
   accuracy: figures(get('Kerrd-Accuracy')),
-  flux: figures(get('Kerrd-Flux')), // flux of a picture at a radio frequency
+  flux: figures(get('Kerrd-Flux')), // flux, if the picture is at a radio frequency
   passes: passes(get('Server-Timing')),
   clock,
   azimuth,

@@ -1,16 +1,16 @@
 // A recording of the first view, made by scripts/stills. It plays if the server is too slow to show the first view
-// live. Its first second fades from the pictures after its end to those of its start, so that it can repeat without a
-// jump.
+// live. So that it can repeat without a jump, its first second is a cross-fade from the pictures that follow its end to
+// the pictures of its start.
 import { byId, el, still } from '../base/dom.js';
 import { sizeOf } from './sizes.js';
 
-export const rate_deg = 1.5; // degrees a second by which the camera drifts in the first view
+export const rate_deg = 1.5; // speed of the camera's drift in the first view, degrees per second
 export const length_s = 10;
 const fade_s = 1;
-const lowest = 4 / 3; // width : height of the recording; in a narrower window it would not fill the height
+const lowest = 4 / 3; // width : height of the recording, which does not fill the height of a narrower window
 
 let film = null,
-  playing = null, // a promise of whether it plays
+  playing = null, // a promise that resolves to whether the recording plays
   over = false;
 
 const happens = event =>
@@ -19,7 +19,7 @@ const happens = event =>
     film.addEventListener('error', reject, { once: true });
   });
 
-// Pauses while the view is hidden.
+// Pauses the recording while the view is hidden.
 function follow() {
   if (over) return;
   document.hidden || document.body.dataset.view !== 'lensing' ? film.pause() : film.play().catch(() => {});
@@ -35,7 +35,7 @@ async function open(stage, from_s, wanted) {
     const answer = await fetch(new URL('../stills/first.webm', import.meta.url));
     if (!answer.ok) throw new Error();
     const there = happens('loadeddata');
-    // a blob, because it can be sought in even if the server does not support ranges
+    // loaded as a blob, because a blob can be sought in even if the server does not support ranges
     film.src = URL.createObjectURL(await answer.blob());
     await there;
     const found = happens('seeked');
@@ -59,16 +59,16 @@ function away() {
   film = null;
 }
 
-// Plays from from_s() seconds on, unless it already plays, or wanted() is false when it is loaded. Returns a promise of
-// whether it plays.
+// Plays the recording from from_s() seconds on. Does nothing if it already plays, or if wanted() is false when the
+// recording has been loaded. Returns a promise of whether it plays.
 export const play = (stage, from_s, wanted = () => true) => (playing ??= open(stage, from_s, wanted));
 
 export const begun = () => playing;
 
-// Seconds for which its camera has drifted.
+// Seconds for which the recording's camera has drifted.
 export const seconds = () => film.currentTime + (film.currentTime < fade_s / 2 ? length_s : 0);
 
-// Pauses the recording until it is removed.
+// Pauses the recording; it stays visible until it is removed.
 export function end() {
   over = true;
   film?.pause();

@@ -9,8 +9,9 @@ function differences(before, after) {
   return patch;
 }
 
-// A patch (RFC 7396) from one document to another. A changed list is sent whole. A patch that names a style also
-// applies the style's values to the fields that it does not set; so when the name changes, the whole style is sent.
+// Returns a patch (RFC 7396) that changes one document into another. A changed list is sent whole. A patch that names a
+// style also applies the style's values to all fields that the patch does not set. Therefore, when the name changes,
+// the whole style is sent.
 export function mergePatch(before, after) {
   const patch = differences(before, after);
   if (patch.style?.name !== undefined) patch.style = { ...patch.style, ...after.style };
@@ -20,7 +21,8 @@ export function mergePatch(before, after) {
 // Fields of the camera that a drag or a key changes.
 const by_hand = ['azimuth_deg', 'inclination_deg', 'yaw_deg', 'pitch_deg', 'field_m', 'fov_deg', 'r'];
 
-// True if a patch only moves the camera by hand. The server's statements on the scene do not depend on that.
+// True if a patch contains only movements of the camera by hand. The server's description of the scene does not depend
+// on these.
 export const moves = ({ camera, ...rest }) =>
   camera != null &&
   !Object.keys(rest).length &&

@@ -1,5 +1,5 @@
-// The choice of Auto, Sharp or Fast: the least share of the window's width that pictures keep in motion (sizes.js).
-// Pictures at rest are as large as the window.
+// The choice Auto, Sharp or Fast. It sets the minimum width of pictures in motion, as a share of the window's width
+// (sizes.js). Pictures at rest are as large as the window.
 import { byId } from '../base/dom.js';
 import { t } from '../words/i18n.js';
 import * as link from '../base/link.js';

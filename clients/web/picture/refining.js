@@ -1,10 +1,10 @@
-// Shows the progress of a picture that takes long, whether it is the first one or a finer one. The fraction done and
-// the seconds left are shown in words, and as a bar at the picture's edge.
+// Shows the progress of a picture that takes long, either the first picture or a finer one. The fraction done and the
+// seconds left are shown in words, and as a bar at the picture's edge.
 import { byId, seen } from '../base/dom.js';
 import { number, t } from '../words/i18n.js';
 import { getJson } from '../base/server.js';
 
-// waiting time after a picture, or after a change, before progress is shown
+// time after a picture or a change before progress is shown
 const patience_ms = 1500;
 const every_ms = 700;
 
@@ -21,8 +21,8 @@ function sentence(name, { fraction, remaining_s: left }) {
     : done + t('refining.s-to-go', ', {0} s to go', number(Math.ceil(left))).replace('mancano 1 s', 'manca 1 s');
 }
 
-// address(): of the session. say(words): shows progress. Returns follow(waits). waits: whether another picture will
-// come.
+// address(): returns the address of the session. say(words): shows the progress. Returns follow(waits). waits: true if
+// another picture will come.
 export function buildRefining(address, say) {
   const bar = byId('refined'),
     first = byId('first');
@@ -33,7 +33,7 @@ export function buildRefining(address, say) {
     await seen('lensing');
     if (mine !== timer) return;
     const { frame, rendering, refining } = (address() && (await getJson(address()).catch(() => null))) || {};
-    if (mine !== timer) return; // returns, because the picture has come or another one has begun
+    if (mine !== timer) return; // stops, because the picture has arrived or another one has begun
     const made = rendering ?? refining;
     bar.hidden = !made;
     if (made) {

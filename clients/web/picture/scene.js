@@ -1,6 +1,6 @@
-// The scene of the page: the values that differ from the defaults of the server's schema, by dotted path. Events:
-// 'change' after a change on the page, 'move' while the camera is dragged, 'settle' when the server has changed values,
-// and 'tick' when it has sent a new time.
+// The scene of the page. It holds the values that differ from the defaults of the server's schema, by dotted path.
+// Events: 'change' after a change on the page; 'move' while the camera is dragged; 'settle' when the server has changed
+// values; 'tick' when the server has sent a new time.
 import { still } from '../base/dom.js';
 import { getJson } from '../base/server.js';
 import * as link from '../base/link.js';
@@ -8,13 +8,13 @@ import * as link from '../base/link.js';
 const tick_ms = 100;
 const patience_ms = 1000;
 const link_ms = 1000;
-const hand_ms = 200; // a drag has come to rest when nothing has moved for this time
+const hand_ms = 200; // a drag counts as ended when nothing has moved for this time
 const aside = ['tile']; // sections that the page does not use, because it shows whole pictures
 
-// keys of a link without a dot
+// known keys of a link that contain no dot
 const known = ['view', 'lang', 'over', 'preset', 'pause', 'full', 'look', 'pace', 'lesson'];
 
-// Elements of a list have paths of their own: spots.0.r.
+// Elements of a list have their own paths, such as spots.0.r.
 function* flatten(schema, prefix = '') {
   for (const [name, spec] of Object.entries(schema.properties)) {
     if (spec.deprecated || aside.includes(name)) continue;
@@ -39,10 +39,10 @@ function* flatten(schema, prefix = '') {
 const control = spec =>
   Object.fromEntries(['span', 'first', 'switch', 'with', 'varies', 'button'].map(key => [key, spec['x-' + key]]));
 
-// The path of a field's section or element.
+// The path of the section or list element that contains a field.
 const home = path => path.slice(0, Math.max(0, path.lastIndexOf('.')));
 
-// The sections of a member of the document, each with its path; sections may be nested: disk.gas.
+// The sections of a member of the document, each with its path. Sections may be nested, as in disk.gas.
 function sections([path, spec]) {
   if (spec.deprecated || !(spec.properties || spec.items)) return [];
   return [
@@ -51,27 +51,23 @@ function sections([path, spec]) {
   ];
 }
 
-// One M of one solar mass, in metres: G m_sun/c^2 (nominal, IAU 2015 resolution B3).
+// Length of 1 M for one solar mass, in metres: G m_sun/c^2 (nominal, IAU 2015 resolution B3).
 export const light_m_s = 299792458;
 export const sun_m = 1.3271244e20 / light_m_s ** 2;
-// Width on the sky of this length at a distance of one parsec (IAU 2015 resolution B2), in microarcseconds.
+// Angle on the sky, in microarcseconds, of this length at a distance of one parsec (IAU 2015 resolution B2).
 export const m_uas = (sun_m / 3.085677581491367e16) * ((180 * 3.6e9) / Math.PI);
 
-// The time as a link has it: a seventh digit would not be seen.
+// The time in the form for a link, with six digits: a seventh digit would not be visible.
 export const linkedTime = time => Number(time?.toPrecision(6)) || null;
 
 // The value at a path of a document, or undefined.
 export const valueAt = (document, path) => path.split('.').reduce((inside, name) => inside?.[name], document);
 
-// Words are a list in a document; elsewhere, as in a link, they are a text with commas.
+// A field of words is a list in a document. In a link and elsewhere it is a text with commas.
 export const told = value => (Array.isArray(value) ? value.join(',') : value);
 
-// { type: 'number'
-// 'integer'
-// 'choice'
-// 'switch'
-// 'words'
-// 'asset', minimum, maximum, word, choices }
+// The type of a field and its limits: { type: 'number' 'integer' 'choice' 'switch' 'words' 'asset', minimum, maximum,
+// word, choices }
 function kind(spec) {
   if (spec.items)
     return {
@@ -83,7 +79,7 @@ function kind(spec) {
   if (spec.type === 'boolean') return { type: 'switch' };
   const asset = spec.anyOf?.find(part => part.pattern);
   if (asset) return { type: 'asset', word: new RegExp(asset.pattern) };
-  // the numeric type, if the field takes a word as well
+  // the numeric type of a field that takes a number or a word
   const range = spec.anyOf?.find(part => part.type && !('const' in part)) ?? spec;
   return {
     type: range.type,
@@ -104,21 +100,21 @@ function parse(field, text) {
 export class Scene extends EventTarget {
   #values = new Map();
   #styles = {}; // the fields that each style sets, by path
-  #now = null; // time of the newest picture while time runs
-  #moved = new Map(); // other values that the server moves, by path, such as the place of a falling observer
+  #now = null; // time of the newest picture while time runs; otherwise null
+  #moved = new Map(); // other values that the server moves, by path, such as the radius of a falling observer
   #timer = 0;
-  #hand = 0; // timer of a drag, until it comes to rest
-  #clock = null; // timer of the clock without pictures
-  #linked = 0; // time of the latest update of the address
+  #hand = 0; // timer that ends a drag
+  #clock = null; // timer of the clock while pictures do not report the time
+  #linked = 0; // when the address was last updated
   held = link.get('pause') === '1' || still.matches; // nothing moves until somebody presses Play
-  varies = []; // the changes that another time or azimuth would cause, as the server states them (docs/live.md)
-  emitters = []; // the scene's emitters, as the server states them
+  varies = []; // changes that another time or azimuth would cause, according to the server (docs/live.md)
+  emitters = []; // the scene's emitters, according to the server
   unknown = []; // keys of the link that the page does not know
   linked = []; // paths of scene fields that the link set
   jumps = 0; // number of times that the user has set the time
-  jumped = new Set(); // paths of moved values that the user has set since
-  drift = 0; // degrees a second by which the camera turns until the user touches anything (drift.js)
-  recorded = false; // a recording shows the drift, and the session rests (loop.js)
+  jumped = new Set(); // paths of moved values that the user has set in the meantime
+  drift = 0; // degrees per second by which the camera turns until the user touches anything (drift.js)
+  recorded = false; // true if a recording shows the drift while the session rests (loop.js)
 
   static async load() {
     const schema = await getJson('v1/schema'),
@@ -157,7 +153,7 @@ export class Scene extends EventTarget {
     return scene;
   }
 
-  // Renames the old names of fields in a link.
+  // Replaces old names of fields in a link by the present names.
   #renew(schema) {
     for (const [old, spec] of Object.entries(schema.properties).filter(([, spec]) => spec['x-now']))
       for (const [key, value] of link.entries(old + '.')) {
@@ -166,7 +162,8 @@ export class Scene extends EventTarget {
       }
   }
 
-  // Paths of all elements of a list; count() is the number up to the last one that differs from its defaults.
+  // Paths of all elements of a list. count() is the number of elements up to the last one that differs from its
+  // defaults.
   elements(list) {
     const { most } = this.sections.find(({ name }) => name === list);
     return Array.from({ length: most }, (_, i) => `${list}.${i}`);
@@ -185,8 +182,8 @@ export class Scene extends EventTarget {
     return [...values].sort(([a], [b]) => (b === 'style.name') - (a === 'style.name'));
   }
 
-  // Sets a value. A field that the style sets is stored even if it has its default; otherwise the style's value would
-  // apply.
+  // Sets a value. If the style sets this field, the value is stored even if it is the default; otherwise the style's
+  // value would apply.
   #put(path, given) {
     let value = told(given);
     const styled = path in (this.#styles[this.#values.get('style.name')] ?? {});
@@ -208,18 +205,18 @@ export class Scene extends EventTarget {
   // The values from which the server began to move fields, by path.
   origins = () => Object.fromEntries([...this.#moved.keys()].map(path => [path, this.begun(path)]));
 
-  // Fixes moved values at their present values.
+  // Stores the present values of moved fields as values of the scene.
   land() {
     if (this.#moved.size) this.settle(Object.fromEntries(this.#moved));
   }
 
-  // Sets the drift. When it ends, the camera stays where it has drifted to.
+  // Sets the speed of the drift. When the drift ends, the camera stays where it is.
   drifts(rate) {
     if (rate === this.drift) return;
     this.drift = rate;
     const path = 'camera.azimuth_deg',
       there = this.#moved.get(path);
-    // the session continues from the recording's time
+    // when a recording ends, the session continues from the recording's time
     if (!rate && this.recorded) (this.recorded = false), this.jumps++;
     if (!rate && there != null) {
       this.jumped.add(path);
@@ -228,26 +225,26 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('drift'));
   }
 
-  // From now on a recording shows the drift; it reports its time and its camera by tick().
+  // Switches to the recording of the drift, which then reports its time and its camera through tick().
   record() {
     this.recorded = true;
     this.dispatchEvent(new Event('drift'));
   }
 
-  // Rate at which the camera turns, degrees per second.
+  // Speed at which the camera turns, degrees per second.
   turns() {
     return this.held ? 0 : this.drift || this.get('motion.azimuth_rate_deg');
   }
 
-  // Sets values, such as { 'camera.r': 30 }; null is the default. A style sets its fields, except those that are among
-  // the values.
+  // Sets values, such as { 'camera.r': 30 }; null stands for the default. If a style is set, it sets all of its fields
+  // that are not among the values.
   change(values) {
     this.#set(values);
     this.#changed();
   }
 
-  // Sets values during a drag: 'move' each time, and 'change' only when the drag rests, because panels beside the
-  // picture listen to 'change'.
+  // Sets values during a drag. 'move' is sent each time. 'change' is sent only when the drag has ended, because panels
+  // beside the picture listen to it.
   move(values) {
     this.#set(values);
     this.#stop();
@@ -267,8 +264,8 @@ export class Scene extends EventTarget {
     this.#field(all);
   }
 
-  // The width of the image plane is one number in two units, as on the server (src/scene/sky_scale.h). The unit that
-  // was set last counts; if both are set, the angle on the sky counts.
+  // The width of the image plane is one number that can be given in two units, as on the server
+  // (src/scene/sky_scale.h). The unit that was set last counts. If both are set at once, the angle on the sky counts.
   #field(given) {
     if ('camera.field_m' in given && given['camera.field_uas'] == null) this.#put('camera.field_uas', null);
     const uas = this.get('camera.field_uas');
@@ -289,7 +286,7 @@ export class Scene extends EventTarget {
     this.#clock = null;
   }
 
-  // True if time runs but moves nothing visible, so that no pictures report the time.
+  // True if time runs but changes nothing visible. The server then sends no pictures, so none reports the time.
   resting = () => this.#clock != null;
 
   // Stops or resumes everything that moves by itself.
@@ -308,10 +305,10 @@ export class Scene extends EventTarget {
     );
   }
 
-  // True if the session's pictures follow each other without changes.
+  // True if the session sends pictures continuously, even without changes.
   streams = () => this.goesOn() && !this.recorded;
 
-  // Takes values that the server has changed.
+  // Takes over values that the server has changed.
   settle(values) {
     this.#stop();
     if ('time' in values) this.#now = null;
@@ -320,15 +317,15 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('settle'));
   }
 
-  // Takes the server's statements on the scene.
+  // Takes over the server's description of the scene.
   tellSeen({ varies, emitters }) {
     const changed = JSON.stringify([varies, emitters]) !== JSON.stringify([this.varies, this.emitters]);
     Object.assign(this, { varies, emitters });
     if (changed) this.dispatchEvent(new Event('settle'));
   }
 
-  // Takes over the time of a picture. After a picture of full quality either the next one comes soon, or nothing
-  // visible moves.
+  // Takes over the time of a picture. After a picture of full quality there are two cases: the next picture comes soon,
+  // or nothing visible moves.
   tick(time, fine, moved = {}) {
     this.#stop();
     for (const [path, value] of Object.entries(moved)) this.jumped.has(path) || this.#moved.set(path, value);
@@ -339,7 +336,7 @@ export class Scene extends EventTarget {
     this.#tell(time);
   }
 
-  // Keeps the address up to date, so that a link shows what is seen now.
+  // Keeps the address up to date, so that a link shows what is on the screen now.
   #tell(time) {
     this.#now = time;
     if (performance.now() > this.#linked + link_ms) {
@@ -350,8 +347,9 @@ export class Scene extends EventTarget {
     this.dispatchEvent(new Event('tick'));
   }
 
-  // Replaces the whole scene by a document; the page sets the picture's size. over: values by path that override the
-  // document; among them a style is applied before its fields. fitted: adapts values to the window (fit.js).
+  // Replaces the whole scene by a document. The page sets the size of the picture. over: values by path that override
+  // the document; if a style is among them, it is applied before its fields. fitted: a function that adapts values to
+  // the window (fit.js).
   replace(document, over = {}, fitted = values => values) {
     this.held = still.matches;
     link.set('pause', null);
@@ -370,8 +368,9 @@ export class Scene extends EventTarget {
     ]);
   }
 
-  // The scene as JSON, without values that equal the defaults. other: values that override the page's. begun: moved
-  // values are given as at the start of the motion. Elements at their defaults are {} if others follow.
+  // The scene as JSON, without values that equal the defaults. other: values that override those of the page. begun: if
+  // true, moved values are given as they were at the start of the motion. A list element at its defaults is {} if
+  // further elements follow.
   document(other = {}, begun = false) {
     const out = {};
     for (const [path, value] of this.#with(other, begun ? [] : this.#moved)) {
@@ -385,7 +384,7 @@ export class Scene extends EventTarget {
     return out;
   }
 
-  // A query creates elements one after the other, so an element {} is given by one default value.
+  // A query creates the elements of a list one after the other, so one default value stands for an element {}.
   #pairs(document, before = '') {
     return Object.entries(document).flatMap(([name, value]) => {
       const path = before + name;

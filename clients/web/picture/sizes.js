@@ -1,14 +1,17 @@
-// Sizes: of elements, of the window in device pixels, and the least share of its width that a picture keeps in motion.
+// Sizes of elements, the size of the window in device pixels, and the minimum width of pictures in motion, as a share
+// of the window's width.
 import { atFirstTouch, byId } from '../base/dom.js';
 import * as link from '../base/link.js';
 
-const most = { width: 3840, height: 2160 }; // pixels at rest; in a larger window the picture is scaled up
-const drag_px = 1600; // after the first touch, a wider window keeps in motion a share of this width
+// maximum size of a picture at rest, in pixels; in a larger window the picture is scaled up
+const most = { width: 3840, height: 2160 };
+const drag_px = 1600; // after the first touch, pictures in motion in a wider window keep a share of this width
 const least_part = 0.25; // the server's limit
 
-// limit of a frame's time: if half the width takes longer, Auto keeps less after the first touch
+// limit of the time for one picture. If half the width takes longer, Auto uses smaller pictures after the first touch.
 const max_frame_ms = 100;
-// The least share of the window's width that is kept in motion; null: pictures in motion are as large as at rest.
+// Minimum width of pictures in motion, as a share of the window's width; null: pictures in motion are as large as at
+// rest.
 const parts = { auto: 0.5, sharp: null, fast: 0.25 };
 
 // Reading an element's size forces a layout when the page has changed. The sizes are therefore cached and updated by a
@@ -39,15 +42,14 @@ export function windowSize(stage) {
   return { width: even(width), height: even(height) };
 }
 
-// Auto, Sharp or Fast, kept in the address.
+// The choice Auto, Sharp or Fast, which is stored in the address.
 export const pace = () => (Object.hasOwn(parts, link.get('pace') ?? '') ? link.get('pace') : 'auto');
 
-let landing = true; // the user has not touched anything yet
+let landing = true; // true until the user first touches anything
 atFirstTouch(() => (landing = false));
 
-// The query that asks the session to keep a share of the width in motion. If frames take too long, Auto no longer keeps
-// this share, so that the picture can follow a drag. Before the first touch Auto keeps it, because there is no drag to
-// follow.
+// The query that sets the session's minimum width of pictures in motion. If frames take too long, Auto gives this width
+// up, so that the picture can follow a drag. Before the first touch Auto keeps it, because there is no drag to follow.
 export function kept() {
   const part = parts[pace()],
     here = sizeOf(byId('stage'));

@@ -1,7 +1,7 @@
 // Pictures of the scene from a live session. Changes of the scene are sent one patch at a time, and the latest state
-// wins. Pictures are requested one after the other, each newer than the one shown, so a slow device or line never
-// builds up a backlog. In motion the server decides how fine each picture is. At rest it has all pixels of the window
-// and several rays for each.
+// wins. Pictures are requested one after the other, each newer than the one shown, so that a slow device or connection
+// builds up no backlog. In motion the server decides the resolution of each picture. At rest a picture has all pixels
+// of the window, and several rays for each pixel.
 import { again_ms } from '../base/again.js';
 import { latest, seen } from '../base/dom.js';
 import { difference, follow } from './changes.js';
@@ -29,9 +29,9 @@ import { kept } from './sizes.js';
 const heard = (target, event) => new Promise(resolve => target.addEventListener(event, resolve, { once: true }));
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 
-// Pictures a second, over the last two seconds, or over the last three pictures if the server is slow. False until
-// there are three pictures, and while the scene is at rest. The returned function is called with the time of each
-// picture.
+// Pictures per second, averaged over the last two seconds, or over the last three pictures if the server is slow. The
+// value is false until there are three pictures, and while the scene is at rest. The returned function must be called
+// with the time of each picture.
 function buildRate(scene) {
   let recent = [];
   return now => {
@@ -41,11 +41,11 @@ function buildRate(scene) {
 }
 
 // scene; size() → { width, height } of the window in device pixels. Callbacks: shown(frame), failed(error), and
-// rests(whether). whether is true when the picture shown is the last one of the current scene; until the server has
-// answered a change, its pictures are of the scene before. Returns
+// rests(whether). whether: true if the picture on the screen is the last one of the current scene. Until the server has
+// answered a change, its pictures show the previous scene. Returns
 //   refresh()      to be called whenever the scene or the window has changed
 //   close()        ends the session; no other call may follow
-//   address()      of the session, or null
+//   address()      returns the address of the session, or null
 //   strike(wrong)  strikes the hole when the server has the current scene; wrong(sentence) is called on a refusal
 export function openSource(scene, size, shown, failed, rests) {
   let session = null,
@@ -69,7 +69,7 @@ export function openSource(scene, size, shown, failed, rests) {
   const settle = () =>
     last && rests(asked === told && session != null && last.final && last.revision >= session.revision);
 
-  // The server has this document, with all changes up to this number.
+  // To be called when the server has this document, with all changes up to this number.
   async function done(document, number) {
     const wrong = striking;
     striking = null;
@@ -79,8 +79,8 @@ export function openSource(scene, size, shown, failed, rests) {
     if (!pulling) pull();
   }
 
-  // Opens a new session if the old one has ended: the server ends a session without viewers after a minute. A hidden
-  // window has no size.
+  // Opens a new session if the old one has ended: the server ends a session after a minute without viewers. First waits
+  // until the view is visible, because a hidden window has no size.
   async function send() {
     await seen('lensing');
     if (closed.aborted) return;
@@ -104,7 +104,7 @@ export function openSource(scene, size, shown, failed, rests) {
       const little = patch && same && moves(patch) && !striking;
       if (little && pulling && line.far() && !session.plain)
         return (pend(session, jumps, { patch, document, asked: now_asked }), flight.kick());
-      // the patch contains what was pending, and nothing is sent before its answer
+      // the patch also contains the pending change, and no request is sent before its answer
       if (session) session.pending = null;
       const begun = performance.now(),
         answer = await tell(session, patch ?? document, same ? [] : [keeps], little);
@@ -114,9 +114,10 @@ export function openSource(scene, size, shown, failed, rests) {
         if (!from) session = fresh({ id, token });
         return leave();
       }
-      // returns, because the session was replaced meanwhile; the next call opens another one
+      // stops, because the session was replaced in the meantime; the next call opens another session
       if (from && session !== from) return;
-      if (!session) last &&= { final: false }; // a new session counts its revisions from the start
+      // revisions of a new session start again from the beginning, so the old picture does not count as final
+      if (!session) last &&= { final: false };
       session ??= fresh({ id, token });
       take(session, document, dozes === naps, { revision, jumps, keeps, part, known: known ?? 0 });
       if (scene.jumps === jumps && patch?.motion) follow(scene, document, now);
@@ -158,7 +159,7 @@ export function openSource(scene, size, shown, failed, rests) {
       signal: polls.signal,
     }),
     arrived,
-    // The change is sent once more in a request of its own, whose answer has the error.
+    // The server has refused a change. It is sent again in a request of its own, whose answer contains the error.
     refused(from) {
       from.plain = true;
       if (session === from) put();
@@ -180,7 +181,8 @@ export function openSource(scene, size, shown, failed, rests) {
       picture,
       ...said(get, state, from, size()),
       final,
-      shows: current ? from.document : null, // the document of the scene, if it is known
+      // the document of the scene that the picture shows; null if it is not known
+      shows: current ? from.document : null,
       pace,
       approximations: left,
     });
@@ -199,8 +201,8 @@ export function openSource(scene, size, shown, failed, rests) {
       try {
         await next(from);
       } catch (error) {
-        from.flight.length = 0; // the other requests have failed as well, or are too late
-        if (session !== from) continue; // continues, because another session has replaced this one
+        from.flight.length = 0; // the other requests are dropped: they have failed as well, or come too late
+        if (session !== from) continue; // this answer belongs to a session that has been replaced
         if (error.status !== 404) failed(Object.assign(error, { again: true }));
         else (session = null), put();
         await pause(error.status === 404 ? 0 : again_ms);
@@ -209,7 +211,7 @@ export function openSource(scene, size, shown, failed, rests) {
     pulling = false;
   }
 
-  // While the page or the view is hidden, a drifting camera stops where it was last shown.
+  // While the page or the view is hidden, a drifting camera stops at the place where it was last shown.
   function doze() {
     if (!session || !scene.drift || scene.recorded || !hidden()) return;
     dozes++;
@@ -221,14 +223,14 @@ export function openSource(scene, size, shown, failed, rests) {
   function leave() {
     if (session) end(session);
     session = null;
-    polls.abort(); // aborted, because they would otherwise report that the session no longer exists
+    polls.abort(); // aborts the requests, which would otherwise report that the session no longer exists
     polls = new AbortController();
   }
   addEventListener('pagehide', leave, { signal: closed });
   addEventListener('pageshow', event => event.persisted && put(), { signal: closed });
 
   return {
-    // Ends the session, for good.
+    // Ends the session. No other method may be called afterwards.
     close() {
       clearTimeout(timer);
       closing.abort();

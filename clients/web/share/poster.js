@@ -1,9 +1,9 @@
-// A poster: the server's picture with a line of text over its lower edge. The file keeps the scene and the
-// approximations that the server wrote into it.
-const margin = 0.02; // share of the width
-const high = 0.018; // height of a letter, share of the width
+// A poster: the server's picture with a line of text over its lower edge. The file keeps the server's metadata: the
+// scene and the approximations.
+const margin = 0.02; // margin, as a fraction of the width
+const high = 0.018; // height of letters, as a fraction of the width
 
-// The chunks of a PNG, each with its length, name and checksum.
+// The chunks of a PNG file; each includes its length, its name and its checksum.
 function chunks(bytes) {
   const view = new DataView(bytes.buffer, bytes.byteOffset),
     all = [];

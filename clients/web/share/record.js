@@ -1,5 +1,5 @@
-// Films of five seconds, made by a job on the server. Its pictures are shown as they come; then the server encodes the
-// film, or returns the pictures, numbered.
+// Films of five seconds, made by a job on the server. Their pictures are shown as they arrive. At the end the server
+// encodes the film, or returns the numbered pictures.
 import { el, latest } from '../base/dom.js';
 import { duration, t, tell } from '../words/i18n.js';
 import { fileName, jobOf, offer } from '../base/job.js';
@@ -8,7 +8,7 @@ import { ask, getJson, postJson } from '../base/server.js';
 import { samples } from '../picture/changes.js';
 
 export const seconds = 5;
-const plan_ms = 600; // time from the last change to the request for the cost
+const plan_ms = 600; // after a change, the cost is requested when nothing has changed for this time
 const even = x => Math.max(2, 2 * Math.round(x / 2));
 
 const choose = (id, label, options) =>
@@ -24,10 +24,10 @@ const choose = (id, label, options) =>
   );
 const button = (id, text, attributes) => el('button', { type: 'button', id, ...attributes }, text);
 
-// kinds: [{ name, text, lacks(): why the film would show nothing, request(n, width, height): the document of a job,
-// plan(n, width, height): the document of /v1/plan }]. size(): of the view, in pixels. key: prefix of sessionStorage
-// and of ids. preset: key of the preset's name in the link, for file names. Returns renew(), to be called when the
-// contents of the films have changed.
+// kinds: [{ name, text, lacks(): the reason why the film would show nothing, if there is one, request(n, width,
+// height): the document of a job, plan(n, width, height): the document of /v1/plan }]. size(): of the view, in pixels.
+// key: prefix of sessionStorage and of ids. preset: key in the link of the preset's name, which is used in file names.
+// Returns renew(), to be called when the contents of the films have changed.
 export function buildFilms(box, { key, kinds, size, preset }) {
   const starts = kinds.map(({ name, text }) =>
       button(`${key}-${name}`, text, { 'aria-describedby': `${key}-${name}-takes` }),
@@ -99,13 +99,13 @@ export function buildFilms(box, { key, kinds, size, preset }) {
     preview.hidden = false;
   }
 
-  // Loads the newest picture, if there is one.
+  // Loads the newest picture of the job, if there is one.
   function look({ finished }, { id }) {
     if (finished && finished !== shown && !looks) (shown = finished), (looks = show(id));
     return looks;
   }
 
-  // Without ffmpeg the server cannot encode films. It then returns the pictures, and the page says so.
+  // Without ffmpeg the server cannot encode films. It then returns the pictures, and the page says that.
   async function fetchFilm({ id, form: as, rate }) {
     const at = `v1/jobs/${id}/result?format=`;
     if (as === 'zip') return { film: await ask(at + 'zip'), as };
@@ -167,7 +167,7 @@ export function buildFilms(box, { key, kinds, size, preset }) {
     }),
   );
 
-  // Shows the cost of each film, or why it would show nothing.
+  // Shows the cost of each film, or the reason why it would show nothing.
   const estimate = latest(async () => {
     for (const [i, kind] of kinds.entries()) {
       if (blank[i]) tell(takes[i], blank[i]);
@@ -201,7 +201,7 @@ export function buildFilms(box, { key, kinds, size, preset }) {
 
 const steps = (from, to, n) => Array.from({ length: n }, (_, k) => from + ((to - from) * k) / (n - 1));
 
-// A film in which one field goes from one value to another.
+// A film in which one field changes from one value to another.
 function glide(scene, path, range) {
   const over = (width, height) => ({ 'image.width': width, 'image.height': height, 'image.samples': samples(scene) });
   const at = value => path.split('.').reduceRight((inner, name) => ({ [name]: inner }), value);
@@ -225,7 +225,7 @@ export function recordScene(box, scene, size) {
     rate = () => scene.get('motion.time_rate') || 20,
     falls = () => scene.get('motion.proper_time_rate') > 0,
     now = () => scene.get('time');
-  // One turn that begins at the camera's azimuth, as numbers within the field's range.
+  // One turn of the camera that begins at its present azimuth, with all numbers inside the field's range.
   const round = n => {
     const from = ((scene.get('camera.azimuth_deg') % 360) + 360) % 360;
     return [from - 360, from - 360 / n];
@@ -267,7 +267,7 @@ export function recordScene(box, scene, size) {
   box.closest('details').addEventListener('toggle', renew);
 }
 
-// Films of a playground from now on, at its rate.
+// Films of a playground that begin at its present state and run at its speed.
 export function recordPlay(box, running, size) {
   const kind = {
     name: 'play',

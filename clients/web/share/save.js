@@ -1,4 +1,5 @@
-// "Save picture": a job on the server renders it at any size, while the page stays usable. The PNG holds its scene.
+// "Save picture": a job on the server renders the picture in any size, while the page stays usable. The PNG file
+// contains its scene.
 import { byId, el } from '../base/dom.js';
 import { t, tell } from '../words/i18n.js';
 import { fileName, jobOf, offer, remembered } from '../base/job.js';
@@ -6,7 +7,7 @@ import * as link from '../base/link.js';
 import { ask } from '../base/server.js';
 import { picked } from './share.js';
 
-// Returns films(), a promise of whether the buttons of films are there; the panel must be open.
+// Returns films(), a promise of whether the buttons for films exist. They exist only when the panel is open.
 export function buildSave(scene, size, changed) {
   const [start, cancel, bar, told, fault, got, own, sizes, group] = [
     'save',
@@ -20,7 +21,7 @@ export function buildSave(scene, size, changed) {
     'take',
   ].map(byId);
 
-  // A custom size begins with the window's.
+  // The fields of a custom size first show the window's size.
   function showSize() {
     const here = size(),
       before = own.hidden;

@@ -1,4 +1,4 @@
-// "Share": the address of the scene, with the preview that others see before they open it, and a poster.
+// "Share": the address of the scene, a poster, and the preview that other people see before they open the address.
 import { byId, el } from '../base/dom.js';
 import { describe } from '../words/describe.js';
 import { t, tell } from '../words/i18n.js';
@@ -6,28 +6,29 @@ import * as link from '../base/link.js';
 import { linkedTime } from '../picture/scene.js';
 import { module, postJson } from '../base/server.js';
 
-const asked = 'v1/share'; // addresses in the server's answers are relative to this address
+const asked = 'v1/share'; // path of the request; addresses in the server's answer are relative to it
 const preview = { width: 600, height: 315 };
 const poster = '3840x2160';
 
-// The scene as it is seen now, but without a width that the window set.
+// The scene as it is seen now, without a width that the window has set.
 function documentOf(scene) {
   const fitted = scene.fitted(),
     time = linkedTime(scene.get('time'));
   return scene.document({ ...(time && { time }), ...(fitted && { [fitted.path]: fitted.base }) });
 }
 
-// The request for the address. If there is a second picture beside the first one, the query has the fields that differ
-// there.
+// Requests the address. If there is a second picture beside the first one, the query contains the fields whose values
+// differ there.
 function addressed() {
   const pair = new URLSearchParams(link.entries('pair.').map(([key, value]) => [key.slice(5), value]));
   return asked + (pair.size ? '?' + new URLSearchParams({ pair }) : '');
 }
 
-// field: the input that shows the text, if there is one.
+// Copies a text to the clipboard. field: the input that shows the text, if there is one.
 async function copy(text, done, field) {
   try {
-    await navigator.clipboard.writeText(text); // works only if the page came over HTTPS or from this machine
+    // the clipboard is available only if the page came over HTTPS or from this computer
+    await navigator.clipboard.writeText(text);
     done.textContent = t('common.copied', 'Copied.');
   } catch {
     field.value = text;
@@ -38,18 +39,19 @@ async function copy(text, done, field) {
 
 const absolute = address => new URL(address, new URL(asked, location.href)).href;
 
-// An iframe, for pages that the server lists.
+// The HTML of an iframe, for pages into which the server permits embedding.
 const frameOf = ({ embed, title }) =>
   `<iframe src="${absolute(embed)}" title="${title}" style="border:0;width:100%;aspect-ratio:16/9" loading="lazy" allowfullscreen></iframe>`;
 
-// Opens the panel that shows a job's progress, and its button to cancel.
+// Opens the panel that shows a job's progress and the button that cancels the job.
 function inPanel(card, told, cancel) {
   card.close();
   byId(told).scrollIntoView({ block: 'center' });
   byId(cancel).focus();
 }
 
-// Makes a poster by "Save picture", with a line of text. openTake: opens that panel; false if it cannot be loaded.
+// Makes a poster with a line of text, using "Save picture". openTake opens that panel; it returns false if the panel
+// cannot be loaded.
 async function makePoster(card, scene, url, openTake) {
   if (!(await openTake())) return card.close();
   const size = byId('save-size');
@@ -60,7 +62,7 @@ async function makePoster(card, scene, url, openTake) {
   inPanel(card, 'save-told', 'save-cancel');
 }
 
-// Starts the first of these films that would show something: the motion of the scene, one turn round the hole, a change
+// Starts the first of these films that would show something: the scene's own motion; one turn round the hole; a change
 // of the spin.
 async function makeFilm(card, openTake) {
   const films = ['time', 'orbit', 'spin'].map(name => `#film-${name}`);
@@ -94,14 +96,14 @@ function codeOf(url) {
   return box;
 }
 
-// The preview that others see with the link; of a pair, both pictures.
+// The preview that others see with the link. If there are two pictures, the preview has both.
 function previewOf({ code, other, title, about }) {
   const pictures = [code, other].filter(Boolean).map(of =>
     el('img', {
       src: `v1/share/${of}/picture.png?width=${preview.width}`,
       alt: '',
       ...preview,
-      // hidden, because the server is busy; the link works nevertheless
+      // the preview is hidden, because the server is busy; the link still works
       onerror: ({ target }) => (target.hidden = true),
     }),
   );
@@ -161,7 +163,7 @@ function fill(card, shared, scene, openTake) {
   copies.focus();
 }
 
-// openTake(): opens the panel of downloads; returns the result of buildSave, or null if the panel cannot be loaded.
+// openTake() opens the panel of downloads. It returns the result of buildSave, or null if the panel cannot be loaded.
 export async function send(scene, openTake) {
   const card = byId('sending'),
     told = el('p', { role: 'status' }, '…');

@@ -1,12 +1,12 @@
-// The panel of downloads: the link, the picture as a file, the scene as JSON and as a command.
+// The panel of downloads: the link; the picture as a file; the scene as JSON and as a command.
 import { byId, paced } from '../base/dom.js';
 import { t, tell } from '../words/i18n.js';
 import * as link from '../base/link.js';
 import { linkedTime } from '../picture/scene.js';
 import { samples } from '../picture/changes.js';
 
-// Values with which the picture is rendered, instead of the scene's own. With the window's shape the picture shows the
-// same part as the window.
+// Values that replace the scene's own when the picture is rendered. If the picture has the shape of the window, it
+// shows the same part of the scene.
 export function picked(scene, size) {
   const choice = byId('save-size').value,
     here = size(),
@@ -49,7 +49,8 @@ export function share(scene, size) {
   async function copy(text, from) {
     const done = byId('copied');
     try {
-      await navigator.clipboard.writeText(text); // works only if the page came over HTTPS or from this machine
+      // the clipboard is available only if the page came over HTTPS or from this computer
+      await navigator.clipboard.writeText(text);
       done.textContent = t('common.copied', 'Copied.');
     } catch {
       from?.select();
@@ -73,11 +74,12 @@ export function share(scene, size) {
     }
   });
   form.addEventListener('change', show);
-  byId('save-size').addEventListener('change', show); // save.js, which has the other sizes, may not be loaded yet
+  // listens here, because save.js, which handles the other sizes, may not be loaded yet
+  byId('save-size').addEventListener('change', show);
   scene.addEventListener('change', paced(show));
   scene.addEventListener('settle', show);
 
-  // "Save picture" is loaded when its section is opened, or at once if a job from before a reload continues.
+  // "Save picture" is loaded when its section is opened. It is loaded at once if a job from before a reload continues.
   const group = byId('take');
   let save = null;
   const loadSave = () =>

@@ -1,14 +1,15 @@
-// The story: sliders in sentences set the picture beside them, and a guess is answered. The text is complete without
-// both.
+// The story. Sliders within sentences change the picture beside the text, and the reader's guess is answered. The text
+// is complete without either.
 const lang = document.documentElement.lang,
-  settled_ms = 150; // a slider must rest for this time before a number is requested
+  settled_ms = 150; // a slider must rest for this time before its number is requested
 
 const number = (value, step) =>
   value
     .toLocaleString(lang, { maximumFractionDigits: step < 0.01 ? 3 : step < 0.1 ? 2 : step < 1 ? 1 : 0 })
     .replace('-', '−');
 
-// Sets one field. Spin and inclination are attributes of the picture; all other fields are in its attribute `scene`.
+// Sets one field. Spin and inclination are attributes of the <kerr-hole> element. All other fields are in its attribute
+// `scene`.
 function set(hole, path, value) {
   if (path === 'spin' || path === 'inclination') return hole.setAttribute(path, value);
   const scene = new URLSearchParams(hole.getAttribute('scene') ?? '');
@@ -16,10 +17,10 @@ function set(hole, path, value) {
   hole.setAttribute('scene', scene);
 }
 
-// Numbers of /v1/physics/kerr that a sentence mentions.
+// Numbers from /v1/physics/kerr that sentences of the story mention.
 const says = { isco: ({ values }) => values.isco };
 async function tell(output, spin) {
-  // shows which spin the number belongs to, so that an answer for an earlier spin is dropped
+  // stores the spin of the request, so that a late answer for another spin is dropped
   output.dataset.spin = spin;
   const answer = await fetch('v1/physics/kerr?spin=' + spin).catch(() => null),
     told = answer?.ok && (await answer.json());
@@ -52,5 +53,5 @@ for (const guess of document.querySelectorAll('.guess')) {
     });
 }
 
-// The pictures and all that moves are loaded after the text.
+// The pictures and everything that moves are loaded after the text.
 import('../kerr-hole.js');

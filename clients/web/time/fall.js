@@ -1,22 +1,23 @@
 // "Fall in": the observer falls freely through the horizon, while the page shows its clock, the redshift of the sky and
 // the size of the shadow. The session moves the observer and sends its clock with each picture. This module sets the
-// rate of the fall, and the observer's place when the slider is moved.
+// rate of the fall. When the slider is moved, it also sets the observer's place.
 import { byId, el, latest, still } from '../base/dom.js';
 import { duration, number, t, tell } from '../words/i18n.js';
 import { holeOf, module, physics } from '../base/server.js';
 
-const begin_r = 20; // radius in M where the fall begins if the camera is at infinity
+const begin_r = 20; // radius in M at which the fall begins if the camera is at infinity
 const wide_deg = 100;
-const fold_s = 3; // seconds of the page's clock in which the proper time left to the end shrinks by about a factor e
-const fold_pictures = 5; // least number of pictures in that time, so that a slow server shows the fall as well
-const fastest = 1e6; // largest rate of the fall, M a second: the server's limit
-const uneven = 0.1; // the pace is sent again when it has changed by more than this, as a logarithm
+const fold_s = 3; // seconds of real time in which the proper time left until the end shrinks by about a factor e
+// minimum number of pictures in that time, so that the fall is visible even if the server is slow
+const fold_pictures = 5;
+const fastest = 1e6; // maximum rate of the fall, M per second: the limit of the server
+const uneven = 0.1; // the rate is sent again when its logarithm has changed by more than this
 
 const numbers = ['infall_from', 'infall_energy', 'infall_momentum'];
 const velocities = ['velocity_r', 'velocity_theta', 'velocity_phi'];
 const pace = 'motion.proper_time_rate',
   rates = ['motion.azimuth_rate_deg', 'motion.time_rate', pace];
-// The fields that a fall changes, and restores at its end.
+// The fields that a fall changes; they are restored at its end.
 const taken = [
   ...['r', 'azimuth_deg', 'observer', 'projection', 'fov_deg', 'yaw_deg', 'pitch_deg', ...numbers, ...velocities].map(
     name => 'camera.' + name,
@@ -30,7 +31,8 @@ const thousandth = x => Math.round(x * 1e3) / 1e3;
 const turn = degrees => thousandth(degrees - 360 * Math.round(degrees / 360));
 const falls = scene => scene.get('camera.r') !== 'infinity' && scene.get('camera.observer') === 'infall';
 
-// Parameters of the fall: those of an observer that already falls, otherwise those from rest at infinity.
+// Parameters of the fall. If the observer already falls, they are its own; otherwise they are those of a fall from rest
+// at infinity.
 function faller(scene) {
   const own = name => [name, scene.get('camera.' + name)];
   return {
@@ -68,7 +70,7 @@ async function showSky(scene, r) {
   return values;
 }
 
-// The changes of the scene with which a fall begins at this radius.
+// The changes of the scene that start a fall at this radius.
 function entering(scene, from) {
   const far = scene.get('camera.r') === 'infinity',
     projection = scene.get('camera.projection');
@@ -85,10 +87,10 @@ function entering(scene, from) {
   };
 }
 
-// The guide of a fall, and its film. fall: { way(), again() }. way() returns the server's answer for the start of the
-// fall; again() starts the fall again.
+// The guide of a fall, and its film. fall has two functions: way() returns the server's answer for the start of the
+// fall, and again() restarts the fall.
 function buildGuiding(scene, box, fault, fall) {
-  // Ends the guide; the fall continues. keep: saves the film recorded so far.
+  // Ends the guide; the fall continues. keep: if true, the film recorded so far is saved.
   function unguide(keep) {
     guide?.end(keep);
     guide = null;
@@ -104,10 +106,10 @@ function buildGuiding(scene, box, fault, fall) {
     ),
     told = el('p', { class: 'help', id: 'fall-film-told', role: 'status' });
   box.append(el('p', { class: 'row' }, guided, ' ', filmed, ' ', got), told);
-  let guide = null, // the captions and the sound of a guided fall (guide.js)
-    guided_s = 0, // the value that replaces fold_s in a guided fall
+  let guide = null, // the guide of this fall: captions and sound (guide.js); null if it is not guided
+    guided_s = 0, // replaces fold_s in a guided fall
     filming = null, // the guide whose film is being recorded
-    asked = 0; // number of times that a guide has been requested
+    asked = 0; // counts the requests for a guide
 
   function showGuide() {
     guided.textContent = guide ? t('fall.end-the-guide', 'End the guide') : t('fall.guide-me-90-s', 'Guide me, 90 s');
@@ -118,13 +120,13 @@ function buildGuiding(scene, box, fault, fall) {
     filmed.hidden = guide !== null && !filming;
   }
 
-  // The film of a guide has been saved, or dropped.
+  // Called when the film of a guide has been saved or dropped.
   function filmEnded(one) {
     if (filming === one) (filming = null), (told.textContent = '');
     guide === one ? unguide(false) : showGuide();
   }
 
-  // Begins the fall anew, with captions and sound.
+  // Restarts the fall with captions and sound.
   async function guideIt(records) {
     tell(fault, '');
     const one = ++asked,
@@ -174,16 +176,17 @@ export function buildFall(scene) {
     'fall-back',
     'fall-fault',
   ].map(byId);
-  let way = null, // the answer of /v1/physics/infall for the start; last: the radius where the fall ends here
+  // the answer of /v1/physics/infall for the start of the fall; last: the radius where the fall ends on this page
+  let way = null,
     before = null,
-    held = false, // true if the scene was held before the fall
-    left = 0, // proper time left to the end, M
+    held = false, // true if the scene was already paused before the fall
+    left = 0, // proper time left until the end, in M
     r = 0, // its radius, M
-    given = 0, // the radius that was set in the scene
-    rate = 0, // the pace that was set in the scene
-    waits = false, // true if the first picture of the fall has not come yet
-    seen = 0, // time of the latest picture of the fall, by performance.now()
-    gap = 0; // seconds between its pictures: a maximum that decays
+    given = 0, // the radius that this module set in the scene last
+    rate = 0, // the rate that this module set in the scene last
+    waits = false, // true until the first picture of the fall has arrived
+    seen = 0, // time of the latest picture of the fall, on the clock of performance.now()
+    gap = 0; // seconds between pictures of the fall: the maximum, which decays slowly
 
   const ended = () => r <= way.last;
 
@@ -196,7 +199,7 @@ export function buildFall(scene) {
   }
 
   const showGuided = () => guiding.shown(r, !scene.held && !ended());
-  // Numbers of the sky depend on the radius alone; all other numbers are shown before them.
+  // The numbers of the sky depend on the radius alone. All other numbers are shown before they arrive.
   const measure = latest(async () => {
     const at_r = r;
     guiding.heard(await showSky(scene, at_r), at_r);
@@ -218,11 +221,12 @@ export function buildFall(scene) {
     showPlay();
     showGuided();
     if (ended()) guiding.over();
-    // the other numbers do not depend on these
+    // not awaited, because the other numbers do not depend on these
     measure().catch(() => ['behind', 'sky', 'disk'].forEach(name => (byId('fall-' + name).textContent = '–')));
   }
 
-  // Sets the pace so that the time left shrinks by the same factor every second; small changes are not sent.
+  // Sets the rate so that the time left shrinks by the same factor every second. Small changes of the rate are not
+  // sent.
   function keepPace() {
     const now = Math.min(fastest, Number((left / Math.max(guiding.fold_s(), fold_pictures * gap)).toPrecision(3)));
     if (Math.abs(Math.log(now / rate)) < uneven) return;
@@ -230,7 +234,7 @@ export function buildFall(scene) {
     scene.change({ [pace]: rate });
   }
 
-  // Puts the observer at a radius of its path. clock: its clock there.
+  // Puts the observer at a radius on its path. clock: the proper time at this radius.
   function put(radius, clock) {
     left = clock.proper_time_to_end;
     r = given = radius;
@@ -296,7 +300,7 @@ export function buildFall(scene) {
     start.hidden = true;
     play.focus();
     scene.hold(still.matches);
-    waits = !scene.held; // a held scene may show that picture already
+    waits = !scene.held; // if the scene is paused, the picture at the start of the fall may already be on the screen
     show(way);
   });
 
@@ -314,7 +318,7 @@ export function buildFall(scene) {
     if (!way) return;
     if (scene.begun('camera.r') === given && scene.get(pace) === rate && falls(scene))
       return (showPlay(), showGuided());
-    stop(); // any other change of the camera ends the fall
+    stop(); // the camera was changed in another way, which ends the fall
     if (rate && scene.get(pace) === rate) scene.change({ [pace]: 0 });
   });
   return {
@@ -322,19 +326,20 @@ export function buildFall(scene) {
     halt: () => way && !scene.held && scene.hold(true),
     shown({ clock, shows }) {
       if (!way || !clock || shows?.camera?.observer !== 'infall') return;
-      // true if the picture is older than the pause
+      // true if the picture was rendered before the pause
       const older = scene.held && Math.abs(clock.r / scene.begun('camera.r') - 1) > 1e-3;
       if (older && waits) where.textContent = phase(clock, way, ended());
       waits = false;
       if (older) return;
       ({ r, proper_time_to_end: left } = clock);
-      given = scene.begun('camera.r'); // the server may have changed it
+      given = scene.begun('camera.r'); // the server may have changed the radius
       show(clock);
       if (scene.held) return;
       const now = performance.now();
       gap = Math.max((now - seen) / 1e3, 0.7 * gap);
       seen = now;
-      ended() ? scene.hold(true) : keepPace(); // from the first picture of the fall on
+      // at the end the scene is paused; until then the rate is adapted after each picture
+      ended() ? scene.hold(true) : keepPace();
     },
   };
 }

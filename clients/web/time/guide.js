@@ -1,26 +1,27 @@
-// A guided fall: captions at radii of the path, a tone with the frequency of starlight from behind, and a film of
-// pictures, captions and tone, which the browser records.
+// A guided fall has captions at certain radii of the path, and a tone with the frequency of starlight from behind. The
+// browser can record a film of pictures, captions and tone.
 import { byId, el } from '../base/dom.js';
 import { number, t } from '../words/i18n.js';
 import { offer } from '../base/job.js';
 import { muted } from './struck.js';
 
-export const seconds = 90; // duration of a guided fall; it is longer if the server makes few pictures a second
-const pitch_hz = 440; // frequency of the tone for an observer far away and at rest
+// duration of a guided fall in seconds; it is longer if the server makes few pictures per second
+export const seconds = 90;
+const pitch_hz = 440; // frequency of the tone for a distant observer at rest
 const loudness = 0.12;
 const glide_s = 0.25;
-const [width, height, rate] = [1280, 720, 30]; // width, height and pictures a second of the film
+const [width, height, rate] = [1280, 720, 30]; // width, height and pictures per second of the film
 const bits = 8e6; // a second
-const last_ms = 3000; // the last caption stays in the film for this time
+const last_ms = 3000; // time for which the last caption stays in the film
 const forms = ['video/webm;codecs=vp9,opus', 'video/webm;codecs=vp8,opus', 'video/mp4'];
-const events = ['visibilitychange', 'viewchange']; // events after which the view may be hidden
+const events = ['visibilitychange', 'viewchange']; // events after which the view may be hidden, or visible again
 
 const form = globalThis.MediaRecorder && forms.find(name => MediaRecorder.isTypeSupported(name));
 export const films = Boolean(form) && Boolean(HTMLCanvasElement.prototype.captureStream);
 
-// The captions, the outermost first, each with the radius below which it is shown. A caption is a text, or a function
-// that makes the text from the fraction of the sky that is black. hole: values of the quantity kerr. way: values of
-// the quantity infall at the start of the fall.
+// The captions, outermost first. Each has the radius below which it is shown. A caption is a text, or a function that
+// makes the text from the fraction of the sky that is black. hole: values of the quantity kerr. way: values of the
+// quantity infall at the start of the fall.
 export function captions({ horizon, ...hole }, { r, end }) {
   const inner = end > 0,
     isco = Math.min(hole.isco, hole.isco_retrograde),
@@ -115,7 +116,7 @@ function tone() {
   };
 }
 
-// A text in lines that fit.
+// Breaks a text into lines that fit.
 function lines(context, text, room) {
   const all = [''];
   for (const word of text.split(' ')) {
@@ -125,7 +126,7 @@ function lines(context, text, room) {
   return all;
 }
 
-// Draws the picture that is shown, over all of the canvas, and the caption.
+// Draws the present picture, scaled to fill the canvas, and the caption.
 function draw(context, text) {
   const moving = byId('moving'),
     picture = moving && !moving.hidden ? moving : byId('picture'),
@@ -143,8 +144,8 @@ function draw(context, text) {
     });
 }
 
-// got: the link by which the file can be saved again. Returns stop(), which saves the film, and drop(), which discards
-// it.
+// got: the link with which the user can save the file again. Returns two functions: stop(), which saves the film, and
+// drop(), which discards it.
 function film(text, sound, got, ended) {
   const canvas = el('canvas', { width, height }),
     context = canvas.getContext('2d', { alpha: false }),
@@ -171,17 +172,18 @@ function film(text, sound, got, ended) {
   };
 }
 
-// hole, way: as for captions(). records: also makes a film; got: the link to it; ended() is called when it is saved.
-// Returns shown(r, runs), to be called with the radius of each picture and whether it falls; heard(sky, r), with
-// values of the quantity sky at a radius, looking back; over(), at the end of the fall; end(), when the fall is left.
+// hole, way: as for captions(). records: if true, a film is recorded. got: the link to the film. ended() is called when
+// the film is saved. Returns four functions: shown(r, runs), to be called with the radius of each picture and whether
+// the observer falls; heard(sky, r), with values of the quantity sky at the radius r, for the direction looking back;
+// over(), at the end of the fall; end(), when the user leaves the fall.
 export function begin({ hole, way, records, got, ended }) {
   const all = captions(hole, way),
     words = el('p', { id: 'fall-caption', role: 'status' }),
     sound = tone();
   let timer = 0,
     kept = null,
-    here = null, // the caption of the newest picture
-    told = null; // the caption that is shown; its text does not change, because screen readers read each change
+    here = null, // the caption that belongs to the newest picture
+    told = null; // the caption on the screen; its text stays the same, because screen readers announce each change
 
   const captionAt = r => all.findLast(([below]) => r <= below)[1];
   function say(black) {
@@ -221,7 +223,7 @@ export function begin({ hole, way, records, got, ended }) {
       sound.loud(false);
       if (kept) timer ||= setTimeout(kept.stop, last_ms);
     },
-    // keep: what has been recorded is saved
+    // keep: if true, the film recorded so far is saved
     end(keep) {
       keep ? kept?.stop() : kept?.drop();
       close();

@@ -1,13 +1,13 @@
-// Light curve, centroid track and polarisation of the whole picture and of the emitter with separate photometry, from
-// the session's events, one for each frame.
+// Charts of the light curve, of the centroid's track and of the polarisation, for the whole picture and for the emitter
+// with separate photometry. The values come from the session's events, one for each frame.
 import { byId, el } from '../base/dom.js';
 import { said, t } from '../words/i18n.js';
 import { apart } from './living.js';
 import { plot } from '../base/plot.js';
 import { drawing, drawTrack } from './track.js';
 
-const kept = 1500; // number of points; 20 to 45 arrive a second
-const pace_ms = 200; // least time between two drawings
+const kept = 1500; // maximum number of points that are kept; 20 to 45 arrive per second
+const pace_ms = 200; // minimum time between two drawings
 
 const far = scene => scene.get('camera.r') === 'infinity';
 
@@ -115,12 +115,12 @@ export function buildLight(root, scene) {
     loop.figure.hidden ||= !light?.stokes;
     none.hidden = Boolean(light);
     if (!light) return;
-    // a strike does not make another scene
+    // striking the hole does not count as a change of the scene
     const now = JSON.stringify({ ...scene.document(), time: 0, motion: 0, style: 0 });
     const against = (time - points.at(-1)?.time) * scene.get('motion.time_rate') < 0;
-    if (now !== kind || against) points = []; // another scene, or time has been set back
+    if (now !== kind || against) points = []; // the scene has changed, or time was set back: the points are discarded
     kind = now;
-    if (time === points.at(-1)?.time) points.pop(); // the same moment in a finer picture replaces the coarse one
+    if (time === points.at(-1)?.time) points.pop(); // the finer picture of the same moment replaces the coarse one
     const { flux, spots, stokes } = light;
     points = [
       ...points.slice(1 - kept),
@@ -136,7 +136,7 @@ export function buildLight(root, scene) {
     timer ||= setTimeout(draw, pace_ms);
   }
 
-  // An event stream counts as a viewer of the session, so it is open only while the view is visible.
+  // An event stream counts as a viewer of the session, so it is open only while this view is visible.
   return function follow(to, wanted) {
     wanted &&= !document.hidden && !byId('lensing').hidden;
     if (stream && (!wanted || to !== address)) stream = stream.close() ?? null;

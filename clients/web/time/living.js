@@ -1,16 +1,16 @@
-// Controls for everything that moves: play and pause, the clock, the buttons that set fields, another seed, and the
-// struck hole. The session computes the motion.
+// Controls of everything that moves: play and pause, the clock, the buttons that set fields, another seed, and striking
+// the hole. The session computes the motion.
 import { byId, el, latest } from '../base/dom.js';
 import { duration, number, t, tell } from '../words/i18n.js';
 import { meansSomething } from '../controls/known.js';
 import { physics } from '../base/server.js';
 
-const usual_rate = 8; // rate of time in M a second, unless another one was chosen
+const usual_rate = 8; // rate of time in M per second, if the user has not chosen another rate
 
-// Properties of a scene that the server states: whether it has an emitter with separate photometry; whether it has
-// light of higher image orders, which can ring; and whether another time or azimuth would change the picture.
+// Properties of a scene, according to the server: whether an emitter has separate photometry; whether light of higher
+// image orders exists, which can ring; and whether another time or azimuth would change the picture.
 export const apart = scene => scene.emitters.find(emitter => emitter.apart);
-// The modes of a ringdown are known for uncharged holes only.
+// The modes of a ringdown are known for holes without charge only.
 const canRing = scene =>
   scene.get('accuracy.orders') > 1 &&
   !scene.get('spacetime.charge') &&
@@ -18,12 +18,12 @@ const canRing = scene =>
 const showsTime = scene => scene.varies.some(word => word.endsWith('_time'));
 const showsAzimuth = scene => scene.varies.includes('moves_with_azimuth');
 
-// Fields that have a button; of a list, those of its first element.
+// Fields that have a button. In a list, only the fields of the first element have one.
 const withButton = scene => [...scene.fields.values()].filter(({ button, path }) => button && !/\.[1-9]/.test(path));
 const seeds = scene => [...scene.fields.keys()].filter(path => path.endsWith('.seed') && meansSomething(scene, path));
 
-// A button sets its field; pressed again, it resets the field. If time has no rate, setting the field also gives it
-// one.
+// A button that sets its field; pressed again, it resets the field. If time has no rate yet, the button also starts
+// time.
 function buildButton(scene, { path, button, type, default: usual }, rate) {
   const isOn = () => (type === 'choice' ? scene.get(path) === button.value : scene.get(path) !== usual);
   const node = el('button', {
@@ -42,15 +42,15 @@ function buildButton(scene, { path, button, type, default: usual }, rate) {
 export function buildLiving(stage, scene, source) {
   const [play, clock, seed, strike] = ['play', 'clock', 'new-seed', 'strike'].map(byId),
     fault = byId('strike-fault');
-  let second = 0; // one M of time in seconds, for the hole's mass
+  let second = 0; // 1 M of time in seconds, for the mass of this hole
 
-  // the observer moves by its own proper time, which determines time and azimuth
+  // true if the observer moves by its own proper time, which then determines time and azimuth
   const goesItself = () => scene.get('motion.proper_time_rate') !== 0;
   const moves = () =>
     goesItself() || showsTime(scene) || (showsAzimuth(scene) && scene.get('motion.azimuth_rate_deg') !== 0);
   const rate = () => (goesItself() ? {} : { 'motion.time_rate': scene.get('motion.time_rate') || usual_rate });
   const buttons = withButton(scene)
-    .reverse() // each button is put before the existing ones
+    .reverse() // reversed, because each button is put before those that exist already
     .map(field => buildButton(scene, field, rate));
 
   function toggle() {
@@ -87,7 +87,7 @@ export function buildLiving(stage, scene, source) {
     for (const id of ['hear', 'wave']) byId(id).hidden = !(canRing(scene) && scene.get('style.ringdown') > 0);
     if (byId('hear').hidden) byId('heard').textContent = '';
     fault.textContent = '';
-    if (showsTime(scene)) weigh().catch(() => {}); // if the request fails, the clock shows no seconds
+    if (showsTime(scene)) weigh().catch(() => {}); // if the request fails, the clock shows M only, without seconds
     tell_time();
   }
 
@@ -95,7 +95,7 @@ export function buildLiving(stage, scene, source) {
   seed.addEventListener('click', () =>
     scene.change(Object.fromEntries(seeds(scene).map(path => [path, Math.floor(Math.random() * 1000) + 1]))),
   );
-  // The hole rings only while time runs.
+  // A struck hole rings only while time runs.
   strike.addEventListener('click', () => {
     if (!goesItself() && scene.get('motion.time_rate') <= 0) scene.change({ 'motion.time_rate': usual_rate });
     if (scene.held) scene.hold(false);

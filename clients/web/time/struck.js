@@ -6,7 +6,7 @@ import { physics } from '../base/server.js';
 
 const key = 'kerrd.sound';
 
-// The setting in localStorage; if storage is blocked, it is not muted.
+// Whether the sound is muted, stored in localStorage. If the browser blocks the storage, the sound is on.
 export function muted(to) {
   try {
     if (to !== undefined) localStorage.setItem(key, to ? 'off' : 'on');
@@ -17,7 +17,7 @@ export function muted(to) {
 }
 
 export function buildStruck(scene, goTo) {
-  // The hole itself rings about its own axis, whatever the sense of the disk's rotation.
+  // Parameters of the hole itself: it rings about its own axis, whichever way the disk rotates.
   const hole = () => ({
       spin: Number(Math.abs(scene.get('spacetime.spin')).toFixed(4)),
       mass_msun: scene.get('spacetime.mass_msun'),

@@ -1,13 +1,15 @@
-// Points in a plane, drawn to scale as they arrive, with the axes through 0 and a scale bar; older parts are fainter.
+// Draws points in a plane to scale, as they arrive, with the axes through 0 and a scale bar. Older parts of the track
+// are fainter.
 import { el, svg } from '../base/dom.js';
 import { number } from '../words/i18n.js';
 import { numbers } from '../base/numbers.js';
 
 const parts = 5; // number of parts of a track, each with its own opacity
-const edge = 94; // largest distance from the middle, of 100
+const edge = 94; // largest distance of a point from the middle, in units of the picture, which is 200 wide
 
-// One cubic for each section. Its slope at each point is along the chord of the point's neighbours (E. Catmull & R. Rom
-// 1974), with a third of the section's length, because points come at uneven times.
+// Draws one cubic for each section between two points. At each point its slope is that of the chord between the two
+// neighbours (E. Catmull & R. Rom 1974). The slope is scaled to a third of the section's length, because points come at
+// uneven times.
 function curve(track, from, to) {
   const at = i => track[Math.min(Math.max(i, 0), track.length - 1)],
     text = ([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`,
@@ -24,8 +26,8 @@ function curve(track, from, to) {
   return path;
 }
 
-// names: of the axes, if they are to be labelled; field: the angle of a direction that is drawn through the last point,
-// counted from upwards to the left, radians.
+// names: labels of the axes, if they are to be labelled. field: angle in radians of a direction that is drawn through
+// the last point; it is counted from upwards to the left.
 export function drawTrack(picture, points, unit, names = [], field = null) {
   const seen = points.filter(([x, y]) => x != null && y != null),
     reach = 1.25 * Math.max(...seen.flat().map(Math.abs), 1e-6),
@@ -58,7 +60,7 @@ export function drawTrack(picture, points, unit, names = [], field = null) {
   );
 }
 
-// Makes an empty figure for drawTrack: caption, picture, note and list of numbers.
+// Makes an empty figure for drawTrack, with a caption, a picture, a note and a list of numbers.
 export function drawing(id, note) {
   const picture = svg('svg', { class: 'rosette', viewBox: '-100 -100 200 200', role: 'img', 'aria-labelledby': id }),
     list = numbers(id);

@@ -1,7 +1,7 @@
 import { t } from './language.js';
 
-// The caption of each preset, three short lines on its card. The server's titles have more
-// detail, for authors of scenes.
+// The caption of each preset: three short lines on its card. The server's titles have more detail, for authors of
+// scenes.
 const captions = {
   smooth: t('captions.no-turbulence-the-light', 'No turbulence: the light of theory alone, as Page and Thorne have it'),
   schwarzschild: t('captions.a-hole-that-does', 'A hole that does not spin, its disk from 10° above'),

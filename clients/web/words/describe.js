@@ -1,4 +1,4 @@
-// Descriptions of the shown view, for the page's title and for screen readers.
+// Descriptions of the current view, for the page's title and for screen readers.
 import { byId, paced } from '../base/dom.js';
 import { number, said, t } from './i18n.js';
 
@@ -9,9 +9,9 @@ const views = {
   playground: t('common.throw', 'Throw'),
   scale: t('common.real-size', 'Real size'),
 };
-const seen = {}; // functions that describe a view, by the view's name
+const seen = {}; // for each view, by name, the function that describes it
 
-// Sets the description of a view; the page's title contains it while the view is open.
+// Sets the description of a view. While this view is open, the page's title contains the description.
 export function entitle(view, what) {
   if (what != null) seen[view] = what;
   const title = `${views[view]}${seen[view] ? `: ${seen[view]}` : ''} – kerrd`;
@@ -43,14 +43,14 @@ function whence(scene) {
   return t('describe.seen-from-m-across', 'seen from {0} M, {1}° across', number(r), wide);
 }
 
-// The emitters come from the server.
+// describes the emitters that the server has stated
 export function describe(scene) {
   const hole = t('describe.a-black-hole', 'A black hole, {0}, {1}.', nameOf(scene), whence(scene)),
     told = scene.emitters.filter(({ sentence }) => sentence).map(({ sentence }) => said(sentence).text);
   return [hole, ...told].join(' ');
 }
 
-// Keeps the title and the alternative texts up to date with the scene.
+// Updates the title and the alternative texts when the scene changes.
 export function followScene(scene) {
   function follow() {
     entitle('lensing', nameOf(scene));

@@ -1,4 +1,4 @@
-// The text under each curve, and its derivation, which is folded.
+// The text under each curve, and its derivation, which is folded at first.
 import { t } from './language.js';
 
 export const explained = {

@@ -1,18 +1,19 @@
-// The page's language for numbers, units, names of fields and choices, and sentences of the server (language.js).
+// Formats and translates for the page's language (language.js): numbers, units, names of fields and choices, and the
+// server's sentences.
 import { lang, locale, t } from './language.js';
 
 export { lang, t };
 const server = locale && (await import('./server.js'));
 
-// WebKit under LANG=C reports the language "c", which Intl refuses: uPlot would throw while it is loaded.
+// WebKit under LANG=C reports the language "c". Intl refuses it, so that loading uPlot would throw an exception.
 try {
   new Intl.NumberFormat(navigator.language);
 } catch {
   Object.defineProperty(navigator, 'language', { value: lang });
 }
 
-// A sentence of the server, and its name if it has one. It is translated if a translation exists; otherwise it is
-// marked as English for screen readers.
+// A sentence of the server in the page's language. name: the name of the sentence, if it has one. If there is no
+// translation, the sentence is marked as English for screen readers.
 export function said(text, name) {
   const known = locale && text && (locale.server[name] ?? server.translated(text, locale.server));
   return { text: known || text, lang: known || !locale || !text ? null : 'en' };
@@ -48,7 +49,7 @@ export function unit(name) {
   return locale?.units[name] ?? abbreviations[name] ?? name ?? '';
 }
 
-// Labels of fields whose names are too short to be labels.
+// Labels of fields whose own names are too short to serve as labels.
 const labels = {
   'spacetime.distance_pc': 'Distance from Earth',
   'camera.r': 'Distance',
@@ -116,10 +117,10 @@ function labelOf(path) {
   );
 }
 
-// The English label of a field, whatever the page's language.
+// The English label of a field, in every language of the page.
 export const english = path => labels[path] ?? labels[path.split('.').pop()] ?? spell(path.split('.').pop());
 
-// In a help text, replaces paths of fields by their labels, and drops references to files.
+// Replaces the paths of fields in a help text by their labels, and removes references to files.
 const inside =
   /\b(?:spacetime|camera|disk|sky|image|style|accuracy|motion|spots|bodies|volume|jets|polarization)(?:\.[a-z_]+)+/g;
 export const readable = help =>
@@ -128,15 +129,15 @@ export const readable = help =>
     .replace(/docs\/[\w./-]+\w/g, t('i18n.the-documentation', 'the documentation'))
     .replace(inside, path => t('i18n.quoted', '“{0}”', labelOf(path)));
 
-// Label and help of a field of the scene or of a parameter, from its path and the server's English help.
+// Label and help of a field of the scene or of a parameter. They are made from its path and the server's English help.
 export function named(path, help) {
-  path = path.replace(/\.\d+\./, '.'); // all elements of a list have the same fields
+  path = path.replace(/\.\d+\./, '.'); // the index is removed, because all elements of a list have the same fields
   const own = locale?.fields[path]?.[1],
     told = own ? { help: own } : helpOf(help);
   return { ...told, label: labelOf(path), help: readable(told.help) };
 }
 
-// A help text of the server, as a sentence.
+// Turns a help text of the server into a sentence.
 export function helpOf(help) {
   const { text, lang: marked } = said(help ?? '');
   return { help: text && text[0].toUpperCase() + text.slice(1), helpLang: marked };
@@ -145,12 +146,12 @@ export function helpOf(help) {
 export const section = (name, help) =>
   locale?.fields[name]?.[0] ?? labels[name] ?? spell(help.length < 12 ? help : name);
 export const element = (list, index) => `${locale?.fields[list]?.[0] ?? labels[list] ?? spell(list)} ${index + 1}`;
-// Word and sentence of a nature of fields.
+// Name and description of a category of fields (physics, model or look).
 export function nature(name, help) {
   const [word, text] = locale?.natures[name] ?? [];
   return { word: word ?? name, text: text ?? helpOf(help).help, lang: locale && !text ? 'en' : null };
 }
-// Labels of choices for which the choice's own word is not clear enough.
+// Labels of choices whose own word would not be clear.
 const choices = {
   static: 'at rest',
   zamo: 'zero angular momentum (ZAMO)',
@@ -210,16 +211,16 @@ const choices = {
   'volume.model torus': 'torus in equilibrium',
   'volume.model uniform': 'uniform shell',
 };
-// The label of a choice. Some labels depend on the field, which path names.
+// The label of a choice. Some labels depend on the field; path is the field's path.
 export const word = (value, path) =>
   locale?.values[`${path} ${value}`] ?? choices[`${path} ${value}`] ?? locale?.values[value] ?? choices[value] ?? value;
-// The title of a preset of the playground; captions.js has the titles of presets of scenes.
+// The title of a preset of the playground. (The titles of scene presets are in captions.js.)
 export const preset = (name, title) => locale?.playgrounds[name] ?? title;
 export const label = (name, text) => locale?.presets[name] ?? text;
 
 const raised = text => [...text].map(c => (c === '-' ? '⁻' : '⁰¹²³⁴⁵⁶⁷⁸⁹'[c])).join('');
 
-// Formats are cached: making one takes a hundred times as long as using it.
+// Formats are cached, because making one takes a hundred times as long as using it.
 const formats = new Map();
 function shown(v, most, grouped) {
   const key = `${most} ${grouped}`;
@@ -228,7 +229,7 @@ function shown(v, most, grouped) {
   return formats.get(key).format(v).replace('-', '−');
 }
 
-// Formats a number: 0.0123, 12 300, 1.6 × 10⁻⁷.
+// Formats a number, for example 0.0123, 12 300 or 1.6 × 10⁻⁷.
 export function number(x, digits = 4) {
   if (x == null || Number.isNaN(x)) return '–';
   if (!Number.isFinite(x)) return x > 0 ? '∞' : '−∞';
@@ -251,13 +252,14 @@ const spans = [
   [0, 'µs'],
 ];
 
-// A duration in a suitable unit.
+// Formats a duration in a suitable unit.
 export function duration(seconds) {
   const [length, name] = spans.find(([least]) => Math.abs(seconds) >= least);
   return `${number(seconds / (length || 1e-6), 3)} ${name}`;
 }
 
-// Texts of index.html have their identifiers as data-t, labels as data-t-label. The English stays in data-en.
+// Translates index.html. Its elements have the identifier of their text in data-t, and that of their label in
+// data-t-label. The English text is kept in data-en.
 export function translatePage() {
   document.documentElement.lang = lang;
   if (!locale) return;

@@ -6,7 +6,7 @@ import * as link from '../base/link.js';
 
 export const languages = { en: 'English', it: 'Italiano', de: 'Deutsch' };
 
-// The first of these languages that the page has, or English.
+// The first of these languages that the page supports, or English.
 const known = wanted =>
   wanted.map(name => name?.slice(0, 2).toLowerCase()).find(name => Object.hasOwn(languages, name)) ?? 'en';
 
@@ -16,8 +16,8 @@ const wanted = known([
   ...(navigator.languages ?? [navigator.language]),
 ]);
 
-// All words that this page needs, in a language other than English; a page may name a smaller file of its own. Null for
-// English, and if the file cannot be loaded.
+// All texts that this page needs, in a language other than English. A page may name a smaller file with only its own
+// texts. Returns null for English, or if the file cannot be loaded.
 async function words(name) {
   if (name === 'en') return null;
   const file = `locale/${document.documentElement.dataset.locale ?? ''}${name}.json`;
@@ -31,7 +31,7 @@ async function words(name) {
   }
 }
 
-// The function t of a language.
+// Makes the function t of a language.
 const speaker =
   locale =>
   (id, english, ...values) => {
@@ -43,7 +43,7 @@ export const locale = await words(wanted);
 export const lang = locale ? wanted : 'en';
 export const t = speaker(locale);
 
-// The function t of any language; throws if the page does not have it.
+// Returns the function t of any language. Throws an error if the page does not support the language.
 const spoken = { [lang]: t };
 export async function speak(name) {
   if (!Object.hasOwn(languages, name)) throw new Error(`there is no language ${name}`);

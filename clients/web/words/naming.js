@@ -1,8 +1,8 @@
-// Places the names of lines over the picture. Each stands at a point of its line that is in the window and far from the
-// other names.
+// Places the names of lines over the picture. Each name stands at a point of its line that is inside the window and far
+// from other names.
 import { svg } from '../base/dom.js';
 
-const places = 40; // number of points of a line that are tried
+const places = 40; // number of points of a line that are tried as places for its name
 const margin = { x: 8, y: 20, bottom: 40 };
 const letter = 7; // approximate width of a letter, pixels
 
@@ -14,13 +14,13 @@ function candidates(path, width, height, wide) {
   );
 }
 
-// The free space at a point: the distance to other names, and to the middle, where most lines cross.
+// The free space round a point: the distance to other names, and to the middle of the picture, where most lines cross.
 function room({ x, y }, taken, width, height) {
   const off = Math.hypot((x - width / 2) / width, (y - height / 2) / height);
   return Math.min(...taken.map(([tx, ty]) => Math.hypot((x - tx) / 4, y - ty)), 60) + 40 * off;
 }
 
-// groups: [{ node, tags }], one tag for each of the first paths of the node.
+// groups: [{ node, tags }]. The tags are the names of the node's first paths, in the same order.
 export function nameLines(groups, width, height) {
   const taken = [];
   for (const { node, tags } of groups) {

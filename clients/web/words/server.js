@@ -1,5 +1,5 @@
-// Sentences of the server that have no name in its answers. (Approximations have names.) Each has an identifier here,
-// under which locale/LANGUAGE.json has its translation. This module is loaded for languages other than English.
+// Sentences of the server that have no name in its answers. (Approximations have names.) Each gets an identifier here,
+// under which locale/LANGUAGE.json has its translation. This module is loaded only for languages other than English.
 const sentences = {
   'said.thin-disk': 'thin disk',
   'said.thick-disk': 'thick disk',
@@ -136,8 +136,8 @@ const sentences = {
     "Debris starts with a flat distribution of energies, and moves in the hole's potential alone.",
 };
 
-// Refusals, and descriptions of what is seen: {} stands for a value with its unit, {…} for a list, {?} for a remark on
-// the value's kind. The first pattern that fits counts.
+// Patterns of error messages and of descriptions of what is seen. {} stands for a value with its unit, {…} for a list,
+// and {?} for a remark on the type of the value. The first pattern that matches is used.
 const patterns = [
   [
     'refusal.names-an-asset-of-this-server-which',
@@ -404,7 +404,7 @@ const patterns = [
   ['seen.the-loss-to-gravitational-waves-is-exaggerated', 'The loss to gravitational waves is exaggerated {} times.'],
 ];
 
-// Units and remarks within the values of a pattern.
+// Units and remarks that occur within the values of a pattern.
 const amounts = {
   'amount.a-string-where-a-number-is-needed': ', a string where a number is needed',
   'amount.where-a-number-is-needed': ' where a number is needed',
@@ -428,7 +428,7 @@ const amounts = {
 };
 
 const named = new Map(Object.entries(amounts).map(([id, english]) => [english, id]));
-// Whole words only, and none within quotes or a dotted name: "orbits" and image.bits are not matched by "bits".
+// Matches whole words only, and none within quotes or a dotted name: "bits" matches neither "orbits" nor image.bits.
 const whole = english => `${/^\w/.test(english) ? '(?<![\\w./-])' : ''}${english}(?![\\w/-]|\\.\\w)`,
   measured = new RegExp(['"[^"]*"', ...[...named.keys()].map(whole)].join('|'), 'g');
 
@@ -449,7 +449,7 @@ const shapes = patterns.map(([id, english]) => [id, shape(english)]),
   strips = '; strips might fit, but ',
   ranges = /, or a range first:last:count of (\d+) to (\d+) such values$/;
 
-// The sentence in the words of a locale, or undefined if it is not known.
+// Translates the sentence with the words of a locale. Returns undefined if the sentence is not known.
 export function translated(text, words) {
   if (exact.has(text)) return words[exact.get(text)];
   const fill = (id, values) => words[id]?.replace(/\{(\d)\}/g, (_, i) => values[i]);

@@ -1,4 +1,4 @@
-/* Writes completions for bash: tables of words for the functions of completion.bash. */
+/* Writes completions for bash: tables of words, which the functions of completion.bash use. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"
@@ -26,8 +26,8 @@ static void write_options(struct kd_writer *w, const struct kd_context *context)
     kd_write(w, "' ;;\n");
 }
 
-/* Writes the kinds of arguments. "optional" before a kind marks an option whose argument can only be given after
- * "=". */
+/* Writes the kind of each option's argument. The word "optional" before a kind means that the argument can only be
+ * given after "=". */
 static void write_arguments(struct kd_writer *w, const struct kd_context *context)
 {
     const enum kd_argument positional = kd_argument_positional(context->argp->args_doc);

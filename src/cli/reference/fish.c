@@ -1,4 +1,4 @@
-/* Writes completions for fish: one line for each option, and tables for the functions of completion.fish. */
+/* Writes completions for fish: one line for each option, and tables that the functions of completion.fish use. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"
@@ -11,7 +11,7 @@ static void write_text(struct kd_writer *w, const char *text)
         kd_write(w, *text == '\'' || *text == '\\' ? "\\%c" : "%c", *text);
 }
 
-/* Writes the completion of an argument: " -x -a 'json csv'". */
+/* Writes how fish completes an argument, for example " -x -a 'json csv'". */
 static void write_action(struct kd_writer *w, enum kd_argument takes, const char *argument, bool optional)
 {
     static const char *const actions[KD_ARGUMENT_KINDS] = {

@@ -1,4 +1,4 @@
-/* Program that prints completions, manual pages and docs/options.md, made from the option tables. */
+/* A program that prints completions, manual pages and docs/options.md from the option tables. */
 #include "cli/file.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/manual.h"

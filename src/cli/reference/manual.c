@@ -64,7 +64,7 @@ static void write_name(struct kd_writer *w, const char *prefix, const char *name
     write_text(w, name);
 }
 
-/* Writes .TP and the option, "-o, --output=FILE", in the usual fonts. */
+/* Writes .TP and then the option in the usual fonts, as in "-o, --output=FILE". */
 static void write_option(struct kd_writer *w, const struct kd_option *o)
 {
     const char *gap = "";
@@ -116,7 +116,7 @@ static bool has_word(const char *words, const char *word)
     return false;
 }
 
-/* Writes the environment variables that belong to options in one entry, because the text of each option explains its
+/* Writes one entry for all environment variables that correspond to options. The text of each option explains its
  * variable. */
 static void write_settings(struct kd_writer *w)
 {
@@ -160,7 +160,7 @@ static void write_examples(struct kd_writer *w, const char *command)
         if (command && strcmp(kd_examples[i].command, command))
             continue;
         if (!command && i && !strcmp(kd_examples[i].command, kd_examples[i - 1].command))
-            /* only the first example of a command has a heading, so the output for further examples ends here */
+            /* only the first example of a command gets the heading that follows */
             continue;
         kd_write(w, any ? ".PP\n" : ".SH EXAMPLES\n");
         write_text(w, kd_examples[i].says);
@@ -180,7 +180,7 @@ static void write_exit_status(struct kd_writer *w)
                 "and its JSON pointer if there is one.\n");
 }
 
-/* True if a text of the page mentions `kerrd NAME`. */
+/* True if one of the page's texts mentions `kerrd NAME`. */
 static bool names(const struct kd_context *context, const char *name)
 {
     char text[80];
@@ -194,7 +194,7 @@ static bool names(const struct kd_context *context, const char *name)
     return false;
 }
 
-/* Writes SEE ALSO. The program's page names all commands. The page of a command names the commands that it mentions. */
+/* Writes SEE ALSO. kerrd's own page lists all commands. The page of a command lists the commands that it mentions. */
 static void write_see_also(struct kd_writer *w, const struct kd_context *context)
 {
     const char *gap = context ? ",\n" : "";

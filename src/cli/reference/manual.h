@@ -8,11 +8,11 @@
 
 #include <stdbool.h>
 
-/* Writes the page of a subcommand; command NULL: that of kerrd itself. The date on it is SOURCE_DATE_EPOCH, or else
- * today. Returns false if there is no such command. */
+/* Writes the manual page of a subcommand, or of kerrd itself if command is NULL. The date on the page is
+ * SOURCE_DATE_EPOCH, or today if that is not set. Returns false if there is no such command. */
 bool kd_manual_page(struct kd_writer *w, const char *command);
 
-/* Examples and environment variables, which pages contain besides the option tables. tests/cli/manual.py runs the
+/* Examples and environment variables, which are in the pages besides the option tables. tests/cli/manual.py runs the
  * examples in this order, in a folder that is empty at first. */
 struct kd_example {
     const char *command; /* the command whose page shows the example */
@@ -24,7 +24,8 @@ extern const size_t kd_n_examples;
 
 struct kd_variable {
     const char *name;
-    /* commands that read the variable, such as "sweep serve"; NULL: all commands that have --device */
+    /* commands that read the variable, separated by blanks, as in "sweep serve"; NULL: all commands with the option
+     * --device */
     const char *commands;
     const char *says;
 };

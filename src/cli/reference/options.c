@@ -19,8 +19,7 @@ static const struct argp_option built_in[] = {
 static bool is_end(const struct argp_option *o) { return !o->name && !o->key && !o->doc && !o->group; }
 static char letter_of(const struct argp_option *o) { return o->key > ' ' && o->key <= '~' ? (char)o->key : 0; }
 
-/* If two options have the same letter, the letter belongs to the option that argp finds first, which is the
- * parent's. */
+/* If two options claim the same letter, argp gives it to the option that it finds first: the parent's. */
 static char free_letter(const struct kd_options *out, const struct argp_option *o)
 {
     for (size_t i = 0; i < out->n; i++)
@@ -41,8 +40,8 @@ static bool add_alias(struct kd_options *out, const struct argp_option *o)
     return true;
 }
 
-/* Appends an option and updates *group by argp's rule: group 0 means the group of the option before, and a heading
- * begins the next group. */
+/* Appends an option and updates *group by argp's rules: group 0 means the group of the previous option, and a
+ * heading starts the next group. */
 static bool add(struct kd_options *out, const struct argp_option *o, int *group)
 {
     const bool heading = !o->name && !letter_of(o);
@@ -88,7 +87,7 @@ static bool add_all(const struct argp *argp, struct kd_options *out)
     return true;
 }
 
-/* Rank of a group in argp's order: 0, 1, 2, ..., then the negative ones, of which -1 is last. */
+/* Position of a group in argp's order: 0, 1, 2, ..., then the negative numbers, with -1 at the very end. */
 static long rank(int group) { return group < 0 ? 2L * INT_MAX + 2 + group : group; }
 
 static void sort(struct kd_options *options)

@@ -11,7 +11,7 @@ static void write_cell(struct kd_writer *w, const char *text)
         kd_write(w, *text == '|' || *text == '<' ? "\\%c" : "%c", *text);
 }
 
-/* Writes the values that a member of the file may have. */
+/* Writes the values that a member of the configuration file may have. */
 static void write_values(struct kd_writer *w, const struct kd_cli_setting *setting)
 {
     switch (setting->kind) {

@@ -15,7 +15,7 @@ const char *const kd_argument_names[KD_ARGUMENT_KINDS] = {
     "device",  "preset",   "field", "axis",   "playground", "setting", "quantity",
 };
 
-/* Placeholders, such as DIR or PRESET, and the kind of value that each takes. */
+/* Placeholders such as DIR or PRESET, each with the kind of value that it stands for. */
 static const struct {
     const char *argument;
     enum kd_argument takes;
@@ -43,7 +43,7 @@ static bool is_placeholder(const char *text, size_t length)
     return capital;
 }
 
-/* True if the text is like FILE, FILE.csv or SCENE.json: capitals followed by an extension. Only FILE may have no
+/* True if the text is like FILE, FILE.csv or SCENE.json: capitals and an extension. Only FILE may lack the
  * extension. */
 static bool is_file(const char *text, size_t length)
 {
@@ -108,7 +108,7 @@ void kd_argument_words(enum kd_argument takes, const char *argument, struct kd_w
     }
 }
 
-/* Writes the words of a field as "a|b|c". A word that stands for words with a number, such as name_N, is written
+/* Writes the words of a field as "a|b|c". A word such as name_N, which may be followed by a number, is written
  * without "_N". */
 static void words_of(const struct kd_row *field, char *out, size_t size)
 {

@@ -1,20 +1,20 @@
-/* Writes completions for zsh: the arguments that _arguments takes for each command, and tables for the functions of
- * completion.zsh. */
+/* Writes completions for zsh: for each command the arguments of _arguments, and tables that the functions of
+ * completion.zsh use. */
 #include "cli/commands.h"
 #include "cli/reference/completions.h"
 #include "cli/reference/options.h"
 
 #include <string.h>
 
-/* Writes text that will be in single quotes, with a backslash before each of the `special` characters. */
+/* Writes text for use within single quotes. Puts a backslash before each of the `special` characters. */
 static void write_text(struct kd_writer *w, const char *text, const char *special)
 {
     for (; *text; text++)
         kd_write(w, *text == '\'' ? "'\\''" : strchr(special, *text) ? "\\%c" : "%c", *text);
 }
 
-/* Writes ":ARGUMENT:ACTION" for _arguments. If an action begins with a space, zsh calls it unchanged, without options
- * of compadd. */
+/* Writes ":ARGUMENT:ACTION" for _arguments. An action that begins with a space is called by zsh as it stands,
+ * without the options of compadd. */
 static void write_action(struct kd_writer *w, enum kd_argument takes, const char *argument, const char *colons)
 {
     static const char *const actions[KD_ARGUMENT_KINDS] = {

@@ -62,9 +62,9 @@ static void write_picture(struct kd_json *json, const struct kd_asset_about *abo
     kd_json_number(json, "channels", about->channels);
 }
 
-/* Writes {"sha256", "type", "bytes", "created"}. A picture also has "width", "height", "bit_depth" and "channels"; a
- * grid has "nodes" and the parameters of its hole, and a series also "frames" and "times"; an observation has
- * "visibilities" and "stations". The client that has uploaded the asset also gets its token. */
+/* Writes {"sha256", "type", "bytes", "created"}. A picture also has "width", "height", "bit_depth" and "channels". A
+ * grid also has "nodes" and the parameters of its hole, and a grid with several frames has "frames" and "times". An
+ * observation also has "visibilities" and "stations". The client that uploads the asset also gets the asset's token. */
 static enum kd_status to_json(const struct kd_asset_about *about, bool token, struct kd_buffer *out)
 {
     struct kd_json json = kd_json_begin(out);
@@ -80,19 +80,19 @@ static enum kd_status to_json(const struct kd_asset_about *about, bool token, st
     return kd_json_finish_line(&json);
 }
 
-/* State of an upload. Workers hash and write the asset. */
+/* State of an upload. A worker hashes and writes the asset. */
 struct putting {
     struct kd_task task; /* must be the first member */
     struct kd_asset_put put;
 };
 
-/* Sends the answer. Runs on the HTTP thread, so it must not wait for the disk. */
+/* Sends the answer. This runs on the HTTP thread, so it must not wait for the disk. */
 static void finish(struct kd_task *task)
 {
     struct putting *p = (struct putting *)task;
     const struct kd_server *server = task->request->server;
     kd_asset_put_finish(&p->put);
-    /* the answer could not be sent, so the client does not know the new asset */
+    /* the answer could not be sent, so the client does not know about the new asset */
     if (p->put.created && task->request->status != MHD_HTTP_CREATED)
         kd_asset_store_remove_later(server->assets, p->put.asset, server->scheduler);
     if (p->put.asset)
@@ -151,8 +151,8 @@ static enum MHD_Result deliver(struct kd_request *request)
 
 static const struct kd_task_kind KIND = { "assets", sizeof(struct putting), work, finish };
 
-/* True if Content-Type contradicts the first bytes. In that case `text` holds the message. Bytes of an unknown kind
- * are refused later, when they are parsed. */
+/* True if Content-Type contradicts the first bytes of the body; `text` then gets the message. A body of an unknown
+ * type is refused later, when it is parsed. */
 static bool wrong_type(const struct kd_request *request, char text[200])
 {
     static const struct {
@@ -194,8 +194,8 @@ static enum MHD_Result put(struct kd_request *request)
     return p ? kd_task_submit(&p->task) : refused;
 }
 
-/* Writes the hash of the operator's photograph of the sky, or null if there is none. The photograph is also missing
- * if a client had uploaded the same file before the server started, and has deleted it since. */
+/* Writes the hash of the operator's photograph of the sky, or null if there is none. There is also none if a client
+ * uploaded the same file before the server started, and has deleted it since. */
 static void write_sky(struct kd_json *json, const struct kd_server *server)
 {
     const char *hash = server->sky ? kd_asset_about(server->sky)->hash : NULL;
@@ -208,8 +208,8 @@ static void write_sky(struct kd_json *json, const struct kd_server *server)
         kd_asset_release(server->assets, sky);
 }
 
-/* Answers with the number and size of assets and the limits. The answer contains no hash of a client's asset,
- * because anybody who has a hash may download the asset. */
+/* Answers with the number and the size of all assets, and with the limits. The answer contains no hash of a client's
+ * asset, because anybody who knows the hash may download the asset. */
 enum MHD_Result kd_handle_assets(struct kd_request *request)
 {
     if (!strcmp(request->method, "PUT"))
@@ -240,7 +240,7 @@ enum MHD_Result kd_handle_assets(struct kd_request *request)
     return kd_reply_json(request, kd_json_finish_line(&json), &text, KD_JSON_TYPE);
 }
 
-/* An answer that is sent from memory and holds a reference to the asset. */
+/* State of an answer that is sent from memory. It holds a reference to the asset. */
 struct sending {
     struct kd_asset_store *store;
     struct kd_asset *asset;
@@ -260,7 +260,8 @@ static void release(void *cls)
     free(s);
 }
 
-/* Sends an asset's bytes and takes over the reference to it. The bytes at this address never change. */
+/* Sends an asset's bytes, and takes over the caller's reference to the asset. The bytes at this address never
+ * change. */
 static enum MHD_Result send_bytes(struct kd_request *request, struct kd_asset *asset)
 {
     const struct kd_asset_about *about = kd_asset_about(asset);
@@ -327,7 +328,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
                   : refuse_unknown(request);
 }
 
-/* Begins a deletion and takes over the reference to the asset. */
+/* Begins a deletion, and takes over the caller's reference to the asset. */
 static enum MHD_Result begin_removal(struct kd_request *request, struct kd_asset *asset)
 {
     enum MHD_Result refused = MHD_NO;

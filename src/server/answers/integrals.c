@@ -1,5 +1,5 @@
-/* POST /v1/line and other integrals over a thin disk or over pictures of a scene (integral/run.h). A worker computes
- * the integral, and lets the render queue render its pictures one after another. */
+/* POST /v1/line and other integrals over a thin disk, or over pictures of a scene (integral/run.h). A worker
+ * computes the integral. If it needs pictures, the render queue renders them one after the other. */
 #include "integral/run.h"
 #include "server/asset/store.h"
 #include "server/http/negotiate.h"
@@ -11,10 +11,10 @@
 #include <string.h>
 
 #define OFFERED KD_JSON_TYPE ", " KD_CSV_TYPE ", " KD_NPY_TYPE ", " KD_NPZ_TYPE
-/* estimated time of one product on one core; a product combines one pixel, or one image order of a pixel, with a
- * baseline */
+/* estimated time in ns of one product on one core; there is one product for each baseline and each pixel (or each
+ * image order of a pixel) */
 #define NS_A_PRODUCT 1.2
-/* bytes of an answer for each row, including the number's text */
+/* bytes of an answer per row, including the text of the numbers */
 #define BYTES_PER_ROW (KD_INTEGRAL_COLUMNS * (sizeof(double) + 26))
 
 static const char *const types[] = { [KD_INTEGRAL_JSON] = KD_JSON_TYPE,
@@ -31,10 +31,10 @@ struct job {
     bool malformed;
     enum { NEW, RENDERS, SUMS } stage;
     struct kd_integral_run run;
-    struct kd_render_job picture; /* while its stage is RENDERS, the job is in the render queue */
+    struct kd_render_job picture; /* job in the render queue, while its stage is RENDERS */
     struct kd_buffer text;
-    double planned_ms; /* planned time of the pictures up to the present one */
-    /* the first picture of each size, as begin() has planned it */
+    double planned_ms; /* planned time of all pictures up to the present one, in ms */
+    /* the first picture of each size, in the form in which begin() has planned it */
     struct {
         struct kd_scene scene;
         struct kd_plan plan;
@@ -51,7 +51,7 @@ static void finish(struct kd_task *task)
     kd_buffer_finish(&job->text);
 }
 
-/* Plans the pictures and adds up their estimated times; all pictures of one size take equally long. */
+/* Plans the pictures and adds up their estimated times. All pictures of the same size take equally long. */
 static enum kd_status plan_pictures(struct job *job, size_t *bytes, struct kd_error *error)
 {
     struct kd_server *server = job->task.request->server;
@@ -98,7 +98,7 @@ static enum kd_status begin(struct job *job, struct kd_error *error)
     KD_TRY(kd_integral_check_format(&job->request, job->format, error));
     KD_TRY(plan_pictures(job, &bytes, error));
     KD_TRY(kd_task_hold(task->request->server, task->scheduled.client, bytes, &task->held, &task->quota, error));
-    /* An integral without pictures is computed in one slice, which pauses when other work waits (base/pause.h). Most
+    /* An integral without pictures is computed in one slice, during which other work may run (base/pause.h). Most
      * integrals take some hundredths of a second. Lines and echoes of a corona off the axis take up to some seconds. */
     KD_TRY(kd_integral_run_begin(&job->run, &job->request, error));
 done:
@@ -113,15 +113,15 @@ static void rendered(struct kd_render_job *picture)
     kd_scheduler_wake(job->task.queue, &job->task.scheduled);
 }
 
-/* Pushes the next picture to the render queue. */
+/* Puts the next picture into the render queue. */
 static enum kd_status push_picture(struct job *job, struct kd_error *error)
 {
     struct kd_request *request = job->task.request;
     struct kd_render_queue *renders = request->server->renders;
     const unsigned at = job->run.picture;
     struct kd_capacity capacity;
-    /* Only the first picture needs admission. Later pictures take the place of the one before, so that a request is
-     * never refused halfway. */
+    /* Only the first picture needs admission to the queue. Each later picture takes the place of the previous one,
+     * so that a request is never refused halfway. */
     enum kd_status status = at ? KD_OK : kd_render_queue_admit(renders, request->client, &job->task.quota, error);
     if (status)
         return status;
@@ -141,7 +141,8 @@ static enum kd_status push_picture(struct job *job, struct kd_error *error)
     else
         KD_TRY(kd_integral_plan(&job->request, &job->picture.scene, &capacity, &job->picture.plan, error));
     job->planned_ms += job->picture.plan.cost.estimate_ms;
-    /* begin() estimated the cost of all sets from the first picture, but a set may change the cost of its pictures. */
+    /* begin() has estimated the cost of all sets from the first picture. But a set may change the cost of its
+     * pictures. */
     if (job->request.what == KD_INTEGRAL_SETS && job->planned_ms > request->server->longest_s * 1e3)
         KD_TRY(
             kd_error_set(error, KD_ETOOBIG,
@@ -154,7 +155,8 @@ done:
     return status;
 }
 
-/* Runs one slice. *end is KD_SLICE_LAST at the end, KD_SLICE_AWAY while a picture is rendered, else KD_SLICE_MORE. */
+/* Runs one slice. *end: KD_SLICE_LAST if the job is done, KD_SLICE_AWAY while a picture is rendered, and otherwise
+ * KD_SLICE_MORE. */
 static enum kd_status piece(struct job *job, double until_ms, enum kd_slice_result *end, struct kd_error *error)
 {
     enum kd_status status = KD_OK;
@@ -200,7 +202,7 @@ static enum MHD_Result refuse(struct kd_request *request, const struct job *job)
     return kd_reply_problem(request, &problem);
 }
 
-/* The EHT's CSV has two lines before its rows. */
+/* The EHT's CSV has two lines before its rows, so its media type differs. */
 static const char *csv_type(const struct job *job)
 {
     return job->request.what == KD_INTEGRAL_OBSERVE ? KD_CSV_TYPE "; charset=utf-8" : KD_CSV_HEADED_TYPE;

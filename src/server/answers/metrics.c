@@ -41,8 +41,8 @@ struct counts {
     struct kd_playground_sessions_counts playgrounds;
 };
 
-/* Runs on the thread of the health routes, which must not block. If another thread holds a lock for long, for
- * example while a job is written to a slow disk, the previous values are reported. */
+/* Counts for the health routes, whose thread must not block. If another thread holds a lock for long, for example
+ * while a job is written to a slow disk, the previous counts are reported. */
 static struct counts count(struct kd_server *server)
 {
     struct counts now;

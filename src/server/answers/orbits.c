@@ -1,4 +1,5 @@
-/* POST /v1/orbits: workers integrate the orbits in slices. A long answer may be streamed during the integration. */
+/* POST /v1/orbits: workers integrate the orbits in slices. A long answer may be streamed while the integration
+ * continues. */
 #include "server/answers/orbits.h"
 
 #include "orbit/feed.h"
@@ -13,9 +14,10 @@
 #include <string.h>
 
 #define OFFERED KD_JSON_TYPE ", " KD_NDJSON_TYPE ", " KD_CSV_TYPE ", " KD_NPY_TYPE
-/* The integration pauses when a stream has this many unsent bytes, and continues when a quarter of them is left. */
+/* The integration pauses when this many bytes of a stream are unsent. It continues when only a quarter of them is
+ * left. */
 #define FULL (1u << 20)
-#define BYTES_PER_SAMPLE 220 /* estimated size of a sample as text */
+#define BYTES_PER_SAMPLE 220 /* estimated size of a sample in an answer, as text */
 #define BYTES_PER_ORBIT 2400
 
 static const char *const types[] = { [KD_ORBIT_JSON] = KD_JSON_TYPE,
@@ -23,13 +25,13 @@ static const char *const types[] = { [KD_ORBIT_JSON] = KD_JSON_TYPE,
                                      [KD_ORBIT_CSV] = KD_CSV_TYPE,
                                      [KD_ORBIT_NPY] = KD_NPY_TYPE };
 
-/* A job with two owners, the request and the scheduler. The last owner that releases the job frees it. */
+/* A job with two owners, the request and the scheduler. The owner that releases the job last frees it. */
 struct kd_orbits_job {
     struct kd_scheduler_job scheduled; /* must be the first member */
     struct kd_server *server;
     _Atomic unsigned holders;
     enum kd_orbit_format format;
-    struct kd_request *owner; /* the request, valid only in the first slice, while it is suspended */
+    struct kd_request *owner; /* the request, which is suspended; valid only in the first slice */
     struct kd_orbit_request request;
     struct kd_orbit_feed feed;
     double submitted_ms, begun_ms, deadline_ms, queue_ms, run_ms;
@@ -37,14 +39,15 @@ struct kd_orbits_job {
     enum { READING, RUNNING } state;
 
     pthread_mutex_t lock;       /* protects all members below */
-    struct MHD_Connection *mhd; /* NULL once the request is closed */
+    struct MHD_Connection *mhd; /* NULL after the request was closed */
     int socket;
     bool suspended, full, finished;
     struct kd_buffer out;
     size_t taken;
     enum kd_status status;
     struct kd_error error;
-    bool malformed, quota; /* malformed: the body is not JSON; quota: KD_EBUSY is due to the client's share */
+    /* malformed: true if the body is not JSON; quota: true if KD_EBUSY is due to the client's share */
+    bool malformed, quota;
 };
 
 static void unref(struct kd_orbits_job *job)
@@ -67,12 +70,12 @@ void kd_orbits_job_abandon(struct kd_orbits_job *job)
     job->mhd = NULL;
     bool wake = !job->finished;
     pthread_mutex_unlock(&job->lock);
-    if (wake) /* the job is still in the scheduler and must not be parked */
+    if (wake) /* only a job that is parked must be woken */
         kd_scheduler_wake(job->server->scheduler, &job->scheduled);
     unref(job);
 }
 
-/* Resumes the connection of the request, if it is suspended. Called with the lock. */
+/* Resumes the connection of the request if it is suspended. Called with the lock held. */
 static void resume(struct kd_orbits_job *job)
 {
     if (job->suspended && job->mhd) {
@@ -122,7 +125,8 @@ static enum kd_status read_body(struct kd_orbits_job *job, struct kd_error *erro
     return status;
 }
 
-/* True if `out` has room for the output of another slice; frees the part that was sent. Called with the lock. */
+/* Frees the part of `out` that was sent. True if `out` then has room for the output of another slice. Called with
+ * the lock held. */
 static bool has_room(struct kd_orbits_job *job)
 {
     if (job->format != KD_ORBIT_NDJSON)
@@ -202,7 +206,7 @@ static void done(struct kd_scheduler_job *scheduled)
     unref(job);
 }
 
-/* Appends an error to the stream, since the status line is already sent. Called with the lock. */
+/* Appends the error to the stream, because the status line was already sent. Called with the lock held. */
 static void say_in_stream(struct kd_orbits_job *job)
 {
     struct kd_problem problem = kd_problem_from(&job->error);
@@ -217,7 +221,7 @@ static void say_in_stream(struct kd_orbits_job *job)
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct kd_orbits_job *job = cls;
-    (void)position; /* the library reads in order, so the position is not needed */
+    (void)position; /* not needed, because the library reads the bytes in order */
     pthread_mutex_lock(&job->lock);
     if (job->finished && job->status)
         say_in_stream(job);
@@ -238,7 +242,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     return over ? MHD_CONTENT_READER_END_OF_STREAM : (ssize_t)n;
 }
 
-/* Format preferred by Accept, JSON if there is no preference; -1: none is acceptable. */
+/* The format that the Accept header prefers; JSON if there is no preference; -1 if no format is acceptable. */
 static int choose_format(struct kd_request *request)
 {
     size_t best = kd_reply_accepted(request, 4, kd_accept_string, types);
@@ -270,7 +274,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->error, job->malformed, job->quota);
     if (job->format == KD_ORBIT_NDJSON) {
         response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 32u << 10, produce, job, NULL);
-        /* the answer's deadline becomes that of the integration */
+        /* the deadline of the reply is extended to that of the integration */
         request->reply_bytes = (unsigned long)job->server->longest_s << 24;
         if (response)
             MHD_add_response_header(response, "Content-Type", types[job->format]);
@@ -311,7 +315,7 @@ static enum MHD_Result submit(struct kd_request *request, enum kd_orbit_format f
     pthread_mutex_init(&job->lock, NULL);
     kd_orbit_request_init(&job->request);
     request->orbits = job;
-    /* the request is suspended first, because the job may be done before push returns */
+    /* suspended first, because the job may be done before the push returns */
     MHD_suspend_connection(request->mhd);
     kd_scheduler_push(server->scheduler, &job->scheduled);
     return MHD_YES;

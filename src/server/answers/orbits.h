@@ -4,8 +4,8 @@
 
 struct kd_orbits_job;
 
-/* Called when the job's request closes. Drops the request's reference; the job then ends at its next slice. HTTP
- * thread; accepts NULL. */
+/* To be called when the job's request is closed. Drops the request's reference; the job then ends at its next slice.
+ * HTTP thread; accepts NULL. */
 void kd_orbits_job_abandon(struct kd_orbits_job *job);
 
 #endif

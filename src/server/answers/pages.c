@@ -1,4 +1,4 @@
-/* Handler of the page and of its files below /web/, including sign-in by a token in the address. */
+/* Handles the page and its files below /web/, and the sign-in by a token in the address. */
 #include "server/http/reply.h"
 #include "server/http/representation.h"
 #include "server/http/route.h"
@@ -14,16 +14,16 @@ static const struct kd_served *find(const char *name)
     return NULL;
 }
 
-/* True if a file is sent with a Content-Security-Policy. Browsers apply the policy to documents only (HTML, SVG).
- * Scripts and styles are sent without it, to save bytes. */
+/* True if a file is sent with a Content-Security-Policy. Browsers apply this policy only to documents (HTML, SVG),
+ * so scripts and styles are sent without it, which saves bytes. */
 static bool document(const struct kd_served *file)
 {
     return strncmp(file->type, "text/javascript", strlen("text/javascript")) &&
            strncmp(file->type, "text/css", strlen("text/css"));
 }
 
-/* Redirects from the base path without a slash at its end to the base path with one. Otherwise a browser would look
- * for the page's files one folder too high. */
+/* Redirects from the base path without a slash at its end to the one with a slash. Without the slash, a browser
+ * would look for the page's files one folder too high. */
 static enum MHD_Result moved(struct kd_request *request)
 {
     const char *token = kd_access_query(request);
@@ -36,9 +36,9 @@ static enum MHD_Result moved(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_PERMANENT_REDIRECT, response);
 }
 
-/* Turns a token in a page's address into a cookie and redirects to the address without the token; the browser keeps
- * the fragment. The cookie has no Path, so browsers use the folder of the address. Behind a proxy only the browser
- * can tell which folder that is. All pages are in the same folder. */
+/* If a page's address contains a token, sends it as a cookie, and redirects to the address without the token. The
+ * browser keeps the fragment. The cookie has no Path, so browsers use the folder of the address. Behind a proxy only
+ * the browser knows which folder that is. All pages are in the same folder. */
 static enum MHD_Result signed_in(struct kd_request *request, const char *token)
 {
     char cookie[KD_ACCESS_TOKEN_MAX + 80];
@@ -53,8 +53,8 @@ static enum MHD_Result signed_in(struct kd_request *request, const char *token)
     return kd_reply_send(request, MHD_HTTP_SEE_OTHER, response);
 }
 
-/* blob: in the policy lets a script show pictures and films that it has fetched itself. The script fetches a picture
- * to read its headers, and a film so that the <video> can seek in it. */
+/* With blob: in the policy, a script can show pictures and films that it has fetched itself. It fetches a picture in
+ * order to read its headers, and a film so that the <video> element can seek in it. */
 static const char *const guarded[] = {
     "Content-Security-Policy",
     "default-src 'self'; img-src 'self' blob:; media-src 'self' blob:; base-uri 'none'; "
@@ -62,7 +62,7 @@ static const char *const guarded[] = {
     "Referrer-Policy", "no-referrer", NULL
 };
 
-/* Name of the file that a route shows. */
+/* Name of the file that belongs to a route. */
 static const char *file_of(const struct kd_request *request)
 {
     static const struct {
@@ -79,8 +79,8 @@ static const char *file_of(const struct kd_request *request)
     return request->target.path + strlen("/web/");
 }
 
-/* Handles "/", "/story", "/storia", "/lesson" and files below "/web/". Browsers revalidate these files each time,
- * because they are small and may change with the next version. */
+/* Handles "/", "/story", "/storia", "/lesson" and the files below "/web/". Browsers revalidate these files at each
+ * use, because they are small and may change with the next version. */
 enum MHD_Result kd_handle_page(struct kd_request *request)
 {
     if (!*request->target.path)

@@ -1,5 +1,5 @@
-/* GET /v1/physics/NAME: quantities by name (quantity/quantity.h). Quick quantities are computed on the HTTP thread,
- * others by workers in slices. */
+/* GET /v1/physics/NAME: computes a quantity by its name (quantity/quantity.h). Quick quantities are computed on the
+ * HTTP thread, and all others by workers in slices. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
 #include "server/http/reply.h"
@@ -12,8 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MOMENT_MS 2.        /* time limit on the HTTP thread, which serves all clients */
-#define BYTES_PER_NUMBER 26 /* longest text of a number */
+/* limit in ms of a computation on the HTTP thread, because this thread serves all clients */
+#define MOMENT_MS 2.
+#define BYTES_PER_NUMBER 26 /* maximum number of bytes in the text of a number */
 
 enum form { FORM_JSON, FORM_CSV, FORM_WAV, FORM_NONE };
 
@@ -45,7 +46,7 @@ static enum form accepted(struct kd_request *request, const struct kd_quantity *
     return best < n ? (enum form)best : FORM_NONE;
 }
 
-/* Parses the query. The parameter `format` is an alternative to Accept, for links. */
+/* Parses the query. The parameter `format` can replace the header Accept, for use in links. */
 static enum kd_status read_query(const struct kd_target *target, struct kd_quantity_request *quantity, enum form *form,
                                  struct kd_error *error)
 {
@@ -104,7 +105,7 @@ static enum kd_status write_answer(struct job *job, struct kd_error *error)
     return status ? kd_error_set(error, status, "out of memory for %zu points", answer->points) : KD_OK;
 }
 
-/* Computes points until until_ms; after the last, formats the answer. */
+/* Computes points until the time until_ms. After the last point, formats the answer. */
 static enum kd_slice_result work(struct kd_task *task, double until_ms)
 {
     struct job *job = (struct job *)task;

@@ -1,4 +1,4 @@
-/* POST /v1/rays, from the request to the stream of the answer. */
+/* POST /v1/rays: reads the request, and streams the answer. */
 #include "server/http/negotiate.h"
 #include "server/answers/rays_work.h"
 #include "server/http/reply.h"
@@ -9,11 +9,12 @@
 #include <string.h>
 
 #define OFFERED KD_JSON_TYPE ", " KD_NPY_TYPE
-#define BLOCK (64u << 10) /* bytes of the answer generated at once, in some tenths of a millisecond */
-#define TEXT_PER_RAY 180  /* estimated size of a ray without crossings as text, for the answer's deadline */
+/* size of the parts in which the answer is generated; each takes some tenths of a millisecond */
+#define BLOCK (64u << 10)
+#define TEXT_PER_RAY 180 /* estimated bytes of a ray without crossings, as text; used for the answer's deadline */
 #define TEXT_PER_CROSSING 110
 
-/* The answer while it is sent; it outlives the request if the client reads slowly. */
+/* The answer while it is being sent. If the client reads slowly, it outlives the request. */
 struct outgoing {
     struct kd_server *server;
     char client[KD_CLIENT];
@@ -25,7 +26,7 @@ struct outgoing {
 static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
 {
     struct outgoing *out = cls;
-    (void)position; /* the library reads in order, so the position is not needed */
+    (void)position; /* not needed, because the library reads the bytes in order */
     size_t n = kd_rays_stream_read(&out->stream, to, size);
     return n ? (ssize_t)n : MHD_CONTENT_READER_END_OF_STREAM;
 }
@@ -57,7 +58,7 @@ static struct outgoing *take_answer(struct kd_request *request, enum kd_rays_for
     return NULL;
 }
 
-/* Adds the headers that both forms of the answer have. The headers repeat the first members of the JSON form. */
+/* Adds the headers that both forms of the answer have. They repeat the first members of the JSON form. */
 static void describe(struct MHD_Response *response, const struct kd_rays_job *job, const struct kd_rays_answer *answer)
 {
     struct kd_buffer text = { 0 };
@@ -85,7 +86,7 @@ static void describe(struct MHD_Response *response, const struct kd_rays_job *jo
     kd_buffer_finish(&text);
 }
 
-/* Format preferred by Accept, JSON if there is no preference; -1: none is acceptable. */
+/* The format that the Accept header prefers; JSON if there is no preference; -1 if no format is acceptable. */
 static int choose_format(struct kd_request *request)
 {
     static const char *const types[] = { KD_JSON_TYPE, KD_NPY_TYPE };
@@ -131,7 +132,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Parses the parameters that an NPY body cannot hold. A JSON body contains them. */
+/* Parses the parameters that an NPY body cannot contain. (A JSON body contains them itself.) */
 static enum kd_status read_query(const struct kd_target *target, bool npy, struct kd_rays_request *request,
                                  struct kd_error *error)
 {

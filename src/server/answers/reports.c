@@ -1,4 +1,4 @@
-/* Reports of the server on itself: health, device and cached documents. */
+/* Reports of the server about itself: health, device and cached documents. */
 #include "server/openapi/cached_documents.h"
 #include "server/http/reply.h"
 #include "server/http/representation.h"
@@ -53,6 +53,6 @@ enum MHD_Result kd_handle_cached_document(struct kd_request *request)
     struct kd_error error = { 0 };
     if (document)
         return kd_reply_served(request, document, NULL);
-    kd_scene_preset(&scene, request->rest, &error); /* only its error is used, whose message lists the presets */
+    kd_scene_preset(&scene, request->rest, &error); /* called only for its error message, which lists the presets */
     return kd_reply_problem(request, &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
 }

@@ -1,5 +1,5 @@
 /* Handlers of /v1/share, which makes the address of a scene, and of /oembed, which describes a shared scene for
- * embedding. */
+ * sites that embed it. */
 #include "server/answers/share.h"
 
 #include "base/json.h"
@@ -28,7 +28,7 @@ static enum kd_status tell_preset(const char *name, struct kd_shared *out)
     return status ? status : kd_buffer_printf(&out->about, "%s.", known ? kd_scene_preset_title(i) : PLAIN_ABOUT);
 }
 
-/* Describes the fields of a query. Writes nothing if there are none. */
+/* Describes the fields of a query in words. Writes nothing if there are none. */
 static enum kd_status tell_changes(const struct kd_target *target, const char *before, struct kd_buffer *out)
 {
     struct kd_scene_changed *changed = calloc(target->n_pairs + 1, sizeof *changed);
@@ -48,7 +48,7 @@ done:
     return status;
 }
 
-/* Describes the scene of a query. preset: whether to name its preset. */
+/* Describes the scene of a query in words. preset: true if the name of its preset is included. */
 static enum kd_status tell_query(const char *query, bool preset, const char *before, struct kd_shared *out,
                                  struct kd_error *error)
 {
@@ -69,7 +69,7 @@ done:
     return status;
 }
 
-/* Writes each field with the prefix of the right picture. fields: a text that kd_scene_difference has written. */
+/* Writes each field with the prefix of the right picture. fields: output of kd_scene_difference. */
 static enum kd_status add_prefix(const char *fields, struct kd_buffer *out)
 {
     enum kd_status status = kd_buffer_printf(out, "%s", "");
@@ -95,7 +95,7 @@ done:
     return status;
 }
 
-/* Describes both sides, and writes what differs. */
+/* Describes both sides of a pair, and writes the fields that differ. */
 static enum kd_status tell_sides(const struct kd_shared_scenes *scenes, struct kd_shared *out, struct kd_error *error)
 {
     struct kd_buffer fields = { 0 };
@@ -140,7 +140,7 @@ enum kd_status kd_shared_sign(const struct kd_request *request, const char *path
                                  &ignored);
 }
 
-/* Writes the address of a path of this server. */
+/* Writes the address of a path on this server. */
 static enum kd_status tell_address(const struct kd_request *request, const struct kd_shared *shared, const char *path,
                                    struct kd_buffer *out)
 {
@@ -199,8 +199,8 @@ enum kd_status kd_shared_fragment(const struct kd_shared *shared, struct kd_buff
     return kd_buffer_printf(out, "%s%s%s%s%s", plain, *plain && *text ? "&" : "", text, *pair ? "&" : "", pair);
 }
 
-/* Adds an address of this server. The address is absolute if the public address is known. Otherwise it is relative
- * to the request's address, as in Location. */
+/* Adds an address of this server. It is absolute if the public address is known. Otherwise it is relative to the
+ * address of the request, like Location. */
 static enum kd_status add_address(const struct kd_request *request, struct kd_json *json, const char *name,
                                   const char *path, const char *rest)
 {
@@ -232,8 +232,8 @@ done:
     return status;
 }
 
-/* Adds the address to share. Also adds the address for frames, if there are origins that may embed it. If the server
- * has access tokens but no key for shared scenes, the address to share is that of the page itself, which asks the
+/* Adds the address to share, and, if there are origins that may embed it, the address for frames. If the server has
+ * access tokens but no key for shared scenes, the address to share is that of the page itself, which asks the
  * visitor for a token. */
 static enum kd_status add_addresses(const struct kd_request *request, const struct kd_shared *shared,
                                     struct kd_json *json)
@@ -283,8 +283,8 @@ enum MHD_Result kd_handle_share(struct kd_request *request)
     return result;
 }
 
-/* Returns the code (malloc'd) in the address of a shared scene of this server, without query and fragment. Returns
- * NULL for any other address, or when out of memory. */
+/* Returns the code (malloc'd) from the address of a shared scene on this server; query and fragment of the address
+ * are ignored. Returns NULL for any other address, or when out of memory. */
 static char *code_in(const struct kd_request *request, const char *url)
 {
     struct kd_buffer home = { 0 };
@@ -296,7 +296,7 @@ static char *code_in(const struct kd_request *request, const char *url)
     return ours ? strndup(at, strcspn(at, "/?#")) : NULL;
 }
 
-/* Chooses the width of the widest picture that fits within maxwidth and maxheight. */
+/* Chooses the width of the largest picture that fits within maxwidth and maxheight. */
 static bool width_of(const struct kd_request *request, int32_t *width, struct kd_error *error)
 {
     static const char *const names[] = { "maxwidth", "maxheight" };

@@ -1,6 +1,6 @@
-/* Handlers of /s/CODE and /embed/CODE. /s/CODE is a page for other sites, which read the title, description and
- * picture of a link from it (Open Graph, https://ogp.me; oEmbed). Its script opens the page with the scene. Without
- * scripts, and for a visitor who came by a signed link, it shows the picture and a link. */
+/* Handlers of /s/CODE and /embed/CODE. /s/CODE is a page from which other sites read the title, the description and
+ * the picture of a link (Open Graph, https://ogp.me; oEmbed). For visitors, its script opens the main page with the
+ * scene. Without scripts, and for a visitor who came by a signed link, it shows the picture and a link instead. */
 #include "server/answers/share.h"
 
 #include "base/markup.h"
@@ -10,12 +10,12 @@
 
 #include <string.h>
 
-/* Numbers of the page's placeholders. STYLE, ICON and SEEN (the picture): queries that sign these files. URL: the
- * address as the value of a parameter. OTHER: the path of the right picture of a pair, signed, or "". */
+/* Indices of the page's placeholders. STYLE, ICON and SEEN (the picture): queries that sign these files. URL: the
+ * address, encoded as the value of a parameter. OTHER: the signed path of the right picture of a pair, or "". */
 enum { TITLE, ABOUT, ADDRESS, PICTURE, HOME, CODE, URL, OPEN, STYLE, ICON, SEEN, OTHER, OTHER_PICTURE, TEXTS };
 
-/* Writes the elements that are of use only if the visitor has access or the server requires no access token. They
- * are the link to oEmbed, which other sites read, and the script that opens the page with the live view. */
+/* Writes elements that are useful only if the visitor has access or the server requires no access token: the link to
+ * oEmbed, for other sites, and the script that opens the page with the live view. */
 static enum kd_status write_live(const char *const t[TEXTS], struct kd_buffer *page)
 {
     return kd_buffer_printf(
@@ -25,7 +25,7 @@ static enum kd_status write_live(const char *const t[TEXTS], struct kd_buffer *p
         t[HOME], t[URL], t[TITLE]);
 }
 
-/* Writes the picture; of a pair, both pictures. */
+/* Writes the picture, or both pictures of a pair. */
 static enum kd_status write_pictures(const char *const t[TEXTS], struct kd_buffer *page)
 {
     enum kd_status status =
@@ -37,7 +37,7 @@ static enum kd_status write_pictures(const char *const t[TEXTS], struct kd_buffe
     return status;
 }
 
-/* live: whether the visitor can use the page with the live view without a further step. */
+/* live: true if the visitor can use the page with the live view without signing in. */
 static enum kd_status write_page(const char *const t[TEXTS], bool live, struct kd_buffer *page)
 {
     enum kd_status status;
@@ -59,7 +59,7 @@ static enum kd_status write_page(const char *const t[TEXTS], bool live, struct k
         "<link rel=\"stylesheet\" href=\"../web/share/shared.css%s\">\n",
         t[TITLE], t[ABOUT], t[ADDRESS], t[TITLE], t[ABOUT], t[ADDRESS], t[PICTURE], KD_SHARED_WIDTH, KD_SHARED_HEIGHT,
         t[ABOUT], t[ICON], t[STYLE]));
-    if (*t[OTHER_PICTURE]) /* an array of Open Graph: the first one is preferred */
+    if (*t[OTHER_PICTURE]) /* the second picture, in an Open Graph array: sites prefer the first one */
         KD_TRY(kd_buffer_printf(page, "<meta property=\"og:image\" content=\"%s\">\n", t[OTHER_PICTURE]));
     if (live)
         KD_TRY(write_live(t, page));
@@ -136,8 +136,8 @@ static enum MHD_Result reply(struct kd_request *request, const struct kd_shared 
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Makes the page that other sites embed in a frame, from the link that the code decodes to. The page contains a new
- * code that is made of this link, instead of the received code. */
+/* Makes the page that other sites embed in a frame. The code is decoded to a link, and the page contains a new code
+ * made from this link, never the received one. */
 static enum kd_status make_frame(const struct kd_shared *shared, struct kd_buffer *page)
 {
     struct kd_buffer texts[3] = { 0 };
@@ -200,5 +200,5 @@ static enum MHD_Result answer(struct kd_request *request,
 
 enum MHD_Result kd_handle_shared(struct kd_request *request) { return answer(request, reply); }
 
-/* /embed/CODE: the picture alone, for a frame in another page; it becomes a live view when touched. */
+/* /embed/CODE: the picture alone, for a frame in another page. When it is touched, it becomes a live view. */
 enum MHD_Result kd_handle_embed(struct kd_request *request) { return answer(request, reply_frame); }

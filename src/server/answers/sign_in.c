@@ -1,6 +1,6 @@
-/* Sign-in page for browsers without a valid access token. It works without scripts: its form passes the token in the
- * page's address. The form has no action, because only then does the browser keep the fragment of the address, which
- * names a lesson or a scene. The language is chosen by Accept-Language, and is English if none matches. */
+/* The sign-in page, for browsers without a valid access token. It works without scripts: its form sends the token in
+ * the page's address. The form has no action, because only then does the browser keep the fragment of the address,
+ * which names a lesson or a scene. Accept-Language selects the language, which is English if nothing matches. */
 #include "server/http/reply.h"
 
 #include <string.h>
@@ -23,7 +23,8 @@ static const struct {
 };
 enum { LANGUAGES = sizeof words / sizeof *words };
 
-/* Returns the first known language in Accept-Language, which browsers order by preference. */
+/* Returns the first language in Accept-Language that the page supports. Browsers list languages in order of
+ * preference. */
 static size_t language(struct kd_request *request)
 {
     struct kd_buffer list = kd_reply_header_list(request, "Accept-Language");

@@ -75,7 +75,7 @@ static void name_of(const char *hash, const char *kind, char out[FILE_NAME])
     snprintf(out, FILE_NAME, "%.64s.%s", hash, kind);
 }
 
-/* Reads the hash at the beginning of a file's name. Returns false if the name is not that of an asset. */
+/* Reads the hash at the start of a file's name. Returns false if the name does not belong to an asset. */
 static bool hash_of(const char *name, const char *kind, char hash[KD_ASSET_NAME])
 {
     snprintf(hash, KD_ASSET_NAME, "%.64s", name);
@@ -116,7 +116,7 @@ static const char *end_of(const struct kd_asset_about *about)
                                                               : about->grid.nodes[0] > 0];
 }
 
-/* Reads and checks the bytes of an asset. Returns why they are not accepted, or NULL. */
+/* Reads and checks the bytes of an asset. Returns NULL, or the reason why they are not accepted. */
 static const char *read_bytes(int folder, struct kd_asset_about *about, struct kd_buffer *bytes)
 {
     char name[FILE_NAME], hash[KD_ASSET_NAME];
@@ -134,7 +134,7 @@ static const char *read_bytes(int folder, struct kd_asset_about *about, struct k
     return NULL;
 }
 
-/* True if an asset has a record. The record's contents are not checked. */
+/* True if an asset has a record. The contents of the record are not checked. */
 static bool has_record(int folder, const char *hash)
 {
     char name[FILE_NAME];
@@ -143,7 +143,7 @@ static bool has_record(int folder, const char *hash)
     return !fstatat(folder, name, &about, AT_SYMLINK_NOFOLLOW);
 }
 
-/* True if the file was left by a killed server: bytes without a record, or an unfinished file. */
+/* True if a server that was killed has left this file, either bytes without a record or an unfinished file. */
 static bool is_left_over(int folder, const char *name)
 {
     static const char *const kinds[] = { "png", "npz", "uvfits", "csv", "json" };

@@ -1,27 +1,27 @@
-/* Reads and writes the files of assets, and no other files; never follows a link. Private to store.c. */
+/* Reads and writes the files of assets, and no others. Never follows a link. Private to store.c. */
 #ifndef KD_SERVER_ASSET_FOLDER_H
 #define KD_SERVER_ASSET_FOLDER_H
 
 #include "base/buffer.h"
 #include "server/asset/store.h"
 
-/* Opens STATE/assets, and creates it if it does not exist. *out is a descriptor. Fails with KD_EIO; the message has the
- * path. */
+/* Opens STATE/assets, which is created if it does not exist. *out: its descriptor. KD_EIO with a message that
+ * contains the path. */
 enum kd_status kd_asset_folder_open(const char *state, int *out, struct kd_error *error);
 
-/* Calls found() for each complete asset that kd_asset_look accepts; found() owns the bytes. Removes files that a killed
- * server left half written. */
+/* Calls found() for each complete asset that kd_asset_look accepts. found() becomes the owner of the bytes. Removes
+ * unfinished files that a killed server has left. */
 enum kd_status kd_asset_folder_load(int folder,
                                     void (*found)(void *user, const struct kd_asset_about *about,
                                                   struct kd_buffer *bytes),
                                     void *user, struct kd_error *error);
 
-/* Writes the bytes, then the record. Returns KD_EFULL if the disk is full. */
+/* Writes the bytes, and then the record. Returns KD_EFULL if the disk is full. */
 enum kd_status kd_asset_folder_write(int folder, const struct kd_asset_about *about, struct kd_error *error);
 void kd_asset_folder_remove(int folder, const char *hash);
 
-/* Fills in the description of the bytes. Returns KD_EINVAL if the bytes are not a supported picture, grid or
- * observation. */
+/* Gets a description of the bytes. Returns KD_EINVAL if they are not a picture, grid or observation of a supported
+ * type. */
 enum kd_status kd_asset_look(const void *data, size_t size, struct kd_asset_about *out, struct kd_error *error);
 
 #endif

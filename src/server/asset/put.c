@@ -1,7 +1,7 @@
-/* Stores an asset in steps, one in each slice: hash the bytes, look for the same bytes, check them, reserve room,
- * write them. No bytes are checked twice. While a grid is checked, its unpacked bytes count towards the limit. A
- * check that runs alone may exceed the limit. No asset is evicted for a check, because the bytes may turn out not to
- * be a grid. */
+/* Stores an asset in steps, one per slice: hash the bytes, look for an asset with the same hash, check the bytes,
+ * reserve room, write them. The same bytes are never checked twice. While a grid is checked, its unpacked bytes
+ * count towards the limit, except that a single check may exceed the limit. No asset is evicted for a check, because
+ * the bytes may turn out not to be a grid. */
 #include "server/asset/asset_internal.h"
 
 #include "base/clock.h"
@@ -16,7 +16,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { STRETCH = 1 << 20 }; /* bytes hashed between two checks of the clock; hashing them takes some 3 ms */
+enum { STRETCH = 1 << 20 }; /* number of bytes that are hashed between two looks at the clock; this takes some 3 ms */
 
 struct kd_asset_putting {
     struct kd_asset_store *store;
@@ -26,12 +26,13 @@ struct kd_asset_putting {
     struct sha256_ctx hash;
     struct kd_asset_about about;
     struct kd_matter_reader *grid;
-    uint64_t reserved; /* the part of store->checking that belongs to this asset */
+    uint64_t reserved; /* the part of store->checking that this asset has reserved */
     enum kd_status (*step)(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
                            struct kd_error *error);
 };
 
-/* Finds the least recently used asset. Returns NULL if this asset may not be evicted. Called with the lock. */
+/* Finds the asset that was not used for the longest time. Returns NULL if that asset may not be evicted. Called with
+ * the lock held. */
 static struct kd_asset *oldest(const struct kd_asset_store *store, bool any_age)
 {
     struct kd_asset *best = NULL;
@@ -54,8 +55,8 @@ static bool is_anyone_leaving(const struct kd_asset_store *store)
 /* Result of a search for room. */
 enum room { ROOM, ROOM_LATER, ROOM_NONE };
 
-/* Looks for room for an asset. *leaves: an asset that the caller must remove first, without the lock. Called with the
- * lock. */
+/* Looks for room for an asset. *leaves: an asset that the caller must remove first, without holding the lock. Called
+ * with the lock held. */
 static enum room find_room(struct kd_asset_store *store, uint64_t bytes, bool any_age, struct kd_asset **leaves)
 {
     if (store->count < store->limits.most && store->bytes + bytes <= store->limits.bytes)
@@ -66,7 +67,7 @@ static enum room find_room(struct kd_asset_store *store, uint64_t bytes, bool an
     return *leaves || is_anyone_leaving(store) ? ROOM_LATER : ROOM_NONE;
 }
 
-/* True if these bytes would exceed the client's share. Called with the lock. */
+/* True if these bytes would exceed the client's share. Called with the lock held. */
 static bool has_share(const struct kd_asset_store *store, size_t size, const char *client)
 {
     unsigned assets = 0;
@@ -87,7 +88,7 @@ static enum kd_status is_full(struct kd_asset_put *put, struct kd_error *error)
                         limits->most, (unsigned long long)limits->bytes);
 }
 
-/* Removes the evicted asset and returns what the caller does next. Called without the lock. */
+/* Removes the evicted asset, and returns what the caller must do next. Called without the lock. */
 static enum kd_status after_room(struct kd_asset_put *put, enum room room, struct kd_asset *leaves,
                                  enum kd_asset_progress *how, struct kd_error *error)
 {
@@ -100,7 +101,7 @@ static enum kd_status after_room(struct kd_asset_put *put, enum room room, struc
     return KD_OK;
 }
 
-/* True if the same bytes are stored, being stored or being removed. Called with the lock. */
+/* True if the same bytes are already stored, or are being stored or removed. Called with the lock held. */
 static bool is_here(struct kd_asset_put *put, enum kd_asset_progress *how)
 {
     struct kd_asset *there = kd_asset_find(put->own->store, put->own->about.hash);
@@ -125,7 +126,7 @@ static void end_check(struct kd_asset_putting *p)
     p->reserved = 0;
 }
 
-/* Writes the files of an asset that is already in the list. After this the asset can be found. */
+/* Writes the files of an asset that is already in the list. After this, searches find the asset. */
 static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asset, struct kd_error *error)
 {
     enum kd_status status = store->folder >= 0 ? kd_asset_folder_write(store->folder, &asset->about, error) : KD_OK;
@@ -139,7 +140,8 @@ static enum kd_status settle(struct kd_asset_store *store, struct kd_asset *asse
     return status;
 }
 
-/* Looks for room. If there is room and the asset has been made, inserts it. Called with the lock. */
+/* Looks for room. If there is room, and the asset has been made, adds the asset to the list. Called with the lock
+ * held. */
 static enum room take_place(struct kd_asset_put *put, struct kd_asset *fresh, struct kd_asset **leaves,
                             enum kd_asset_progress *how, bool *here)
 {
@@ -163,7 +165,8 @@ static enum kd_status is_beyond_share(const struct kd_asset_store *store, struct
                         store->limits.client_most, (unsigned long long)store->limits.client_bytes);
 }
 
-/* Finds room and stores the asset. The bytes are copied without the lock, so the room is checked again afterwards. */
+/* Finds room and stores the asset. The bytes are copied without the lock, so the room must be checked again
+ * afterwards. */
 static enum kd_status place(struct kd_asset_put *put, double until_ms, enum kd_asset_progress *how,
                             struct kd_error *error)
 {

@@ -7,8 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Runs all steps of storing a file. No other thread uses the store yet, so no step has to wait. *created: the store
- * did not have the file before. */
+/* Runs all steps of storing a file. No step waits, because no other thread uses the store yet. *created: true if the
+ * store did not have the file before. */
 static enum kd_status put(struct kd_asset_store *store, const struct kd_buffer *file, struct kd_asset **out,
                           bool *created, struct kd_error *error)
 {
@@ -16,7 +16,7 @@ static enum kd_status put(struct kd_asset_store *store, const struct kd_buffer *
     enum kd_asset_progress how = KD_ASSET_MORE;
     enum kd_status status =
         kd_asset_put_begin(&put, store, file->data ? file->data : (const uint8_t *)"", file->size, "--sky", error);
-    put.any_age = true; /* all assets count as just used after a restart */
+    put.any_age = true; /* permits eviction, because after a restart all assets count as just used */
     while (!status && how != KD_ASSET_OVER)
         status = kd_asset_put_go_on(&put, INFINITY, &how, error);
     kd_asset_put_finish(&put);

@@ -63,7 +63,8 @@ struct kd_asset *kd_asset_find(const struct kd_asset_store *store, const char *h
     return NULL;
 }
 
-/* Adds an asset from the folder. Its client is not recorded, so it counts toward no client's share. */
+/* Adds an asset that is in the folder. The client that uploaded it is not recorded, so it counts towards no client's
+ * share. */
 static void load(void *user, const struct kd_asset_about *about, struct kd_buffer *bytes)
 {
     struct kd_asset_store *store = user;
@@ -127,7 +128,7 @@ void kd_asset_store_close(struct kd_asset_store *store)
     if (!store)
         return;
     while (store->first) {
-        /* the server ended during the removal of the asset */
+        /* removes the files of an asset whose removal the end of the server has interrupted */
         if (store->first->state == KD_ASSET_LEAVING && store->folder >= 0)
             kd_asset_folder_remove(store->folder, store->first->about.hash);
         kd_asset_take_out(store, store->first);
@@ -154,14 +155,14 @@ struct kd_asset *kd_asset_store_find(struct kd_asset_store *store, const char *h
 
 void kd_asset_leave(struct kd_asset_store *store, struct kd_asset *asset)
 {
-    if (store->folder >= 0) /* the files are deleted here, before the same bytes can be stored again */
+    if (store->folder >= 0) /* deleted here, so that the files are gone before the same bytes can be stored again */
         kd_asset_folder_remove(store->folder, asset->about.hash);
     pthread_mutex_lock(&store->lock);
     kd_asset_take_out(store, asset);
     pthread_mutex_unlock(&store->lock);
 }
 
-/* Hides the asset from searches. Returns false if another thread already removes it. */
+/* Hides the asset from searches. Returns false if another thread is already removing it. */
 static bool begin_to_leave(struct kd_asset_store *store, struct kd_asset *asset)
 {
     pthread_mutex_lock(&store->lock);
@@ -186,7 +187,7 @@ static enum kd_slice_result removal_turn(struct kd_scheduler_job *job)
     return KD_SLICE_LAST;
 }
 
-/* Called after the removal. The call may free the asset, and with it the job, which is a member of the asset. */
+/* Called after the removal. This may free the asset, and with it the job, which is a member of the asset. */
 static void removal_done(struct kd_scheduler_job *job)
 {
     struct kd_asset *asset = (struct kd_asset *)((char *)job - offsetof(struct kd_asset, removal));

@@ -20,17 +20,17 @@
 #include <sys/stat.h>
 #include <time.h>
 
-#define FILE_MOST ((size_t)64 << 10) /* largest size of a token file, in bytes */
+#define FILE_MOST ((size_t)64 << 10) /* maximum size of a token file, in bytes */
 #define BLANK " \t\r"
 #define LETTERS "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
-/* the characters of RFC 6750 tokens that need no escape in an address or a cookie */
+/* the characters of RFC 6750 tokens that need no escape in addresses and cookies */
 #define TOKEN_CHARACTERS LETTERS "-._~="
 
 struct entry {
     struct kd_visitor visitor;
-    uint8_t hash[SHA256_DIGEST_SIZE]; /* hash of the token or key, which itself is not stored */
-    struct hmac_sha256_ctx key;       /* for an entry that is a key: the HMAC state that already contains the key; each
-                                       * signature starts from a copy of it */
+    uint8_t hash[SHA256_DIGEST_SIZE]; /* hash of the token or key; the token or key itself is not stored */
+    /* for a key: the HMAC state after the key was fed in; each signature starts from a copy of it */
+    struct hmac_sha256_ctx key;
 };
 
 struct kd_access {
@@ -95,8 +95,8 @@ static bool parse_role(const char *text, enum kd_role *out)
     return false;
 }
 
-/* Returns what is wrong with a line, worded as the end of a sentence, or NULL if the line is valid. The text does not
- * contain the token. */
+/* Checks a line. Returns NULL if it is valid, or otherwise the fault, worded as the end of a sentence. This text
+ * does not contain the token. */
 static const char *fault_of(const struct kd_access *access, const char *name, const char *role, const char *token,
                             const char *more, struct entry *entry)
 {
@@ -198,16 +198,16 @@ void kd_access_free(struct kd_access *access)
     free(access);
 }
 
-/* Number of our cookies that are checked. A browser sends several if paths are nested or an old cookie is left. The
- * limit prevents a request from testing many tokens at once. */
+/* Number of kerrd's cookies that are checked. A browser sends several if paths are nested, or if an old cookie is
+ * left. The limit prevents clients from testing many tokens in one request. */
 enum { COOKIES = 4 };
 
-/* Tokens found in a request. */
+/* The tokens that a request contains. */
 struct brought {
-    /* alone: the token in the page's address or in Kerrd-Access; if it is not NULL, it is the only token checked.
-     * bearer: the token in Authorization. Each may be NULL. */
+    /* alone: the token in the page's address or in Kerrd-Access; if there is one, only this token is checked.
+     * bearer: the token in Authorization. Both may be NULL. */
     const char *alone, *bearer;
-    const char *cookies[COOKIES]; /* checked after `bearer`, if `alone` is NULL */
+    const char *cookies[COOKIES]; /* tokens in cookies, which are checked after `bearer` if `alone` is NULL */
     size_t n_cookies;
 };
 
@@ -230,9 +230,9 @@ static struct brought brought_by(struct kd_request *request)
     return brought;
 }
 
-/* Returns the visitor of a request, or NULL. If there is a token in the page's address or in Kerrd-Access, only that
- * token is checked. Authorization may hold the token of a session instead of an access token; in that case the
- * cookies are checked too. */
+/* Returns the visitor of a request, or NULL. If there is a token in the page's address or in Kerrd-Access, only this
+ * token is checked. Authorization may contain the token of a session instead of an access token; therefore the
+ * cookies are checked as well. */
 static const struct kd_visitor *visitor_of(struct kd_request *request, const struct brought *brought)
 {
     const struct kd_access *access = request->server->access;
@@ -245,23 +245,23 @@ static const struct kd_visitor *visitor_of(struct kd_request *request, const str
     return visitor;
 }
 
-/* True if a bearer token may be a session's token, which has 32 hexadecimal digits. An access token of that form has
- * too many digits to be guessed, so it need not be counted as a guess. */
+/* True if a bearer token may be the token of a session, which has 32 hexadecimal digits. An access token of this
+ * form has too many digits to be guessed, so it need not count as a guess. */
 static bool may_be_sessions(const char *bearer)
 {
     return strlen(bearer) == 32 && strspn(bearer, "0123456789abcdef") == 32;
 }
 
-/* Returns the seconds until tokens from this address are checked again. Returns 0 if they are checked now, or if the
- * request has no token. Must be called while request->client still holds the address. */
+/* Returns the number of seconds for which tokens from this address are not checked. Returns 0 if they are checked
+ * now, or if the request has no token. Must be called while request->client still contains the address. */
 static unsigned guesses_wait_s(const struct kd_request *request, const struct brought *brought)
 {
     struct kd_auth_throttle *auth_throttle = request->server->auth_throttle;
     const char *const texts[] = { brought->alone, brought->alone ? NULL : brought->bearer };
-    /* always the same start, so that a token has the same hash in an address, a header and a cookie */
+    /* always the same initial value, so that a token has the same hash in an address, a header and a cookie */
     uint64_t hash = KD_HASH_BEGIN;
-    /* A valid cookie alone may identify the visitor. A wrong token in Authorization then counts as a guess, unless
-     * it may be a session's token. */
+    /* The visitor may have been identified by a valid cookie alone. A wrong token in Authorization then counts as a
+     * guess, unless it may be the token of a session. */
     if (request->visitor) {
         const bool tried = brought->bearer && !brought->alone && !request->spent && !may_be_sessions(brought->bearer);
         const unsigned wait =
@@ -294,7 +294,7 @@ bool kd_role_may(enum kd_role role, const struct kd_route *route, unsigned metho
     return role == KD_ROLE_RENDER || method == KD_GET || (method == KD_POST && route->question);
 }
 
-/* True if the request comes by a signed link. If so, only the link's signature authorises it. */
+/* True if the request comes by a signed link. In that case nothing but the link's signature authorises it. */
 static bool has_link(const struct kd_request *request)
 {
     return request->route && kd_role_may(KD_ROLE_LINK, request->route, kd_route_method(request->method)) &&

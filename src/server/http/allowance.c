@@ -23,8 +23,8 @@ static size_t find(const struct kd_allowance *all, const char *client)
     return i;
 }
 
-/* Finds the client's bucket, or makes one. A new client replaces the fullest bucket, because that one has been used
- * least. */
+/* Finds the client's bucket, or makes one. If there is no free place, a new client gets the place of the fullest
+ * bucket, whose client has used the least. */
 static struct kd_allowance_place *place_of(struct kd_allowance *all, const char *client, double now_ms)
 {
     const size_t known = find(all, client);
@@ -59,7 +59,7 @@ void kd_allowance_charge(struct kd_allowance *all, const char *client, double ms
 double kd_allowance_wait_ms(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms)
 {
     const double left = kd_allowance_left_ms(all, client, now_ms) - owed_ms;
-    return left > 0 ? 0 : (1 - left) * MINUTE_S / all->seconds; /* time until the bucket holds 1 ms */
+    return left > 0 ? 0 : (1 - left) * MINUTE_S / all->seconds; /* time in ms until the bucket contains 1 ms */
 }
 
 struct kd_quota kd_allowance_quota(const struct kd_allowance *all, const char *client, double owed_ms, double now_ms)

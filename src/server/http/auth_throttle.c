@@ -6,14 +6,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define REMEMBERED 16u /* wrong tokens remembered for an address */
+#define REMEMBERED 16u /* number of wrong tokens that are remembered for each address */
 
 struct place {
     char client[KD_CLIENT];
-    double tries, at_ms; /* tries left at the time at_ms; at_ms 0: the entry is unused */
+    double tries, at_ms; /* tries: number of tries left at the time at_ms; at_ms 0: the entry is unused */
     uint64_t wrong[REMEMBERED];
     const void *right[KD_GUESSES_NAMES];
-    unsigned n_wrong, n_right; /* number of all tokens ever stored in each array, which is a ring buffer */
+    unsigned n_wrong, n_right; /* number of tokens that were ever stored in each of the two ring buffers */
 };
 
 struct kd_auth_throttle {
@@ -42,14 +42,14 @@ static double tries_now(const struct place *p, double now_ms)
                         : KD_GUESSES_MOST;
 }
 
-/* True if p should be evicted before the entry `than`. */
+/* True if the entry p should be evicted rather than the entry `than`. */
 static bool gives_way(const struct place *p, const struct place *than, double now_ms)
 {
     const double a = tries_now(p, now_ms), b = tries_now(than, now_ms);
     return a > b || (!(a < b) && p->at_ms < than->at_ms);
 }
 
-/* Finds the place of an address, or evicts one for it, and brings it up to date. */
+/* Finds the entry of an address. If there is none, evicts another entry and makes one. Brings the entry up to date. */
 static struct place *place_of(struct kd_auth_throttle *throttle, const char *client, double now_ms)
 {
     struct place *best = &throttle->places[0];

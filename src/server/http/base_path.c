@@ -7,7 +7,7 @@
 
 #define CHARACTERS "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~@"
 
-/* Returns what is wrong with the text, or NULL. */
+/* Returns the fault of the text, or NULL if it is valid. */
 static const char *fault(const char *text)
 {
     if (*text != '/')

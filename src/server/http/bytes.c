@@ -15,7 +15,7 @@ struct kd_bytes {
     struct kd_bytes_params params;
     pthread_mutex_t lock;
     _Atomic size_t bytes;
-    struct place places[]; /* params.clients places, and one place for all other clients */
+    struct place places[]; /* params.clients entries, and one more for all other clients together */
 };
 
 struct kd_bytes *kd_bytes_create(const struct kd_bytes_params *params)
@@ -36,7 +36,7 @@ void kd_bytes_destroy(struct kd_bytes *b)
     free(b);
 }
 
-/* Finds the place of a client that holds bytes; else NULL. */
+/* Finds the entry of a client that holds bytes. Returns NULL if there is none. */
 static struct place *find(struct kd_bytes *b, const char *client)
 {
     for (unsigned i = 0; i < b->params.clients; i++)
@@ -56,7 +56,7 @@ static struct place *find_or_make(struct kd_bytes *b, const char *client)
     return place ? place : &b->places[b->params.clients];
 }
 
-/* Counts n more bytes of a client. Called with the lock. */
+/* Adds n bytes to the count of a client. Called with the lock held. */
 static void add(struct kd_bytes *b, const char *client, size_t n)
 {
     find_or_make(b, client)->bytes += n;
@@ -68,7 +68,7 @@ enum kd_status kd_bytes_take(struct kd_bytes *b, const char *client, size_t n, s
     pthread_mutex_lock(&b->lock);
     size_t own = find_or_make(b, client)->bytes;
     const struct kd_bytes_params *p = &b->params;
-    /* one client may use the fraction share / max of the reserve */
+    /* The same fraction of the reserve, share / max, is available to one client. */
     double room = size <= p->small ? 1 + (double)p->reserve / (double)p->max : 1;
     *quota = (double)(own + n) > room * (double)p->share && !(p->lone && !own);
     bool fits = !*quota && ((double)(b->bytes + n) <= room * (double)p->max || (p->lone && !b->bytes));
@@ -91,7 +91,7 @@ void kd_bytes_give(struct kd_bytes *b, const char *client, size_t n)
 {
     pthread_mutex_lock(&b->lock);
     struct place *place = find(b, client);
-    /* the client had no place of its own, so its bytes were counted together with those of other clients */
+    /* The client had no entry of its own, so its bytes were counted together with those of other clients. */
     if (!place || place->bytes < n)
         place = &b->places[b->params.clients];
     place->bytes -= n < place->bytes ? n : place->bytes;

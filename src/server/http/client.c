@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define NETWORK 8 /* bytes of an IPv6 address that identify the network */
+#define NETWORK 8 /* number of leading bytes of an IPv6 address that identify the network */
 
 static void name_of_v4(const struct in_addr *address, char out[KD_CLIENT])
 {

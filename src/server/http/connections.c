@@ -15,37 +15,39 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define IDLE_MS 60e3   /* longer than libmicrohttpd's idle timeout, so it ends only connections that trickle bytes */
-#define CROWDED_MS 2e3 /* time that a connection beyond the limit has to send its header */
-#define REPLY_MS 30e3  /* time that a client has to read an answer; large answers get more time by the next constant */
-/* an answer gets one more millisecond for this many bytes: 32 kB/s, the speed of a poor mobile line */
+/* longer than libmicrohttpd's idle timeout, so that it ends only connections that send single bytes */
+#define IDLE_MS 60e3
+#define CROWDED_MS 2e3 /* time in which a connection beyond the limit must send its header */
+#define REPLY_MS 30e3  /* time in which a client must read an answer; for large answers, BYTES_PER_MS adds to it */
+/* an answer gets one more millisecond for this number of bytes: 32 kB/s, the speed of a poor mobile connection */
 #define BYTES_PER_MS 32
 
-#define STALL_MS 2e3 /* a client that reads at all takes some bytes within this time, even on a slow line */
-/* time in which a socket is drained: enough for several round trips and a few MiB; a client that sends more is reset */
+#define STALL_MS 2e3 /* a client that reads at all reads some bytes within this time, even over a slow connection */
+/* time for which a socket is drained: enough for several round trips and a few MiB. If the client sends more, the
+ * connection is reset. */
 #define LINGER_MS 2e3
 #define LINGER_BYTES ((size_t)16 << 20)
-#define LINGERING 64 /* limit of sockets being drained */
-#define SILENT 32    /* limit of connections that have not sent anything, when all others are in use */
+#define LINGERING 64 /* maximum number of sockets that are drained at a time */
+#define SILENT 32    /* maximum number of connections that have not sent anything, while all others are in use */
 
 struct kd_connection {
     struct kd_connection *previous, *next;
     int socket;
     char client[KD_CLIENT];
-    bool linger, handed_on, health, cut; /* cut: the socket was shut down to make room */
+    bool linger, handed_on, health, cut; /* cut: true if the socket was shut down to make room */
     size_t discarded;
     enum kd_stage stage;
-    double deadline;   /* time on kd_clock_ms; 0: no deadline */
-    int unsent;        /* unsent bytes in the socket at the last check */
-    double stalled_ms; /* time at which `unsent` last changed; 0: not checked yet */
+    double deadline;   /* time on the clock of kd_clock_ms; 0: there is no deadline */
+    int unsent;        /* number of unsent bytes in the socket at the last check */
+    double stalled_ms; /* time when `unsent` last changed; 0: it was not checked yet */
 };
 
 struct kd_connections {
     pthread_mutex_t lock;
     struct kd_connection *first;
-    unsigned count, limit, share; /* count: open connections except those to the health routes */
+    unsigned count, limit, share; /* count: number of open connections, without those to the health routes */
     unsigned n_handed_on, n_health;
-    struct kd_connection *lingering; /* removed connections whose sockets are being drained; singly linked */
+    struct kd_connection *lingering; /* linked list of removed connections whose sockets are being drained */
     unsigned n_lingering;
     double header_ms, body_ms;
 };
@@ -111,7 +113,8 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
     one->socket = socket;
     snprintf(one->client, sizeof one->client, "%s", client);
     pthread_mutex_lock(&all->lock);
-    /* The library has closed this socket without a callback, because the socket's number is in use again. */
+    /* An old entry with this socket is stale: the library must have closed that connection without a callback,
+     * because the number of the socket is in use again. */
     struct kd_connection *stale = find(all, socket);
     if (stale) {
         unlink_one(all, stale);
@@ -129,7 +132,7 @@ struct kd_connection *kd_connections_add(struct kd_connections *all, int socket,
 }
 
 /* Shuts down the oldest connection to the health routes. A real health check sends its request at once, so the
- * oldest connection was answered long ago. */
+ * oldest connection must have been answered long ago. */
 static void cut_oldest_health(struct kd_connections *all)
 {
     struct kd_connection *oldest = NULL;
@@ -144,8 +147,8 @@ static void cut_oldest_health(struct kd_connections *all)
     shutdown(oldest->socket, SHUT_RDWR);
 }
 
-/* Counts the connections of the client of `one`, including `one` itself. handed_on: counts only connections that
- * have been handed to a daemon. */
+/* Counts the connections of the client to which `one` belongs, including `one`. handed_on: true counts only
+ * connections that were handed to a daemon. */
 static unsigned of_client(const struct kd_connections *all, const struct kd_connection *one, bool handed_on)
 {
     unsigned n = 0;
@@ -183,7 +186,7 @@ struct kd_connection *kd_connections_find(struct kd_connections *all, int socket
 
 bool kd_connection_is_health(const struct kd_connection *one) { return one && one->health; }
 
-/* Duplicates the descriptor of the socket, so that the socket stays open when the library closes its own. */
+/* Duplicates the socket's descriptor, so that the socket stays open when the library closes its own descriptor. */
 static bool keep(struct kd_connections *all, struct kd_connection *one)
 {
     int socket = all->n_lingering < LINGERING ? fcntl(one->socket, F_DUPFD_CLOEXEC, 0) : -1;
@@ -263,8 +266,8 @@ bool kd_connections_crowded(struct kd_connections *all, const struct kd_connecti
     return crowded;
 }
 
-/* The daemon accepts more connections than are served, so that an excess connection gets an answer with the reason
- * for the refusal. */
+/* The daemon accepts more connections than are served, so that a connection beyond the limit gets an answer with the
+ * reason for its refusal. */
 unsigned kd_connections_most(unsigned limit) { return limit + limit / 4 + 16; }
 
 bool kd_connections_full(struct kd_connections *all)
@@ -275,8 +278,8 @@ bool kd_connections_full(struct kd_connections *all)
     return full;
 }
 
-/* Answers a late request with 408. In these stages no part of an answer has been sent, so the whole answer can be
- * written directly to the socket. */
+/* Answers a late request with 408. In the stages concerned, no part of an answer was sent yet, so the whole answer
+ * can be written directly to the socket. */
 static void answer_late(const struct kd_connection *one)
 {
     if (one->stage == KD_STAGE_HEADER)
@@ -285,7 +288,7 @@ static void answer_late(const struct kd_connection *one)
         kd_problem_send_raw(one->socket, KD_PROBLEM_TIMEOUT, "the request's body took too long to arrive", NULL);
 }
 
-/* Discards the bytes that have arrived, at most 1 MiB in one sweep because the lock is held. Returns false if the
+/* Discards the bytes that have arrived, but at most 1 MiB per sweep, because the lock is held. Returns false if the
  * client has closed its end, or has sent more than LINGER_BYTES. */
 static bool empty(struct kd_connection *one)
 {
@@ -308,7 +311,7 @@ static void empty_lingering(struct kd_connections *all, double now)
     }
 }
 
-/* True if a request has arrived that its daemon has not read yet. Such a request is not late. */
+/* True if a request has arrived that its daemon has not read yet. The deadline does not apply to such a request. */
 static bool waits_for_us(const struct kd_connection *one)
 {
     int unread = 0;

@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define MAX_AGE_S "600" /* seconds that a browser may cache a preflight; Chromium accepts up to two hours */
+/* number of seconds for which a browser may cache a preflight; Chromium accepts up to two hours */
+#define MAX_AGE_S "600"
 #define NAME "abcdefghijklmnopqrstuvwxyz0123456789"
 #define EXPOSED \
     "Accept-Ranges, Allow, Content-Digest, Content-Disposition, Content-Encoding, Content-Range, Deprecation, ETag, " \
@@ -24,7 +25,7 @@ struct kd_cors {
     struct kd_buffer embedders; /* separated by blanks */
 };
 
-/* Returns what is wrong with an origin, worded as the end of a sentence, or NULL if the origin is valid. */
+/* Checks an origin. Returns NULL if it is valid, or otherwise the fault, worded as the end of a sentence. */
 static const char *fault_of(const char *origin)
 {
     if (!strcmp(origin, "null"))

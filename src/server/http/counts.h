@@ -6,19 +6,19 @@
 
 struct kd_sessions_counts {
     unsigned sessions, viewers;
-    uint64_t frames, bytes; /* totals since the start; bytes: the size of each frame is counted once */
+    uint64_t frames, bytes; /* totals since the start; bytes counts each frame once, however many clients receive it */
 };
 
 struct kd_playground_sessions_counts {
     unsigned open, watchers;
-    uint64_t bytes;         /* upper bound of the memory of all playgrounds */
-    uint64_t steps, events; /* totals since the start; steps: sub-steps of running playgrounds */
+    uint64_t bytes;         /* upper bound of the memory of all playgrounds, in bytes */
+    uint64_t steps, events; /* totals since the start; steps counts the sub-steps of running playgrounds */
 };
 
 struct kd_jobs_counts {
     unsigned waiting, running, done, failed;
-    uint64_t frames; /* number of frames that this server has finished since its start */
-    uint64_t bytes;  /* size of all jobs on disk */
+    uint64_t frames; /* number of frames that this server has finished since it started */
+    uint64_t bytes;  /* size of all jobs on disk, in bytes */
 };
 
 #endif

@@ -9,12 +9,13 @@
 #include <stdbool.h>
 #include <sys/resource.h>
 
-#define MOST 65536u /* the limit is bounded, because each descriptor costs the kernel memory */
-/* Descriptors for other uses: the device, files being sent, lingering sockets, connections that have sent nothing
- * yet, health checks. */
+#define MOST 65536u /* upper bound of the limit, because each descriptor costs the kernel memory */
+/* Number of descriptors for other uses: the device, files that are being sent, lingering sockets, connections that
+ * have not sent anything yet, and health checks. */
 #define RESERVE 200u
 
-/* True if the limit of descriptors suffices. Each connection needs two descriptors: its socket and a file to send. */
+/* True if the limit of descriptors is sufficient for this number of connections. Each connection needs two: its
+ * socket and a file to send. */
 static bool fit(unsigned connections, rlim_t limit) { return 2 * kd_connections_most(connections) + RESERVE <= limit; }
 
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;

@@ -17,24 +17,24 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define FULL_MS 10 /* pause between two checks for a free descriptor */
-#define BATCH 64   /* events handled, and connections accepted, in one iteration */
+#define FULL_MS 10 /* pause in ms between two checks for a free descriptor */
+#define BATCH 64   /* maximum number of events handled, and of connections accepted, in one iteration */
 
-/* A connection that has not been handed to a daemon yet. Its deadline is that of a header (connections.h). */
+/* A connection that was not handed to a daemon yet. Its deadline is that of a header (connections.h). */
 struct guest {
     struct guest *previous, *next;
     struct kd_connection *connection;
     int socket;
     struct sockaddr_storage address;
     socklen_t address_size;
-    bool spare; /* the connection uses the reserved descriptor, so only health routes are served */
+    bool spare; /* true if the connection uses the reserved descriptor, so that only health routes are served */
 };
 
 struct kd_front {
     struct kd_front_params params;
-    /* reserve: a spare descriptor, which is closed when no other descriptor is free; -1: it is closed */
+    /* reserve: a spare descriptor, which is closed when there is no other free descriptor; -1: it is closed now */
     int epoll, stop, reserve;
-    struct guest *first, *last; /* list of all guests; `first` is the latest */
+    struct guest *first, *last; /* list of all guests; `first` is the newest */
     pthread_t thread;
 };
 
@@ -47,8 +47,8 @@ static void unlink_guest(struct kd_front *front, struct guest *guest)
 static void send_away(struct kd_front *front, struct guest *guest)
 {
     unlink_guest(front, guest);
-    /* While a socket lingers it stays open through another descriptor. If it were still watched, epoll would report
-     * events for a guest that is freed. */
+    /* Removed explicitly, because a lingering socket stays open through another descriptor. epoll would then report
+     * events for a guest that is already freed. */
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
     kd_connections_remove(front->params.connections, guest->connection);
     close(guest->socket);
@@ -78,16 +78,16 @@ static void hand_on(struct kd_front *front, struct guest *guest, bool health)
         return;
     }
     unlink_guest(front, guest);
-    /* this has no effect if the socket is not watched yet */
+    /* no effect if the socket is not watched yet */
     epoll_ctl(front->epoll, EPOLL_CTL_DEL, guest->socket, NULL);
-    /* If this fails, the library has closed the socket. */
+    /* On failure the library has already closed the socket. */
     if (MHD_add_connection(daemon, guest->socket, (struct sockaddr *)&guest->address, guest->address_size) != MHD_YES)
         kd_connections_remove(front->params.connections, guest->connection);
     free(guest);
 }
 
-/* Hands a new connection to a daemon, as soon as the connection's first bytes show which daemon must serve it. gone:
- * no more bytes will come. Returns true if the connection is not handed over yet. */
+/* Hands a new connection to a daemon as soon as its first bytes show which daemon must serve it. gone: true if no
+ * more bytes will come. Returns true if the connection was not handed over yet. */
 static bool look_at(struct kd_front *front, struct guest *guest, bool gone)
 {
     char begin[KD_BEGINS_BYTES];
@@ -123,8 +123,8 @@ static struct guest *admit(struct kd_front *front, int socket, const struct sock
     return guest;
 }
 
-/* Watches a guest's socket. The events are edge-triggered. Level-triggered events would repeat for ever, because the
- * bytes are only peeked at and stay in the socket. */
+/* Watches a guest's socket. The events are edge-triggered: the bytes are only peeked at and stay in the socket, so
+ * level-triggered events would repeat for ever. */
 static void watch(struct kd_front *front, struct guest *guest)
 {
     struct epoll_event event = { .events = EPOLLIN | EPOLLRDHUP | EPOLLET, .data.ptr = guest };
@@ -134,13 +134,13 @@ static void watch(struct kd_front *front, struct guest *guest)
 
 static int keep_reserve(void) { return open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
-/* Frees a descriptor when all are in use. Closes the guest that has waited longest. If there is no guest, releases
- * the reserve. If the reserve is already released, waits for FULL_MS. */
+/* Frees a descriptor when all are in use. If there are guests, closes the one that has waited longest. Otherwise
+ * releases the reserve. If the reserve is already released, waits for FULL_MS. */
 static void make_room(struct kd_front *front)
 {
     struct pollfd waiting = { .fd = front->params.listener, .events = POLLIN };
     if (poll(&waiting, 1, 0) < 1)
-        return; /* no connection waits: accept failed only for lack of a descriptor */
+        return; /* no connection waits; accept has failed only because there was no descriptor */
     if (front->last)
         send_away(front, front->last);
     else if (front->reserve >= 0) {
@@ -151,7 +151,7 @@ static void make_room(struct kd_front *front)
         poll(NULL, 0, FULL_MS);
 }
 
-/* Accepts a connection. Returns false when none is waiting. */
+/* Accepts a connection. Returns false if none is waiting. */
 static bool accept_one(struct kd_front *front)
 {
     struct sockaddr_storage address = { 0 };
@@ -159,11 +159,11 @@ static bool accept_one(struct kd_front *front)
     int socket = accept4(front->params.listener, (struct sockaddr *)&address, &size, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (socket < 0 && (errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM)) {
         make_room(front);
-        return false; /* the event for the waiting connection will come again */
+        return false; /* the waiting connection will cause another event */
     }
     if (socket < 0)
         return errno != EAGAIN && errno != EWOULDBLOCK && errno != EINVAL &&
-               errno != EBADF; /* all other errors concern a connection that is already gone */
+               errno != EBADF; /* all other errors concern a connection that no longer exists */
     if (front->reserve < 0)
         front->reserve = keep_reserve();
     struct guest *guest = admit(front, socket, &address, size);
@@ -172,7 +172,7 @@ static bool accept_one(struct kd_front *front)
     guest->spare = front->reserve < 0;
     while (front->last != guest && kd_connections_full(front->params.connections))
         send_away(front, front->last);
-    /* most requests arrive together with their connection; such a connection need not be watched */
+    /* Most requests arrive together with their connection, which then need not be watched. */
     if (look_at(front, guest, false))
         watch(front, guest);
     return true;
@@ -194,7 +194,8 @@ static void *run(void *user)
             else
                 look_at(front, events[i].data.ptr, events[i].events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR));
         }
-        /* connections are accepted after the events are handled, because accepting may close guests that have events */
+        /* Connections are accepted after the events were handled, because accepting may close guests that have
+         * events. */
         for (int i = 0; more && i < BATCH; i++)
             more = accept_one(front);
     }

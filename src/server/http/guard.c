@@ -16,7 +16,7 @@ struct scan {
 static bool parse_length(const char *text, uint64_t *out)
 {
     uint64_t value = 0;
-    if (!*text || strlen(text) > 18) /* at most 18 digits, so that the number fits in 64 bits */
+    if (!*text || strlen(text) > 18) /* at most 18 digits, so that the number fits into 64 bits */
         return false;
     for (; *text; text++) {
         if (*text < '0' || *text > '9')
@@ -35,13 +35,14 @@ static bool is_token(const char *text, size_t size)
     return size > 0;
 }
 
-/* Length without trailing blanks, which are not part of a value (RFC 9110 5.5) and which libmicrohttpd 0.9.75 keeps. */
+/* Length of a value without trailing blanks, which do not belong to it (RFC 9110 5.5). libmicrohttpd 0.9.75 does not
+ * remove them. */
 static size_t trim(const char *value, size_t size)
 {
     union {
         const char *in;
         char *out;
-    } text = { value }; /* the library's own copy, ended by a zero byte */
+    } text = { value }; /* the library's own copy, which ends with a NUL */
     const size_t given = size;
     while (size && (value[size - 1] == ' ' || value[size - 1] == '\t'))
         size--;
@@ -50,7 +51,7 @@ static size_t trim(const char *value, size_t size)
     return size;
 }
 
-/* Stores Host. A truncated Host is longer than any name served, so it is refused. */
+/* Stores Host. A Host that is too long for the buffer is longer than every name that is served, so it is refused. */
 static void keep_host(struct kd_header *header, const char *value, size_t n)
 {
     snprintf(header->host_text, sizeof header->host_text, "%.*s",

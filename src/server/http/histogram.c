@@ -38,7 +38,8 @@ enum kd_status kd_histogram_head(struct kd_buffer *out, const char *name, const 
     return kd_buffer_printf(out, "# HELP %s %s\n# TYPE %s histogram\n", name, help, name);
 }
 
-/* The count is the sum of the buckets as they were read. So it equals the last bucket even while other threads add. */
+/* The count is computed from the buckets that were read, so that it equals the last bucket even if other threads add
+ * durations meanwhile. */
 enum kd_status kd_histogram_write(const struct kd_histogram *histogram, struct kd_buffer *out, const char *name,
                                   const char *labels)
 {

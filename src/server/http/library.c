@@ -8,15 +8,16 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define SAYS_STATUS "HTTP response code is " /* the library's log text in libmicrohttpd 0.9.75 and 1.0.1 */
+/* start of a log line of the library, in libmicrohttpd 0.9.75 and 1.0.1 */
+#define SAYS_STATUS "HTTP response code is "
 
 static _Thread_local int current = -1;
 
 void kd_library_works_on(int socket) { current = socket; }
 
-/* Replaces the C library's recv in the whole program, shared libraries included. There is no other way to find out
- * which connection's bytes a thread of libmicrohttpd is parsing. The function is declared by its symbol, because
- * headers may define recv as an inline function. */
+/* Replaces the C library's recv in the whole program, including shared libraries. This is the only way to find out
+ * whose bytes a thread of libmicrohttpd is parsing. The function is declared by its symbol, because headers may
+ * define recv as an inline function. */
 ssize_t kd_recv(int socket, void *data, size_t size, int flags) __asm__("recv");
 ssize_t kd_recv(int socket, void *data, size_t size, int flags)
 {
@@ -37,7 +38,7 @@ static const struct refusal {
     { 505, KD_PROBLEM_HTTP_VERSION, "the request line must name HTTP/1.1 or HTTP/1.0" },
 };
 
-/* Finds the refusal that a log line reports; NULL if it reports none. */
+/* Finds the refusal that a log line reports. Returns NULL if it reports none. */
 static const struct refusal *refusal_of(const char *line)
 {
     const char *says = strstr(line, SAYS_STATUS);

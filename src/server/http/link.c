@@ -91,7 +91,7 @@ static bool read_signature(const char *text, uint8_t out[KD_ACCESS_SIGNATURE])
     return true;
 }
 
-/* Reads the link's terms before its signature is checked, so that the error for a truncated link says that the link
+/* Reads the terms of the link before its signature is checked, so that the error for a truncated link says that it
  * is truncated. */
 static enum kd_status read_terms(const struct kd_target *target, struct kd_link *out, uint8_t signature[],
                                  struct kd_error *error)

@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The file consists of this text and then the places, in the byte order of the machine. */
+/* The file consists of this header and the entries, in the byte order of the machine. */
 static const char HEAD[24] = "kerrd link budgets 1\n";
 
 struct place {
@@ -21,10 +21,10 @@ struct place {
 _Static_assert(sizeof(struct place) == 24, "places in the file have no padding");
 
 struct kd_link_budgets {
-    pthread_mutex_t lock;  /* guards the places; held for some 10 us */
-    pthread_mutex_t write; /* held while a place is written, so that an older state never overwrites a newer one */
+    pthread_mutex_t lock;  /* guards the entries; held for some 10 us at a time */
+    pthread_mutex_t write; /* held while an entry is written, so that an older state never overwrites a newer one */
     int fd;                /* -1: no file */
-    bool failed;           /* a write failure has been logged; guarded by `write` */
+    bool failed;           /* true if a write failure was already logged; guarded by `write` */
     struct place places[KD_LINK_BUDGETS];
 };
 
@@ -55,8 +55,8 @@ static bool is_sound(const struct place *p)
     return p->expires_s <= KD_LINK_LATEST_S && p->ms >= 0 && isfinite(p->ms);
 }
 
-/* Reads the places, or writes the head of a new file. On failure returns false with errno. EILSEQ: the file is not a
- * file of link budgets. */
+/* Reads the entries, or writes the header of a new file. On failure returns false with errno; EILSEQ means that this
+ * is not a file of link budgets. */
 static bool read_places(struct kd_link_budgets *all)
 {
     char head[sizeof HEAD];
@@ -104,8 +104,8 @@ enum kd_status kd_link_budgets_open(struct kd_link_budgets *all, const char *sta
                         KD_LINK_BUDGETS_FILE, why == EILSEQ ? "; remove it, or use another folder" : strerror(why));
 }
 
-/* Returns the link's place. If the link has none, returns an unused place or the place of an expired link. NULL if
- * there is no such place. */
+/* Returns the entry of a link. If the link has none, returns an unused entry, or the entry of an expired link.
+ * Returns NULL if there is none of these. */
 static struct place *place_of(struct kd_link_budgets *all, const struct kd_link *link, uint64_t now_s)
 {
     struct place *unused = NULL;
@@ -130,7 +130,7 @@ enum kd_link_left kd_link_budget(struct kd_link_budgets *all, const struct kd_li
     return !place ? KD_LINK_CROWDED : spent ? KD_LINK_SPENT : KD_LINK_LEFT;
 }
 
-/* Writes the current content of a place to the file. */
+/* Writes the present content of an entry to the file. */
 static void keep(struct kd_link_budgets *all, size_t i)
 {
     if (all->fd < 0)

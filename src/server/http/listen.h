@@ -7,11 +7,11 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* True if a socket that listens on the address can be reached from other machines. False if the text is not a
- * numeric address. */
+/* True if other machines can reach a socket that listens on this address. False if the text is not a numeric
+ * address. */
 bool kd_listen_reaches_out(const char *address);
-/* Opens the socket. address: "127.0.0.1", "::1" or "[::1]". *port 0 is replaced by the port that the system chose. The
- * caller closes *out. */
+/* Opens the socket. address: for example "127.0.0.1", "::1" or "[::1]". *port: if 0, it is replaced by the port that
+ * the system has chosen. The caller closes *out. */
 enum kd_status kd_listen_open(const char *address, uint16_t *port, int *out, struct kd_error *error);
 
 #endif

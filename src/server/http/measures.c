@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* classes of statuses, by their first digit; class 0: the connection was cut before a status was sent */
+/* Number of classes of statuses, by first digit. Class 0: the connection was cut before a status was sent. */
 #define CLASSES 6
 
 struct kd_measures {
-    size_t n; /* number of routes, plus one for requests without a route */
-    /* histograms of each route; the last row is for requests without a route */
+    size_t n; /* number of routes, plus one entry for requests without a route */
+    /* histograms of each route; the last row is that of requests without a route */
     struct kd_histogram histograms[][CLASSES];
 };
 

@@ -1,5 +1,5 @@
-/* Durations of requests for /metrics, by route and first digit of the status. The number of series depends only on
- * the number of routes, so clients cannot increase it. Any thread. */
+/* Durations of requests for /metrics, by route and by first digit of the status. The number of series depends only
+ * on the number of routes, so that clients cannot increase it. Any thread. */
 #ifndef KD_SERVER_HTTP_MEASURES_H
 #define KD_SERVER_HTTP_MEASURES_H
 
@@ -14,10 +14,10 @@ void kd_measures_destroy(struct kd_measures *measures); /* accepts NULL */
 /* Adds the duration of a finished request. status 0: the connection was cut before an answer. route NULL: no route has
  * the path. */
 void kd_measures_add(struct kd_measures *measures, const struct kd_route *route, unsigned status, double ms);
-/* Writes the metric kerrd_request_seconds. Combinations without a request are left out. */
+/* Writes the metric kerrd_request_seconds. Combinations that have occurred in no request are left out. */
 enum kd_status kd_measures_write(const struct kd_measures *measures, struct kd_buffer *out);
 
-/* Label of a route in /metrics and the log: its path, or "none" for NULL. */
+/* Label of a route in /metrics and in the log: the path of the route, or "none" for NULL. */
 const char *kd_measures_route(const struct kd_route *route);
 
 #endif

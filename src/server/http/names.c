@@ -11,7 +11,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#define MOST 64 /* limit of names; a machine with more addresses can be given the others by --host */
+#define MOST 64 /* maximum number of names; if a machine has more addresses, --host can add the others */
 
 bool kd_names_any(const char *listen)
 {
@@ -25,8 +25,8 @@ void kd_names_free(char **names)
     free(names);
 }
 
-/* Writes an address in the form that it has in URLs. Writes "" for addresses of other families, and for addresses
- * that are valid on one interface only. */
+/* Writes an address in the form for URLs. Writes "" for other address families, and for addresses that are valid on
+ * one interface only. */
 static void text_of(const struct sockaddr *address, int family, char out[80])
 {
     char text[INET6_ADDRSTRLEN] = "";
@@ -53,7 +53,8 @@ static bool add(char **names, size_t *n, const char *name)
     return names[(*n)++];
 }
 
-/* True if the address is this machine's. Loopback counts, because Debian resolves the host name to 127.0.1.1. */
+/* True if the address belongs to this machine. Loopback addresses count, because Debian resolves the host name to
+ * 127.0.1.1. */
 static bool is_own(const char *text, char **names, size_t n)
 {
     for (size_t i = 0; i < n; i++)

@@ -26,8 +26,8 @@ static bool equals(struct span s, const char *text)
     return s.size == strlen(text) && !strncasecmp(s.at, text, s.size);
 }
 
-/* Returns the text before the separator and moves *rest behind the separator, or sets *rest to NULL at the end.
- * Separators in quoted text are skipped. */
+/* Returns the text before the separator. *rest is moved to the text after the separator, or is set to NULL at the
+ * end. Separators in quoted text are skipped. */
 static struct span take(const char **rest, char separator)
 {
     const char *start = *rest, *p = start;
@@ -43,7 +43,7 @@ static struct span take(const char **rest, char separator)
     return trim((struct span) { start, (size_t)(p - start) });
 }
 
-/* Parses a weight (RFC 9110 12.4.2), such as 0, 0.5 or 1.000, to thousandths; -1 if malformed. */
+/* Parses a weight (RFC 9110 12.4.2), such as 0, 0.5 or 1.000, in thousandths. Returns -1 if it is malformed. */
 static int weight(struct span s)
 {
     if (!s.size || s.size > 5 || (s.at[0] != '0' && s.at[0] != '1') || (s.size > 1 && s.at[1] != '.'))
@@ -57,7 +57,8 @@ static int weight(struct span s)
     return value <= 1000 ? value : -1;
 }
 
-/* How closely a media range matches a type: 3 same type, 2 same type before the slash, 1 any, 0 no match. */
+/* How closely a media range matches a type. 3: the whole type is the same; 2: the same before the slash; 1: the
+ * range matches all types; 0: no match. */
 static int fit(struct span range, const char *type)
 {
     size_t family = strcspn(type, "/") + 1;
@@ -79,14 +80,14 @@ static int entry_weight(const char *parameters)
     return q;
 }
 
-/* An entry of a weighted list. `name` points into `text`; weight is -1 if it is malformed. */
+/* An entry of a weighted list. `name` points into `text`; weight is -1 if the weight is malformed. */
 struct entry {
     char text[256];
     struct span name;
     int weight;
 };
 
-/* Reads the next entry that is not empty and not too long; moves *list behind it. False at the end. */
+/* Reads the next entry that is not empty and not too long. Moves *list past it. Returns false at the end. */
 static bool next_entry(const char **list, struct entry *out)
 {
     while (*list) {
@@ -103,7 +104,7 @@ static bool next_entry(const char **list, struct entry *out)
     return false;
 }
 
-/* Weight of a type in thousandths; 0: not acceptable. */
+/* Weight of a type in thousandths; 0: the type is not acceptable. */
 static int type_weight(const char *accept, const char *type)
 {
     struct entry entry;
@@ -203,8 +204,9 @@ bool kd_host_listed(const char *host, const char *const *names)
     if (*port && (*port != ':' || strlen(port) > 6 || port[1 + strspn(port + 1, "0123456789")]))
         return false;
     const size_t plain = size - (size > 1 && host[size - 1] == '.' &&
-                                 !isdigit((unsigned char)host[size - 2])); /* "localhost." is the same name as
-                                                                            * "localhost" (RFC 1034 3.1) */
+                                 /* a final dot is ignored: "localhost." is the same name as "localhost" (RFC 1034
+                                  * 3.1) */
+                                 !isdigit((unsigned char)host[size - 2]));
     for (; *names; names++)
         if (equals((struct span) { host, size }, *names) || equals((struct span) { host, plain }, *names))
             return true;

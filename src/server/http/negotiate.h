@@ -1,27 +1,28 @@
-/* Reads the header values that select an answer: Accept, Accept-Encoding, If-None-Match, Content-Type, Host. Pure; any
- * thread. */
+/* Reads the headers by which an answer is selected: Accept, Accept-Encoding, If-None-Match, Content-Type, Host.
+ * Pure; any thread. */
 #ifndef KD_SERVER_HTTP_NEGOTIATE_H
 #define KD_SERVER_HTTP_NEGOTIATE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Chooses the media type that an Accept value (RFC 9110 12.5.1) prefers among n types, named by type(i, list). Among
- * equally preferred types the first is chosen. The most specific range that matches a type gives the type's weight.
- * Malformed entries match nothing; NULL or a blank value accepts all. Returns n if none is acceptable. */
+/* Chooses, from n types, the media type that an Accept header (RFC 9110 12.5.1) prefers. type(i, list) returns the
+ * types. The weight of a type is that of the most specific range that matches it. Of equally preferred types, the
+ * first is chosen. Malformed entries match nothing; NULL or a blank header accepts everything. Returns n if no type
+ * is acceptable. */
 size_t kd_accept_best(const char *accept, size_t n, const char *(*type)(size_t i, const void *list), const void *list);
-/* the function `type` for a list that is an array of const char * */
+/* for use as `type` if the list is an array of const char * */
 const char *kd_accept_string(size_t i, const void *list);
 
-/* True if an Accept-Encoding value (RFC 9110 12.5.3) has the coding, or "*", with a weight above zero. False for
- * NULL. */
+/* True if an Accept-Encoding header (RFC 9110 12.5.3) contains the coding, or "*", with a weight above zero. False
+ * for NULL. */
 bool kd_accepts_coding(const char *accept_encoding, const char *coding);
 
-/* True if an If-None-Match value is "*" or contains the entity tag (with its quotes), by weak comparison. */
+/* True if an If-None-Match header is "*" or contains the entity tag (given with its quotes), by weak comparison. */
 bool kd_etag_listed(const char *if_none_match, const char *etag);
 
-/* True if an If-Match value is "*" or contains the entity tag, by strong comparison. etag NULL: the resource has
- * none. */
+/* True if an If-Match header is "*" or contains the entity tag, by strong comparison. etag NULL: the resource has no
+ * tag. */
 bool kd_etag_matches(const char *if_match, const char *etag);
 
 /* True if a Content-Type value is this media type; parameters are ignored. */

@@ -19,8 +19,8 @@ static void digest(struct sha256_ctx *hash, char out[65])
     kd_sha256_text(bytes, out);
 }
 
-/* Parses a String (RFC 9651 3.3.3); many clients omit its quotes, so these are optional. *out has no quotes. Backslash
- * escapes are refused. */
+/* Parses a String (RFC 9651 3.3.3). The quotes are optional, because many clients omit them; *out has no quotes.
+ * Backslash escapes are refused. */
 static bool key_of(const char *value, char out[KD_ONCE_MOST + 1])
 {
     const size_t all = strlen(value), quoted = all >= 2 && *value == '"' && value[all - 1] == '"', n = all - 2 * quoted;
@@ -75,7 +75,7 @@ static bool is_under_way(const struct kd_request *request)
 
 enum kd_once_verdict kd_once_begin(struct kd_request *request, const struct kd_once *earlier, enum MHD_Result *refused)
 {
-    /* the request has no key, or kd_once_begin has already decided about it */
+    /* either the request has no key, or kd_once_begin has already decided about it */
     if (!*request->once.key || *request->once.request)
         return KD_ONCE_FIRST;
     digest(&request->taken, request->once.request);

@@ -50,7 +50,8 @@ void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, 
         problem->retry_after = error->retry_s ? error->retry_s : otherwise_s;
 }
 
-/* A message may contain bytes of the request or end within a character. JSON allows neither. */
+/* Text for JSON: a message may contain bytes of the request, or may end within a character, and JSON permits
+ * neither. */
 static void add_text(struct kd_json *json, const char *key, const char *text)
 {
     char copy[512];
@@ -97,7 +98,8 @@ void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *deta
             table[type].status, later ? "Retry-After: 1\r\n" : "", named ? KD_REQUEST_ID_HEADER ": " : "",
             named ? request_id : "", named ? "\r\n" : "", body.size, (const char *)body.data))
         if (send(socket, reply.data, reply.size, MSG_DONTWAIT | MSG_NOSIGNAL) < 0) {
-            /* The peer is gone or does not read; the connection is about to be closed anyway. */
+            /* errors are ignored: the peer has closed the connection or does not read, and the connection will be
+             * closed anyway */
         }
     kd_buffer_finish(&body);
     kd_buffer_finish(&reply);

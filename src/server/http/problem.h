@@ -8,7 +8,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* X(name, HTTP status, word in the URI of the type, title) */
+/* X(name, HTTP status, word in the type's URI, title) */
 #define KD_PROBLEMS(X) \
     X(BAD_REQUEST, 400, "bad-request", "The request is not valid HTTP") \
     X(MALFORMED_JSON, 400, "malformed-json", "The body cannot be read as a JSON object") \
@@ -61,35 +61,35 @@ enum kd_problem_type {
 
 struct kd_problem {
     enum kd_problem_type type;
-    const char *detail;        /* one sentence for this occurrence */
-    const char *pointer;       /* RFC 6901 pointer into the scene; NULL or "" for none */
-    const char *offered;       /* 406, 415: the media types that are accepted */
-    const char *allow;         /* 405: the methods that the route accepts */
-    const char *content_range; /* 416: value of Content-Range, which states the length of the file */
+    const char *detail;        /* one sentence about this occurrence */
+    const char *pointer;       /* RFC 6901 pointer into the document; NULL or "" if there is none */
+    const char *offered;       /* for 406 and 415: the media types that are accepted */
+    const char *allow;         /* for 405: the methods that the route supports */
+    const char *content_range; /* for 416: value of Content-Range, which states the length of the file */
     const char *request_id;    /* NULL or "" for none */
-    unsigned retry_after;      /* Retry-After in seconds; 0: no such header */
-    /* close the connection, because the rest of the request is not read or cannot be parsed safely */
+    unsigned retry_after;      /* value of Retry-After in seconds; 0: the header is not sent */
+    /* true if the connection is closed, because the rest of the request is not read or cannot be parsed safely */
     bool close;
 };
 
-/* Makes the problem of a status. pointer and detail point into *error. */
+/* Makes the problem that belongs to the status of *error. Its pointer and detail point into *error. */
 struct kd_problem kd_problem_from(const struct kd_error *error);
 
-/* Completes a result of kd_problem_from that may be due to a limit. quota: the limit is that of one client, so the
- * status becomes 429. Retry-After is the number of seconds in the error if the error is KD_EBUSY, otherwise
+/* Completes a result of kd_problem_from that may be caused by a limit. quota: true if the limit is that of one
+ * client; the status then becomes 429. Retry-After: for KD_EBUSY, the number of seconds in the error; otherwise
  * otherwise_s. */
 void kd_problem_limit(struct kd_problem *problem, const struct kd_error *error, bool quota, unsigned otherwise_s);
 
 unsigned kd_problem_status(enum kd_problem_type type);
 const char *kd_problem_title(enum kd_problem_type type);
-/* The document's type, "urn:kerrd:problem:..."; NULL if `type` exceeds the last type. */
+/* The type's URI, "urn:kerrd:problem:..."; NULL if `type` is beyond the last type. */
 const char *kd_problem_uri(size_t type);
 
-/* Writes the document, application/problem+json. */
+/* Writes the document, whose media type is application/problem+json. */
 enum kd_status kd_problem_to_json(const struct kd_problem *problem, struct kd_buffer *out);
 
-/* Writes a complete HTTP answer to a socket, where libmicrohttpd cannot. request_id: NULL or "" if there is none yet.
- * Never blocks. */
+/* Writes a complete HTTP answer to a socket, in situations in which libmicrohttpd cannot send one. request_id: NULL
+ * or "" if there is none yet. Never blocks. */
 void kd_problem_send_raw(int socket, enum kd_problem_type type, const char *detail, const char *request_id);
 
 #endif

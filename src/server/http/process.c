@@ -35,8 +35,8 @@ static double boot_time_s(void)
     return s;
 }
 
-/* Reads /proc/self/stat (proc(5)). The process name may contain anything and is skipped. The fields used are the 14th,
- * 15th and 22nd to 24th. */
+/* Reads /proc/self/stat (proc(5)). The process name may contain any text and is skipped. The fields that are used
+ * are numbers 14, 15 and 22 to 24. */
 static struct process look(void)
 {
     struct process p = { NAN, NAN, NAN, NAN };

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HOST_MOST 255 /* bytes of a host, including the port */
+#define HOST_MOST 255 /* maximum number of bytes of a host, including the port */
 
-/* Returns the text behind "https://" or "http://", or NULL if the text begins with neither. */
+/* Returns the text after "https://" or "http://". Returns NULL if the text begins with neither. */
 static const char *behind_scheme(const char *text)
 {
     static const char *const schemes[] = { "https://", "http://" };

@@ -6,9 +6,9 @@
 
 #include "server/http/request.h"
 
-/* Parses text: "https://HOST" or "https://HOST:PORT", optionally with a path. *out is the address (malloc'd), or
- * NULL if text is NULL. If the address has no path, the base path is appended. *host is the host of the address, in
- * the form in which Host headers are compared. Returns KD_EINVAL with a message if text is malformed. */
+/* Parses text of the form "https://HOST" or "https://HOST:PORT", optionally with a path. *out: the address
+ * (malloc'd), or NULL if text is NULL; if it has no path, the base path is appended. *host: the host of the address,
+ * in the form in which Host headers are compared. Returns KD_EINVAL with a message if text is malformed. */
 enum kd_status kd_public_url_make(const char *text, const struct kd_base_path *base, char **out, char **host,
                                   struct kd_error *error);
 

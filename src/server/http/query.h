@@ -1,18 +1,18 @@
-/* Limits of query parameters. They are literals, so that openapi.json can print the same numbers that the parser
+/* Limits of query parameters. They are literals, so that openapi.json can contain the same numbers that the parser
  * uses. */
 #ifndef KD_SERVER_HTTP_QUERY_H
 #define KD_SERVER_HTTP_QUERY_H
 
-#define KD_WAIT_MS 25000       /* default of the parameter wait_ms: proxies commonly give up after 30 s */
-#define KD_WAIT_MS_MAX 60000   /* largest value of wait_ms */
-#define KD_VERSION_LETTERS 40  /* longest value of the parameter v */
-#define KD_MIN_SCALE_MIN 0.25  /* smallest value of the parameter min_scale; the largest is 1 */
-#define KD_MAX_FRAME_MS_MIN 10 /* smallest value of the parameter max_frame_ms */
+#define KD_WAIT_MS 25000       /* default of the parameter wait_ms, below 30 s because proxies commonly give up then */
+#define KD_WAIT_MS_MAX 60000   /* maximum of wait_ms */
+#define KD_VERSION_LETTERS 40  /* maximum length of the parameter v */
+#define KD_MIN_SCALE_MIN 0.25  /* minimum of the parameter min_scale; its maximum is 1 */
+#define KD_MAX_FRAME_MS_MIN 10 /* minimum of the parameter max_frame_ms */
 #define KD_MAX_FRAME_MS_MAX 60000
-/* largest value of the parameter order; the smallest is 1. It is 2^53, because every client can represent integers
- * up to it exactly */
+/* maximum of the parameter order, whose minimum is 1: 2^53, because all clients represent integers up to it exactly */
 #define KD_ORDER_MAX 9007199254740992
-#define KD_SENTENCES_MAX 4294967295  /* largest value of the parameter sentences: 32 bits */
-#define KD_DEPRECATION "@1795910400" /* date since when the former names of parameters are deprecated: 2026-11-29 */
+#define KD_SENTENCES_MAX 4294967295 /* maximum of the parameter sentences: 32 bits */
+/* date from which on the former names of parameters are deprecated: 2026-11-29 */
+#define KD_DEPRECATION "@1795910400"
 
 #endif

@@ -7,8 +7,8 @@
 #define BLANKS " \t"
 #define DIGITS "0123456789"
 
-/* Reads a number of at least one digit and moves *at behind it. Numbers that exceed 64 bits become the largest
- * number of 64 bits. */
+/* Reads a number of at least one digit and moves *at past it. A number that exceeds 64 bits becomes the largest one
+ * of 64 bits. */
 static bool number(const char **at, uint64_t *out)
 {
     const size_t n = strspn(*at, DIGITS);
@@ -21,10 +21,10 @@ static bool number(const char **at, uint64_t *out)
     return n > 0;
 }
 
-/* Skips empty elements, which a list may have (RFC 9110 5.6.1). */
+/* Skips empty elements, which are permitted in a list (RFC 9110 5.6.1). */
 static const char *skip_empty(const char *at) { return at + strspn(at, BLANKS ","); }
 
-/* One range of a Range header: first-last, first- or -suffix. */
+/* One range of a Range header, of the form first-last, first- or -suffix. */
 struct spec {
     uint64_t first, last;
     bool suffix;
@@ -49,7 +49,7 @@ enum kd_byte_range kd_range_read(const char *value, uint64_t size, uint64_t *fir
     struct spec spec;
     if (!value || strncasecmp(value, unit, strlen(unit)) || !read_spec(value + strlen(unit), &spec))
         return KD_RANGE_WHOLE;
-    if (spec.suffix && spec.last && !size) /* RFC 9110 has no Content-Range for this failure if the file is empty */
+    if (spec.suffix && spec.last && !size) /* RFC 9110 defines no Content-Range for this failure on an empty file */
         return KD_RANGE_WHOLE;
     if (spec.suffix ? !spec.last : spec.first >= size)
         return KD_RANGE_BEYOND;

@@ -22,8 +22,8 @@ struct MHD_Response *kd_reply_take(struct kd_buffer *body, const char *type)
     return response;
 }
 
-/* For a text shorter than PACK_LEAST, compression saves less than gzip's header costs. A text longer than PACK_MOST
- * would block the HTTP thread for more than some 20 ms. */
+/* Limits of compression. Below PACK_LEAST, gzip's header costs more than compression saves. Above PACK_MOST,
+ * compression would block the HTTP thread for more than some 20 ms. */
 enum { PACK_LEAST = 1 << 10, PACK_MOST = 1 << 20 };
 
 struct MHD_Response *kd_reply_text(struct kd_request *request, struct kd_buffer *body, const char *type)
@@ -61,8 +61,8 @@ static ssize_t nothing(void *cls, uint64_t position, char *to, size_t size)
 struct MHD_Response *kd_reply_empty(const char *type)
 {
     struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, 64, nothing, NULL, NULL);
-    /* Without this option libmicrohttpd announces chunks and sends the final chunk "0", although there is no body. A
-     * client that keeps the connection would read this chunk as the beginning of the next answer. With the option
+    /* Without this option, libmicrohttpd announces chunks and sends the final chunk "0" although there is no body. A
+     * client that keeps the connection open would read this chunk as the start of the next answer. With the option,
      * the library closes the connection. */
     if (response)
         MHD_set_response_options(response, MHD_RF_HTTP_1_0_COMPATIBLE_STRICT, MHD_RO_END);
@@ -133,12 +133,12 @@ static bool only_asks(const struct kd_request *request)
     return request->head || !strcmp(request->method, "GET") || (request->route && request->route->question);
 }
 
-/* Adds the client's quota by draft-ietf-httpapi-ratelimit-headers-11. */
+/* Adds the client's quota in the headers of draft-ietf-httpapi-ratelimit-headers-11. */
 static void add_quota(const struct kd_request *request, struct MHD_Response *response)
 {
     char text[80];
     const char *caching = MHD_get_response_header(response, "Cache-Control");
-    /* a shared cache would send the quota of one client to all clients */
+    /* not in public answers, because a shared cache would send one client's quota to all clients */
     if (caching && !strncmp(caching, "public", 6))
         return;
     if (!request->server->quota || !request->route || strncmp(request->route->path, "/v1/", 4))
@@ -150,7 +150,7 @@ static void add_quota(const struct kd_request *request, struct MHD_Response *res
     MHD_add_response_header(response, "RateLimit", text);
 }
 
-/* Adds the header Deprecation if the query has the former name of a parameter (RFC 9745). */
+/* Adds the header Deprecation (RFC 9745) if the query uses the former name of a parameter. */
 static void add_deprecation(const struct kd_request *request, struct MHD_Response *response)
 {
     char link[KD_BASE_PATH_MOST + 40];
@@ -179,7 +179,7 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
                             server->cross_site || request->link.on ? "cross-origin" : "same-site");
     if (!MHD_get_response_header(response, "Cache-Control"))
         MHD_add_response_header(response, "Cache-Control", "no-store");
-    /* ensures that a cached answer is used only for the same token */
+    /* so that caches use the answer only for requests with the same token */
     if (server->access && !request->link.on)
         MHD_add_response_header(response, "Vary", "Authorization, " KD_ACCESS_HEADER ", Cookie");
     kd_cors_add(request, response);
@@ -190,7 +190,8 @@ enum MHD_Result kd_reply_send(struct kd_request *request, unsigned status, struc
         MHD_add_response_header(response, "Content-Disposition", request->file);
     if (*request->id)
         MHD_add_response_header(response, KD_REQUEST_ID_HEADER, request->id);
-    /* During shutdown a client with a persistent connection should look for another server. */
+    /* During shutdown, the connection is closed, so that a client with a persistent connection looks for another
+     * server. */
     if (request->close || atomic_load(&server->phase) != KD_SERVING)
         MHD_add_response_header(response, "Connection", "close");
     kd_connections_stage(server->connections, request->connection, KD_STAGE_REPLY, request->reply_bytes);

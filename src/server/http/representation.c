@@ -12,15 +12,15 @@
 #include <string.h>
 #include <unistd.h>
 
-#define PIECE ((size_t)256 << 10) /* bytes read at once */
+#define PIECE ((size_t)256 << 10) /* maximum number of bytes that are read at once */
 
-/* Selection of the bytes to send, and the status. */
+/* The bytes that are sent, and the status. */
 struct part {
     unsigned status;
     uint64_t first, count;
 };
 
-/* State of a selection that is read in pieces of PIECE bytes. */
+/* State of a part that is read in pieces of PIECE bytes. */
 struct reading {
     struct part part;
     MHD_ContentReaderCallback read;
@@ -64,7 +64,7 @@ static struct MHD_Response *read_from(const struct kd_representation *r, struct 
     return response;
 }
 
-/* Makes the response, which takes over the source. Returns NULL when out of memory; the source is then released. */
+/* Makes the response, which takes over the source. Returns NULL when out of memory, after the source was released. */
 static struct MHD_Response *respond(const struct kd_representation *r, struct part part)
 {
     struct MHD_Response *response = r->fd >= 0 ? MHD_create_response_from_fd_at_offset64(part.count, r->fd, part.first)
@@ -84,7 +84,7 @@ static bool names(struct kd_request *request, const char *header, const char *et
     return yes;
 }
 
-/* True if If-Range holds for the ETag, by strong comparison. If-Range with a date never holds, because the server
+/* True if If-Range matches the ETag, by strong comparison. If-Range with a date never matches, because the server
  * sends no Last-Modified (RFC 9110 13.1.5). */
 static bool is_of(struct kd_request *request, const char *etag)
 {
@@ -92,8 +92,8 @@ static bool is_of(struct kd_request *request, const char *etag)
     return !tag || !strcmp(tag, etag);
 }
 
-/* Evaluates preconditions in the order of RFC 9110 13.2.2. If-Match is not evaluated here, because kd_reply_send
- * evaluates it (reply.c). */
+/* Evaluates the preconditions in the order of RFC 9110 13.2.2, except If-Match, which kd_reply_send evaluates
+ * (reply.c). */
 static struct part choose(struct kd_request *request, const struct kd_representation *r)
 {
     struct part part = { MHD_HTTP_OK, 0, r->size };
@@ -126,8 +126,8 @@ static enum MHD_Result beyond(struct kd_request *request, const struct kd_repres
                             &(struct kd_problem) { .type = KD_PROBLEM_RANGE, .content_range = size, .detail = detail });
 }
 
-/* Adds digests (RFC 9530), independent of Want-Content-Digest and Want-Repr-Digest. Repr-Digest covers all bytes;
- * Content-Digest is added if all bytes are sent. */
+/* Adds digests (RFC 9530), whether or not the request has Want-Content-Digest or Want-Repr-Digest. Repr-Digest is
+ * that of all bytes. Content-Digest is added only if all bytes are sent. */
 static void add_digests(struct MHD_Response *response, const struct kd_request *request,
                         const struct kd_representation *r, struct part part)
 {
@@ -191,8 +191,8 @@ enum MHD_Result kd_reply_served(struct kd_request *request, const struct kd_serv
         request, &(struct kd_representation) { .type = file->type,
                                                .etag = form->etag,
                                                .hashed = true,
-                                               /* Browsers may fetch a page's icon whenever the page's address
-                                                * changes. */
+                                               /* Pictures may be cached, because browsers may fetch the icon of a
+                                                * page whenever the page's address changes. */
                                                .cache_control = picture ? "private, max-age=86400" : "no-cache",
                                                .coding = gzip ? "gzip" : NULL,
                                                .negotiated = true,

@@ -1,5 +1,4 @@
-/* Request IDs. The log, the answer and the records of proxies and clients contain the same ID for a request. Any
- * thread. */
+/* Request IDs. The same ID appears in the log, in the answer, and in the records of proxies and clients. Any thread. */
 #ifndef KD_SERVER_HTTP_REQUEST_ID_H
 #define KD_SERVER_HTTP_REQUEST_ID_H
 
@@ -10,8 +9,8 @@
 
 /* True if a client's ID is accepted: 1 to KD_REQUEST_ID_MAX letters, digits and -._+/=. False for NULL. */
 bool kd_request_id_is_sane(const char *given);
-/* Copies the client's ID if it is accepted; otherwise makes an ID of 32 hexadecimal digits. The result is "" if no
- * random numbers are available. */
+/* Copies the client's ID if it is accepted; otherwise makes an ID of 32 hexadecimal digits. The result is "" if
+ * there are no random numbers. */
 void kd_request_id_choose(const char *given, char out[KD_REQUEST_ID_MAX + 1]);
 
 #endif

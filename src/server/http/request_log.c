@@ -11,10 +11,10 @@
 #include <string.h>
 #include <sys/socket.h>
 
-/* A run of at least this many hexadecimal digits is treated as an id or a token, because anyone who knows an id or a
- * token can read or change the object. */
+/* A sequence of at least this number of hexadecimal digits counts as an id or a token. It is not logged in full,
+ * because anyone who knows it can read or change the object. */
 #define SECRET 16
-#define SHOWN 4 /* digits of an id or token that are logged */
+#define SHOWN 4 /* number of digits of an id or token that are logged */
 
 static void target_for_log(const char *raw, char *out, size_t size)
 {
@@ -33,7 +33,8 @@ static void target_for_log(const char *raw, char *out, size_t size)
     out[n] = 0;
 }
 
-/* Bytes written to the request's connection since it was opened; NAN if unknown. The client may have received fewer. */
+/* Number of bytes that were written to the request's connection since it was opened; NAN if unknown. The client may
+ * have received fewer. */
 static double bytes_written(const struct kd_request *request)
 {
     const size_t needed =

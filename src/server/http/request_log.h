@@ -4,12 +4,12 @@
 
 #include "server/http/request.h"
 
-/* Call it when the request begins: it records the connection's byte count. */
+/* Call this when the request begins. It records the connection's byte count. */
 void kd_request_log_begin(struct kd_request *request);
 /* Writes the line. A text line has method, target, status, time and client. A JSON line has id, method, route,
- * status, ms, bytes, client, visitor and cut_off. `bytes` is the number of bytes written to the socket, including
- * the header, if the system counts them. JSON has the route instead of the target, because whoever reads the log
- * could use the ids of sessions and jobs in a target. */
+ * status, ms, bytes, client, visitor and cut_off. `bytes` is the number of bytes that were written to the socket,
+ * including the header, if the system counts them. The JSON line has the route instead of the target, because
+ * readers of the log could misuse the ids of sessions and jobs in a target. */
 void kd_request_log_end(const struct kd_request *request, double ms, bool cut_off);
 
 #endif

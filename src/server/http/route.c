@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* True if the path matches the route. If it does, *rest is cut out of the path, which is modified. */
+/* True if the path matches the route. *rest then points into the path, which is modified. */
 static bool matches(const struct kd_route *route, char *path, const char **rest)
 {
     const char *brace = strchr(route->path, '{');
@@ -181,8 +181,8 @@ bool kd_route_is_health(const struct kd_base_path *base, const char *raw)
     return is_health(raw, strcspn(raw, "?")) || (behind && is_health(behind, strcspn(behind, "?")));
 }
 
-/* Tests whether the bytes begin with the concatenated texts: 1 yes, 0 no, -1 more bytes are needed to decide. *end is
- * the position behind the texts. */
+/* Tests whether the bytes begin with the two texts, one after the other. Returns 1 for yes, 0 for no, and -1 if more
+ * bytes are needed. *end: position after the texts. */
 static int begins_with(const char *bytes, size_t n, const char *const texts[3], size_t *end)
 {
     *end = 0;

@@ -6,10 +6,10 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#define SLICE_NS 100000 /* the shortest slice that the kernel accepts */
+#define SLICE_NS 100000 /* shortest slice in ns that the kernel accepts */
 
-/* struct sched_attr of linux/sched/types.h, version 0. It is defined here, because older C libraries lack it and
- * newer ones have a declaration of their own. */
+/* The struct sched_attr of linux/sched/types.h, version 0. It is defined here because older C libraries lack it, and
+ * newer ones have their own declaration. */
 struct attributes {
     uint32_t size, policy;
     uint64_t flags;
@@ -21,11 +21,11 @@ struct attributes {
 void kd_sched_short_slices(void)
 {
     static _Thread_local int asked;
-    if (asked || sched_getscheduler(0) != SCHED_OTHER) /* a policy that was set for the whole process is not changed */
+    if (asked || sched_getscheduler(0) != SCHED_OTHER) /* a policy that was set for the whole process is kept */
         return;
     asked = 1;
     struct attributes a = {
         .size = sizeof a, .policy = SCHED_OTHER, .nice = getpriority(PRIO_PROCESS, 0), .runtime = SLICE_NS
     };
-    syscall(SYS_sched_setattr, 0, &a, 0); /* a failure is ignored, because this is only an optimisation */
+    syscall(SYS_sched_setattr, 0, &a, 0); /* the result is ignored, because this is only an optimisation */
 }

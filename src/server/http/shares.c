@@ -4,8 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A client that cannot be served for a while, for example for lack of memory, falls behind in virtual time. It
- * catches up by at most this much device time. The same limit applies to each flow. */
+/* A client that cannot be served for a while, for example because memory is short, falls behind in virtual time.
+ * Afterwards it catches up by at most this amount of device time. The same limit applies to each flow. */
 #define CREDIT_MS 200.0
 
 static const double weights[] = {
@@ -22,8 +22,8 @@ static unsigned hash(const char *name)
     return h;
 }
 
-/* Finds the client's own place. If it has none, returns the idle place with the least virtual time. If there is no
- * idle place either, several clients share a place, selected by hash. */
+/* Finds the client's own entry. If it has none, returns the idle entry with the least virtual time. If no entry is
+ * idle, the client shares an entry with others, which is chosen by a hash. */
 static struct kd_share_client *place_of(struct kd_shares *shares, const char *name)
 {
     struct kd_share_client *free = NULL;
@@ -70,8 +70,8 @@ void kd_shares_remove(struct kd_shares *shares, struct kd_claim *claim)
     claim->owner->claims--;
 }
 
-/* Virtual time of a client or flow. If it is more than CREDIT_MS behind the virtual time of the client or flow that
- * was served last, it is raised to that limit. */
+/* Virtual time of a client or flow. If it is more than CREDIT_MS behind that of the client or flow that was served
+ * last, it is raised to this limit. */
 static double standing(double paid, double now, double weight) { return fmax(paid, now - CREDIT_MS / weight); }
 
 static struct kd_claim *next_of_flow(const struct kd_share_flow *flow, bool (*may)(const struct kd_claim *, void *),
@@ -116,8 +116,8 @@ struct kd_claim *kd_shares_next(struct kd_shares *shares, bool (*may)(const stru
     return best;
 }
 
-/* Charges a client or flow. Sets *now, the virtual time at which newcomers start, to the virtual time of the charged
- * one. */
+/* Charges a client or flow. Sets *now, the virtual time at which new clients or flows start, to the virtual time of
+ * the one that was charged. */
 static void pay(double *paid, double *now, double ms, double weight)
 {
     *paid = standing(*paid, *now, weight);

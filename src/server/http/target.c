@@ -17,7 +17,7 @@ static int hex(char c)
     return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* Decodes percent escapes in place: the result is never longer. */
+/* Decodes percent escapes in place, which is possible because the result is never longer. */
 static enum kd_status decode(char *text, bool plus, struct kd_error *error)
 {
     char *to = text;

@@ -11,13 +11,14 @@
 #include <string.h>
 
 #define WORKERS_MAX 16
-#define THREADS_MAX (4 * WORKERS_MAX) /* limit of threads, including threads that are suspended in a slice */
-#define PIECE_MS 15.                  /* time that a slice runs before other jobs go first */
+#define THREADS_MAX (4 * WORKERS_MAX) /* maximum number of threads, including threads whose slice is suspended */
+#define PIECE_MS 15.                  /* time in ms for which a slice runs before other jobs go first */
 
-/* A suspended slice; the struct is on the stack of its thread. The slice is listed among the jobs, and is resumed
- * when it is the first in the list. */
+/* A suspended slice. The struct is on the stack of the slice's thread. It is listed among the jobs, and the slice is
+ * resumed when it is the first in the list. */
 struct paused {
-    struct kd_scheduler_job place; /* must be the first member; its callback `turn` is NULL */
+    /* must be the first member; its callback `turn` is NULL, which marks a suspended slice */
+    struct kd_scheduler_job place;
     pthread_cond_t resumed;
 };
 
@@ -27,19 +28,19 @@ struct kd_scheduler {
     pthread_mutex_t lock;
     pthread_cond_t changed;
     bool closing;
-    /* first: listed jobs, in the order in which they run; parked: jobs that wait for an event */
+    /* first: list of jobs, in the order in which they run; parked: list of jobs that wait for an event */
     struct kd_scheduler_job *first, **end, *parked;
-    struct kd_scheduler_job *accepted; /* all jobs that are not done */
+    struct kd_scheduler_job *accepted; /* list of all unfinished jobs */
     unsigned n_accepted, unfinished;
     pthread_t threads[THREADS_MAX];
-    unsigned n_threads, n_workers, busy, idle; /* busy: threads that run a slice, at most n_workers */
+    unsigned n_threads, n_workers, busy, idle; /* busy: number of threads that run a slice, at most n_workers */
 };
 
-/* the calling thread's scheduler and job, if it is a worker */
+/* scheduler and job of the calling thread, if it is a worker */
 static _Thread_local struct kd_scheduler *mine;
 static _Thread_local struct kd_scheduler_job *under_way;
-static _Thread_local double piece_ms; /* time at which the current slice began or was last resumed */
-static _Thread_local bool stops;      /* true: nobody wants the result of the job whose slice is running */
+static _Thread_local double piece_ms; /* time when the current slice began or was last resumed */
+static _Thread_local bool stops;      /* true if nobody wants the result of the job whose slice is running */
 
 static void append(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
@@ -86,10 +87,10 @@ static void park(struct kd_scheduler *scheduler, struct kd_scheduler_job *job, b
     job->next = scheduler->parked;
     scheduler->parked = job;
     if (job->due_ms > 0)
-        pthread_cond_signal(&scheduler->changed); /* a sleeping worker must wake earlier than planned */
+        pthread_cond_signal(&scheduler->changed); /* because a worker that sleeps must wake up earlier than planned */
 }
 
-/* Resumes the jobs whose parking time has ended. Returns the time at which the next parking time ends, or INFINITY. */
+/* Resumes the jobs whose parking time is over. Returns the earliest end of the remaining parking times, or INFINITY. */
 static double unpark_due(struct kd_scheduler *scheduler)
 {
     double next = INFINITY;
@@ -134,29 +135,29 @@ static void unref(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
     scheduler->n_accepted--;
 }
 
-/* Lists a job again, if it may have a further slice now. While a slice of a shared job is suspended, no other slice
- * of that job begins, because each would occupy a thread. */
+/* Puts a job back into the list if it may have another slice now. While a slice of a shared job is suspended, no
+ * other slice of that job starts, because each would occupy a thread. */
 static void list_again(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
     if (!job->paused && !job->over)
         append(scheduler, job);
 }
 
-/* Runs a slice of the first job in the list. Locked on entry and exit. */
+/* Runs a slice of the first job in the list. The lock is held on entry and exit. */
 static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *job)
 {
     take_out(scheduler, job);
     job->workers++;
     job->woken = false;
     if (job->shared)
-        list_again(scheduler, job); /* other workers can now join */
+        list_again(scheduler, job); /* from now on, other workers can run slices of this job too */
     pthread_mutex_unlock(&scheduler->lock);
     under_way = job;
     piece_ms = kd_clock_ms();
     kd_watch_turn_begins();
     enum kd_slice_result turn = job->turn(job);
     kd_watch_turn_ends();
-    under_way = NULL; /* `done` may free the job, and cannot be suspended */
+    under_way = NULL; /* cleared, because `done` may free the job, and must not be suspended */
     stops = false;
     pthread_mutex_lock(&scheduler->lock);
     job->workers--;
@@ -180,7 +181,7 @@ static void give_turn(struct kd_scheduler *scheduler, struct kd_scheduler_job *j
 }
 
 /* Runs the first entry of the list: resumes the thread of a suspended slice, or runs a slice of a job on this
- * thread. Locked on entry and exit. */
+ * thread. The lock is held on entry and exit. */
 static void go_on(struct kd_scheduler *scheduler)
 {
     struct kd_scheduler_job *job = scheduler->first;
@@ -216,7 +217,7 @@ static void *work(void *user)
     return NULL;
 }
 
-/* Starts another thread. Called with the lock, or before other threads exist. */
+/* Starts another thread. Called with the lock held, or before there are other threads. */
 static bool start_thread(struct kd_scheduler *scheduler)
 {
     if (scheduler->n_threads == THREADS_MAX ||
@@ -226,7 +227,7 @@ static bool start_thread(struct kd_scheduler *scheduler)
     return true;
 }
 
-/* Suspends the current slice until the list reaches its place. Locked on entry and exit. */
+/* Suspends the current slice until it is the first in the list. The lock is held on entry and exit. */
 static void pause_turn(struct kd_scheduler *scheduler)
 {
     struct paused me = { .resumed = PTHREAD_COND_INITIALIZER };
@@ -235,15 +236,15 @@ static void pause_turn(struct kd_scheduler *scheduler)
     pthread_cond_signal(&scheduler->changed);
     while (me.place.listed && !scheduler->closing)
         pthread_cond_wait(&me.resumed, &scheduler->lock);
-    if (me.place.listed) { /* at shutdown no worker resumes suspended slices, so this one is still in the list */
+    if (me.place.listed) { /* still in the list: at shutdown no worker resumes suspended slices */
         take_out(scheduler, &me.place);
         scheduler->busy++;
     }
     pthread_cond_destroy(&me.resumed);
 }
 
-/* Hook of base/pause.h: suspends this thread's slice until the other listed jobs have each had a slice. If no other
- * thread can run the other jobs, the slice continues. */
+/* Hook of base/pause.h. Suspends this thread's slice until each other job in the list has had a slice. If no other
+ * thread can run those jobs, the slice continues. */
 static bool let_others_go_first(void)
 {
     struct kd_scheduler *scheduler = mine;

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#define HEX "0123456789abcdef" /* the standard permits lower case only */
+#define HEX "0123456789abcdef" /* the standard permits only lower case */
 enum { VERSION = 2, TRACE = 32, PARENT = 16, FLAGS = 2, ALL = VERSION + 1 + TRACE + 1 + PARENT + 1 + FLAGS };
 
-/* True if n hexadecimal digits and then a hyphen follow. After the last field anything may follow. */
+/* True if n hexadecimal digits and a hyphen follow. After the last field, no hyphen is required. */
 static bool is_field(const char *at, size_t n, bool last) { return strspn(at, HEX) == n && (last || at[n] == '-'); }
 
 static bool is_zero(const char *at, size_t n) { return strspn(at, "0") >= n; }
@@ -22,7 +22,7 @@ bool kd_trace_read(const char *value, struct kd_traceparent *out)
         is_zero(parent, PARENT))
         return false;
     const bool first_version = !strncmp(value, "00", VERSION);
-    /* later versions of the standard may append fields after a hyphen */
+    /* Later versions of the standard may append more fields after a hyphen. */
     if (flags[FLAGS] && (first_version || flags[FLAGS] != '-'))
         return false;
     snprintf(out->trace_id, sizeof out->trace_id, "%.*s", TRACE, trace);

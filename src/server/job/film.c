@@ -1,8 +1,7 @@
-/* Films of playgrounds. While one frame is rendered, workers move the bodies on to the next frame.
- *
- * What a frame shows depends on all frames before it. So when a frame is rendered again, or a film is resumed after a
- * restart, the motion is computed again from its beginning. The result is identical to the bit. Only one film is made
- * at a time while others wait, so that only one uses memory and slices of the workers. */
+/* Films of playgrounds. While one frame is rendered, workers move the bodies to the next frame. Each frame depends
+ * on all frames before it. If a frame must be rendered again, or a film is resumed after a restart, the motion is
+ * therefore computed again from its beginning. The result is identical to the bit. Only one film is made at a time,
+ * so that only one uses memory and slices of the workers; all others wait. */
 #include "server/job/job_internal.h"
 
 #include "base/clock.h"
@@ -11,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define TURN_MS 10. /* length of a slice, as for a playground session */
+#define TURN_MS 10. /* length of a slice in ms, as for a playground session */
 
-/* A task that moves a film's playground on to the next frame. */
+/* A task that moves a film's playground to the next frame. */
 struct stride {
     struct kd_scheduler_job scheduled; /* must be the first member */
     struct kd_job *job;                /* a counted reference */
@@ -28,7 +27,7 @@ void kd_job_film_drop(struct kd_job *job)
     kd_dynamic_bodies_release(film->dynamic);
     film->dynamic = NULL;
     if (film->moving)
-        return; /* the worker that owns the playground frees it */
+        return; /* the playground is freed later, by the worker that owns it */
     kd_playground_destroy(film->p);
     film->p = NULL;
     if (job->all->filming == job)
@@ -52,7 +51,7 @@ done:
     return status;
 }
 
-/* Moves the playground until until_ms. Returns false if the frame has not been reached by then. */
+/* Moves the playground until the time until_ms. Returns false if the frame is not reached by then. */
 static bool go_on(struct stride *s, double until_ms)
 {
     struct kd_job_film *film = &s->job->film;
@@ -71,7 +70,7 @@ static bool go_on(struct stride *s, double until_ms)
     return film->at == s->to;
 }
 
-/* True if this server still has to finish the job. Called with the lock. */
+/* True if this server still has to finish the job. Called with the lock held. */
 static bool wanted(const struct kd_job *job) { return kd_job_is_active(job) && !job->all->closed; }
 
 static enum kd_slice_result turn(struct kd_scheduler_job *scheduled)
@@ -131,7 +130,7 @@ static enum kd_status move_on(struct kd_job *job, unsigned frame, struct kd_erro
     job->film.dynamic = NULL;
     job->film.to = frame;
     job->film.moving = true;
-    kd_job_strike(job); /* counts an attempt, because moving bodies may crash the server as well */
+    kd_job_strike(job); /* counts an attempt, because moving the bodies may crash the server, as rendering may */
     job->references++;
     kd_scheduler_push(scheduler, &s->scheduled);
     return KD_OK;

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Returns NULL if the film is not in the list. Called with the lock. */
+/* Finds a film in the list. Returns NULL if it is not there. Called with the lock held. */
 static struct kd_job_stored_film *find(struct kd_job *job, const char *format, unsigned rate)
 {
     for (unsigned i = 0; i < job->n_films; i++)
@@ -19,7 +19,7 @@ static struct kd_job_stored_film *find(struct kd_job *job, const char *format, u
     return NULL;
 }
 
-/* Removes a film from the list. Called with the lock. */
+/* Removes a film from the list. Called with the lock held. */
 static void drop(struct kd_job *job, struct kd_job_stored_film *film)
 {
     job->bytes -= film->bytes;
@@ -83,7 +83,7 @@ done:
     return status;
 }
 
-/* Reserves the film's bytes, if the limit permits that. */
+/* Reserves the bytes of the film, if the limit permits that. */
 static enum kd_status reserve(const struct kd_job_film_writer *w, struct kd_error *error)
 {
     struct kd_jobs *all = w->job->all;
@@ -111,7 +111,7 @@ static void give_back(const struct kd_job_film_writer *w)
     pthread_mutex_unlock(&w->job->all->lock);
 }
 
-/* Adds the film to the list. *oldest: name of the film that it replaces; "": none. */
+/* Adds the film to the list. *oldest: name of the film that it replaces, or "". */
 static void enter(const struct kd_job_film_writer *w, char oldest[KD_JOB_FILM_NAME])
 {
     struct kd_job *job = w->job;

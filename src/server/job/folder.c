@@ -54,7 +54,7 @@ bool kd_job_folder_read_film(const char *name, struct kd_job_film_name *out)
     return !strcmp(again, name) && (!strcmp(out->format, films[0]) || !strcmp(out->format, films[1]));
 }
 
-/* True if the name is that of a finished or unfinished film. */
+/* True if a finished or unfinished film has this name. */
 static bool is_film(const char *name)
 {
     struct kd_job_film_name film;
@@ -69,7 +69,7 @@ static bool is_film(const char *name)
     return false;
 }
 
-/* True if the name is that of a finished or unfinished file that kerrd writes. */
+/* True if this is the name of a file that kerrd writes, finished or unfinished. */
 static bool is_ours(const char *name)
 {
     static const char *const documents[] = { "job.json", "request.json" };

@@ -4,8 +4,8 @@
 
 const struct kd_job_format kd_job_as_stream = { "stream", KD_FRAMES_TYPE };
 
-/* Gets entry i of the formats of one series. The formats of a series of rows are its tables. The formats of any
- * other series are its archives, then single frames, then the stream. */
+/* Gets entry i of the list of formats of one series. If the frames of the series are rows, its formats are those of
+ * tables. Otherwise they are the archives, followed by the formats of single frames and the stream. */
 static bool of_series(const struct kd_series *series, size_t i, struct kd_job_format *out)
 {
     size_t wholes = 0;
@@ -23,7 +23,7 @@ static bool of_series(const struct kd_series *series, size_t i, struct kd_job_fo
     return true;
 }
 
-/* True if the name has occurred before entry i of series k. */
+/* True if a format with this name exists before entry i of series k. */
 static bool again(size_t k, size_t i, const char *name)
 {
     struct kd_job_format other;

@@ -1,4 +1,4 @@
-/* Formats of GET /v1/jobs/ID/result, by their names in `format=`. Pure; any thread. */
+/* The formats of GET /v1/jobs/ID/result, by their names in the parameter `format`. Pure; any thread. */
 #ifndef KD_SERVER_JOB_FORMATS_H
 #define KD_SERVER_JOB_FORMATS_H
 
@@ -8,10 +8,10 @@
 
 struct kd_job_format { const char *name, *media_type; };
 
-/* The stream of a job's frames, which may begin at any frame. It exists for series whose frames are files. */
+/* The stream of a job's frames, which can begin at any frame. Series whose frames are files have it. */
 extern const struct kd_job_format kd_job_as_stream;
 
-/* Entry i of the list of all formats without duplicates. Returns false beyond the end. */
+/* Gets entry i of the list of all formats, which has no duplicates. Returns false beyond the end. */
 bool kd_job_format(size_t i, struct kd_job_format *out);
 
 #endif

@@ -16,7 +16,7 @@ struct table {
     struct kd_job_status status;
     const struct kd_table_format *format;
     char *rows;
-    unsigned there; /* number of rows read so far */
+    unsigned there; /* number of rows that were read so far */
     struct kd_buffer text;
 };
 
@@ -75,7 +75,7 @@ static enum MHD_Result answer(struct kd_request *request)
     return kd_reply_json(request, KD_OK, &t->text, t->format->media_type);
 }
 
-/* Starts the task for a finished job. Takes over the reference to the job. */
+/* Starts the task for a finished job, and takes over the reference to the job. */
 static enum MHD_Result write_table(struct kd_request *request, struct kd_job *job, const struct kd_job_status *status,
                                    const struct kd_table_format *format)
 {
@@ -99,14 +99,14 @@ static const char *type_of(size_t i, const void *tables)
     return ((const struct kd_table_format *)tables)[i].media_type;
 }
 
-/* Format preferred by Accept, the first if there is no preference; NULL: none is acceptable. */
+/* The format that the Accept header prefers; the first format if there is no preference; NULL if none is acceptable. */
 static const struct kd_table_format *accepted(struct kd_request *request, const struct kd_series *series)
 {
     size_t best = kd_reply_accepted(request, series->n_tables, type_of, series->tables);
     return best < series->n_tables ? &series->tables[best] : NULL;
 }
 
-/* Lists media types, "application/json, text/csv", or names, "json or csv". */
+/* Lists media types, as in "application/json, text/csv", or names, as in "json or csv". */
 static const char *list_tables(const struct kd_series *series, bool types, char *out, size_t size)
 {
     for (size_t i = 0, n = 0; i < series->n_tables && n < size; i++)

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <time.h>
 
-#define COUNTS_MS 20. /* time for which a reader of counts waits for the lock */
+#define COUNTS_MS 20. /* maximum time in ms that a reader of counts waits for the lock */
 
 double kd_job_now_s(void)
 {
@@ -19,7 +19,7 @@ double kd_job_now_s(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Gives every job a new revision, because their places have changed. */
+/* Increments the revision of every job, because their places in the queue have changed. */
 static void move_up(struct kd_jobs *all)
 {
     for (struct kd_job *job = all->first; job; job = job->link)
@@ -40,7 +40,8 @@ void kd_job_end(struct kd_job *job, enum kd_job_state state, const char *why)
            state == KD_JOB_DONE ? "is done" : "has failed: ", why);
 }
 
-#define DELAY_MS 1e3 /* length of the first delay; each further delay is twice as long, up to the limit below */
+/* length in ms of the first delay; each delay is twice the previous one, up to the limit below */
+#define DELAY_MS 1e3
 #define DELAY_MAX_MS 60e3
 
 void kd_job_delay(struct kd_job *job, const char *why)
@@ -72,7 +73,7 @@ static void unref(struct kd_job *job)
     job->all->gone = job;
 }
 
-/* Called without the lock, by one thread at a time; the function takes the lock itself. */
+/* Called without the lock, which it takes itself, and by one thread at a time. */
 void kd_jobs_bury(struct kd_jobs *all, unsigned files)
 {
     pthread_mutex_lock(&all->lock);
@@ -85,8 +86,7 @@ void kd_jobs_bury(struct kd_jobs *all, unsigned files)
     if (!job || !kd_job_store_remove(all->store, job->record.id, files))
         return;
     pthread_mutex_lock(&all->lock);
-    struct kd_job **link = &all->gone; /* the list is searched again, because other jobs may have been added before
-                                        * this one */
+    struct kd_job **link = &all->gone; /* searched again, because other jobs may have been added before this one */
     while (*link != job)
         link = &(*link)->link;
     *link = job->link;
@@ -118,7 +118,7 @@ void kd_job_unlist(struct kd_job *job)
     kd_job_wake(job, kd_clock_ms());
 }
 
-/* The functions from here on are called without the lock. */
+/* All functions from here on are called without the lock. */
 
 struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
 {
@@ -133,7 +133,7 @@ struct kd_job *kd_job_make(struct kd_jobs *all, struct kd_job_spec *spec)
     job->references = 1; /* the list's reference */
     job->have = have;
     kd_dynamic_bodies_release(
-        spec->first); /* planning is done, so the bodies of the first frame are no longer needed */
+        spec->first); /* the bodies of the first frame are only needed for planning, which is done */
     spec->first = NULL;
     job->spec = *spec;
     job->frames = spec->frames;
@@ -195,7 +195,7 @@ void kd_jobs_destroy(struct kd_jobs *all)
     free(all);
 }
 
-/* True if another job can be accepted. For this, a finished job may be deleted to make room. Called with the lock. */
+/* True if another job can be accepted. A finished job may be deleted to make room for it. Called with the lock held. */
 static enum kd_status admit(struct kd_jobs *all, const char *client, bool *quota, struct kd_error *error)
 {
     unsigned unfinished = 0, stored = 0, own = 0;
@@ -235,7 +235,7 @@ static enum kd_status open_store(struct kd_jobs *all, struct kd_error *error)
     return status;
 }
 
-/* Removes a job from the list again, because its files could not be created. Called with the lock. */
+/* Removes a new job from the list, because its files could not be created. Called with the lock held. */
 static void take_back(struct kd_job *job)
 {
     struct kd_job **link = &job->all->first;
@@ -245,7 +245,7 @@ static void take_back(struct kd_job *job)
     move_up(job->all);
 }
 
-/* If too many jobs are stored, deletes the oldest finished job that nobody reads. Called with the lock. */
+/* If too many jobs are stored, deletes the oldest finished job that nobody is reading. Called with the lock held. */
 static void make_room(struct kd_jobs *all)
 {
     unsigned stored = 0;
@@ -261,7 +261,7 @@ static void make_room(struct kd_jobs *all)
     unref(oldest);
 }
 
-/* Adds the job to the list before its files are created, because the lock must not be held while files are created. */
+/* Adds the job to the list before its files are created, because the lock must not be held during their creation. */
 static enum kd_status enter(struct kd_jobs *all, struct kd_job *job, const char *text, size_t length, bool *quota,
                             struct kd_error *error)
 {
@@ -397,17 +397,17 @@ static bool is_next(const struct kd_job *job)
     return other == job;
 }
 
-/* Number of frames rendered. It includes frames being encoded, and the rendered fraction of the present frame.
- * Called with the lock. */
+/* Number of rendered frames, including frames that are being encoded, and the rendered fraction of the present
+ * frame. Called with the lock held. */
 static double drawn(const struct kd_job *job)
 {
     return fmin(job->finished + job->encoding + job->fraction, job->frames);
 }
 
-/* Once this fraction of the frames is done, the elapsed time gives a better estimate than the plan. */
+/* When this fraction of the frames is done, the elapsed time gives a better estimate than the plan. */
 #define SURE 0.02
 
-/* Estimates the time left; NAN: unknown. Called with the lock. */
+/* Estimates the remaining time; NAN if it is unknown. Called with the lock held. */
 static double remaining_s(const struct kd_job *job)
 {
     double left = job->frames - drawn(job);
@@ -415,8 +415,8 @@ static double remaining_s(const struct kd_job *job)
         return NAN;
     const double planned_ms = job->estimate_ms / job->frames, done = job->finished_here + job->encoding + job->fraction;
     const double passed_ms = job->began_ms > 0 ? kd_clock_ms() - job->began_ms : 0;
-    /* Each later frame is assumed to take the mean time of the frames so far, including waiting. Before any
-     * progress, a frame is assumed to take the planned time, or the elapsed time if that is longer. */
+    /* Each further frame is assumed to take as long as the mean of the frames so far, including waiting. Before
+     * there is any progress, a frame is assumed to take the planned time, or the elapsed time if that is longer. */
     const double frame_ms = done > SURE ? passed_ms / done : fmax(planned_ms, passed_ms);
     return frame_ms > 0 ? 1e-3 * fmax(left, 0) * frame_ms : NAN;
 }
@@ -468,7 +468,7 @@ bool kd_jobs_counts(struct kd_jobs *all, struct kd_jobs_counts *out)
         out->done += job->record.state == KD_JOB_DONE;
         out->failed += job->record.state == KD_JOB_FAILED;
     }
-    out->running = out->waiting > 0; /* among the unfinished jobs, the oldest one runs */
+    out->running = out->waiting > 0; /* the oldest unfinished job is the one that runs */
     out->waiting -= out->running;
     pthread_mutex_unlock(&all->lock);
     return true;

@@ -1,13 +1,13 @@
-/* Previews of a frame of a job while it is rendered, for clients that request them. */
+/* Previews of a frame while it is rendered, for clients that request them. */
 #include "image/png.h"
 #include "base/clock.h"
 #include "server/job/job_internal.h"
 
 #include <stdio.h>
 
-#define WANTED_MS 10000.0 /* time after a request during which previews are made */
-#define APART_MS 500.0    /* shortest interval between two previews; SHARE may lengthen it */
-/* an interval between two previews is at least this many times as long as making a preview takes */
+#define WANTED_MS 10000.0 /* time in ms after a request during which previews are made */
+#define APART_MS 500.0    /* minimum time in ms between two previews; SHARE may make it longer */
+/* minimum time between two previews, as a multiple of the time that making one takes */
 #define SHARE 20.0
 
 static bool wanted(void *user)
@@ -21,7 +21,7 @@ static bool wanted(void *user)
     return yes;
 }
 
-/* Stores a preview of an unfinished frame. The PNG itself says that it is unfinished. */
+/* Stores a preview of an unfinished frame. A text in the PNG says that it is unfinished. */
 static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
 {
     unsigned number;
@@ -40,7 +40,7 @@ static void seen(void *user, const struct kd_frame *frame, uint32_t rows)
         .text = &rows_text,
         .n_text = 1,
     };
-    if (kd_png_encode(&params, &png, &error)) /* out of memory: skip this preview */
+    if (kd_png_encode(&params, &png, &error)) /* on failure, which means out of memory, this preview is skipped */
         kd_buffer_finish(&png);
     double now = kd_clock_ms();
     pthread_mutex_lock(&job->all->lock);

@@ -1,4 +1,4 @@
-/* Writes records of jobs on a worker, one record in each slice, so that threads that change a record never wait for the
+/* Writes records of jobs on a worker, one record per slice, so that threads that change a record never wait for the
  * disk. */
 #include "server/job/job_internal.h"
 
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Continues the work that waited for the record. Called with the lock. */
+/* Continues the work that was waiting for the record. Called with the lock held. */
 static void written(struct kd_job *job, enum kd_status status, const struct kd_error *error)
 {
     if (status && job->listed)
@@ -21,14 +21,15 @@ static void written(struct kd_job *job, enum kd_status status, const struct kd_e
         job->revision++;
         return;
     }
-    /* without this, a restart would find frames but no exposure, and render the missing frames with another exposure */
+    /* Discarded. Otherwise, after a restart, frames would exist without an exposure, and the missing frames would be
+     * rendered with another exposure. */
     job->record.exposure = NAN;
     job->exposure.done = 0;
     if (kd_job_is_active(job))
         kd_job_delay(job, error->message);
 }
 
-/* Finds a job whose record has changed since it was written. Returns NULL if there is none. Called with the lock. */
+/* Finds a job whose record has changed since it was last written; NULL if there is none. Called with the lock held. */
 static struct kd_job *first_unwritten(const struct kd_jobs *all)
 {
     struct kd_job *job = all->first;
@@ -60,7 +61,7 @@ static enum kd_slice_result turn(struct kd_scheduler_job *writer)
     return KD_SLICE_MORE;
 }
 
-/* Called when the scheduler has finished the writer. The writer may be pushed again after that. */
+/* Called when the scheduler has finished the writer. After this the writer may be pushed again. */
 static void done(struct kd_scheduler_job *writer)
 {
     struct kd_jobs *all = (struct kd_jobs *)((char *)writer - offsetof(struct kd_jobs, writer));
@@ -72,7 +73,7 @@ static void done(struct kd_scheduler_job *writer)
 
 void kd_jobs_begin_writing(struct kd_jobs *all)
 {
-    /* at shutdown kd_jobs_write_all writes the remaining records */
+    /* At shutdown, kd_jobs_write_all writes the remaining records instead. */
     if (all->writes || !all->begun || all->closed || !first_unwritten(all))
         return;
     all->writes = true;

@@ -16,8 +16,8 @@ static bool stands_at(int fd, uint64_t at, const char *text)
     return n <= sizeof found && pread(fd, found, n, (off_t)at) == (ssize_t)n && !memcmp(found, text, n);
 }
 
-/* True if a frame's file has the size, beginning and end that its format requires. The file was written completely, but
- * a file system that was not unmounted may have truncated it. */
+/* True if a frame's file has the size, the beginning and the end that its format requires. kerrd writes files
+ * completely, but a file system that was not unmounted may have truncated the file. */
 static bool is_whole(int fd, uint64_t size, const struct kd_series *series)
 {
     const struct kd_format *format = series->frame;
@@ -46,8 +46,7 @@ static void find_frames(struct kd_job *job)
     job->all->bytes += job->bytes;
 }
 
-/* Resumes a finished job that has lost frames. The lost frames are rendered again if this version can parse the
- * job's request. */
+/* Resumes a finished job that has lost frames. They are rendered again if this version can parse the job's request. */
 static void reopen(struct kd_job *job)
 {
     if (job->record.state != KD_JOB_DONE || job->finished == job->frames)
@@ -58,15 +57,16 @@ static void reopen(struct kd_job *job)
     job->record.ended = 0;
 }
 
-/* Time since the job ended; 0 if the system clock was set back. If the clock was set forward, the time is limited so
- * that an hour remains to download the result. */
+/* Time since the job ended. It is 0 if the system clock was set back. If the clock was set forward, the time is
+ * limited, so that one hour remains for downloading the result. */
 static double age_ms(const struct kd_jobs *all, const struct kd_job_record *record)
 {
     double s = kd_job_now_s() - record->ended, most = fmax(all->params.keep_s - 3600, 0);
     return 1e3 * fmin(fmax(s, 0), most);
 }
 
-/* Delays a job that may have crashed servers. Other jobs run first (kd_job_store_load). The job is retried for ever. */
+/* Delays a job that may have crashed servers. Other jobs run first (kd_job_store_load). The number of retries is not
+ * limited. */
 static void wait_after_strikes(struct kd_job *job)
 {
     unsigned n = job->record.attempts;
@@ -80,7 +80,7 @@ static void wait_after_strikes(struct kd_job *job)
     kd_log(KD_LOG_WARN, "job %.4s... waits: %s", job->record.id, job->delayed);
 }
 
-/* Resumes a job of the store. */
+/* Resumes a job from the store. */
 void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buffer *request)
 {
     struct kd_jobs *all = user;
@@ -96,7 +96,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     }
     if (status)
         snprintf(why, sizeof why, "this version cannot read the request: %.400s", error.message);
-    if (*why) { /* its results stay readable, although this version cannot parse the request */
+    if (*why) { /* the results stay readable, although this version cannot parse the request */
         spec.frames = known->frames;
         spec.series = known->series;
     }
@@ -115,7 +115,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
     if (!*why)
         reopen(job);
     job->spec.exposure = known->exposure;
-    /* Frames without a measured exposure were made by an older version, each with its own exposure. */
+    /* If frames exist without a measured exposure, an older version has made them, each with its own exposure. */
     if (!isnan(known->exposure) || job->finished)
         job->exposure.n = 0;
     job->unordered = job->record.state == KD_JOB_ACTIVE && job->spec.sweep;
@@ -125,7 +125,7 @@ void kd_job_resume(void *user, const struct kd_job_record *known, struct kd_buff
         return;
     }
     wait_after_strikes(job);
-    if (*why) { /* this version cannot parse the request; the job waits for a version that can */
+    if (*why) { /* the job waits for a version of kerrd that can parse its request */
         job->due_ms = INFINITY;
         snprintf(job->delayed, sizeof job->delayed, "%.159s", why);
         kd_log(KD_LOG_WARN, "job %.4s... waits: %s", known->id, why);

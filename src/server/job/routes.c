@@ -1,4 +1,4 @@
-/* Handlers of /v1/jobs: create, list, status, events, delete. */
+/* Handlers of /v1/jobs: creating, listing, status, events and deletion. */
 #include "base/json.h"
 #include "base/clock.h"
 #include "server/asset/store.h"
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define HEARTBEAT_MS 15000.0 /* interval of comments in an event stream */
+#define HEARTBEAT_MS 15000.0 /* time in ms between two comments in an event stream, which show that it is alive */
 
 struct kd_job *kd_job_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -62,7 +62,7 @@ static enum kd_status to_json(struct kd_job *job, const struct kd_job_status *s,
     kd_json_number(&json, "frames", s->frames);
     kd_json_number(&json, "finished", s->finished);
     kd_json_number(&json, "fraction", s->fraction);
-    kd_json_number(&json, "remaining_s", s->remaining_s); /* written as null if it is NAN */
+    kd_json_number(&json, "remaining_s", s->remaining_s); /* NAN is written as null */
     kd_json_number(&json, "bytes", (double)s->bytes);
     kd_json_number(&json, "lens_maps_traced", s->traced);
     if (!isnan(s->exposure))
@@ -104,12 +104,12 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     return kd_reply_problem(request, &problem);
 }
 
-/* A requested job. Workers parse and check it. */
+/* A request for a job, which workers parse and check. */
 struct draft {
     struct kd_task task; /* must be the first member */
     struct kd_job_draft draft;
     bool read;
-    struct kd_job *job; /* the created job, a counted reference; NULL: none yet */
+    struct kd_job *job; /* a counted reference to the created job; NULL until there is one */
 };
 
 static void finish(struct kd_task *task)
@@ -134,7 +134,7 @@ static enum kd_slice_result work(struct kd_task *task, double until_ms)
                                  &d->draft.spec, &error));
     d->read = true;
     KD_TRY(kd_jobs_check(jobs, &d->draft, until_ms, &error));
-    if (task->status) /* the client has disconnected, or the deadline has passed, since the turn began */
+    if (task->status) /* since the slice began, the client has disconnected, or the deadline has passed */
         return KD_SLICE_LAST;
     if (d->draft.cost.frames < d->draft.spec.frames)
         return KD_SLICE_MORE;
@@ -150,13 +150,14 @@ static enum MHD_Result deliver(struct kd_request *request)
     enum MHD_Result result = d->task.status == KD_ECANCELLED ? kd_reply_cancelled(request)
                              : d->task.status                ? refuse(request, &d->task.error, d->task.quota)
                                                              : answer(request, d->job, true);
-    /* the job is deleted, because the client does not know it, and cannot request it again without a key */
+    /* The answer could not be sent. The job is deleted, because the client does not know its id and, without a key,
+     * cannot request it again. */
     if (d->job && request->status != MHD_HTTP_ACCEPTED && !*request->once.key)
         kd_job_drop(d->job);
     return result;
 }
 
-/* Handles Idempotency-Key. Returns true if the request is answered in *result, with the earlier job or a refusal. */
+/* Handles Idempotency-Key. Returns true if *result is the answer: the earlier job, or a refusal. */
 static bool made_before(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_job *job = kd_jobs_find_once(request->server->jobs, request->once.key);
@@ -222,7 +223,7 @@ static enum MHD_Result deliver_removal(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_JSON_TYPE));
 }
 
-/* Begins a deletion and takes over the reference to the job. */
+/* Begins a deletion, and takes over the reference to the job. */
 static enum MHD_Result begin_removal(struct kd_request *request, struct kd_job *job)
 {
     enum MHD_Result refused = MHD_NO;
@@ -260,7 +261,7 @@ enum MHD_Result kd_handle_job(struct kd_request *request)
 
 struct events {
     struct kd_job_watcher watcher; /* must be the first member */
-    struct kd_buffer text;         /* text of one event */
+    struct kd_buffer text;         /* text of the event that is being sent */
     size_t at;
     bool over;
 };
@@ -290,9 +291,9 @@ static enum kd_status next_event(struct events *e, ssize_t *instead)
     case KD_JOB_NEWS: return write_event(e);
     case KD_JOB_OVER:
         *instead = MHD_CONTENT_READER_END_OF_STREAM;
-        return KD_OK; /* the server is stopping, and the job may continue after a restart */
+        return KD_OK; /* no final event: the server is stopping, and the job may continue after a restart */
     case KD_JOB_LATER: *instead = 0; return KD_OK;
-    case KD_JOB_LATE: /* a heartbeat, which also reveals clients that have vanished */
+    case KD_JOB_LATE: /* sends a heartbeat, which also detects clients that have vanished */
         e->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         return kd_buffer_printf(&e->text, ":\n\n");
     }
@@ -327,9 +328,9 @@ enum MHD_Result kd_job_stream(struct kd_request *request, const char *type, MHD_
         return kd_reply_no_memory(request);
     }
     MHD_add_response_header(response, "Content-Type", type);
-    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
+    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* tells proxies not to buffer the stream */
     enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    /* A stream has no deadline. libmicrohttpd's timeout ends connections whose client stops reading. */
+    /* A stream has no deadline. If a client stops reading, libmicrohttpd's timeout ends the connection. */
     kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
     return result;
 }

@@ -1,4 +1,4 @@
-/* Renders jobs' frames through the render queue. */
+/* Renders the frames of jobs through the render queue. */
 #include "server/job/job_internal.h"
 
 #include "base/clock.h"
@@ -11,16 +11,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* limit of frames that are rendered and not yet in files: one frame can be rendered while another is encoded */
+/* maximum number of frames that are rendered but not yet in files: one frame can be rendered while another one is
+ * encoded */
 #define BEHIND_MAX 2
 struct kd_job_render {
-    struct kd_render_job render;       /* must be the first member: the queue stores a pointer to it */
-    struct kd_scheduler_job planning;  /* scheduler job that plans the frame before it is pushed */
+    struct kd_render_job render;       /* must be the first member, because the queue stores a pointer to it */
+    struct kd_scheduler_job planning;  /* the scheduler job that plans the frame before it enters the render queue */
     struct kd_job *job;                /* a counted reference */
-    unsigned number, place;            /* place: its place in the order of rendering */
-    struct kd_dynamic_bodies *dynamic; /* bodies in the scene of a film; a counted reference */
+    unsigned number, place;            /* place: position of the frame in the order of rendering */
+    struct kd_dynamic_bodies *dynamic; /* a counted reference to the bodies in the scene of a film */
     bool rendered;
-    bool measures; /* the picture is small; it only measures the common exposure, and is not stored */
+    bool measures; /* true if this is a small picture that only measures the common exposure, and is not stored */
 };
 
 static void rendered(struct kd_render_job *render);
@@ -35,7 +36,7 @@ void kd_job_give_up(struct kd_job *job, const struct kd_error *error)
         kd_job_end(job, KD_JOB_FAILED, error->message);
 }
 
-/* True if the common exposure is still being measured. Called with the lock. */
+/* True if the common exposure is still being measured. Called with the lock held. */
 static bool still_measures(const struct kd_job *job) { return job->exposure.done < job->exposure.n; }
 
 static unsigned at_place(const struct kd_job *job, unsigned place)
@@ -52,7 +53,7 @@ void kd_job_strike(struct kd_job *job)
     kd_job_keep(job);
 }
 
-/* Frame to be rendered next; the number of frames if there is none. Called with the lock. */
+/* The frame to render next; the number of frames if there is none. Called with the lock held. */
 static unsigned next_frame(struct kd_job *job)
 {
     while (job->next < job->frames && job->have[at_place(job, job->next)])
@@ -62,9 +63,9 @@ static unsigned next_frame(struct kd_job *job)
     return still_measures(job) ? job->exposure.frames[job->exposure.done] : at_place(job, job->next);
 }
 
-/* Plans a frame on a worker, without the lock, because computing the critical curve of a camera alone takes
- * milliseconds. The members of the job that this function reads do not change meanwhile. The exposure is set only
- * while no frame is under way, and the order only before the first frame. */
+/* Plans a frame on a worker, without the lock: computing the critical curve of a camera alone takes milliseconds.
+ * The members of the job that this function reads do not change during the call, because the exposure is set only
+ * while no frame is in progress, and the order only before the first frame. */
 static enum kd_slice_result plan(struct kd_scheduler_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
@@ -88,14 +89,14 @@ static void finish(struct kd_job_render *frame)
     free(frame);
 }
 
-/* Marks the frame as not begun. Called with the lock. */
+/* Marks the frame as not started. Called with the lock held. */
 static void take_back(struct kd_job_render *frame)
 {
     struct kd_job *job = frame->job;
     job->next = frame->place < job->next ? frame->place : job->next;
 }
 
-/* Pushes a planned frame to the render queue. Called with the lock. */
+/* Puts a planned frame into the render queue. Called with the lock held. */
 static void push(struct kd_job_render *frame)
 {
     struct kd_job *job = frame->job;
@@ -106,15 +107,16 @@ static void push(struct kd_job_render *frame)
         job->began_ms = kd_clock_ms();
     job->fraction = 0;
     job->revision++;
-    const bool films = frame->dynamic; /* read before the push, after which the queue owns the frame */
+    const bool films = frame->dynamic; /* read before the push, because the queue owns the frame afterwards */
     kd_render_queue_push(job->all->params.renders, &frame->render);
-    /* The bodies move on while this frame is rendered. An error is reported when the next frame begins. */
+    /* The bodies move to the next frame while this frame is rendered. An error is reported when the next frame
+     * starts. */
     if (films && job->next < job->frames)
         kd_job_film_at(job, at_place(job, job->next), &next, &error);
 }
 
-/* Called when planning is done. While the frame was planned, the job may have been deleted or have failed, or the
- * server may have begun to stop. */
+/* Called when a frame is planned. In the meantime the job may have been deleted or may have failed, or the server
+ * may have begun to stop. */
 static void planned(struct kd_scheduler_job *planning)
 {
     struct kd_job_render *frame = (struct kd_job_render *)((char *)planning - offsetof(struct kd_job_render, planning));
@@ -137,7 +139,7 @@ static void planned(struct kd_scheduler_job *planning)
     finish(frame);
 }
 
-/* Makes the next frame of a job, which must then be planned. */
+/* Makes the next frame of a job. The frame must then be planned. */
 static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, struct kd_dynamic_bodies *dynamic)
 {
     struct kd_job_render *frame = calloc(1, sizeof *frame);
@@ -166,7 +168,7 @@ static struct kd_job_render *make_frame(struct kd_job *job, unsigned number, str
     return frame;
 }
 
-/* Begins the next frame of a job. Returns false if no frame can begin now. Called with the lock. */
+/* Starts the next frame of a job. Returns false if no frame can start now. Called with the lock held. */
 static bool begin(struct kd_job *job)
 {
     struct kd_jobs *all = job->all;
@@ -176,7 +178,7 @@ static bool begin(struct kd_job *job)
     if (number == job->frames)
         return false;
     kd_job_strike(job);
-    if (job->keeping) /* the attempt must be on disk before the work begins */
+    if (job->keeping) /* waits: the attempt must be on disk before the work begins */
         return true;
     enum kd_status status = job->spec.every > 0 ? kd_job_film_at(job, number, &dynamic, &error) : KD_OK;
     if (!status && job->spec.every > 0 && !dynamic)
@@ -227,10 +229,10 @@ void kd_jobs_drop_frame(struct kd_jobs *all, const struct kd_job *job)
         atomic_store(&all->rendering->render.drop, true);
 }
 
-#define COUNTED_MS 500.0 /* shortest interval between two writes of a sweep's number of lens maps to its record */
+#define COUNTED_MS 500.0 /* minimum time in ms between two writes of a sweep's number of lens maps to its record */
 
-/* Counts the lens map of a frame, if a map was traced. For a sweep, the job's record is written from time to time,
- * so that the number of lens maps survives a restart. */
+/* If a lens map was traced for this frame, counts it. For a sweep, the record is written from time to time, so that
+ * the number of lens maps survives a restart. */
 static void count_map(struct kd_job *job, const struct kd_render_job *render)
 {
     const unsigned traced =
@@ -246,7 +248,7 @@ static void count_map(struct kd_job *job, const struct kd_render_job *render)
 
 static void finished(struct kd_job *job, unsigned number, uint64_t size)
 {
-    /* the frame was rendered twice, because the frame before it failed while this one was being encoded */
+    /* The frame was rendered twice, because the previous frame failed while this one was being encoded. */
     if (job->have[number])
         return;
     job->have[number] = 1;
@@ -272,7 +274,7 @@ static void finished(struct kd_job *job, unsigned number, uint64_t size)
         kd_job_end(job, KD_JOB_FAILED, "the frames of all jobs have too many bytes (limit of this server)");
 }
 
-/* The render queue calls the three functions below, without the lock. */
+/* The three functions below are callbacks of the render queue, and are called without the lock. */
 
 static void progress(struct kd_render_job *render, double fraction)
 {
@@ -283,8 +285,8 @@ static void progress(struct kd_render_job *render, double fraction)
     pthread_mutex_unlock(&frame->job->all->lock);
 }
 
-/* Stores the exposure that a small picture has measured. After the last small picture, the common exposure is
- * written to disk (records.c) and then applies to all frames. Called with the lock. */
+/* Stores the exposure that was measured on a small picture. After the last small picture, the common exposure is
+ * written to disk (records.c), and then applies to all frames. Called with the lock held. */
 static void measured(struct kd_job *job, double stops)
 {
     struct kd_job_exposure *exposure = &job->exposure;
@@ -307,7 +309,7 @@ static void rendered(struct kd_render_job *render)
     frame->job->encoding += !frame->measures;
     if (frame->measures)
         measured(frame->job, render->frame.exposure);
-    frame->job->fraction = 0; /* the next frame has not made progress yet */
+    frame->job->fraction = 0; /* the next frame starts without progress */
     kd_jobs_pump(all);
     pthread_mutex_unlock(&all->lock);
 }
@@ -321,7 +323,7 @@ static void done(struct kd_render_job *render)
     bool stored = !status && !frame->measures;
     if (stored)
         status = kd_job_store_put(all->store, job->record.id, frame->number, &render->file, &render->error);
-    /* The file could not be written, for whatever reason. The frame can be rendered again later. */
+    /* The file could not be written, for whatever reason. The frame can be rendered again. */
     if (stored && status)
         render->error.status = KD_EFULL;
     pthread_mutex_lock(&all->lock);
@@ -331,14 +333,15 @@ static void done(struct kd_render_job *render)
     } else
         all->rendering = NULL;
     if (frame->measures && frame->rendered)
-        status = KD_OK; /* only the exposure of the small picture is used, so its file is not needed */
+        status = KD_OK; /* the file of a small picture is not needed, because only its exposure is used */
     else
         count_map(job, render);
     if (!status && !frame->measures)
         finished(job, frame->number, render->file.size);
     else if (status && status != KD_ECANCELLED &&
              !(status == KD_EDEVICE && kd_render_queue_lost(all->params.renders, NULL)) &&
-             kd_job_is_active(job)) { /* cancelled frames, and those of a lost device, are rendered after a restart */
+             /* frames that were cancelled, or lost with the device, are rendered after a restart */
+             kd_job_is_active(job)) {
         take_back(frame);
         kd_job_give_up(job, &render->error);
     }
@@ -354,13 +357,13 @@ void kd_job_draft_finish(struct kd_job_draft *draft)
     kd_cost_finish(&draft->cost);
 }
 
-/* Checks the cost of a job's frames. Their number has no limit of its own. */
+/* Checks the cost of a job's frames. Their number has no separate limit. */
 static enum kd_status afford(const struct kd_jobs *all, const struct kd_job_draft *draft, struct kd_error *error)
 {
     const struct kd_cost *cost = &draft->cost;
     const unsigned frames = draft->spec.frames;
-    /* Until all frames are checked, every lens map may still turn out to be shared with another frame. So the time
-     * of tracing is not counted. */
+    /* Until all frames are checked, each lens map may turn out to be shared with another frame. The time for tracing
+     * is therefore not counted yet. */
     const double not_spent = cost->frames < frames ? cost->trace_ms : cost->shared_ms;
     const double s = 1e-3 * (cost->ms - not_spent), bytes = (double)all->params.bytes;
     if (s > all->params.longest_job_s)

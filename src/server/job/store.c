@@ -21,18 +21,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define RECORD_MAX ((size_t)64 << 10) /* limit of bytes of job.json, which normally has some 500 */
+#define RECORD_MAX ((size_t)64 << 10) /* maximum size of job.json in bytes; usually it has some 500 */
 #define TEMPORARY "kerrd-jobs-"
 
 struct kd_job_store {
-    /* set for a temporary store only: parent is TMPDIR, and name is the name of the store's folder in it */
+    /* only for a temporary store: parent is TMPDIR, and name is the name of the store's folder there */
     char *parent, *name;
     int folder, lock;
 };
 
 static const char *const states[] = { [KD_JOB_ACTIVE] = "active", [KD_JOB_DONE] = "done", [KD_JOB_FAILED] = "failed" };
 
-/* Logs the failure with its path. Returns KD_EFULL or KD_ENOMEM for failures that may pass, and KD_EIO for others. */
+/* Logs the failure with its path. Returns KD_EFULL or KD_ENOMEM for failures that may be temporary, and KD_EIO for
+ * all others. */
 enum kd_status kd_job_store_failed(struct kd_error *error, const char *what)
 {
     int cause = errno;
@@ -46,7 +47,8 @@ static enum kd_status failed_at(struct kd_error *error, const char *what, const 
     return kd_error_set(error, KD_EIO, "%s in %.300s: %s", what, where, strerror(errno));
 }
 
-/* Opens and locks a folder's lock file. Returns -1 with errno; EWOULDBLOCK: another process holds it. */
+/* Opens and locks the lock file of a folder. Returns -1 with errno on failure; EWOULDBLOCK: another process holds
+ * the lock. */
 static int take_lock(int folder, int flags)
 {
     int fd = openat(folder, "lock", O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | flags, 0600);
@@ -57,7 +59,7 @@ static int take_lock(int folder, int flags)
     if (!fstat(fd, &about) && S_ISREG(about.st_mode) && !flock(fd, LOCK_EX | LOCK_NB) && !fstat(fd, &about)) {
         if (about.st_nlink)
             return fd;
-        errno = EWOULDBLOCK; /* the file was deleted between open and lock */
+        errno = EWOULDBLOCK; /* the file was deleted after it was opened and before it was locked */
     }
     int cause = errno;
     close(fd);
@@ -81,7 +83,7 @@ void kd_job_store_tidy(void)
             continue;
         int folder = kd_job_folder_open(parent, entry->d_name);
         int lock = folder >= 0 && !fstat(folder, &about) && about.st_uid == geteuid() ? take_lock(folder, 0) : -1;
-        if (lock >= 0) { /* the lock was free: the server that made the folder is dead */
+        if (lock >= 0) { /* the lock was free, so the server that made the folder no longer runs */
             kd_job_folder_empty(folder);
             if (!unlinkat(parent, entry->d_name, AT_REMOVEDIR))
                 kd_log(KD_LOG_INFO, "%s, which a server that has ended left behind, is removed", entry->d_name);
@@ -117,8 +119,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
         rmdir(path);
         store->folder = -1;
         errno = cause;
-        /* otherwise another server has just removed the new folder, because it looked left over; another attempt is
-         * made */
+        /* In the other case, another server has just removed the new folder because it looked left over, and a
+         * further attempt is made. */
         if (cause != EWOULDBLOCK && cause != ENOENT)
             return kd_job_store_failed(error, "cannot create a folder for jobs");
     }
@@ -129,8 +131,8 @@ static enum kd_status open_temporary(struct kd_job_store *store, struct kd_error
     return KD_OK;
 }
 
-/* Locks the folder, because two servers that share a folder would both do all of its jobs. The path to the folder
- * may contain symbolic links; the folder itself must not be one. */
+/* Locks the state folder, because two servers that share one would both do all of its jobs. The path may contain
+ * symbolic links, but its last part must not be one. */
 static enum kd_status open_state(struct kd_job_store *store, const char *state, struct kd_error *error)
 {
     if (mkdir(state, 0700) && errno != EEXIST)
@@ -230,11 +232,11 @@ static bool read_state(const cJSON *o, enum kd_job_state *out)
     return false;
 }
 
-/* Returns the record's series; NULL if only newer versions have it. */
+/* Returns the series of a record; NULL if only newer versions know it. */
 static const struct kd_series *series_of(const cJSON *o)
 {
     const char *name = cJSON_GetStringValue(cJSON_GetObjectItemCaseSensitive(o, "output"));
-    if (!name) /* records of older versions lack the series' name; those versions had two series */
+    if (!name) /* records of older versions do not name the series; there were two at that time */
         name = cJSON_IsTrue(cJSON_GetObjectItemCaseSensitive(o, "curve")) ? "light-curve" : "pictures";
     return kd_series_named(name);
 }
@@ -248,7 +250,7 @@ static bool read_record(const cJSON *o, const char *id, struct kd_job_record *ou
         !copy_text(o, "token", out->token, sizeof out->token) || strlen(out->token) != KD_SECRET_TOKEN - 1 ||
         !copy_text(o, "error", out->error, sizeof out->error) || !read_state(o, &out->state))
         return false;
-    if (!copy_text(o, "preset", out->preset, sizeof out->preset)) /* absent in records of older versions */
+    if (!copy_text(o, "preset", out->preset, sizeof out->preset)) /* records of older versions lack this member */
         *out->preset = 0;
     if (!copy_text(o, "idempotency_key", out->once.key, sizeof out->once.key) ||
         !copy_text(o, "idempotency_request", out->once.request, sizeof out->once.request))
@@ -268,7 +270,7 @@ struct found {
 
 enum fate { KEPT, GONE, ASIDE };
 
-/* Parses a job.json of this version. Returns false with the reason in *why. */
+/* Parses a job.json of this version. If it returns false, *why is the reason. */
 static bool parse_record(const struct kd_buffer *text, const char *id, struct kd_job_record *out, const char **why)
 {
     bool starved;
@@ -284,8 +286,8 @@ static bool parse_record(const struct kd_buffer *text, const char *id, struct kd
     return good;
 }
 
-/* Examines a job's folder. A job that cannot be read now may be readable later, or by another version of kerrd. Only
- * a deleted job has the result GONE. */
+/* Examines the folder of a job. A job that cannot be read now may be readable later, or by another version of kerrd.
+ * The result is GONE only for a deleted job. */
 static enum fate look(int folder, const char *id, struct found *out, const char **why)
 {
     struct kd_buffer text = { 0 };
@@ -310,7 +312,7 @@ static enum fate look(int folder, const char *id, struct found *out, const char 
 static bool load(struct kd_job_store *store, const char *name, struct found *out)
 {
     const char *why = "";
-    if (kd_job_folder_is_new(name)) { /* the server was killed before the job was accepted */
+    if (kd_job_folder_is_new(name)) { /* the server was killed before it had accepted the job */
         kd_job_folder_remove(store->folder, name, UINT_MAX);
         return false;
     }
@@ -333,7 +335,7 @@ static bool load(struct kd_job_store *store, const char *name, struct found *out
     return fate == KEPT;
 }
 
-/* Orders records by attempts, then by age. */
+/* Compares records by the number of attempts, and then by age. */
 static int by_age(const void *a, const void *b)
 {
     const struct kd_job_record *x = &((const struct found *)a)->record, *y = &((const struct found *)b)->record;
@@ -436,8 +438,8 @@ enum kd_status kd_job_store_update(struct kd_job_store *store, const struct kd_j
     return status;
 }
 
-/* The folder has a temporary name until both documents are written, so that a job is stored completely or not at
- * all. */
+/* The folder has a temporary name until both documents are written, so that a job is stored either completely or not
+ * at all. */
 enum kd_status kd_job_store_create(struct kd_job_store *store, const struct kd_job_record *record, const void *request,
                                    size_t size, struct kd_error *error)
 {
@@ -503,7 +505,7 @@ bool kd_job_store_open_file(int folder, const char *name, struct kd_job_file *ou
         return false;
     }
     out->size = (uint64_t)about.st_size;
-    /* A file is never modified: each write replaces it by a new file. */
+    /* Files are never modified; each write replaces the file by a new one. */
     snprintf(out->mark, sizeof out->mark, "%llx-%llx-%llx", (unsigned long long)about.st_ino,
              (unsigned long long)about.st_size,
              1000000000ull * (unsigned long long)about.st_mtim.tv_sec + (unsigned long long)about.st_mtim.tv_nsec);

@@ -1,10 +1,10 @@
-/* Watchers of jobs, and the regular check of all jobs. */
+/* Watchers of jobs, and the check of all jobs that is made regularly. */
 #include "base/log.h"
 #include "base/clock.h"
 #include "server/job/job_internal.h"
 
-/* limit of files removed in one check of all jobs. Removal takes some milliseconds and must not delay the thread's
- * other work */
+/* Maximum number of files that one check of all jobs removes. This takes some milliseconds, and must not delay the
+ * other work of the thread. */
 #define FILES_A_SWEEP 200
 
 void kd_job_watch(struct kd_job_watcher *watcher)
@@ -32,7 +32,7 @@ void kd_job_unwatch(struct kd_job_watcher *watcher)
     kd_job_release(job);
 }
 
-/* True if what a watcher waits for has happened. Called with the lock. */
+/* Returns what has happened for a watcher. Called with the lock held. */
 static enum kd_job_news news(const struct kd_job_watcher *w, double now)
 {
     const struct kd_job *job = w->job;
@@ -50,7 +50,7 @@ enum kd_job_news kd_job_await(struct kd_job_watcher *w)
     w->revision = w->job->revision;
     if (what == KD_JOB_LATER) {
         w->waiting = true;
-        /* the connection is suspended first, because it can be resumed as soon as the lock is released */
+        /* suspended first, because another thread may resume the connection as soon as the lock is released */
         MHD_suspend_connection(w->mhd);
     }
     pthread_mutex_unlock(&w->job->all->lock);
@@ -66,8 +66,8 @@ void kd_job_wake(struct kd_job *job, double now)
         }
 }
 
-/* Removes from the list an expired finished job that nobody reads. The caller gets the list's reference. Called with
- * the lock. */
+/* Removes from the list a finished job that has expired and that nobody is reading. The caller gets the list's
+ * reference. Called with the lock held. */
 static struct kd_job *take_old(struct kd_jobs *all)
 {
     double now = kd_clock_ms();
@@ -80,9 +80,9 @@ static struct kd_job *take_old(struct kd_jobs *all)
     return NULL;
 }
 
-#define ORDER_MS 20.0 /* time limit of one check of all jobs */
+#define ORDER_MS 20.0 /* maximum time in ms of this part of a check of all jobs */
 
-/* Continues to compute the order of a sweep's frames after a restart. Called without the lock. */
+/* Continues, after a restart, to compute the order of a sweep's frames. Called without the lock. */
 static void put_in_order(struct kd_jobs *all)
 {
     pthread_mutex_lock(&all->lock);
@@ -114,7 +114,7 @@ void kd_jobs_sweep(struct kd_jobs *all)
     pthread_mutex_lock(&all->lock);
     for (struct kd_job *job = all->first; job; job = job->link)
         kd_job_wake(job, now);
-    kd_jobs_pump(all); /* a job's delay may have ended */
+    kd_jobs_pump(all); /* because a job's delay may be over */
     struct kd_job *old = take_old(all);
     pthread_mutex_unlock(&all->lock);
     if (old)
@@ -122,8 +122,8 @@ void kd_jobs_sweep(struct kd_jobs *all)
     kd_jobs_bury(all, FILES_A_SWEEP);
 }
 
-/* At a shutdown by request, takes back the attempts that were counted for jobs under way, because these jobs have
- * not crashed the server. */
+/* At an orderly shutdown, undoes the counting of attempts of the jobs in progress, because these jobs have not
+ * crashed the server. */
 static void take_back_strikes(struct kd_jobs *all)
 {
     for (struct kd_job *job = all->first; job; job = job->link)

@@ -8,20 +8,20 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The struct into which a document is read; each reader sets one member. */
+/* The struct into which a document is read. Each reader sets one member. */
 struct target {
     struct kd_lesson_change *change;
     struct kd_hand *hand;
-    unsigned given; /* bits of the members that were given, in the order of their table */
+    unsigned given; /* one bit for each member that was given, in the order of the members' table */
 };
 typedef enum kd_status reader(struct target *to, const cJSON *item, const char *pointer, struct kd_error *error);
 struct member {
     const char *name;
     reader *read;
 };
-enum { MEMBERS = 8 }; /* largest number of members of an object */
+enum { MEMBERS = 8 }; /* maximum number of members of an object */
 
-/* Converts a pointer to a name for sentences, such as /question/choices/1 to question.choices.1. */
+/* Converts a JSON pointer to a name for messages: /question/choices/1 becomes question.choices.1. */
 static void field_name(char *name, size_t size, const char *pointer)
 {
     snprintf(name, size, "%s", pointer + 1);
@@ -39,8 +39,7 @@ static enum kd_status refuse(const cJSON *item, const char *pointer, const char 
     return kd_error_field(error, pointer, "%s is %s; it must be %s", name, given, must);
 }
 
-/* Reads a text of 1 to `most` characters, none of which is a control character. With `empty`, the text may have 0
- * characters. */
+/* Reads a text of 1 to `most` characters (0 to `most` if `empty` is true) without control characters. */
 static enum kd_status read_text(const cJSON *item, const char *pointer, size_t most, bool empty, const char **out,
                                 struct kd_error *error)
 {
@@ -124,8 +123,8 @@ static enum kd_status read_about(struct target *to, const cJSON *item, const cha
     return read_text(item, pointer, KD_LESSON_ABOUT, true, &to->change->about, error);
 }
 
-/* Reads a language tag as in BCP 47. Its parts, between hyphens, have up to 8 letters and digits; the first part has
- * letters only. */
+/* Reads a language tag as in BCP 47. Its parts are separated by hyphens, and have up to 8 letters and digits. The
+ * first part has letters only. */
 static enum kd_status read_lang(struct target *to, const cJSON *item, const char *pointer, struct kd_error *error)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";

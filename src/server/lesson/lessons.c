@@ -1,4 +1,4 @@
-/* The table of lessons, and a lesson as JSON. */
+/* The table of lessons, and the JSON form of a lesson. */
 #include "base/clock.h"
 #include "server/lesson/lesson.h"
 
@@ -10,10 +10,10 @@
 struct kd_lessons {
     pthread_mutex_t lock;
     unsigned client_limit;
-    struct kd_lesson *list[KD_LESSONS]; /* NULL: the place is free */
+    struct kd_lesson *list[KD_LESSONS]; /* NULL marks a free entry */
 };
 
-/* Names of pupils must not stay in freed memory. Accepts NULL. */
+/* Frees a lesson and overwrites it, because names of pupils must not stay in freed memory. Accepts NULL. */
 static void erase(struct kd_lesson *one)
 {
     if (one)
@@ -115,11 +115,12 @@ static bool has_answered(const struct kd_lesson *one, const struct kd_pupil *pup
     return *pupil->key && pupil->answered && pupil->answered == one->question.number;
 }
 
-/* True if a new pupil gets the place of a before the place of b. Both places are free, or their pupils are absent. */
+/* True if a new pupil should get the entry a rather than the entry b. Each of the two is free or belongs to an
+ * absent pupil. */
 static bool goes_before(const struct kd_lesson *one, const struct kd_pupil *a, const struct kd_pupil *b)
 {
     const bool a_counts = has_answered(one, a), b_counts = has_answered(one, b);
-    return a_counts == b_counts ? a->seen_ms < b->seen_ms /* 0 for a free place */ : b_counts;
+    return a_counts == b_counts ? a->seen_ms < b->seen_ms /* seen_ms of a free entry is 0 */ : b_counts;
 }
 
 struct kd_pupil *kd_lesson_pupil(struct kd_lesson *one, const char *key)
@@ -179,7 +180,7 @@ static void add_choice(struct kd_json *json, const struct kd_lesson *one, const 
         kd_json_null(json, "choice");
 }
 
-/* Writes the pupils that are present, or have answered the question. */
+/* Writes the pupils who are present, or have answered the question. */
 static void add_hands(struct kd_json *json, const struct kd_lesson *one, double now)
 {
     kd_json_array(json, "hands");

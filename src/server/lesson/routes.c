@@ -1,4 +1,4 @@
-/* Handlers of POST /v1/lessons, of a lesson, and of its pupils' answers. */
+/* Handlers of POST /v1/lessons, of a single lesson, and of pupils' answers. */
 #include "base/clock.h"
 #include "scene/tree.h"
 #include "server/lesson/lesson.h"
@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BODY_MOST ((size_t)64 << 10) /* largest size of a body in bytes, enough for a link and a question */
-#define BODY_VALUES 32               /* JSON values in a body */
+#define BODY_MOST ((size_t)64 << 10) /* maximum size of a body in bytes, enough for a link and a question */
+#define BODY_VALUES 32               /* maximum number of JSON values in a body */
 
 static enum MHD_Result refuse(struct kd_request *request, const struct kd_error *error)
 {
@@ -112,7 +112,7 @@ done:
     return status ? refuse(request, &error) : answer(request, one, &(struct kd_lesson_view) { .teacher = true });
 }
 
-/* The lesson that the path names; NULL: *refused is the answer. */
+/* Returns the lesson that the path names. If it is NULL, *refused is the result of the handler. */
 static struct kd_lesson *lesson_of(struct kd_request *request, enum MHD_Result *refused)
 {
     struct kd_lesson *one = kd_lesson_find(request->server->lessons, request->rest);
@@ -196,7 +196,7 @@ done:
     return result;
 }
 
-/* Runs a handler under the lock of all lessons, so that the reaper cannot end a lesson meanwhile. */
+/* Runs a handler with the lock of all lessons held, so that the reaper cannot end a lesson in the meantime. */
 static enum MHD_Result locked(struct kd_request *request, enum MHD_Result (*handle)(struct kd_request *))
 {
     kd_lessons_lock(request->server->lessons);

@@ -20,7 +20,7 @@ void kd_openapi_access_schemes(struct kd_json *json)
                    "\"description\":\"the last parameter of a signed link, behind signer, expires and budget_ms\"}}");
 }
 
-/* The ways to authenticate for a role. OpenAPI permits names of roles in place of scopes. */
+/* The authentication methods for a role. Where OpenAPI expects scopes, it permits names of roles. */
 #define WAYS(role) "{\"access\":[\"" role "\"]},{\"accessHeader\":[\"" role "\"]},{\"accessCookie\":[\"" role "\"]}]"
 
 void kd_openapi_access_default(struct kd_json *json, bool closed)

@@ -6,12 +6,12 @@
 
 #include <string.h>
 
-/* Writes the description of one field in openapi.json, given the field's path. */
+/* A function that writes the description of one field of openapi.json. path: path of the field. */
 typedef void writer(struct kd_json *json, const char *path, const cJSON *property);
 
 static void each(struct kd_json *json, const cJSON *schema, const char *prefix, writer *write);
 
-/* Visits the elements of a list by index. */
+/* Visits the elements of a list, by index. */
 static void each_element(struct kd_json *json, const cJSON *list, const char *prefix, writer *write)
 {
     const cJSON *most = cJSON_GetObjectItemCaseSensitive(list, "maxItems");
@@ -58,7 +58,7 @@ static void add_parameter(struct kd_json *json, const char *path, const cJSON *p
     kd_json_object(json, NULL);
     kd_json_string(json, "name", path);
     kd_json_string(json, "in", "query");
-    if (type && !strcmp(type, "array")) { /* a list as one text, separated by commas */
+    if (type && !strcmp(type, "array")) { /* the list is one text, with commas between its items */
         kd_json_string(json, "style", "form");
         kd_json_bool(json, "explode", false);
     }

@@ -12,7 +12,7 @@
 #define COUNT KD_SCHEMA_COUNT
 #define TEXT KD_SCHEMA_TEXT
 
-/* required: the header is present in every answer for which it is listed. */
+/* required: true if the header is present in every answer for which it is listed. */
 static const struct {
     const char *name, *schema, *help;
     bool required;
@@ -87,7 +87,7 @@ static bool tells_events(const struct kd_route *route, unsigned method)
 static bool is_made_once(const struct kd_route *route, unsigned method) { return method == KD_POST && route->once; }
 static bool may_say_little(const struct kd_route *route, unsigned method) { return method == KD_PATCH && route->brief; }
 
-/* Request headers whose use here goes beyond their general meaning in HTTP. */
+/* Request headers whose meaning here goes beyond that in HTTP. */
 static const struct {
     const char *name, *help;
     bool (*of)(const struct kd_route *route, unsigned method);

@@ -5,7 +5,7 @@
 
 #include <stdio.h>
 
-/* Names of each integral's request schema. Spectra of disks and of volumes share one. */
+/* The name of the request schema of each integral. Spectra of disks and of volumes have the same schema. */
 static const char *const requests[KD_INTEGRALS] = {
     [KD_INTEGRAL_LINE] = "LineRequest",         [KD_INTEGRAL_TRANSFER] = "TransferFunctionRequest",
     [KD_INTEGRAL_SPECTRUM] = "SpectrumRequest", [KD_INTEGRAL_IMPULSE] = "ImpulseRequest",

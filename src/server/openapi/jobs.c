@@ -14,25 +14,25 @@
 
 #define FRAME "{\"type\":\"integer\",\"minimum\":0,\"maximum\":9999}"
 
-/* The member "output": what a job makes of its frames. The argument of the format is a list of names. */
+/* The member "output": what a job makes of its frames. The argument of this format string is a list of names. */
 #define OUTPUT "\"output\":{\"enum\":[%s]}"
-/* Excludes exposure and motion blur if the output is not pictures. The argument of the format is a list of the names of
- * such outputs. */
+/* Excludes exposure and motion blur unless the output is pictures. The argument of this format string is the list of
+ * all other outputs. */
 #define PICTURES_ALONE \
     "\"not\":{\"anyOf\":[{\"required\":[\"exposure\"]},{\"required\":[\"motion_blur\"]}],\"required\":[\"output\"]," \
     "\"properties\":{\"output\":{\"enum\":[%s]}}},"
-/* Excludes members that have a meaning only together with keyframes. */
+/* Excludes members that are meaningful only together with keyframes. */
 #define TAKES_KEYFRAMES \
     "\"if\":{\"not\":{\"required\":[\"keyframes\"]}},\"then\":{\"not\":{\"anyOf\":[{\"required\":[\"frames\"]},{" \
     "\"required\":[\"interpolation\"]}," \
     "{\"required\":[\"distances\"]},{\"required\":[\"angles\"]},{\"required\":[\"ease\"]},{\"required\":[\"look_at\"]" \
     "},{\"required\":[\"motion_blur\"]}]}},"
 
-/* The member "exposure": whether pictures whose exposure is "auto" share one exposure. */
+/* The member "exposure": whether pictures whose exposure is "auto" share one exposure or not. */
 #define EXPOSURE(words) "\"exposure\":{\"enum\":[" words "]}"
 #define ANY_EXPOSURE EXPOSURE("\"one\",\"each\"")
 
-/* Axes: fields with their values. The schema Scene has each field's own schema. */
+/* Axes: fields, each with its values. The schema Scene contains the schema of each field. */
 static const char axes[] =
     "{\"type\":\"object\",\"minProperties\":1,\"maxProperties\":8,\"propertyNames\":{\"allOf\":[" KD_SCHEMA_REF(
         "FieldPath") "],\"not\":{\"const\":\"version\"}},\"additionalProperties\":{\"anyOf\":[{\"type\":\"array\","
@@ -42,8 +42,8 @@ static const char axes[] =
                      "\"pattern\":\"^" KD_SCHEMA_DECIMAL ":" KD_SCHEMA_DECIMAL "(:" KD_SCHEMA_DECIMAL
                      "|/([1-9][0-9]{0,5}))$\",\"description\":\"START:STOP:STEP or START:STOP/HOW MANY\"}]}}";
 
-/* Variants of a request for a job. Each is a format string with two arguments: the list of outputs that are not
- * pictures, and the list of all outputs. This variant is a scene with axes. */
+/* Variants of a request for a job. Each is a format string with two arguments: the list of all outputs except
+ * pictures, and the list of all outputs. This first variant is a scene with axes. */
 static const char sweep[] =
     OBJECT PICTURES_ALONE "\"required\":[\"axes\"],\"properties\":{\"scene\":" KD_OPENAPI_SCENE
                           ",\"axes\":" KD_SCHEMA_REF("SweepAxes") "," EXPOSURE("\"each\"") "," OUTPUT "}}";
@@ -84,7 +84,7 @@ static bool any(const struct kd_series *one) { return (void)one, true; }
 static bool of_any_job(const struct kd_series *one) { return !one->swept; }
 static bool of_numbers(const struct kd_series *one) { return !(one->frame->carries & KD_CARRIES_PICTURE); }
 
-/* Names of the series for which `is` is true, such as "pictures","light-curve". */
+/* Names of the series for which `is` returns true, such as "pictures","light-curve". */
 struct names { char text[200]; };
 static struct names names_of(is_series *is)
 {

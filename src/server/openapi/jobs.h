@@ -1,4 +1,4 @@
-/* Jobs in openapi.json, and the body of POST /v1/plan: a scene, or a sweep as in a job. */
+/* Jobs in openapi.json, and the body of POST /v1/plan, which is a scene, or a sweep as in a job. */
 #ifndef KD_SERVER_OPENAPI_JOBS_H
 #define KD_SERVER_OPENAPI_JOBS_H
 

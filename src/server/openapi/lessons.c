@@ -9,7 +9,7 @@
 #define ID "{\"type\":\"string\",\"pattern\":\"^[0-9a-f]{16}$\"}"
 #define CHOICE "{\"type\":\"integer\",\"minimum\":0,\"maximum\":5}"
 #define CHOICE_OR_NULL "{\"type\":[\"integer\",\"null\"],\"minimum\":0,\"maximum\":5}"
-/* a text that contains none of the control characters of kd_utf8_is_control */
+/* a text without the control characters of kd_utf8_is_control */
 #define TEXT(least, most) \
     "{\"type\":\"string\",\"minLength\":" #least ",\"maxLength\":" #most \
     ",\"pattern\":\"^[^\\u0000-\\u001f\\u007f-\\u009f]*$\"}"

@@ -7,7 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Adds a link with its parameters. An operation that changes an object also needs the object's token. */
+/* Adds a link and its parameters. If the operation of the link changes an object, it also needs the token of the
+ * object. */
 static void add_link(struct kd_json *json, const struct kd_route *to, const struct kd_method *method)
 {
     char id[80], parameter[20], value[40];

@@ -1,4 +1,4 @@
-/* Links in openapi.json: from the answer that creates an object to the operations on it. */
+/* Links in openapi.json. They lead from the answer that creates an object to the operations on this object. */
 #ifndef KD_SERVER_OPENAPI_LINKS_H
 #define KD_SERVER_OPENAPI_LINKS_H
 

@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <string.h>
 
-/* Schema of a media type if the route names none. */
+/* Schema of a media type for which the route names no schema. */
 static inline const char *kd_openapi_schema_of(const char *type)
 {
     if (strstr(type, "json") && !strstr(type, "ndjson"))
@@ -16,7 +16,7 @@ static inline const char *kd_openapi_schema_of(const char *type)
     return text ? "{\"type\":\"string\"}" : "{\"type\":\"string\",\"format\":\"binary\"}";
 }
 
-/* Writes a member of "content". schema: JSON text; if its size is 0, the media type's default is used. */
+/* Writes a member of "content". schema: JSON text; if its size is 0, the default schema of the media type is used. */
 static inline void kd_openapi_media(struct kd_json *json, const char *type, const char *schema, size_t size)
 {
     const char *plain = kd_openapi_schema_of(type);
@@ -25,7 +25,7 @@ static inline void kd_openapi_media(struct kd_json *json, const char *type, cons
     kd_json_end(json);
 }
 
-/* Writes an operationId that is an identifier in most languages: "get_sessions_id_frame_png" for GET
+/* Writes an operationId that is a valid identifier in most languages, such as "get_sessions_id_frame_png" for GET
  * /v1/sessions/{id}/frame.png. */
 static inline void kd_openapi_operation_id(char *out, size_t size, const char *method, const char *path)
 {
@@ -37,8 +37,7 @@ static inline void kd_openapi_operation_id(char *out, size_t size, const char *m
     out[n] = 0;
 }
 
-/* kd_openapi_body_begin and kd_openapi_body_end together write a required requestBody. The media types are written
- * between the two calls. */
+/* These two functions begin and end a required requestBody. The caller writes its media types between the two calls. */
 static inline void kd_openapi_body_begin(struct kd_json *json)
 {
     kd_json_object(json, "requestBody");
@@ -51,7 +50,7 @@ static inline void kd_openapi_body_end(struct kd_json *json)
     kd_json_end(json);
 }
 
-/* Writes a requestBody with a JSON schema; other: a second media type, or NULL. */
+/* Writes a requestBody with a JSON schema. other: a second media type, or NULL. */
 static inline void kd_openapi_body(struct kd_json *json, const char *schema, size_t size, const char *other)
 {
     kd_openapi_body_begin(json);

@@ -1,4 +1,4 @@
-/* Writes the OpenAPI 3.1 document from the route table, the scene's schema and the problem table. */
+/* Writes the OpenAPI 3.1 document from the table of routes, the schema of a scene, and the table of problems. */
 #include "server/openapi/openapi.h"
 #include "server/http/served.h"
 #include "server/job/formats.h"
@@ -29,11 +29,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Parameters of the document. */
+/* The parameters of the document. */
 struct subject {
     const char *base_path;
     const cJSON *schema; /* schema of a scene */
-    bool closed;         /* the server has a token file */
+    bool closed;         /* true if the server has a token file */
 };
 
 static void begin_parameter(struct kd_json *json, const char *in, const char *name)
@@ -119,7 +119,7 @@ static void add_queries(struct kd_json *json, const struct kd_route *route, unsi
 
 static void add_parameters(struct kd_json *json, const struct kd_route *route, unsigned method, const cJSON *schema)
 {
-    /* If a route has PATCH, a POST's body holds the whole object. */
+    /* If a route also has PATCH, the body of POST holds a whole object. */
     const struct kd_taken *taken = route->methods & KD_PATCH ? &kd_taken[KD_TAKES_NOTHING] : &kd_taken[route->takes];
     const bool in_path = strchr(route->path, '{');
     if (!in_path && !route->queries && !taken->parameters && !kd_openapi_is_asked_by_header(route, method))

@@ -42,7 +42,7 @@ static void add_parameters(struct kd_json *json, const struct kd_quantity *quant
     kd_json_end(json);
 }
 
-/* Writes the schema of the parameters in an answer. A parameter is a word or a number. A range is a list of numbers. */
+/* Writes the schema of the parameters in an answer. Each is a word or a number; a range is a list of numbers. */
 static void add_asked(struct kd_json *json, const struct kd_quantity *quantity)
 {
     const char *names[KD_QUANTITY_PARAMETERS];
@@ -79,7 +79,7 @@ static void add_values(struct kd_json *json, const struct kd_quantity *quantity)
     kd_schema_end_strict(json, names, quantity->n_outputs);
 }
 
-/* Writes the units of all numbers. A parameter and an output may have the same name. */
+/* Writes the units of all numbers, parameters as well as outputs. A parameter and an output may have the same name. */
 static void add_units(struct kd_json *json, const struct kd_quantity *quantity)
 {
     const char *names[KD_QUANTITY_PARAMETERS + KD_QUANTITY_OUTPUTS];
@@ -107,7 +107,8 @@ static void add_answer(struct kd_json *json, const struct kd_quantity *quantity)
     kd_json_string(json, "const", quantity->name);
     kd_json_end(json);
     add_asked(json, quantity);
-    kd_schema_text(json, "ranges", KD_SCHEMA_LIST(KD_SCHEMA_TEXT)); /* the order in which several ranges are nested */
+    /* the order of nesting, if there are several ranges */
+    kd_schema_text(json, "ranges", KD_SCHEMA_LIST(KD_SCHEMA_TEXT));
     kd_schema_text(json, "shape", KD_SCHEMA_LIST(KD_SCHEMA_COUNT));
     add_values(json, quantity);
     add_units(json, quantity);

@@ -5,7 +5,7 @@
 #include "base/json.h"
 #include "server/http/route.h"
 
-/* Writes "/v1/physics/kerr" and so on into the paths. */
+/* Writes "/v1/physics/kerr" and so on as members of the paths. */
 void kd_openapi_physics_paths(struct kd_json *json, const struct kd_route *route);
 
 #endif

@@ -16,7 +16,7 @@
 #define PAIR "{\"type\":\"array\",\"minItems\":2,\"maxItems\":2,\"items\":{\"type\":\"number\"}}"
 /* The Stokes parameters I, Q and U, and for volumes also V. */
 #define STOKES "{\"type\":\"array\",\"minItems\":3,\"maxItems\":4,\"items\":{\"type\":\"number\"}}"
-/* docs/pixel.md describes each member of the schemas below. */
+/* Each member of the schemas below is described in docs/pixel.md. */
 #define UNITS "lengths and times in M, angles in radians; frequencies relative to those that the observer measures"
 #define ROWS LIST(LIST("{\"type\":[\"number\",\"null\",\"string\"]}"))
 
@@ -51,7 +51,7 @@ static void add_motion(struct kd_json *json)
     KD_OPENAPI_TOLD(json, "RayPolar", UNITS, polar);
 }
 
-/* Writes the schemas of crossings, where light is emitted or blocked. */
+/* Writes the schemas of crossings, which are places where light is emitted or blocked. */
 static void add_crossings(struct kd_json *json)
 {
     static const struct kd_openapi_member glow[] = {
@@ -171,7 +171,7 @@ static void add_ends(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "PixelAccuracy", accuracy);
 }
 
-/* Members of each ray of the pixel. The pixel's light is the mean of these rays. */
+/* The members of each ray of the pixel. The light of the pixel is the mean over its rays. */
 #define RAY \
     { "ray_at", PAIR, false }, { "weight", NUMBER, false }, { "constants", REF("RayConstants"), false }, \
         { "radial", REF("RayRadial"), false }, { "polar", REF("RayPolar"), false }, \

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-/* docs/playground.md describes each member of the schemas below. */
+/* Each member of the schemas below is described in docs/playground.md. */
 #define UNITS \
     "lengths and times in M, masses and energies in units of the hole's mass, speeds in c; rates in M per second of " \
     "real time"
@@ -33,7 +33,7 @@ static void add_raw(struct kd_json *json, const char *name, const char *schema)
     kd_json_raw(json, name, schema, strlen(schema));
 }
 
-/* Writes the schema of a body. id: whether the body already exists and has an id. */
+/* Writes the schema of a body. id: true if the body already exists and therefore has an id. */
 static void add_body(struct kd_json *json, const char *name, bool id)
 {
     kd_json_object(json, name);
@@ -71,7 +71,7 @@ static void add_properties(struct kd_json *json, bool patch)
     kd_json_string(json, "description", "pace in M per second of real time; a preset has its own default");
     kd_json_end(json);
     add_raw(json, "paused", "{\"type\":\"boolean\",\"default\":false}");
-    add_raw(json, "scene", KD_SCHEMA_REF("Scene")); /* a merge patch for the scene of the playground's pictures */
+    add_raw(json, "scene", KD_SCHEMA_REF("Scene")); /* merge patch for the scene of the playground's pictures */
     kd_document_properties(json, &kd_playground_settings);
     if (patch) {
         add_raw(json, "add", BODIES("PlaygroundBody"));
@@ -107,7 +107,7 @@ static const char *const kinds[] = { [KD_KIND_REAL] = KD_SCHEMA_NUMBER,
                                      [KD_KIND_BOOL] = KD_SCHEMA_BOOL,
                                      [KD_KIND_WORD] = KD_SCHEMA_TEXT };
 
-/* Appends members for the rows of a table. */
+/* Appends a member for each row of a table. */
 static size_t add_members(struct kd_openapi_member *to, size_t n, const struct kd_document *document)
 {
     for (size_t i = 0; i < document->n; i++)
@@ -115,7 +115,7 @@ static size_t add_members(struct kd_openapi_member *to, size_t n, const struct k
     return n;
 }
 
-/* Writes the schema of a body's state. After mergers and escapes values may exceed the limits of a request. */
+/* Writes the schema of a body's state. Mergers and escapes may lead to values beyond the limits of a request. */
 static void add_body_state(struct kd_json *json)
 {
     struct kd_openapi_member members[16] = { { "id", "{\"type\":\"integer\",\"minimum\":1}", false },
@@ -238,7 +238,7 @@ static void add_series(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "PlaygroundSeries", series);
 }
 
-/* Writes the schema of the data in the event stream. OpenAPI cannot attach a schema to the stream itself. */
+/* Writes the schema of the data in the event stream, because OpenAPI cannot attach a schema to the stream itself. */
 static void add_happened(struct kd_json *json)
 {
     static const struct kd_openapi_member happened[] = {

@@ -12,15 +12,15 @@ static bool always(const struct kd_route *route, unsigned method) { return (void
 static bool never(const struct kd_route *route, unsigned method)
 {
     return (void)route, (void)method, false;
-} /* 405 is not listed, because it means that the address does not have the operation */
+} /* 405 is not listed: it means that this address does not have the operation */
 static bool closed(const struct kd_route *route, unsigned method) { return (void)method, !route->open; }
 static bool has_body(const struct kd_route *route, unsigned method)
 {
     return (void)route, method == KD_POST || method == KD_PATCH || method == KD_PUT;
 }
 
-/* True if the operation may answer 403: for a wrong role, a signed link that is not valid, a page of another site, or a
- * wrong token of the object. */
+/* True if the operation may answer 403. Reasons are a wrong role, a signed link that is not valid, a page of another
+ * site, or a wrong token of the object. */
 static bool forbids(const struct kd_route *route, unsigned method)
 {
     return !strncmp(route->path, "/v1/", 4) || route->signable ||
@@ -32,7 +32,7 @@ static bool is_found_by_name(const struct kd_route *route, unsigned method)
     return (void)method, strchr(route->path, '{') && route->takes != KD_TAKES_QUANTITY;
 }
 
-/* True if the client chooses the format of an answer by Accept. */
+/* True if the client chooses the format of an answer by the header Accept. */
 static bool negotiates(const struct kd_route *route, unsigned method)
 {
     return (void)method, route->gives != KD_GIVES_ITS_ANSWER;
@@ -97,7 +97,7 @@ void kd_openapi_problems(struct kd_json *json, const struct kd_route *route, uns
     }
 }
 
-/* Writes the titles of the problems with this status. */
+/* Writes the titles of all problems with this status. */
 static void describe(struct kd_json *json, unsigned status)
 {
     char text[500] = "";

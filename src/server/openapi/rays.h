@@ -6,9 +6,9 @@
 
 struct cJSON;
 
-/* Appends to an operation's list the parameters that accompany an NPY array. */
+/* Appends the parameters that accompany an NPY array to the list of parameters of an operation. */
 void kd_openapi_rays_parameters(struct kd_json *json, unsigned method, const struct cJSON *schema);
-/* Writes the components that body and answer refer to. */
+/* Writes the components to which the body and the answer refer. */
 void kd_openapi_rays_schemas(struct kd_json *json);
 
 #endif

@@ -165,7 +165,8 @@ static void add_plan(struct kd_json *json)
     KD_OPENAPI_STRICT(json, "SweepPlan", sweep);
 }
 
-/* Writes the schema of accuracy. In a set, the errors are members named after the quantities. */
+/* Writes the schema of the accuracy table. In each set of rays, the errors are members with the names of the
+ * quantities. */
 static void add_accuracy(struct kd_json *json)
 {
     static const struct kd_openapi_member errors[] = { { "median", KD_SCHEMA_NUMBER, true },

@@ -23,10 +23,10 @@ static void begin_response(struct kd_json *json, const struct kd_route *route, u
     kd_openapi_links(json, route, status);
 }
 
-/* Writes the media types that a table lists, each of them once. */
+/* Writes the media types in a table of formats, each of them once. */
 static void add_formats(struct kd_json *json, enum kd_gives gives)
 {
-    static const char stars[] = "{\"$ref\":\"#/components/schemas/Stars\"}"; /* the only format that is JSON */
+    static const char stars[] = "{\"$ref\":\"#/components/schemas/Stars\"}"; /* the only picture format that is JSON */
     struct kd_job_format format;
     for (size_t i = 0; gives == KD_GIVES_PICTURE && i < kd_n_formats; i++) {
         const char *known = strstr(kd_formats[i]->media_type, "json") ? stars : "";
@@ -36,7 +36,7 @@ static void add_formats(struct kd_json *json, enum kd_gives gives)
         kd_openapi_media(json, format.media_type, "", 0);
 }
 
-/* Writes a media type of an answer. JSON has the schema that the route gives. */
+/* Writes a media type of an answer. For JSON, the route gives the schema. */
 static void add_type(struct kd_json *json, const struct kd_route *route, unsigned method, const char *type, size_t n)
 {
     char name[64];
@@ -69,7 +69,7 @@ static void add_answer(struct kd_json *json, const struct kd_route *route, unsig
 
 size_t kd_openapi_successes(const struct kd_route *route, unsigned method, unsigned out[KD_OPENAPI_SUCCESSES])
 {
-    /* POST creates an object with 201; GET then answers with the first status */
+    /* If POST creates an object with 201, GET answers with the first status. */
     const bool makes = route->status[1] == 201;
     size_t n = 0;
     out[n++] = method == KD_DELETE ? 204 : makes && method == KD_POST ? 201 : route->status[0] ? route->status[0] : 200;

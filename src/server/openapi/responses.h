@@ -5,7 +5,7 @@
 #include "base/json.h"
 #include "server/http/route.h"
 
-/* The success statuses of an operation, and the largest number of them. */
+/* The success statuses of an operation, and their maximum number. */
 enum { KD_OPENAPI_SUCCESSES = 4 };
 size_t kd_openapi_successes(const struct kd_route *route, unsigned method, unsigned out[KD_OPENAPI_SUCCESSES]);
 /* Writes the member "responses" of an operation. */

@@ -33,7 +33,7 @@ static void put(struct page *page, const char *format, ...)
         page->status = n < (int)sizeof text ? kd_buffer_append(page->out, text, (size_t)n) : KD_ENOMEM;
 }
 
-/* Writes ASCII text from a table; text between backquotes is code. */
+/* Writes ASCII text from a table. Text between backquotes is code. */
 static void put_words(struct page *page, const char *words)
 {
     bool code = false;
@@ -74,7 +74,7 @@ static void put_taken(struct page *page, const struct kd_route *route, unsigned 
 {
     const struct kd_taken *taken = &kd_taken[route->takes];
     const bool body = method == KD_POST || method == KD_PATCH || method == KD_PUT;
-    /* In a route with several methods, GET and DELETE take no request, except a scene in the query. */
+    /* In a route with several methods, GET and DELETE accept no request, except that a scene may be in the query. */
     const bool nothing = !body && (method == KD_DELETE || taken->changes || route->methods != method) &&
                          !(route->takes == KD_TAKES_SCENE && !(route->methods & KD_PATCH));
     put_words(page, nothing ? "nothing" : taken->about);

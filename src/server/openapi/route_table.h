@@ -1,4 +1,4 @@
-/* The table of all operations for human readers: docs/routes.md, and the page /docs. */
+/* The table of all operations in readable form, for docs/routes.md and the page /docs. */
 #ifndef KD_SERVER_OPENAPI_ROUTE_TABLE_H
 #define KD_SERVER_OPENAPI_ROUTE_TABLE_H
 

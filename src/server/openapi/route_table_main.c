@@ -1,4 +1,4 @@
-/* Program that prints docs/routes.md. */
+/* A program that prints docs/routes.md. */
 #include "server/openapi/route_table.h"
 
 #include <stdio.h>

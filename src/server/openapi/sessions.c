@@ -8,8 +8,8 @@
 
 #include <string.h>
 
-/* Writes the schemas of a session's answers. They include the token, which only the client that has created the session
- * gets. */
+/* Writes the schemas of a session's answers. They include the token, which is sent only to the client that has
+ * created the session. */
 void kd_openapi_session_schemas(struct kd_json *json)
 {
     static const struct kd_openapi_member emitter[] = {

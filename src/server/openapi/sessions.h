@@ -1,4 +1,5 @@
-/* Sessions in openapi.json: their answers, and the bodies and parameters of routes that take more than a scene. */
+/* Sessions in openapi.json: their answers, and the bodies and parameters of those routes that accept more than a
+ * scene. */
 #ifndef KD_SERVER_OPENAPI_SESSIONS_H
 #define KD_SERVER_OPENAPI_SESSIONS_H
 

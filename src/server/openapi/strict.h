@@ -1,4 +1,4 @@
-/* Names of base/schema.h for the schemas of the server's answers. */
+/* Short names for functions of base/schema.h, for the schemas of the server's answers. */
 #ifndef KD_SERVER_OPENAPI_STRICT_H
 #define KD_SERVER_OPENAPI_STRICT_H
 

@@ -1,4 +1,4 @@
-/* The kinds of requests, declared in http/route.h: name, limit, media types and schemas of each. */
+/* The kinds of requests that http/route.h declares: name, limit, media types and schemas of each. */
 #include "integral/request.h"
 #include "orbit/request.h"
 #include "playground/json.h"
@@ -24,7 +24,7 @@ const struct kd_taken kd_taken[KD_TAKES] = {
                          .changes = REF("Scene"),
                          .parameters = kd_openapi_scene_parameters },
     [KD_TAKES_PLAN] = { .about = "a scene, or a sweep",
-                        .what = "a body of a job", /* the body of a sweep is the body of a job */
+                        .what = "a body of a job", /* a sweep has the same body as a job */
                         .most = KD_JOB_BODY_MAX,
                         .body = kd_openapi_plan_body,
                         .parameters = kd_openapi_preset_parameter },

@@ -1,4 +1,4 @@
-/* Keyframes (scene/timeline.h) in openapi.json: members of a request's object, as text. */
+/* Keyframes (scene/timeline.h) in openapi.json: the members of a request's object, as text. */
 #ifndef KD_SERVER_OPENAPI_TIMELINE_H
 #define KD_SERVER_OPENAPI_TIMELINE_H
 
@@ -20,7 +20,7 @@
         "\"theta_deg\":" KD_OPENAPI_NUMBER_("0", "180") "," \
         "\"phi_deg\":" KD_OPENAPI_NUMBER_("-360", "360") "}}]}"
 
-/* Members of a request's object. place: a string constant, the name of the member that holds a keyframe's position;
+/* The members of a request's object. place: a string literal, the name of the member with a keyframe's place.
  * schema: the schema of that member. */
 #define KD_OPENAPI_TIMELINE(place, schema) \
     "\"keyframes\":{\"type\":\"array\",\"minItems\":1," \

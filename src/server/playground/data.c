@@ -1,5 +1,5 @@
-/* Sends bodies and debris of a playground session in packed form. If the client already has the newest tick, the
- * answer waits for the next one. */
+/* Sends the bodies and the debris of a playground session in packed form. If the client already has the newest tick,
+ * the answer waits for the next tick. */
 #include "base/clock.h"
 #include "image/npy.h"
 #include "server/http/negotiate.h"
@@ -65,7 +65,7 @@ static enum kd_status pack_bodies(const struct kd_playground_session_tick *tick,
     return status ? status : kd_buffer_append(out, tick->bodies.data, tick->bodies.size);
 }
 
-/* Packs the debris. If the tick has more pieces than this client has requested, evenly spaced pieces of the list are
+/* Packs the debris. If the tick has more pieces than the client has requested, evenly spaced pieces of the list are
  * packed. */
 static enum kd_status pack_debris(const struct kd_playground_session_tick *tick, uint32_t most, bool npy,
                                   struct kd_buffer *out)

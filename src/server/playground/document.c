@@ -8,7 +8,7 @@
 #include <string.h>
 
 #define USUAL_RATE 50.
-#define STEP_VALUES 16 /* limit of JSON values in the body of a step, which has one field */
+#define STEP_VALUES 16 /* maximum number of JSON values in the body of a step, which has one field */
 #define STEP_MOST KD_PLAYGROUND_TIME
 
 #define AT(name) offsetof(struct kd_playground_session_pace, name)

@@ -1,4 +1,4 @@
-/* Event stream of a playground session. It contains each new tick, and each event once, identified by its number. */
+/* The event stream of a playground session. It contains each new tick, and each event once, with the event's number. */
 #include "base/clock.h"
 #include "base/json.h"
 #include "server/http/reply.h"
@@ -11,13 +11,13 @@
 #include <sys/socket.h>
 
 #define HEARTBEAT_MS 15000.
-/* limit of unsent bytes in the kernel, because bytes that wait there delay newer ticks */
+/* limit of unsent bytes in the kernel, because bytes that wait there delay later ticks */
 #define UNSENT_BYTES (64 << 10)
 
 struct stream {
     struct kd_playground_session_watcher watcher; /* must be the first member */
-    struct kd_buffer text;                        /* the text being sent */
-    size_t at;                                    /* position up to which the text is sent */
+    struct kd_buffer text;                        /* text that is being sent */
+    size_t at;                                    /* the bytes of the text before this position are sent */
     bool over;
 };
 
@@ -38,8 +38,8 @@ static enum kd_status add_tick(struct stream *s, struct kd_playground_session_ti
     return status;
 }
 
-/* Appends an event. If events before it have been lost, a note of the loss precedes it. before: number of the last
- * event sent. */
+/* Appends an event. If earlier events were lost, a note that says so precedes it. before: number of the event that
+ * was sent last. */
 static enum kd_status add_event(struct stream *s, uint64_t before, const struct kd_playground_event *event)
 {
     const uint64_t now = s->watcher.event, lost = event->number ? now - 1 : now;
@@ -58,8 +58,8 @@ done:
     return status;
 }
 
-/* Writes the next part of the stream into s->text. Returns false if there is no part yet, or if the stream has
- * ended. If it has ended, *end is set. */
+/* Writes the next part of the stream into s->text. Returns false if there is no such part yet, or if the stream has
+ * ended; in the second case *end is set. */
 static bool fetch(struct stream *s, ssize_t *end)
 {
     struct kd_playground_session_tick *tick = NULL;
@@ -75,7 +75,7 @@ static bool fetch(struct stream *s, ssize_t *end)
         s->over = true;
         status = kd_buffer_printf(&s->text, "event: end\ndata: {\"why\":\"%s\"}\n\n", why);
         break;
-    case KD_PLAY_LATE: /* a heartbeat, which also reveals clients that have vanished */
+    case KD_PLAY_LATE: /* sends a heartbeat, which also detects clients that have vanished */
         s->watcher.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         status = kd_buffer_printf(&s->text, ":\n\n");
         break;
@@ -107,7 +107,7 @@ static void release(void *cls)
     free(s);
 }
 
-/* Reads the number of the last event that the client has. Returns false if it is malformed. */
+/* Reads from the request the number of the last event that the client has. Returns false if it is malformed. */
 static bool begins_at(struct kd_request *request, uint64_t *number)
 {
     const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
@@ -149,7 +149,7 @@ enum MHD_Result kd_handle_play_events(struct kd_request *request)
     }
     setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
     MHD_add_response_header(response, "Content-Type", KD_EVENTS_TYPE);
-    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
+    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* tells proxies not to buffer the stream */
     const enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
     /* a stream has no deadline */
     kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);

@@ -1,18 +1,20 @@
 /* Pictures of playground sessions. The first request for a frame opens a session of server/session, which renders
- * the picture. If the bodies have changed and a viewer waits, that session gets the new bodies (run.c). Lock order:
- * first all->lock, then the lock of server/session. */
+ * the picture. When the bodies have changed and a viewer waits, the new bodies are passed to that session (run.c).
+ * Lock order: first all->lock, then the lock of server/session. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/playground_internal.h"
 #include "server/render/queue.h"
 
-/* Memory of a picture: up to three sets of bodies at once. One waits, one is shown, and one is being made. */
+/* Memory of a picture: up to three sets of bodies exist at once, one that waits, one that is shown, and one that is
+ * being made. */
 #define DYNAMIC_BYTES \
     (3 * \
      ((size_t)KD_SHOW_NODES * KD_CROWD_NODE * sizeof(float) + KD_PLAYGROUND_BODIES_MAX * sizeof(struct kd_seen_body)))
-#define ASKED_MS 1000. /* a viewer that has requested a frame is expected to request the next within this time */
+/* a viewer who has requested a frame is expected to request the next one within this time, in ms */
+#define ASKED_MS 1000.
 
-/* The functions from here on are called with the lock. */
+/* All functions from here on are called with the lock held. */
 
 bool kd_playground_session_looked_at(const struct kd_playground_session *play)
 {
@@ -51,7 +53,7 @@ static enum kd_status take_bytes(struct kd_playground_session *play, bool *quota
     return KD_OK;
 }
 
-/* The functions from here on take the lock. */
+/* All functions from here on take the lock themselves. */
 
 void kd_playground_session_scene(struct kd_playground_session *play, struct kd_scene *out)
 {
@@ -68,7 +70,7 @@ static enum kd_status make_plan(struct kd_playground_sessions *all, const struct
     return kd_plan_make(scene, &capacity, out, error);
 }
 
-/* Makes the scene in which the playground is shown, and checks it against the limits of sessions. */
+/* Makes the scene that shows the playground, and checks it against the limits of sessions. */
 static enum kd_status make_shown(struct kd_playground_sessions *all, const struct kd_scene *scene, struct kd_plan *out,
                                  struct kd_error *error)
 {
@@ -120,7 +122,7 @@ enum kd_status kd_playground_session_picture(struct kd_playground_session *play,
     *quota = false;
     pthread_mutex_lock(&play->all->lock);
     const bool there = play->picture && !kd_session_over(play->picture);
-    /* only the HTTP thread opens pictures, so the lock may be released here */
+    /* The lock may be released here, because only the HTTP thread opens pictures. */
     pthread_mutex_unlock(&play->all->lock);
     if (!there)
         status = open_picture(play, quota, &fresh, error);
@@ -130,7 +132,7 @@ enum kd_status kd_playground_session_picture(struct kd_playground_session *play,
     if (fresh && !play->dynamic_bytes)
         status = take_bytes(play, quota, error);
     if (fresh && !status) {
-        const size_t held = play->dynamic_bytes; /* memory that is now reserved for the new picture */
+        const size_t held = play->dynamic_bytes; /* bytes that are now reserved for the new picture */
         if (play->picture)
             kd_session_go_on_from(fresh, play->picture);
         play->dynamic_bytes = 0;

@@ -1,5 +1,5 @@
-/* Handlers of playground sessions: open, read, change, step, end, and downloads. Work on the playground itself is a
- * task that workers run. */
+/* Handlers of playground sessions: opening, reading, changing, stepping, ending, and downloads. Work on the
+ * playground itself is a task that workers run. */
 #include "server/playground/routes.h"
 
 #include "base/clock.h"
@@ -22,11 +22,11 @@ struct play_task {
     struct kd_task task; /* must be the first member */
     enum what what;
     const char *type;                   /* media type of the answer */
-    struct kd_playground_session *play; /* a counted reference; for OPEN, the session that was opened */
+    struct kd_playground_session *play; /* a counted reference; for OPEN, to the session that was opened */
     struct kd_playground_session_waiter waiter;
     struct kd_buffer out;
-    bool conflict, steps, begun, told; /* steps: this task steps the session; told: the client has received the
-                                        * session's token */
+    /* steps: true if this task steps the session; told: true if the client has received the session's token */
+    bool conflict, steps, begun, told;
     double by;
     struct kd_playground_run run;
 };
@@ -58,7 +58,7 @@ static void finish(struct kd_task *task)
     kd_buffer_finish(&t->out);
 }
 
-/* The functions from here on run on a worker. */
+/* All functions from here on run on a worker. */
 
 static const char *body_of(const struct kd_task *task)
 {
@@ -110,7 +110,7 @@ done:
     return status;
 }
 
-/* Reserves the memory for the debris capacity that a patch requests. */
+/* Reserves memory for the debris capacity that a patch requests. */
 static enum kd_status make_room(struct play_task *t, const struct kd_playground *p, const cJSON *tree,
                                 struct kd_error *error)
 {
@@ -141,7 +141,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
     KD_TRY(kd_playground_session_read_scene(look, *p, kd_asset_store_assets(server->assets), &scene, error));
     struct kd_scene old;
     kd_playground_session_scene(t->play, &old);
-    if (look) { /* done before all other changes, because it can fail and can be reverted */
+    if (look) { /* first, because this can fail, and can be reverted if a later change fails */
         KD_TRY(kd_playground_session_set_scene(t->play, &scene, error));
         kd_playground_session_moved(t->play);
     }
@@ -152,7 +152,7 @@ static enum kd_status change_taken(struct play_task *t, struct kd_playground **p
             kd_playground_session_set_scene(t->play, &old, &(struct kd_error) { 0 });
         kd_playground_session_room(
             t->play, (*p)->params.debris_capacity, &quota,
-            &(struct kd_error) { 0 }); /* keeps the memory for the resulting capacity, and releases all other memory */
+            &(struct kd_error) { 0 }); /* keeps the memory for the capacity that now applies, and releases the rest */
         KD_TRY(status);
         kd_playground_session_moved(t->play);
     }
@@ -252,7 +252,7 @@ static enum kd_slice_result work(struct kd_task *task, double until_ms)
     return end;
 }
 
-/* The functions from here on run on the HTTP thread. */
+/* All functions from here on run on the HTTP thread. */
 
 static enum MHD_Result refuse(struct kd_request *request, const struct play_task *t)
 {
@@ -288,7 +288,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     return result;
 }
 
-/* Starts the task. Takes over the reference `play`. */
+/* Starts the task, and takes over the reference `play`. */
 static enum MHD_Result begin(struct kd_request *request, struct kd_playground_session *play, enum what what,
                              const char *type)
 {
@@ -344,7 +344,7 @@ static enum MHD_Result end(struct kd_request *request, struct kd_playground_sess
     return kd_reply_send(request, MHD_HTTP_NO_CONTENT, kd_reply_static("", 0, KD_JSON_TYPE));
 }
 
-/* Like begin, for requests that only the session's owner may send. */
+/* Like begin, for requests that only the owner of the session may send. */
 static enum MHD_Result begin_owned(struct kd_request *request, enum what what)
 {
     enum MHD_Result refused;
@@ -413,7 +413,7 @@ enum MHD_Result kd_handle_play_fallback(struct kd_request *request)
     return table(request, FALLBACK, types, 2);
 }
 
-/* Finds the session that renders the picture. Returns a reference, or NULL with *refused. */
+/* Gets the session that renders the picture. Returns a reference, or NULL with *refused. */
 static struct kd_session *picture_of(struct kd_request *request, enum MHD_Result *refused)
 {
     struct kd_session *picture = NULL;

@@ -1,4 +1,4 @@
-/* Declarations shared by the handlers of playground sessions. HTTP thread. */
+/* Declarations that the handlers of playground sessions share. HTTP thread. */
 #ifndef KD_SERVER_PLAYGROUND_ROUTES_H
 #define KD_SERVER_PLAYGROUND_ROUTES_H
 
@@ -8,7 +8,7 @@
 /* Finds the session that the path names. Returns a reference, or NULL with *refused. */
 struct kd_playground_session *kd_playground_session_of(struct kd_request *request, enum MHD_Result *refused);
 enum MHD_Result kd_playground_session_ended(struct kd_request *request);
-/* Stops waiting for a tick. */
+/* Stops waiting for a tick, because the request is closed. */
 void kd_playground_session_abandon(struct kd_request *request);
 
 #endif

@@ -1,8 +1,7 @@
-/* Runs a playground session in slices.
- *
- * Its goal time advances with the clock, at the requested rate. The bodies follow in sub-steps until they have passed
- * the goal. The bodies may lag behind the goal by LAG_S times the rate, and catch up later. A larger lag is skipped.
- * The setting `budget` limits the sub-steps in each beat, a thirtieth of a second. */
+/* Runs a playground session in slices. The goal is a time that advances with the clock at the requested rate. The
+ * bodies follow in sub-steps until they have passed the goal. They may lag behind by LAG_S times the rate, and catch
+ * up later; a larger lag is skipped. The setting `budget` limits the number of sub-steps per beat, which is a
+ * thirtieth of a second. */
 #include "base/clock.h"
 #include "playground/show.h"
 #include "server/playground/playground_internal.h"
@@ -11,23 +10,23 @@
 
 #define TURN_MS 10.
 #define TICK_MS 33. /* interval between ticks */
-#define LEAST_MS 8. /* shortest interval between slices */
+#define LEAST_MS 8. /* minimum time in ms between two slices */
 #define MOST_MS 100.
 #define LAG_S 0.1
-#define BEATS 30.    /* beats in a second */
-#define RATE_MS 500. /* period over which the achieved rate is measured */
-#define FEW 64       /* number of bodies up to which a sub-step takes a microsecond or two */
-#define PIECES 16    /* sub-steps between two checks of the clock, with few bodies */
+#define BEATS 30.    /* number of beats per second */
+#define RATE_MS 500. /* period in ms over which the achieved rate is measured */
+#define FEW 64       /* with up to this number of bodies, a sub-step takes a microsecond or two */
+#define PIECES 16    /* number of sub-steps between two looks at the clock, if there are few bodies */
 
-/* Data that a slice needs, read at its start. */
+/* Data that a slice needs; they are read at its start. */
 struct order {
     bool over, goes, anew, awaited;
     double rate;
-    uint32_t debris;          /* number of pieces of debris requested */
-    struct kd_session *shown; /* the playground's picture if it has viewers, a counted reference; NULL: none */
+    uint32_t debris;          /* number of pieces of debris that clients want */
+    struct kd_session *shown; /* a counted reference to the playground's picture if it has viewers; otherwise NULL */
 };
 
-/* The largest number of pieces of debris that a client waits for, or has requested lately. Called with the lock. */
+/* Maximum number of pieces of debris that a client waits for, or has requested recently. Called with the lock held. */
 static uint32_t wanted_debris(const struct kd_playground_session *play, double now)
 {
     uint32_t most = now - play->debris_ms < KD_PLAY_REST_MS ? play->debris : 0;
@@ -60,7 +59,7 @@ static struct order look(struct kd_playground_session *play, double now)
 void kd_playground_session_log(struct kd_playground_session *play, const struct kd_playground *p)
 {
     struct kd_playground_events *log = &play->log;
-    /* no lock is needed, because only the job that has taken the playground changes either list of events */
+    /* No lock is needed, because only the job that owns the playground changes these two lists of events. */
     if (p->events.last == log->last)
         return;
     pthread_mutex_lock(&play->all->lock);
@@ -85,7 +84,7 @@ static void start_clock(struct kd_playground_session *play, double now)
     play->allowance = play->p->params.budget;
 }
 
-/* Computes sub-steps until the goal is reached, the allowance is spent, or the slice is over. */
+/* Computes sub-steps until the goal is reached, the allowance is used up, or the slice is over. */
 static void follow(struct kd_playground_session *play, double until)
 {
     struct kd_playground *p = play->p;
@@ -104,7 +103,7 @@ static void follow(struct kd_playground_session *play, double until)
         play->allowance = 0;
 }
 
-/* Moves the playground on. Returns true if it lags. */
+/* Advances the playground. Returns true if it lags. */
 static bool advance(struct kd_playground_session *play, double rate, double now)
 {
     struct kd_playground *p = play->p;
@@ -137,8 +136,8 @@ static bool has_debris(const struct kd_playground_session_tick *tick, uint32_t w
     return !wanted || (tick->has_debris && tick->most >= wanted);
 }
 
-/* Publishes a tick if a client waits for one and the tick is due. Returns the time by which it must be called again;
- * 0: no further call is needed. */
+/* Publishes a tick if a client waits for one and it is due. Returns the time when this must be called again, or 0 if
+ * that is not necessary. */
 static double publish(struct kd_playground_session *play, const struct order *order, double now)
 {
     const struct kd_playground_session_state state = kd_playground_session_state(play);
@@ -153,7 +152,7 @@ static double publish(struct kd_playground_session *play, const struct order *or
         return play->ticked_ms + TICK_MS;
     struct kd_playground_session_tick *tick = kd_playground_session_tick_make(play->p, &state, order->debris);
     if (!tick)
-        return now + MOST_MS; /* out of memory: try again later */
+        return now + MOST_MS; /* out of memory: tries again later */
     play->ticked_ms = now;
     pthread_mutex_lock(&play->all->lock);
     kd_playground_session_tick_release(play->tick);
@@ -163,8 +162,8 @@ static double publish(struct kd_playground_session *play, const struct order *or
     return 0;
 }
 
-/* Passes the new bodies to the picture. Returns the time by which it must be called again; 0: no further call is
- * needed. */
+/* Passes the new bodies to the picture. Returns the time when this must be called again, or 0 if that is not
+ * necessary. */
 static double show(struct kd_playground_session *play, const struct order *order, double now)
 {
     struct kd_dynamic_bodies *dynamic = NULL;
@@ -174,9 +173,9 @@ static double show(struct kd_playground_session *play, const struct order *order
     if (order->goes && play->shown && now - play->shown_ms < TICK_MS)
         return play->shown_ms + TICK_MS;
     if (play->shown && !kd_session_hungry(order->shown))
-        return now + TICK_MS; /* one set of bodies for each frame suffices, because a frame shows only one */
+        return now + TICK_MS; /* one set of bodies per frame is enough */
     if (kd_playground_show(play->p, &dynamic, NULL))
-        return now + MOST_MS; /* out of memory: try again later */
+        return now + MOST_MS; /* out of memory: tries again later */
     play->shown = generation;
     play->shown_ms = now;
     kd_session_show(order->shown, dynamic);
@@ -189,7 +188,7 @@ enum kd_slice_result kd_playground_session_turn(struct kd_scheduler_job *job)
 {
     struct kd_playground_session *play = (struct kd_playground_session *)job;
     bool behind = false;
-    /* the playground is taken first, because the job that owns it now may change the work of this slice */
+    /* Taken first, because the job that owns the playground now may change what this slice must do. */
     if (!kd_playground_session_take(play, &play->waiter))
         return KD_SLICE_AWAY;
     double now = kd_clock_ms();

@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNTS_MS 20.   /* time for which a reader of counts waits for the lock */
-#define SLOWED_MS 1000. /* for how long the state reports skipped time */
-/* Memory of a session with a given debris capacity. A change is made on a copy of the playground, so the memory of
- * debris and of all other state is counted twice. */
+#define COUNTS_MS 20.   /* maximum time in ms that a reader of counts waits for the lock */
+#define SLOWED_MS 1000. /* time in ms for which the state reports that simulated time was skipped */
+/* Memory of a session with this debris capacity. A change is made on a copy of the playground, so debris and all
+ * other state count twice. */
 #define BASE_BYTES ((size_t)6 << 20)
 #define BYTES(capacity) (BASE_BYTES + 2 * (size_t)(capacity) * sizeof(struct kd_debris_piece))
 
@@ -46,7 +46,7 @@ void kd_playground_sessions_destroy(struct kd_playground_sessions *all)
     free(all);
 }
 
-/* The functions from here on are called with the lock. */
+/* All functions from here on are called with the lock held. */
 
 struct kd_playground_session *kd_playground_session_unref(struct kd_playground_session *play)
 {
@@ -71,7 +71,7 @@ void kd_playground_session_unlist(struct kd_playground_session *play, const char
     while (*link != play)
         link = &(*link)->next;
     *link = play->next;
-    kd_scheduler_wake(play->all->scheduler, &play->scheduled); /* wakes the job, so that it runs its last slice */
+    kd_scheduler_wake(play->all->scheduler, &play->scheduled); /* so that the job runs its last slice */
     play->listed = false;
     play->why = why;
     kd_playground_session_hide(play);
@@ -92,7 +92,7 @@ static unsigned watchers_of(const struct kd_playground_session *play)
     return n + kd_playground_session_viewers(play);
 }
 
-/* The functions from here on take the lock. */
+/* All functions from here on take the lock themselves. */
 
 void kd_playground_session_destroy(struct kd_playground_session *play)
 {
@@ -103,7 +103,7 @@ void kd_playground_session_destroy(struct kd_playground_session *play)
     free(play);
 }
 
-/* Drops the job's reference. */
+/* Drops the reference that the job holds. */
 static void done(struct kd_scheduler_job *job) { kd_playground_session_release((struct kd_playground_session *)job); }
 
 static struct kd_playground_session *make(struct kd_playground_sessions *all,
@@ -117,7 +117,7 @@ static struct kd_playground_session *make(struct kd_playground_sessions *all,
     play->scheduled = (struct kd_scheduler_job) { .turn = kd_playground_session_turn, .done = done };
     snprintf(play->scheduled.client, sizeof play->scheduled.client, "%s", client);
     play->all = all;
-    play->references = 2; /* one reference for the job, one for the caller */
+    play->references = 2; /* one for the job, and one for the caller */
     play->pace = *pace;
     play->used_ms = kd_clock_ms();
     play->generation = 1;
@@ -126,7 +126,7 @@ static struct kd_playground_session *make(struct kd_playground_sessions *all,
     return play;
 }
 
-/* True if the limits of sessions and memory admit another session. Called with the lock. */
+/* Tests whether the limits of sessions and memory permit another session. Called with the lock held. */
 static enum kd_status admit(struct kd_playground_sessions *all, const char *client, size_t bytes, bool *quota,
                             struct kd_error *error)
 {

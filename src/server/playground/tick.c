@@ -1,4 +1,4 @@
-/* Makes ticks. A tick holds numbers as JSON, and bodies and debris as packed words. */
+/* Makes ticks. A tick contains numbers as JSON, and bodies and debris as packed words. */
 #include "base/json.h"
 #include "server/playground/playground_internal.h"
 
@@ -56,7 +56,7 @@ static enum kd_status pack_bodies(struct kd_playground_session_tick *tick, const
     return KD_OK;
 }
 
-/* Packs every k-th piece of debris, where k is such that at most tick->most are packed. */
+/* Packs every k-th piece of debris. k is chosen so that at most tick->most pieces are packed. */
 static enum kd_status pack_debris(struct kd_playground_session_tick *tick, const struct kd_playground_debris *debris)
 {
     const size_t all = debris->alive, every = all > tick->most ? (all + tick->most - 1) / tick->most : 1;
@@ -79,8 +79,8 @@ static enum kd_status pack_debris(struct kd_playground_session_tick *tick, const
     return KD_OK;
 }
 
-/* Fall-back rate: the mass that falls back in each M of time. It is taken from the last complete bin and summed over
- * all sources; NAN if there is none. */
+/* Fallback rate: the mass that falls back, per M of time. It is taken from the last complete bin and summed over all
+ * sources; NAN if there is none. */
 static double fallback_rate(const struct kd_playground_debris *debris)
 {
     double sum = NAN;

@@ -1,4 +1,4 @@
-/* Watchers of playground sessions, and the regular check of all sessions. */
+/* Watchers of playground sessions, and the check of all sessions that is made regularly. */
 #include "base/clock.h"
 #include "base/log.h"
 #include "server/http/connections.h"
@@ -6,9 +6,9 @@
 
 #include <math.h>
 
-#define LOOK_MS 1000. /* interval of checks for disconnected clients */
+#define LOOK_MS 1000. /* time in ms between two checks for clients that have disconnected */
 
-/* The functions from here on are called with the lock. */
+/* All functions from here on are called with the lock held. */
 
 static bool has_tick(const struct kd_playground_session_watcher *w)
 {
@@ -25,7 +25,8 @@ static enum kd_playground_session_news news(const struct kd_playground_session_w
         return KD_PLAY_OVER;
     if (has_tick(w))
         return KD_PLAY_TICK;
-    const bool comes = !w->stream && play->generation >= w->least; /* the tick is being made and will come soon */
+    /* true if such a tick is being made and will come soon */
+    const bool comes = !w->stream && play->generation >= w->least;
     return now > w->deadline_ms && !comes ? KD_PLAY_LATE : KD_PLAY_LATER;
 }
 
@@ -50,8 +51,8 @@ bool kd_playground_session_awaited(const struct kd_playground_session *play)
     return false;
 }
 
-/* Takes the first event in the log after the last one sent. The number of this event, in *event, shows how many
- * events in between were discarded. */
+/* Takes the first event in the log after the one that was sent last. The number of this event in *event shows how
+ * many events in between were discarded. */
 static void take_event(struct kd_playground_session_watcher *w, struct kd_playground_event *event)
 {
     const struct kd_playground_event *found = NULL;
@@ -60,14 +61,14 @@ static void take_event(struct kd_playground_session_watcher *w, struct kd_playgr
     *event = found ? *found : (struct kd_playground_event) { .number = 0 };
 }
 
-/* The functions from here on take the lock. */
+/* All functions from here on take the lock themselves. */
 
 void kd_playground_session_watch(struct kd_playground_session_watcher *w, const uint64_t *after)
 {
     struct kd_playground_session *play = w->play;
     pthread_mutex_lock(&play->all->lock);
     w->least = after && *after <= play->generation ? *after + 1 : play->generation;
-    /* no event has had this number, so the client is treated as having none */
+    /* There was never an event with this number, so the client is treated as having none. */
     if (w->event > play->log.last || w->event < play->log_begin)
         w->event = play->log_begin;
     if (w->debris) {
@@ -123,7 +124,7 @@ enum kd_playground_session_news kd_playground_session_await(struct kd_playground
         what = KD_PLAY_GONE;
     } else if (what == KD_PLAY_LATER) {
         w->waiting = true;
-        /* the connection is suspended first, because it can be resumed as soon as the lock is released */
+        /* suspended first, because another thread may resume the connection as soon as the lock is released */
         MHD_suspend_connection(w->mhd);
         kd_playground_session_call(play);
     }
@@ -145,7 +146,7 @@ void kd_playground_sessions_sweep(struct kd_playground_sessions *all)
         kd_playground_session_wake(play, now);
         for (struct kd_playground_session_watcher *w = look ? play->watchers : NULL; w; w = w->next)
             if (w->waiting && kd_socket_abandoned(w->socket))
-                resume(w); /* kd_playground_session_await then reports that the client is gone */
+                resume(w); /* kd_playground_session_await then reports that the client has disconnected */
         if (now - play->used_ms > all->params.idle_ms) {
             kd_log(KD_LOG_INFO, "playground %.4s... ends, because it has no viewer", play->id);
             kd_playground_session_unlist(play, "idle");

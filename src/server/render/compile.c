@@ -1,6 +1,6 @@
 /* Compiles kernels while others use the device. As soon as a job waits, the scheduler looks for kernels that the job
- * lacks. A thread compiles them, and the scheduler passes them to the renderer. So the renderer's kernels are used only
- * by the owner of the device, or, while the device has no owner, by a thread that holds the lock. */
+ * lacks. A thread compiles them, and the scheduler passes them to the renderer. The renderer's kernels are thus used
+ * only by the owner of the device or, while the device has no owner, by a thread that holds the lock. */
 #include "base/clock.h"
 #include "base/nice.h"
 #include "server/render/render_internal.h"
@@ -8,15 +8,17 @@
 #include <stddef.h>
 #include <string.h>
 
-#define COMPILE_MS 2000.0 /* estimate before the first compilation: lavapipe compiles some kernels in this time */
-/* half the weight of live frames, so that compilations also advance while there are live frames, but with a smaller
- * share */
+/* estimate in ms before the first compilation; lavapipe compiles some kernels in this time */
+#define COMPILE_MS 2000.0
+/* Half the weight of live frames, so that compilations advance while there are live frames, but with a smaller
+ * share. */
 #define NICE 3
 
-/* limit of how often a job starts again for missing kernels; after that they are compiled while it owns the device */
+/* Maximum number of times that a job starts again because of missing kernels. After that, kernels are compiled while
+ * the job owns the device. */
 #define BEGINS_ANEW 8
 
-/* Makes the job wait for the compilation. compilation NULL: the job lacks no kernel. */
+/* Makes the job wait for the compilation. compilation NULL: no kernel is missing. */
 static void put_off(struct kd_render_queue *queue, struct kd_render_job *job, struct kd_compilation *compilation)
 {
     job->compilation = compilation;
@@ -61,7 +63,7 @@ void kd_render_compile_ahead(struct kd_render_queue *queue, struct kd_compilatio
 {
     if (!compilation)
         return;
-    if (queue->ahead) /* another thread has found missing kernels meanwhile */
+    if (queue->ahead) /* meanwhile another thread has found missing kernels */
         kd_compilation_drop(queue->ahead);
     queue->ahead = compilation;
     pthread_cond_broadcast(&queue->changed);
@@ -96,7 +98,7 @@ bool kd_render_lacks(void *user, struct kd_compilation *compilation, bool backgr
     } else if (background) {
         put_off(queue, job, compilation);
         kd_render_give_way(queue, job);
-        kd_render_forget_kernels(queue, job); /* the job was resumed for a reason other than compiled kernels */
+        kd_render_forget_kernels(queue, job); /* the job was resumed for another reason than compiled kernels */
         go_on = !queue->failed;
     } else {
         job->lacks++;
@@ -150,8 +152,8 @@ static bool is_any(const struct kd_claim *claim, void *user)
     return !atomic_load(&job_of((struct kd_claim *)claim)->drop);
 }
 
-/* Adds the time that the job has waited to kernels_ms. This time is not part of queue_ms, the time during which
- * others owned the device. */
+/* Adds the time that the job has waited to kernels_ms. It does not count as queue_ms, the time during which others
+ * owned the device. */
 static void end_waiting(struct kd_render_job *job)
 {
     const double now = kd_clock_ms();
@@ -160,8 +162,8 @@ static void end_waiting(struct kd_render_job *job)
     job->away_ms = now;
 }
 
-/* Marks the job that the kernels were compiled for as ready. All other waiting jobs are checked again, because they may
- * have lacked the same kernels. */
+/* Marks the job for which the kernels were compiled as ready. All other waiting jobs are checked again, because they
+ * may have lacked the same kernels. */
 static void share_out(struct kd_render_queue *queue, const struct kd_compilation *done, double ms)
 {
     for (struct kd_render_job *job = queue->jobs.first; job; job = job->next) {
@@ -191,7 +193,7 @@ static bool is_wanted(void *user, double fraction)
 
 static void learn(struct kd_render_queue *queue, double ms)
 {
-    const double share = 0.3; /* weight of the latest compilation in the running mean of their times */
+    const double share = 0.3; /* weight of the latest compilation in the running mean of compilation times */
     queue->compile_ms += queue->compile_ms > 0 ? share * (ms - queue->compile_ms) : ms;
 }
 
@@ -210,7 +212,7 @@ double kd_render_queue_kernels_ms(struct kd_render_queue *queue, const struct kd
     return ms;
 }
 
-/* Compiles kernels. Called with the lock, which it releases while it works. */
+/* Compiles kernels. Called with the lock held, which is released during the work. */
 static void compile(struct kd_render_queue *queue, struct kd_compilation *c)
 {
     struct kd_error error = { 0 };
@@ -248,7 +250,7 @@ void *kd_render_compile_main(void *user)
     pthread_mutex_lock(&queue->lock);
     while (!queue->closing) {
         const bool waits = queue->failed || queue->lost || queue->reopening || queue->compiled ||
-                           queue->holder == &queue->rest; /* the device may be closed while this runs */
+                           queue->holder == &queue->rest; /* the device may be closed while `rest` runs */
         struct kd_render_job *job = job_of(kd_shares_next(&queue->missing, is_any, NULL));
         struct kd_compilation *next = waits ? NULL : job ? job->compilation : queue->ahead;
         if (next)

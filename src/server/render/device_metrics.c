@@ -1,8 +1,8 @@
-/* Metrics of the device (name, memory in use, whether it is lost) and of the render queue. */
+/* Metrics of the render queue and of the device: its name, the memory in use, and whether it is lost. */
 #include "render/device/rest.h"
 #include "server/render/render_internal.h"
 
-/* Appends NAME="VALUE". Backslashes and quotes are escaped; each character outside printable ASCII becomes "?". */
+/* Appends NAME="VALUE". Backslashes and quotes are escaped; characters other than printable ASCII become "?". */
 static enum kd_status add_label(struct kd_buffer *out, const char *name, const char *value)
 {
     enum kd_status status;

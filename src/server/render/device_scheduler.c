@@ -1,18 +1,20 @@
-/* Schedules work on the device and runs it. */
+/* Schedules the work on the device, and runs it. */
 #include "base/clock.h"
 #include "render/explain/ahead.h"
 #include "server/render/render_internal.h"
 
-/* limit of the bytes of all frames that are rendered and not yet encoded; a single frame may exceed it */
+/* maximum bytes of all frames that are rendered but not yet encoded; a single frame may exceed it */
 #define FRAME_BYTES ((size_t)256 << 20)
-#define SHORT_BYTES ((size_t)64 << 20) /* room beyond FRAME_BYTES for frames that are encoded quickly */
-#define BRIEF_MS 3000.0                /* estimated time of a picture that counts as brief */
-#define BRIEF_LANES 2                  /* number of lanes reserved for brief pictures; one client may use all of them */
-/* interval between two searches for missing kernels of pixels; a search takes about a millisecond */
+#define SHORT_BYTES ((size_t)64 << 20) /* bytes beyond FRAME_BYTES, for frames that are encoded quickly */
+#define BRIEF_MS 3000.0                /* a picture with at most this estimated time, in ms, counts as brief */
+/* number of lanes reserved for brief pictures; a single client may use all of them */
+#define BRIEF_LANES 2
+/* Minimum time in ms between two searches for missing kernels of pixels; a search takes about a millisecond. */
 #define AHEAD_MS 1000.0
-#define LARGE 32 /* a picture that needs less than the memory divided by LARGE is not counted */
+#define LARGE 32 /* a picture that needs less than 1/LARGE of the memory is not counted */
 
-/* The functions below access the queue's members. They are called with the lock unless a comment says otherwise. */
+/* The functions below access the queue's members. They are called with the lock held, unless their comment says
+ * otherwise. */
 
 static bool is_large(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
@@ -21,8 +23,8 @@ static bool is_large(const struct kd_render_queue *queue, const struct kd_render
     return job->plan.cost.device_bytes > c.memory_bytes / LARGE;
 }
 
-/* True if the picture fits in memory beside the large pictures in lanes. A picture that needs nearly all memory starts
- * only when no other large picture is in a lane. */
+/* True if there is memory for the picture besides the large pictures in lanes. A picture that needs nearly all
+ * memory starts only when no lane has another large picture. */
 static bool fits(const struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_capacity c;
@@ -33,8 +35,8 @@ static bool fits(const struct kd_render_queue *queue, const struct kd_render_job
 
 static bool is_brief(const struct kd_render_job *job) { return job->plan.cost.estimate_ms <= BRIEF_MS; }
 
-/* Finds a lane for a long picture. NULL: no lane is available yet. A client has at most one lane for each class, not
- * counting brief pictures. */
+/* Finds a lane for a long picture. Returns NULL if none is free. A client has at most one lane for each class; brief
+ * pictures do not count. */
 static struct kd_lane *lane_for(struct kd_render_queue *queue, const struct kd_render_job *job)
 {
     struct kd_lane *found = NULL;
@@ -60,10 +62,10 @@ static bool frame_fits(const struct kd_render_queue *queue, const struct kd_rend
     return !bytes || queue->frame_bytes <= FRAME_BYTES + (bytes > KD_LONG_FRAME ? 0 : SHORT_BYTES);
 }
 
-/* True if the client has enough device time left for the work. Work that a client waits for was checked when it
- * arrived, and frames of jobs when they were pushed (kd_render_queue_may_push). All other work begins as soon as its
- * client has enough time left; kd_render_queue_sweep checks that ten times a second. Work that has begun always
- * continues, because others wait for its lane and memory. */
+/* True if the client has enough device time left for the work. Work for which a client waits was checked when it
+ * arrived, and frames of jobs were checked when they were pushed (kd_render_queue_may_push). All other work starts
+ * as soon as its client has enough time left, which kd_render_queue_sweep checks ten times a second. Work that has
+ * started always continues, because others wait for its lane and its memory. */
 static bool may_be_paid(const struct kd_render_queue *queue, const struct kd_claim *claim)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
@@ -83,10 +85,10 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
 {
     const struct kd_render_job *job = (const struct kd_render_job *)claim;
     struct kd_render_queue *queue = user;
-    /* after a failure, only jobs that are inside the renderer get turns, so that they can leave it */
+    /* After a failure, only jobs that are inside the renderer get turns, so that they can leave it. */
     if (queue->failed)
         return job->inside;
-    if (job == &queue->rest && (queue->compiling || queue->inside)) /* freeing memory may close the device */
+    if (job == &queue->rest && (queue->compiling || queue->inside)) /* not now: freeing memory may close the device */
         return false;
     if (!queue->lost && (!may_be_paid(queue, claim) || !kd_render_has_kernels(queue, job)))
         return false;
@@ -95,7 +97,7 @@ static bool may_have_it(const struct kd_claim *claim, void *user)
             (job->stage != KD_RENDER_WAITS_FOR_LANE || lane_for(queue, job)));
 }
 
-/* Finds a cancelled job. It runs first, because ending it takes no time and needs no lane. */
+/* Finds a cancelled job. It goes first, because ending it takes no time and needs no lane. */
 static struct kd_render_job *first_dropped(const struct kd_render_queue *queue)
 {
     struct kd_render_job *job = queue->jobs.first;
@@ -161,7 +163,7 @@ void kd_render_give_way(struct kd_render_queue *queue, struct kd_render_job *job
         pthread_cond_wait(&queue->changed, &queue->lock);
 }
 
-/* Called between two slices. Releases the device if another job goes first. */
+/* Called between two slices. Releases the device if another job comes first. */
 static bool between_slices(void *user, double fraction)
 {
     struct kd_render_job *job = user;
@@ -172,7 +174,7 @@ static bool between_slices(void *user, double fraction)
     if (choose(queue) != job)
         kd_render_give_way(queue, job);
     kd_pulse_beat(&queue->pulse);
-    const bool failed = queue->failed; /* the device failed while other jobs owned it */
+    const bool failed = queue->failed; /* true if the device failed while other jobs owned it */
     pthread_mutex_unlock(&queue->lock);
     if (failed)
         return false;
@@ -193,8 +195,8 @@ static bool go_on(void *user, double fraction)
     return !kd_render_unwanted(job->queue, job);
 }
 
-/* Updates the description of the device, because the renderer measures the device's speeds and they change. Only the
- * owner of the device may call the renderer. Called without the lock. */
+/* Updates the description of the device, because the speeds that the renderer measures change. Only the owner of the
+ * device may call the renderer. Called without the lock. */
 enum kd_status kd_render_describe_device(struct kd_render_queue *queue)
 {
     struct kd_buffer json = { 0 }, old = { 0 };
@@ -258,7 +260,7 @@ static void leave_lane(struct kd_render_queue *queue, struct kd_render_job *job)
     }
 }
 
-/* True if kernels of a view's pixels may be looked for now. */
+/* True if kernels for the pixels of a view may be searched for now. */
 static bool looks_ahead(struct kd_render_queue *queue)
 {
     const double now = kd_clock_ms();
@@ -268,7 +270,7 @@ static bool looks_ahead(struct kd_render_queue *queue)
     return true;
 }
 
-/* Runs one turn of the job, which owns the device. Releases the lock while it works. */
+/* Runs one turn of the job, which owns the device. Releases the lock during the work. */
 static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     job->inside = true;
@@ -288,7 +290,7 @@ static void take_turn(struct kd_render_queue *queue, struct kd_render_job *job)
     const bool again = kd_render_begins_with_kernels(queue, job) || kd_render_once_more(queue, job),
                more = again || (!job->status && job->more), encode = !more && !job->status && !job->run;
     if (!again)
-        job->repeated = false; /* the job has made progress */
+        job->repeated = false; /* the job has made progress, so an earlier failure no longer counts */
     if (more)
         job->away_ms = job->turn_ms;
     else {

@@ -1,8 +1,9 @@
-/* Encoder threads. They turn rendered frames into files. */
+/* Encoder threads, which turn rendered frames into files. */
 #include "base/clock.h"
 #include "server/render/render_internal.h"
 
-/* True if a frame takes long to encode. Only one encoder at a time takes such frames, so that others do not wait. */
+/* True if a frame takes long to encode. Only one encoder at a time accepts such frames, so that other frames need
+ * not wait. */
 static bool is_long(const struct kd_render_job *job)
 {
     return job->claim.class == KD_CLASS_JOB || kd_render_frame_bytes(job) > KD_LONG_FRAME;
@@ -54,7 +55,7 @@ void *kd_render_encode_main(void *user)
         pthread_mutex_lock(&queue->lock);
         queue->frame_bytes -= bytes;
         queue->encoding_long &= !takes_long;
-        kd_render_next(queue); /* some jobs may have waited for memory for frames */
+        kd_render_next(queue); /* because jobs may have waited for the memory of this frame */
         pthread_mutex_unlock(&queue->lock);
         kd_render_finish(queue, job);
         pthread_mutex_lock(&queue->lock);

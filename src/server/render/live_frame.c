@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ratio of the number of rays along a side of a pixel at the critical curve to that of any other pixel */
+/* ratio of the number of rays along a side of a pixel: at the critical curve, compared with any other pixel */
 static unsigned critical_side(const struct kd_plan_lens *lens)
 {
     return lens->critical ? (unsigned)lround(sqrt(lens->critical)) / lens->side : 1;
@@ -138,7 +138,7 @@ static void add_simulation(struct kd_json *json, const struct kd_scene *scene)
     kd_json_end(json);
 }
 
-/* Adds the positions of the spots' centres at the frame's time. */
+/* Adds the positions of the spots' centres at the time of the frame. */
 static void add_orbits(struct kd_json *json, const struct kd_scene *scene)
 {
     kd_json_array(json, "orbits");
@@ -166,7 +166,7 @@ static enum kd_status describe_event(struct kd_live_frame *frame, const struct k
     kd_json_number(json, "revision", note->revision);
     kd_json_number(json, "time", job->scene.top.time);
     kd_json_number(json, "azimuth_deg", job->scene.camera.azimuth_deg);
-    kd_json_number(json, "r", job->scene.camera.r); /* infinity is written as null */
+    kd_json_number(json, "r", job->scene.camera.r); /* infinity becomes null */
     if (kd_scene_clock(&job->scene, &clock))
         kd_fall_clock_json(&clock, json, "clock");
     kd_json_number(json, "exposure", job->frame.exposure);

@@ -9,7 +9,7 @@ enum { N_ALSO = sizeof also / sizeof *also, OTHER = KD_MEASURED_PASSES - 1 };
 
 static const char *name_of(size_t i) { return i < KD_PASS_COUNT ? kd_passes[i].name : also[i - KD_PASS_COUNT]; }
 
-/* Index of a pass in the table; unknown names have the index of "other". */
+/* Index of a pass in the table. Unknown names get the index of "other". */
 static size_t place_of(const char *name)
 {
     size_t i = 0;

@@ -19,8 +19,8 @@
 #include <string.h>
 #include <time.h>
 
-#define NICE 10   /* a tenth of the weight that live frames have */
-#define IDLE_S 10 /* time without requests after which the painter closes its device */
+#define NICE 10   /* niceness of the thread: it gets a tenth of the weight of live frames */
+#define IDLE_S 10 /* number of seconds without requests after which the painter closes its device */
 #define FILE_MAX_BYTES ((size_t)1 << 20)
 
 struct kd_painter {
@@ -33,12 +33,12 @@ struct kd_painter {
     struct kd_painting *first, **end; /* pictures that wait */
     bool ending;
     _Atomic bool cancelled;
-    struct kd_renderer *renderer; /* used by the painter's thread only; NULL: not open */
-    _Atomic bool hangs;           /* the device hangs: it can be neither closed nor reopened */
+    struct kd_renderer *renderer; /* used only by the painter's thread; NULL while it is not open */
+    _Atomic bool hangs;           /* true if the device hangs, so that it can be neither closed nor reopened */
     struct kd_pulse pulse;        /* watchdog of the present picture */
 };
 
-/* Header of a cached file. The picture follows it. */
+/* Header of a cached file; the picture follows. */
 struct head {
     char magic[8];
     uint64_t bytes, hash;
@@ -122,7 +122,7 @@ static enum kd_status paint_once(struct kd_painter *painter, struct kd_painting 
     struct kd_frame frame = { 0 };
     struct kd_error *error = &work->error;
     enum kd_status status;
-    kd_buffer_finish(&work->png); /* drops bytes of a failed attempt */
+    kd_buffer_finish(&work->png); /* discards the bytes of a failed attempt */
     KD_TRY(open_device(painter, error));
     kd_renderer_capacity(painter->renderer, &capacity);
     KD_TRY(kd_format_plan(kd_formats[0], &work->scene, &capacity, &plan, error));
@@ -135,12 +135,12 @@ done:
     kd_frame_finish(&frame);
     if (status == KD_EDEVICE && painter->renderer) {
         atomic_store(&painter->hangs, kd_renderer_hangs(painter->renderer));
-        close_device(painter); /* paint() may reopen the device */
+        close_device(painter); /* paint() reopens the device if necessary */
     }
     return status;
 }
 
-/* Renders a picture. If the device has failed, it is reopened once. */
+/* Renders a picture. If the device fails, it is reopened once. */
 static enum kd_status paint(struct kd_painter *painter, struct kd_painting *work)
 {
     enum kd_status status = paint_once(painter, work);
@@ -165,7 +165,8 @@ static void serve(struct kd_painter *painter, struct kd_painting *work)
     work->done(work);
 }
 
-/* Waits for the next picture. Returns NULL if none is requested for IDLE_S, or at the end. Called with the lock. */
+/* Waits for the next picture. Returns NULL if none is requested for IDLE_S seconds, or at the end. Called with the
+ * lock held. */
 static struct kd_painting *await(struct kd_painter *painter)
 {
     struct timespec until;
@@ -208,7 +209,7 @@ enum kd_status kd_painter_create(const struct kd_renderer_params *params, const 
         return kd_error_set(error, KD_ENOMEM, "out of memory for the renderer of small pictures");
     }
     *painter = (struct kd_painter) { .params = *params, .device_name = device_name, .kept_at = kept_at };
-    /* the painter's device is not tested, because the render queue has already tested it */
+    /* no test for the painter's device, because the render queue has already tested this device */
     painter->params.prove = NULL;
     painter->params.asset_read = NULL;
     painter->params.passing = true;

@@ -8,12 +8,12 @@
 
 #include <stdlib.h>
 
-#define SMALL (64u << 10) /* a body of this size is parsed in 2 ms or less */
-/* Largest number of pixels for which a plan takes 2 ms or less. The planner follows the critical curve from pixel to
- * pixel. */
+#define SMALL (64u << 10) /* a body of at most this size in bytes is parsed in 2 ms or less */
+/* Maximum number of pixels for which planning takes 2 ms or less. The planner follows the critical curve from pixel
+ * to pixel. */
 #define FEW_PIXELS (4u << 20)
 
-/* Copies the texts into the task, because the problem outlives the call. */
+/* Records a problem. The texts are copied into the task, because the problem outlives the call. */
 static bool fail(struct kd_planned *p, enum kd_status status, const struct kd_error *error, struct kd_problem problem)
 {
     kd_task_fail(&p->task, status ? status : KD_EINVAL, error);
@@ -34,8 +34,8 @@ static bool read_scene(struct kd_planned *p)
     return read || fail(p, error.status, &error, problem);
 }
 
-/* Returns the first format that the request accepts and that can hold the scene. If none can, returns the first
- * accepted format. */
+/* Returns the first format that the request accepts and that can contain the scene. If there is none, returns the
+ * first accepted format. */
 static const struct kd_format *format_of(const struct kd_request *request, const struct kd_scene *scene)
 {
     struct kd_error error;
@@ -79,7 +79,7 @@ static struct kd_planned *outcome(struct kd_request *request, struct kd_planned 
         request->format = p->format;
         return p;
     }
-    if (!p->problem.detail) /* the client gave up the request between the two steps */
+    if (!p->problem.detail) /* the client disconnected between the two steps */
         p->problem = kd_problem_from(&p->task.error);
     *result = p->task.status == KD_ECANCELLED ? kd_reply_cancelled(request) : kd_reply_problem(request, &p->problem);
     return NULL;
@@ -94,7 +94,7 @@ struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *re
     if (!(p = kd_task_create(request, request->server->scheduler, &kind, result)))
         return NULL;
     if (request->body.size <= SMALL) {
-        /* Checks the limits here, so that a scene that is too large is refused without using a worker. */
+        /* The limits are checked here, so that a scene that is too large is refused without a worker. */
         if (!read_scene(p) || !make_plan(p, !few_pixels(&p->scene)) || few_pixels(&p->scene))
             return outcome(request, p, result);
     }

@@ -1,5 +1,5 @@
-/* Plans the scene of a request. Large bodies and pictures with many pixels are planned by workers, because the HTTP
- * thread serves every client. HTTP thread. */
+/* Plans the scene of a request. Large bodies, and pictures with many pixels, are planned by workers, because the
+ * HTTP thread serves all clients. HTTP thread. */
 #ifndef KD_SERVER_RENDER_PLANNED_H
 #define KD_SERVER_RENDER_PLANNED_H
 
@@ -10,15 +10,15 @@
 struct kd_planned {
     struct kd_task task;            /* must be the first member */
     struct kd_scene scene;          /* the scene that was requested */
-    struct kd_scene drawn;          /* the scene that is rendered, for which the plan is made (kd_format_plan) */
-    const struct kd_format *format; /* format of the answer, from request->accepts; NULL: no picture */
-    char hash[65];                  /* hash of `scene`; set when the ETag is made */
+    struct kd_scene drawn;          /* the scene that is rendered, to which the plan belongs (kd_format_plan) */
+    const struct kd_format *format; /* format of the answer, one of request->accepts; NULL: the answer is no picture */
+    char hash[65];                  /* hash of `scene`, which is set when the ETag is made */
     struct kd_plan plan;
     struct kd_problem problem; /* its texts point into the task's error */
 };
 
-/* Returns the plan, which the request owns. Returns NULL if the request is refused or if workers must make the plan
- * first. The handler must then return *result. If workers make the plan, the handler is called again afterwards. */
+/* Returns the plan, which the request owns. If it returns NULL, the handler must return *result: either the request
+ * is refused, or workers make the plan first and the handler is called again afterwards. */
 struct kd_planned *kd_planned_of(struct kd_request *request, enum MHD_Result *result);
 
 #endif

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <stdlib.h>
 
-#define REST_MS 60e3 /* time without work after which memory is freed */
+#define REST_MS 60e3 /* time in ms without work after which memory is freed */
 
 void kd_render_list_append(struct kd_render_list *list, struct kd_render_job *job)
 {
@@ -90,7 +90,7 @@ static enum kd_status start(struct kd_render_queue *queue, struct kd_error *erro
     return KD_OK;
 }
 
-/* Called when an asset has been read, because jobs that waited for it may now own the device. */
+/* Called when an asset was read, because jobs that have waited for it may now own the device. */
 static void asset_read(void *user)
 {
     struct kd_render_queue *queue = user;
@@ -207,7 +207,7 @@ double kd_render_queue_backlog_ms(struct kd_render_queue *queue)
     return ms;
 }
 
-/* Estimated time of the work that this client waits for. Called with the lock. */
+/* Estimated time of the work for which this client waits. Called with the lock held. */
 static double awaited_ms(const struct kd_render_queue *queue, const char *client)
 {
     double ms = 0;
@@ -256,7 +256,7 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
         n += waits;
         own += waits && !strcmp(job->claim.client, client);
     }
-    /* number of jobs that are about to start. It is 1 if the device is idle; such a job does not count as waiting */
+    /* Number of jobs that are about to start: 1 if the device is idle. Such a job does not count as waiting. */
     unsigned next = !queue->holder;
     pthread_mutex_unlock(&queue->lock);
     if (n >= queue->limit + next)
@@ -269,9 +269,8 @@ enum kd_status kd_render_queue_admit(struct kd_render_queue *queue, const char *
     return kd_error_set(error, KD_EBUSY, "you have too many waiting renders (limit %u for one client)", own);
 }
 
-/* True if a job runs in slices. The picture of a job of /v1/jobs always runs in slices, because nobody waits for it.
- * A live frame never does: the governor predicts its time better than the plan, which cannot tell whether the lens
- * map is cached. */
+/* True if a job runs in slices. A picture of /v1/jobs always does, because nobody waits for it. A live frame never
+ * does: the governor predicts its time better than the plan, which does not know whether the lens map is cached. */
 static bool wants_lane(const struct kd_render_job *job)
 {
     switch (job->claim.class) {
@@ -338,12 +337,12 @@ void kd_render_queue_sky_ahead(struct kd_render_queue *queue, const char *hash, 
 {
     struct kd_capacity c;
     kd_render_queue_capacity(queue, &c);
-    /* each pixel takes six bytes of the file and twelve of radiance */
+    /* each pixel takes six bytes for the file and twelve for its radiance */
     if (18ull * width * height <= c.memory_bytes / 4)
         kd_renderer_sky_ahead(queue->renderer, hash);
 }
 
-/* Cancels jobs that have not begun. Jobs that have begun end at their next turn. */
+/* Cancels jobs that have not started. Jobs that have started end at their next turn. */
 void kd_render_queue_sweep(struct kd_render_queue *queue)
 {
     struct kd_render_list gone = { .end = &gone.first };

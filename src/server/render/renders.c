@@ -1,4 +1,4 @@
-/* Handlers of /v1/render, and of /v1/pixel, which renders a picture and explains one pixel of it. */
+/* Handlers of /v1/render, and of /v1/pixel, which renders a picture and explains one of its pixels. */
 #include "render/explain/explain.h"
 #include "render/output/notes.h"
 #include "scene/link.h"
@@ -21,8 +21,8 @@ static const char *type_of(size_t i, const void *formats)
     return ((const struct kd_format *const *)formats)[i]->media_type;
 }
 
-/* The formats in which a request may be answered. If the query has the parameter quality, these are only formats
- * with a quality. */
+/* The formats in which a request may be answered. If the query has the parameter quality, only formats with a
+ * quality are offered. */
 struct offer {
     const struct kd_format *formats[KD_FORMATS_MAX];
     size_t n;
@@ -37,7 +37,7 @@ static struct offer offer_of(bool lossy)
     return offer;
 }
 
-/* Lists the offered formats that Accept takes, the preferred first. */
+/* Lists those offered formats that Accept permits, the preferred one first. */
 static void rank(struct kd_request *request, struct offer offer)
 {
     _Static_assert(sizeof request->accepts / sizeof *request->accepts >= KD_FORMATS_MAX, "all formats have a place");
@@ -80,8 +80,8 @@ static void refuse_name(const char *name, struct kd_error *error)
     kd_error_field(error, "/format", "format is \"%.40s\"; it must be %s", name, names);
 }
 
-/* Reads the parameters format, quality and v, and chooses the format by them and Accept. Returns false when the request
- * is answered, with *result. */
+/* Reads the parameters format, quality and v, and chooses the format from them and from Accept. Returns false if the
+ * request was answered, with *result. */
 static bool choose(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_error error;
@@ -143,10 +143,10 @@ done:
 #define DAY_S 86400u
 enum { CACHING = 60 };
 
-/* Writes Cache-Control. Pictures of shared links may be cached publicly, unless the server requires access tokens. A
- * picture whose address names this version may be cached for long: it can change only with the device, and only
- * within its stated error. Scenes that name an asset are an exception, because the asset's name may later belong to
- * another file. No cache keeps a picture for longer than its signed link is valid. */
+/* Writes Cache-Control. Pictures of shared links may be cached publicly, unless the server requires access tokens.
+ * If the address of a picture names this version of kerrd, the picture may be cached for long: it can change only
+ * with the device, and only within its stated error. Scenes that name an asset are an exception, because the name
+ * may later belong to another file. No cache may keep a picture for longer than its signed link is valid. */
 static void caching(const struct kd_request *request, const struct kd_scene *scene, char out[CACHING])
 {
     struct kd_error ignored;
@@ -168,7 +168,7 @@ static void caching(const struct kd_request *request, const struct kd_scene *sce
         snprintf(out, CACHING, "private, no-cache");
 }
 
-/* Adds the headers that 200, 304 and the answer to HEAD have in common. report: zeros if nothing is rendered. */
+/* Adds the headers that the answers 200, 304 and HEAD have in common. report: zeros if nothing was rendered. */
 static struct MHD_Response *describe(struct kd_request *request, struct MHD_Response *response,
                                      const struct kd_scene *scene, const struct kd_plan *plan,
                                      const struct kd_accuracy_report *report)
@@ -273,14 +273,14 @@ static enum MHD_Result deliver(struct kd_request *request)
 static void wake(struct kd_render_job *job)
 {
     struct kd_request *request = job->user;
-    /* the device time is charged before the client gets the picture and may request the next one, and also if the
-     * client has disconnected */
+    /* The device time is charged before the client gets the picture and can request the next one. It is charged even
+     * if the client has disconnected. */
     if (request->link.on)
         kd_link_charge(request->server->links, &request->link, job->used_ms, (uint64_t)time(NULL));
     MHD_resume_connection(request->mhd);
 }
 
-/* Estimated seconds until all accepted work is done. */
+/* Estimated number of seconds until all accepted work is done. */
 static unsigned retry_after(struct kd_server *server)
 {
     double s = ceil(kd_render_queue_backlog_ms(server->renders) * 1e-3);
@@ -307,7 +307,7 @@ static bool admitted(struct kd_request *request, const struct kd_plan_cost *cost
     bool quota;
     enum kd_status status;
     KD_TRY(kd_render_queue_admit(server->renders, request->client, &quota, error));
-    /* The size of the answer is known only after encoding; it is less than the size of the pixels. */
+    /* The size of the answer is known only after encoding, but is less than the size of the pixels. */
     if (kd_bytes_take(server->replies, request->client, 0, cost->host_bytes, &quota))
         KD_TRY(kd_error_set(error, KD_EBUSY,
                             quota ? "too many bytes of your pictures are waiting to be read (limit for one client)"
@@ -340,8 +340,8 @@ static enum MHD_Result submit(struct kd_request *request, const struct kd_planne
     job->done = wake;
     job->user = request;
     request->job = job;
-    /* The request is suspended first, because the job may be done before push returns. A suspended request and its
-     * socket outlive the job. */
+    /* Suspended first, because the job may be done before the push returns. A suspended request and its socket
+     * outlive the job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(request->server->renders, job);
     return MHD_YES;
@@ -364,7 +364,7 @@ static enum kd_status tag(struct kd_request *request, struct kd_planned *planned
     return status;
 }
 
-/* Sets the plan's pixel to the pixel that the query names. */
+/* Sets the pixel of the plan to the one that the query names. */
 static enum kd_status name_pixel(const struct kd_request *request, struct kd_plan *plan, struct kd_error *error)
 {
     const char *at = kd_target_value(&request->target, "at"), *trace = kd_target_value(&request->target, "trace");
@@ -374,7 +374,7 @@ static enum kd_status name_pixel(const struct kd_request *request, struct kd_pla
     return status || !trace ? status : kd_explain_trace(trace, plan, error);
 }
 
-/* Reduces the rendered picture to the requested pixel, if possible. */
+/* If possible, reduces the picture that is rendered to the requested pixel. */
 static enum kd_status narrow(const struct kd_request *request, struct kd_planned *planned, struct kd_error *error)
 {
     struct kd_capacity capacity;

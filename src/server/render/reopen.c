@@ -1,13 +1,13 @@
-/* Reopens a failed device and restarts interrupted work, or declares the device lost. */
+/* Reopens a device that has failed and restarts the interrupted work, or declares the device lost. */
 #include "base/log.h"
 #include "server/render/render_internal.h"
 
 #include <time.h>
 
-#define TRIES 4      /* number of attempts; several, because a driver that resets its device needs a moment */
-#define TRY_MS 100.0 /* pause after the first attempt; each further pause is twice as long */
+#define TRIES 4      /* number of attempts; several, because a driver needs a moment to reset its device */
+#define TRY_MS 100.0 /* pause in ms after the first attempt; each pause is twice the previous one */
 
-/* Declares the device lost. Called with the lock. */
+/* Declares the device lost. Called with the lock held. */
 static void lose(struct kd_render_queue *queue, const struct kd_error *error)
 {
     if (queue->lost)
@@ -72,8 +72,8 @@ void kd_render_failed(struct kd_render_queue *queue, const struct kd_error *erro
     pthread_mutex_unlock(&queue->lock);
 }
 
-/* A job that was interrupted by another job's failure has ended with KD_ECANCELLED. It does not count as having
- * failed. */
+/* A job that was interrupted because another job failed has ended with KD_ECANCELLED. This does not count as a
+ * failure of the job. */
 bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *job)
 {
     const bool itself = job->status == KD_EDEVICE;
@@ -86,7 +86,7 @@ bool kd_render_once_more(struct kd_render_queue *queue, struct kd_render_job *jo
     return true;
 }
 
-/* True if the limit of reopenings permits one more. Called with the lock. */
+/* True if the limit permits another reopening. Called with the lock held. */
 static bool may_reopen(struct kd_render_queue *queue)
 {
     const double now = kd_clock_ms();
@@ -97,7 +97,7 @@ static bool may_reopen(struct kd_render_queue *queue)
     return queue->spent++ < queue->reopenings;
 }
 
-/* Reopens the device; tries several times. Called without the lock. */
+/* Reopens the device, in several attempts if necessary. Called without the lock. */
 static enum kd_status reopen(struct kd_render_queue *queue, struct kd_error *error)
 {
     enum kd_status status = KD_EDEVICE;

@@ -1,5 +1,4 @@
-/* Frees the renderer's cached memory after some time without requests. Also trims the heap, which is done even under
- * load. */
+/* Frees memory that the renderer has cached, after some time without requests. Also trims the heap, even under load. */
 #include "render/device/rest.h"
 
 #include "base/allocator.h"
@@ -21,7 +20,7 @@ void kd_render_queue_rest_after(struct kd_render_queue *queue, unsigned ms)
     pthread_mutex_unlock(&queue->lock);
 }
 
-/* True if the pause was long enough to free memory. If much memory is cached, a sixtieth of rest_ms is enough. */
+/* True if the pause is long enough for freeing memory. If much memory is cached, a sixtieth of rest_ms is enough. */
 static bool is_long_enough(const struct kd_render_queue *queue, double pause_ms)
 {
     const double soon_ms = queue->rest_ms / 60.;
@@ -39,9 +38,9 @@ void kd_render_rest_if_idle(struct kd_render_queue *queue)
     kd_render_queue_push_locked(queue, &queue->rest);
 }
 
-/* Under load the renderer keeps its caches, and only the heap is trimmed. Drivers free much of the memory that they
- * used to compile kernels, but the heap keeps this memory instead of returning it to the system. After ten minutes
- * it was a sixth of the resident memory (bench/soak.py). */
+/* Under load the renderer keeps its caches, and only the heap is trimmed. Drivers free much of the memory with which
+ * they have compiled kernels, but the heap keeps this memory instead of returning it to the system. After ten
+ * minutes it was a sixth of the resident memory (bench/soak.py). */
 void kd_render_trim_if_due(struct kd_render_queue *queue)
 {
     const double now = kd_clock_ms();

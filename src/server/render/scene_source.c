@@ -6,8 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* JSON pointer of a parameter: "camera.r" becomes /camera/r. ~ and / are escaped, because a client may send any
- * name. */
+/* Converts a parameter's name to a JSON pointer: "camera.r" becomes /camera/r. ~ and / are escaped, because clients
+ * may send any name. */
 static void pointer_of(const char *name, char *out, size_t size)
 {
     size_t n = 0;
@@ -43,7 +43,7 @@ enum kd_status kd_scene_query_check(const struct kd_target *target, bool fields,
     struct {
         const struct kd_row *row;
         size_t index;
-    } at[KD_TARGET_PAIRS]; /* row NULL: the name is not a field */
+    } at[KD_TARGET_PAIRS]; /* row is NULL if the name is not that of a field */
     char pointer[sizeof error->pointer];
     for (size_t i = 0; i < target->n_pairs; i++) {
         const char *name = target->pairs[i].name;
@@ -72,7 +72,7 @@ static enum kd_status apply_preset(const struct kd_target *target, struct kd_sce
     return KD_OK;
 }
 
-/* Applies the style before all other fields, because the order of a query's parameters must not matter. */
+/* Applies the fields of a query, the style first, because the order of the parameters must not matter. */
 static enum kd_status apply_fields(const struct kd_target *target, const struct kd_route *route, struct kd_scene *scene,
                                    struct kd_error *error)
 {
@@ -117,7 +117,7 @@ bool kd_scene_of_request(const struct kd_request *request, struct kd_scene *scen
         KD_TRY(apply_preset(&request->target, scene, error));
         status = kd_scene_from_json(scene, request->body.data ? (const char *)request->body.data : "",
                                     request->body.size, error);
-        /* an error without a pointer means that the text is not JSON */
+        /* if the error has no pointer, the text is not JSON */
         malformed = status == KD_EINVAL && !*error->pointer;
         KD_TRY(status);
     } else {

@@ -38,7 +38,7 @@ static enum kd_status set_right(struct kd_shared_scenes *scenes, const char *nam
 static enum kd_status set_fields(struct kd_shared_scenes *scenes, const struct kd_target *fields,
                                  struct kd_error *error)
 {
-    /* the style comes first, because the order of parameters must not matter */
+    /* the style is set first, because the order of parameters must not matter */
     for (size_t i = 0; i < 2 * fields->n_pairs; i++) {
         const struct kd_target_pair *pair = &fields->pairs[i % fields->n_pairs];
         const bool style = !strcmp(pair->name, "style.name");
@@ -50,7 +50,7 @@ static enum kd_status set_fields(struct kd_shared_scenes *scenes, const struct k
     return KD_OK;
 }
 
-/* Makes the right picture from the left one. fields: what differs, as a query. */
+/* Makes the right picture from the left one. fields: the fields that differ, as a query. */
 static enum kd_status pair_up(struct kd_shared_scenes *scenes, const struct kd_target *fields, struct kd_error *error)
 {
     const char *data = kd_target_value(fields, KD_SHARED_DATA);
@@ -73,7 +73,7 @@ done:
     return status;
 }
 
-/* Moves the parameters of the right picture, without their prefix, to *right. */
+/* Moves the parameters of the right picture to *right, without their prefix. */
 static void part(struct kd_target *left, struct kd_target *right)
 {
     static const char prefix[] = KD_SHARED_PAIR ".";
@@ -119,7 +119,7 @@ done:
     if (left)
         kd_target_finish(left);
     free(left);
-    free(right); /* only the struct is freed: its pointers lead into the text of `left` */
+    free(right); /* only the struct, because its pointers lead into the text of `left` */
     return status;
 }
 

@@ -28,7 +28,7 @@ void kd_task_fail(struct kd_task *task, enum kd_status status, const struct kd_e
     task->error.status = status;
 }
 
-/* True if the task has failed or must end. The reason is recorded in the task. */
+/* True if the task has failed or must end. Records the reason in the task. */
 static bool unwanted(struct kd_scheduler_job *scheduled)
 {
     struct kd_task *task = (struct kd_task *)scheduled;
@@ -116,8 +116,8 @@ bool kd_task_admit(struct kd_request *request, struct kd_scheduler *queue, const
 
 enum MHD_Result kd_task_submit(struct kd_task *task)
 {
-    /* The request is suspended first, because the task may be done before push returns. A suspended request and its
-     * socket outlive the task. */
+    /* Suspended first, because the task may be done before the push returns. A suspended request and its socket
+     * outlive the task. */
     MHD_suspend_connection(task->request->mhd);
     kd_scheduler_push(task->queue, &task->scheduled);
     return MHD_YES;

@@ -11,14 +11,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SAMPLES 3 /* rays along each side of a pixel: small pictures need smooth edges */
+#define SAMPLES 3 /* rays along each side of a pixel; small pictures need smooth edges */
 
 struct thumbnail {
-    struct kd_painting painting; /* must be the first member; png is immutable once `there` is set */
+    struct kd_painting painting; /* must be the first member; painting.png is immutable after `there` is set */
     char etag[120];
-    struct kd_error error;      /* error of the latest attempt */
-    bool there, busy;           /* busy: the painter owns the thumbnail, and no other thread may read it */
-    struct kd_request *waiting; /* suspended requests, the newest first */
+    struct kd_error error; /* error of the latest attempt */
+    /* there: true if the picture exists; busy: true while the painter owns the thumbnail, which no other thread may
+     * then read */
+    bool there, busy;
+    struct kd_request *waiting; /* suspended requests, newest first */
     struct kd_thumbnails *of;
 };
 
@@ -28,7 +30,7 @@ struct kd_thumbnails {
     pthread_mutex_t lock;
     unsigned rendered;
     size_t n;
-    struct thumbnail *all; /* one thumbnail for each preset, in the order of the presets */
+    struct thumbnail *all; /* a thumbnail for each preset, in the order of the presets */
 };
 
 static void done(struct kd_painting *painting);
@@ -98,7 +100,7 @@ unsigned kd_thumbnails_rendered(struct kd_thumbnails *s)
     return n;
 }
 
-/* Takes the list of waiting requests from the thumbnail. The caller resumes them without the lock. */
+/* Takes the list of waiting requests out of the thumbnail. The caller must resume them without the lock. */
 static struct kd_request *take(struct thumbnail *t)
 {
     struct kd_request *waiting = t->waiting;
@@ -116,7 +118,7 @@ static void resume(struct kd_request *waiting)
     }
 }
 
-/* Does not wait for the painter, because the painter may first have to finish compiling a kernel. */
+/* Does not wait for the painter, which may first have to finish compiling a kernel. */
 void kd_thumbnails_cancel(struct kd_thumbnails *s)
 {
     kd_painter_cancel(s->painter);
@@ -128,7 +130,7 @@ void kd_thumbnails_cancel(struct kd_thumbnails *s)
     }
 }
 
-/* Called on the painter's thread when a thumbnail is rendered or has failed. */
+/* Called on the painter's thread when a thumbnail was rendered or has failed. */
 static void done(struct kd_painting *painting)
 {
     struct thumbnail *t = (struct thumbnail *)painting;
@@ -172,8 +174,8 @@ static enum MHD_Result refuse(struct kd_request *request, const struct kd_error 
     return kd_reply_error(request, error);
 }
 
-/* Answers at once if the thumbnail is ready or rendering has just failed. Otherwise suspends the request until it is
- * ready. */
+/* Answers at once if the thumbnail is ready, or if rendering it has just failed. Otherwise suspends the request
+ * until the thumbnail is ready. */
 static enum MHD_Result give(struct kd_request *request, struct kd_thumbnails *s, struct thumbnail *t)
 {
     pthread_mutex_lock(&s->lock);
@@ -208,7 +210,7 @@ enum MHD_Result kd_handle_thumbnail(struct kd_request *request)
     if (!t) {
         struct kd_scene scene;
         struct kd_error error = { 0 };
-        kd_scene_preset(&scene, request->rest, &error); /* only its error is used, whose message lists the presets */
+        kd_scene_preset(&scene, request->rest, &error); /* called only for its error message, which lists the presets */
         return kd_reply_problem(request,
                                 &(struct kd_problem) { .type = KD_PROBLEM_NOT_FOUND, .detail = error.message });
     }

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The governor uses the same times to tell one drag from the next. */
+/* The governor uses the same times to distinguish one drag from the next. */
 static const double HOLD_MS = 400, HOLD_MAX_MS = 2000;
 
 void kd_budget_enter(struct kd_budget *budget, struct kd_budget_entry *entry)
@@ -26,7 +26,7 @@ void kd_budget_ask(struct kd_budget_entry *e, double now)
     double pause = now - e->ended_ms;
     e->asks = true;
     if (!e->n_costs)
-        return; /* the first frame has no pause before it */
+        return; /* the first frame has no preceding pause */
     e->pauses[e->n_pauses++ % KD_BUDGET_FRAMES] = pause;
     if (pause >= HOLD_MAX_MS)
         e->hold_ms = HOLD_MS;
@@ -73,7 +73,8 @@ static void look(struct kd_budget *budget, double now)
     }
 }
 
-/* A demand that competes with the entry's demand: that of another client, or of another session of the same client. */
+/* A demand that competes with that of the entry. It belongs to another client, or to another session of the same
+ * client. */
 static double rival(const struct kd_budget_entry *entry, const struct kd_budget_entry *other, bool clients)
 {
     if (clients)
@@ -81,10 +82,10 @@ static double rival(const struct kd_budget_entry *entry, const struct kd_budget_
     return other != entry && same_client(entry, other) ? other->demand : 0;
 }
 
-/* Divides `whole` between a session and its rivals by max-min fairness, and returns the session's part, the level. Each
- * rival gets its demand, but at most the level. The iteration first assumes that all rivals demand everything. In each
- * round the rivals whose demand is below the level drop out, and the level rises. So the iteration ends after at most
- * one round for each rival. */
+/* Divides `whole` between a session and its rivals by max-min fairness. Returns the session's part, which is called
+ * the level. Each rival gets its demand, but at most the level. The iteration first assumes that all rivals demand
+ * everything. In each round the rivals whose demand is below the level drop out, and the level rises. The iteration
+ * therefore ends after at most one round per rival. */
 static double fill(const struct kd_budget *budget, const struct kd_budget_entry *entry, bool clients, double whole)
 {
     for (double level = 0, next;; level = next) {

@@ -1,19 +1,20 @@
-/* Encodings of live frames. A frame is encoded only as viewers request it. The renderer's encoder makes the first
- * encoding; others are made when a viewer waits for them. */
+/* Encodings of live frames. A frame gets only the encodings that viewers request. The renderer's encoder makes the
+ * first one; others are made when a viewer waits for them. */
 #include "server/session/session_internal.h"
 
 #include <stdlib.h>
 
-/* time after which the latest frame's pixels are freed; later requests for another encoding get the next frame */
+/* Time in ms after which the pixels of the latest frame are freed. After that, a request for another encoding gets
+ * the next frame. */
 #define PIXELS_MS 1000.0
 
 struct added {
-    struct kd_render_job job; /* must be the first member: the queue stores a pointer to it */
+    struct kd_render_job job; /* must be the first member, because the queue stores a pointer to it */
     struct kd_session *session;
     struct kd_live_frame *frame;
 };
 
-/* All functions below except `done` are called with the lock. */
+/* All functions below except `done` are called with the lock held. */
 
 static unsigned kind_of(const struct kd_viewer *viewer, bool last) { return last ? viewer->last_lossy : viewer->lossy; }
 
@@ -23,8 +24,8 @@ static void set_kind(struct kd_render_job *job, unsigned lossy)
     job->lossy = lossy;
 }
 
-/* The last frame is always encoded without loss first. Viewers that come after its pixels are freed get this
- * lossless file. */
+/* The first encoding of the last frame is always the lossless one. Viewers that come after its pixels were freed get
+ * this file. */
 void kd_session_choose_kind(const struct kd_session *s, bool last, struct kd_render_job *job)
 {
     const struct kd_viewer *first = NULL;
@@ -44,8 +45,8 @@ static const struct kd_live_file *file_of(const struct kd_live_frame *frame, uns
         if (lossy && file->lossy && (!near || abs((int)(file->lossy - lossy)) < abs((int)(near->lossy - lossy))))
             near = file;
     }
-    /* The last slot is reserved for the lossless encoding. When all other slots are in use, the viewer gets the
-     * nearest quality, which the answer states. */
+    /* The last entry is reserved for the lossless encoding. If all other entries are in use, the viewer gets the
+     * nearest quality, and the answer says which. */
     unsigned lossy_ones = 0;
     for (unsigned i = 0; i < frame->n_files; i++)
         lossy_ones += frame->files[i].lossy > 0;
@@ -54,7 +55,7 @@ static const struct kd_live_file *file_of(const struct kd_live_frame *frame, uns
 
 const struct kd_live_file *kd_session_file(const struct kd_viewer *viewer, const struct kd_live_frame *frame)
 {
-    const bool gone = frame->last && !frame->picture.n_layers; /* no other encoding can be made */
+    const bool gone = frame->last && !frame->picture.n_layers; /* true if no other encoding can be made any more */
     const struct kd_live_file *file = file_of(frame, kind_of(viewer, frame->last));
     return file || !gone ? file : file_of(frame, 0);
 }
@@ -65,9 +66,9 @@ void kd_session_forget_pixels(struct kd_session *s, double now)
         kd_frame_finish(&s->latest->picture);
 }
 
-/* Sends a frame in an encoding that was finished only after a newer frame had been published. Viewers that waited
- * for the older frame in this encoding still get it. Otherwise they would never get a frame if encoding takes longer
- * than a frame lasts. */
+/* Sends a frame in an encoding that was finished only after a newer frame had been published. Viewers that have
+ * waited for the older frame in this encoding still get it. Otherwise, if encoding takes longer than the time
+ * between frames, they would never get one. */
 static void hand_out(struct kd_session *s, struct kd_live_frame *frame, unsigned lossy)
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
@@ -115,7 +116,7 @@ static void add(struct kd_session *s, unsigned lossy)
     added->job = (struct kd_render_job) {
         .claim.class = KD_CLASS_LIVE, .socket = -1, .effort = KD_EFFORT_LIVE, .keeps = true, .done = done
     };
-    added->job.frame = s->latest->picture; /* the pixels still belong to the frame */
+    added->job.frame = s->latest->picture; /* the pixels still belong to `latest` */
     added->job.plan.cost.host_bytes = (uint64_t)3 * added->job.frame.width * added->job.frame.height;
     set_kind(&added->job, lossy);
     s->adding = true;
@@ -130,6 +131,6 @@ void kd_session_add_kinds(struct kd_session *s)
     for (const struct kd_viewer *v = s->viewers; v; v = v->next)
         if (v->waiting && !v->any && s->latest->number > v->seen && !kd_session_file(v, s->latest)) {
             add(s, kind_of(v, s->latest->last));
-            return; /* the next encoding is started when this one is done */
+            return; /* another encoding is in progress; the next one starts when it is done */
         }
 }

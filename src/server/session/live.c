@@ -1,4 +1,4 @@
-/* Sends a session's frames, one for each request or as a stream. */
+/* Sends the frames of a session, one per request or as a stream. */
 #include "base/clock.h"
 #include "server/http/negotiate.h"
 #include "server/http/query.h"
@@ -13,8 +13,8 @@
 #include <string.h>
 #include <sys/socket.h>
 
-#define HEARTBEAT_MS 15000.0 /* interval of comments in an event stream */
-/* limit of unsent bytes in the kernel, because bytes that wait there delay newer frames */
+#define HEARTBEAT_MS 15000.0 /* time in ms between two comments in an event stream, which show that it is alive */
+/* maximum number of unsent bytes in the kernel; more bytes that wait there would delay newer frames */
 #define UNSENT_BYTES (64 << 10)
 
 static enum MHD_Result ended(struct kd_request *request)
@@ -47,7 +47,7 @@ static void describe(struct MHD_Response *response, const struct kd_live_frame *
         MHD_add_response_header(response, "Kerrd-Approximations", (const char *)frame->approximations.data);
 }
 
-/* Adds headers about this encoding of the frame. */
+/* Adds the headers that describe this encoding of the frame. */
 static void describe_file(struct MHD_Response *response, const struct kd_live_frame *frame,
                           const struct kd_live_file *file)
 {
@@ -60,8 +60,8 @@ static void describe_file(struct MHD_Response *response, const struct kd_live_fr
     MHD_add_response_header(response, "Content-Type", file->format->media_type);
 }
 
-/* Adds headers about the request: the revision that the request made, and how long the request waited in the server.
- * The client can subtract this time to find the delay of the network. */
+/* Adds the headers that describe the request: the revision that it has made, and the time for which it has waited in
+ * the server. With this time the client can compute the delay of the network. */
 static void tell_request(struct MHD_Response *response, const struct kd_viewer *viewer)
 {
     char number[24];
@@ -93,7 +93,7 @@ static enum MHD_Result send_frame(struct kd_request *request, const struct kd_vi
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Sends the answer or suspends the request again. */
+/* Sends the answer, or suspends the request again. */
 static enum MHD_Result look(struct kd_request *request)
 {
     struct kd_error error = { 0 };
@@ -181,11 +181,12 @@ void kd_live_abandon(struct kd_request *request)
     request->viewer = NULL;
 }
 
-/* A stream of frames. Each consists of some bytes before the picture, the picture, and some bytes after it. */
+/* A stream of frames. For each frame it contains some bytes before the picture, the picture, and some bytes after
+ * it. */
 struct stream {
     struct kd_viewer viewer; /* must be the first member */
     enum { MULTIPART, BINARY, EVENTS } form;
-    struct kd_live_frame *frame; /* the frame being sent */
+    struct kd_live_frame *frame; /* the frame that is being sent */
     char before[64], next[96];
     struct part {
         const char *data;
@@ -233,7 +234,7 @@ static void frame_parts(struct stream *s, struct kd_live_frame *frame)
     }
 }
 
-/* Copies bytes of the present frame that are not sent yet. Returns 0 when the frame is complete. */
+/* Copies bytes of the present frame that are not sent yet. Returns 0 when all of the frame is sent. */
 static size_t take(struct stream *s, char *to, size_t size)
 {
     size_t n = 0;
@@ -266,7 +267,7 @@ static ssize_t produce(void *cls, uint64_t position, char *to, size_t size)
     case KD_VIEWER_FRAME: frame_parts(s, frame); return (ssize_t)take(s, to, size);
     case KD_VIEWER_OVER: return MHD_CONTENT_READER_END_OF_STREAM;
     case KD_VIEWER_GONE: return MHD_CONTENT_READER_END_WITH_ERROR;
-    case KD_VIEWER_LATE: /* a heartbeat, which also reveals clients that have vanished */
+    case KD_VIEWER_LATE: /* sends a heartbeat, which also detects clients that have vanished */
         s->viewer.deadline_ms = kd_clock_ms() + HEARTBEAT_MS;
         memcpy(to, ":\n\n", 3);
         return 3;
@@ -294,15 +295,15 @@ static enum MHD_Result start_stream(struct kd_request *request, struct stream *s
     }
     setsockopt(socket, IPPROTO_TCP, TCP_NOTSENT_LOWAT, &unsent, sizeof unsent);
     MHD_add_response_header(response, "Content-Type", type);
-    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* disables buffering in proxies */
+    MHD_add_response_header(response, "X-Accel-Buffering", "no"); /* tells proxies not to buffer the stream */
     enum MHD_Result result = kd_reply_send(request, MHD_HTTP_OK, response);
-    /* A stream has no deadline. libmicrohttpd's timeout ends connections whose client stops reading. */
+    /* A stream has no deadline. If a client stops reading, libmicrohttpd's timeout ends the connection. */
     kd_connections_stage(request->server->connections, request->connection, KD_STAGE_WORK, 0);
     return result;
 }
 
-/* The number in Last-Event-ID, which an EventSource sends when it reconnects. Returns 0 if no frame of this session
- * had that number. */
+/* The number in the header Last-Event-ID, which an EventSource sends when it reconnects. Returns 0 if this session
+ * has no frame with that number. */
 static uint64_t last_event(struct kd_request *request, struct kd_session *session)
 {
     const char *id = MHD_lookup_connection_value(request->mhd, MHD_HEADER_KIND, "Last-Event-ID");
@@ -336,8 +337,8 @@ static enum MHD_Result open_stream(struct kd_request *request, kd_session_find_f
                                      .seen = form == EVENTS ? last_event(request, session) : 0,
                                      .deadline_ms = form == EVENTS ? kd_clock_ms() + HEARTBEAT_MS : INFINITY };
     s->part = form == MULTIPART ? 0 : 3;
-    /* Browsers show a part of a multipart answer only when the header of the next part arrives. So that header is sent
-     * right after each frame, and the first header before all frames. */
+    /* Browsers show a part of a multipart answer only when the header of the next part arrives. Each frame is
+     * therefore followed at once by the header of the next one, and the first header is sent before all frames. */
     snprintf(s->next, sizeof s->next, "\r\n--kerrd\r\nContent-Type: %s\r\n\r\n", kd_format_live()->media_type);
     if (form == MULTIPART)
         set_part(s, 0, s->next + 2, strlen(s->next + 2));

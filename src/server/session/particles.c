@@ -1,5 +1,5 @@
-/* GET /v1/sessions/ID/particles: positions of a session's particles as numbers. They are listed in slices; between two
- * slices others may use the device. */
+/* GET /v1/sessions/ID/particles: the positions of a session's particles, as numbers. They are listed in slices, and
+ * others may use the device between two slices. */
 #include "document/number.h"
 #include "base/clock.h"
 #include "server/http/reply.h"
@@ -12,9 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define BYTES_MAX ((size_t)128 << 20) /* limit of one answer; 10 000 000 positions are 114 MiB */
+#define BYTES_MAX ((size_t)128 << 20) /* maximum size of an answer in bytes; 10 000 000 positions take 114 MiB */
 
-/* A list of particles that is being made. Its request owns it. */
+/* The work of listing particles. The request owns it. */
 struct kd_particles_job {
     struct kd_render_job device; /* must be the first member */
     struct kd_request *request;
@@ -99,7 +99,7 @@ static enum MHD_Result deliver(struct kd_request *request)
         return refuse(request, &job->device.error, false);
     }
     request->reply_bytes = job->rows.size;
-    /* the bytes stay reserved until the request ends */
+    /* The bytes stay reserved until the end of the request. */
     struct MHD_Response *response = kd_reply_take(&job->rows, KD_BYTES_TYPE);
     if (!response)
         return kd_reply_no_memory(request);
@@ -111,7 +111,7 @@ static enum MHD_Result deliver(struct kd_request *request)
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Allocates the answer and reserves its bytes. */
+/* Allocates the answer, and reserves its bytes. */
 static enum kd_status allocate(struct kd_particles_job *job, bool *quota, struct kd_error *error)
 {
     size_t bytes = job->list.n * kd_particle_list_row(&job->list);
@@ -160,8 +160,8 @@ static enum MHD_Result submit(struct kd_request *request)
     };
     memcpy(job->device.claim.client, request->client, sizeof request->client);
     job->device.plan.cost.estimate_ms = (double)job->list.n * capacity.ns[KD_NS_PARTICLE] * 1e-6;
-    /* The request is suspended first, because the job may be done before push returns. A suspended request and its
-     * socket outlive the job. */
+    /* Suspended first, because the job may be done before the push returns. A suspended request and its socket
+     * outlive the job. */
     MHD_suspend_connection(request->mhd);
     kd_render_queue_push(server->renders, &job->device);
     return MHD_YES;

@@ -1,4 +1,4 @@
-/* POST and DELETE of a session's path. Workers parse and check a path in slices, because that takes milliseconds. */
+/* POST and DELETE of a session's path. Workers parse and check the path in slices, because this takes milliseconds. */
 #include "base/clock.h"
 #include "document/document.h"
 #include "document/members.h"
@@ -14,17 +14,17 @@
 #include <string.h>
 
 #define PATH_VALUES 50000
-/* number of positions on the path that are checked; each check takes up to a quarter of a millisecond */
+/* number of places on the path that are checked; each check takes up to a quarter of a millisecond */
 #define PATH_LOOKS 30
 
 struct path_request { struct kd_timeline_items items; };
 
 struct path_task {
     struct kd_task task;  /* must be the first member */
-    struct kd_scene from; /* the scene at the time of the request */
+    struct kd_scene from; /* the session's scene at the time of the request */
     struct kd_timeline path;
     bool read;
-    int look; /* index of the position to check next */
+    int look; /* index of the place to check next */
 };
 
 static void finish(struct kd_task *task)
@@ -33,8 +33,8 @@ static void finish(struct kd_task *task)
     kd_timeline_finish(&p->path);
 }
 
-/* Parses {"keyframes": [{"at": seconds, "scene", "proper_time", "ease", "look_at"}, ...], "interpolation", "distances",
- * "angles", "ease", "look_at"}. The path begins at the present scene. */
+/* Parses {"keyframes": [{"at": seconds, "scene", "proper_time", "ease", "look_at"}, ...], "interpolation",
+ * "distances", "angles", "ease", "look_at"}. The path starts at the present scene. */
 static enum kd_status read_path(const struct kd_request *request, const struct kd_scene *now, struct kd_timeline *out,
                                 struct kd_error *error)
 {
@@ -91,7 +91,7 @@ static enum kd_status read_whole(struct path_task *p, struct kd_error *error)
     return status;
 }
 
-/* Checks the scene at one position of the path. A scene between two such positions that is not valid is found later,
+/* Checks the scene at one place on the path. If a scene between two such places is not valid, this is found later,
  * because each frame is planned again. */
 static enum kd_status look(struct path_task *p, struct kd_error *error)
 {

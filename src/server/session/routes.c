@@ -20,7 +20,7 @@
 #include <string.h>
 #include <strings.h>
 
-#define STRIKE_VALUES 16 /* limit of JSON values in the body of a ringdown, which has one field */
+#define STRIKE_VALUES 16 /* maximum number of JSON values in the body of a ringdown, which has one field */
 
 struct kd_session *kd_session_of(struct kd_request *request, enum MHD_Result *refused)
 {
@@ -46,7 +46,7 @@ const char *kd_session_varies_word(size_t index)
     return index < sizeof varying / sizeof *varying ? varying[index].word : NULL;
 }
 
-/* Writes the list of the ways in which the picture depends on time and azimuth, such as ["moves_with_time"]. */
+/* Writes the list of ways in which the picture depends on time and azimuth, such as ["moves_with_time"]. */
 static enum kd_status add_varies(const struct kd_scene *scene, struct kd_buffer *out)
 {
     const unsigned varies = kd_emit_varies(scene);
@@ -61,9 +61,9 @@ done:
     return status;
 }
 
-/* Writes {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}. Optional members: "path"
- * if there is a path; "rendering" or "refining" while a frame is being made; "clock" in free fall; "token" if the
- * client has just created the session. */
+/* Writes {"id", "revision", "frame", "viewers", ["order",] "scene", "varies", "emitters"}. Further members are
+ * optional: "path" if there is a path; "rendering" or "refining" while a frame is being made; "clock" in free fall;
+ * "token" if the client has just created the session. */
 static enum kd_status to_json(const struct kd_session *session, const struct kd_session_state *state, bool token,
                               struct kd_buffer *out)
 {
@@ -88,7 +88,7 @@ static enum kd_status to_json(const struct kd_session *session, const struct kd_
         struct kd_json json = kd_json_begin(out);
         kd_json_object(&json, NULL);
         kd_json_number(&json, "fraction", state->progress.fraction);
-        kd_json_number(&json, "remaining_s", state->progress.left_s); /* written as null if it is NAN */
+        kd_json_number(&json, "remaining_s", state->progress.left_s); /* NAN is written as null */
         kd_json_end(&json);
         KD_TRY(kd_json_finish(&json));
     }
@@ -132,7 +132,7 @@ static enum MHD_Result answer_created(struct kd_request *request, const struct k
     return kd_reply_send(request, MHD_HTTP_CREATED, response);
 }
 
-/* Parses a query parameter as a number between the bounds. If it is absent *value is unchanged. */
+/* Parses a query parameter as a number between two bounds. If the parameter is absent, *value is unchanged. */
 static enum kd_status read_number(const struct kd_request *request, const char *parameter, double low, double high,
                                   double *value, bool *said, struct kd_error *error)
 {
@@ -151,7 +151,7 @@ static enum kd_status read_number(const struct kd_request *request, const char *
     return KD_OK;
 }
 
-/* Parses the limits of quality reduction in the query. *said: whether the query has at least one of them. */
+/* Parses the limits of quality reduction from the query. *said: true if the query has at least one of them. */
 static enum kd_status read_pace(const struct kd_request *request, struct kd_session_pace *pace, bool *said,
                                 struct kd_error *error)
 {
@@ -174,8 +174,7 @@ done:
     return status;
 }
 
-/* Handles Idempotency-Key. Returns true if the request is answered in *result, with the earlier session or a
- * refusal. */
+/* Handles Idempotency-Key. Returns true if *result is the answer: the earlier session, or a refusal. */
 static bool made_before(struct kd_request *request, enum MHD_Result *result)
 {
     struct kd_session_state state;
@@ -225,7 +224,8 @@ enum MHD_Result kd_handle_sessions(struct kd_request *request)
     kd_session_promise(session, &request->once);
     kd_session_state(session, &state);
     result = answer_created(request, session, &state);
-    /* the session ends, because the client does not know it, and cannot request it again without a key */
+    /* The session could not be reported: it ends, because the client does not know its id and, without a key, cannot
+     * request it again. */
     if (request->status != MHD_HTTP_CREATED && !*request->once.key)
         kd_session_end(session);
     kd_session_release(session);
@@ -240,7 +240,7 @@ static enum MHD_Result refuse_patch(struct kd_request *request, const struct kd_
     return kd_reply_problem(request, &problem);
 }
 
-/* Parses the order of a patch among patches that are sent at the same time. */
+/* Parses the order of a patch. It ranks patches that are sent at the same time. */
 static enum kd_status read_order(const struct kd_request *request, uint64_t *order, struct kd_error *error)
 {
     const char *text = kd_target_value(&request->target, "order");
@@ -275,7 +275,7 @@ static enum MHD_Result answer_little(struct kd_request *request, const struct kd
     return kd_reply_send(request, MHD_HTTP_OK, response);
 }
 
-/* Merges a patch (RFC 7396). */
+/* Merges a patch (RFC 7396) into the scene. */
 static enum kd_status merge(struct kd_scene *scene, const void *to, struct kd_error *error)
 {
     const struct kd_buffer *body = to;
@@ -365,8 +365,8 @@ static enum kd_status ring(struct kd_scene *scene, const void *to, struct kd_err
     return KD_OK;
 }
 
-/* Parses {"amplitude": x}, {} or an empty body. If the member is absent, *amplitude is unchanged. If the body is not
- * a JSON object, returns KD_EINVAL without a pointer. */
+/* Parses {"amplitude": x}, {} or an empty body. If the member is absent, *amplitude is unchanged. Returns KD_EINVAL
+ * without a pointer if the body is not a JSON object. */
 static enum kd_status read_strike(const struct kd_buffer *body, double *amplitude, struct kd_error *error)
 {
     static const struct kd_row row = { .name = "amplitude", .kind = KD_KIND_REAL, .most = 1 };

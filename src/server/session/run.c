@@ -1,4 +1,4 @@
-/* Renders sessions' frames through the render queue. */
+/* Renders the frames of sessions through the render queue. */
 #include "base/clock.h"
 #include "server/session/session_internal.h"
 #include "server/session/sessions.h"
@@ -8,27 +8,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* time constant of auto exposure: the exposure follows 63 % of a change within this time */
+/* Time constant of auto exposure in ms: within this time, the exposure follows 63 % of a change. */
 #define EXPOSURE_MS 2000.0
-#define IDLE_MS 5e3 /* when the user has made no change for this time, other work of the client runs first */
-#define SURE 0.02   /* fraction of a picture that must be done before the remaining time is estimated */
-/* limit of a session's frames that are rendered but not encoded: one frame can be traced while another is encoded */
+#define IDLE_MS 5e3 /* when the user has made no change for this time in ms, other work of the client goes first */
+#define SURE 0.02   /* the remaining time is estimated only when this fraction of a picture is done */
+/* Maximum number of a session's frames that are rendered but not encoded: one frame can be traced while another one
+ * is encoded. */
 #define ENCODING_MAX 2
 
 struct kd_session_frame {
-    struct kd_render_job job; /* must be the first member: the queue stores a pointer to it */
+    struct kd_render_job job; /* must be the first member, because the queue stores a pointer to it */
     struct kd_session *session;
-    struct kd_scene whole; /* the scene at full quality */
+    struct kd_scene whole; /* the scene in full quality */
     uint64_t number;
     unsigned revision;
     double begun_ms;
     struct kd_frame_decision decision;
-    struct kd_dynamic_bodies *dynamic; /* bodies of a playground in its scene; a counted reference */
+    struct kd_dynamic_bodies *dynamic; /* a counted reference to the bodies of a playground in this scene */
     double fraction;                   /* fraction of the frame that is done */
-    bool rendered, last;               /* last: neither a refinement nor another frame follows */
+    bool rendered, last;               /* last: true if neither a refinement nor another frame follows */
 };
 
-/* The functions below are called with the lock unless a comment says otherwise. */
+/* The functions below are called with the lock held, unless their comment says otherwise. */
 
 static void progress(struct kd_render_job *job, double fraction);
 static void rendered(struct kd_render_job *job);
@@ -41,15 +42,15 @@ static void fail(struct kd_session *s, const struct kd_error *error)
     kd_session_wake(s);
 }
 
-/* Slows auto exposure while only time advances. Auto exposure depends on the few brightest pixels, which show different
- * particles in each frame. Unslowed it would make the picture flicker. */
+/* Slows auto exposure down while only time advances. The automatic exposure depends on the few brightest pixels,
+ * which show different particles in each frame, so that without this the picture would flicker. */
 static void follow_exposure(const struct kd_session *s, double now, struct kd_plan *plan)
 {
     plan->picture.exposure_from = s->exposure;
     plan->picture.exposure_share = -expm1(-fmax(now - s->exposed_ms, 1) / EXPOSURE_MS);
 }
 
-/* Makes a frame for the render queue. NULL: it cannot be made; *error says why. */
+/* Makes a frame for the render queue. Returns NULL, with the reason in *error, if it cannot be made. */
 static struct kd_session_frame *make_frame(struct kd_session *s, const struct kd_scene *scene,
                                            const struct kd_frame_decision *decision, double now, struct kd_error *error)
 {
@@ -111,12 +112,12 @@ void kd_session_pump(struct kd_session *s)
     }
     s->on_path = scene;
     const bool flies = kd_session_on_its_way(s, now) || kd_scene_falls(&scene), moves = flies || kd_emit_moves(&scene);
-    /* If the scene moved in the latest frame and is at rest now, the next frame will differ too. */
+    /* If the scene moved in the latest frame and is at rest now, the next frame differs too. */
     if (moves || s->moved || s->dynamic_moved)
         kd_session_govern(s, now, &scene, flies || s->flew);
     const struct kd_frame_decision decision = kd_governor_decide(&s->governor, now);
     if (decision.wait_ms > 0)
-        return; /* kd_sessions_sweep will call this function again */
+        return; /* not now; kd_sessions_sweep will call this function again */
     struct kd_session_frame *live = make_frame(s, &scene, &decision, now, &error);
     if (!live) {
         fail(s, &error);
@@ -163,7 +164,7 @@ static void add_cost(struct kd_frame_cost *cost, const char *pass, double ms)
         cost->total_ms = ms;
 }
 
-/* Cost of a frame without its encoding. Encoding overlaps with the next frame, and takes a tenth of the time or less
+/* Cost of a frame without its encoding, which overlaps with the next frame, and takes a tenth of the time or less
  * (bench/live.py). */
 static struct kd_frame_cost cost_of(const struct kd_render_job *job)
 {
@@ -205,7 +206,7 @@ static void progress(struct kd_render_job *job, double fraction)
     pthread_mutex_unlock(&live->session->all->lock);
 }
 
-/* Estimates the remaining time from the elapsed time, which includes waiting for others. */
+/* Estimates the remaining time from the elapsed time, in which waiting for others is included. */
 struct kd_session_progress kd_session_progress_of(const struct kd_session *s, double now)
 {
     const struct kd_session_frame *live = s->rendering;
@@ -218,7 +219,8 @@ struct kd_session_progress kd_session_progress_of(const struct kd_session *s, do
     };
 }
 
-/* Called on the render thread, without the lock. The next frame may be traced while this frame is encoded. */
+/* Called on the render thread, without the lock. From now on the next frame may be traced, while this one is
+ * encoded. */
 static void rendered(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -246,7 +248,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
 {
     double now = kd_clock_ms();
     if (s->latest && s->latest->number > live->number)
-        return; /* a newer frame has been published already */
+        return; /* a newer frame was already published */
     if (s->shown_ms > 0 && now - s->shown_ms < 1000)
         s->interval_ms += (s->interval_ms > 0 ? 0.2 : 1) * (now - s->shown_ms - s->interval_ms);
     else
@@ -256,7 +258,7 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
                                        s->interval_ms > 0 ? 1e3 / s->interval_ms : 0 };
     struct kd_live_frame *frame = kd_live_frame_make(&live->job, &note);
     if (!frame)
-        return; /* out of memory: only this frame is lost */
+        return; /* out of memory: this frame is lost, but the next one may succeed */
     kd_live_frame_release(s->latest);
     s->latest = frame;
     s->all->frames++;
@@ -265,8 +267,8 @@ static void publish(struct kd_session *s, struct kd_session_frame *live)
     kd_session_add_kinds(s);
 }
 
-/* Publishes a finished frame, or records its failure; then begins the next frame. Called on a thread of the queue,
- * without the lock. */
+/* Publishes a finished frame or records its failure, and then begins the next frame. Called on a thread of the
+ * queue, without the lock. */
 static void done(struct kd_render_job *job)
 {
     struct kd_session_frame *live = (struct kd_session_frame *)job;
@@ -283,9 +285,9 @@ static void done(struct kd_render_job *job)
     job->error.status = job->status;
     if (!job->status)
         publish(s, live);
-    else if (job->status != KD_ECANCELLED &&
-             (job->status != KD_EDEVICE ||
-              kd_render_queue_lost(all->params.renders, NULL))) /* after a reopening the next frame may succeed */
+    else if (job->status != KD_ECANCELLED && (job->status != KD_EDEVICE ||
+                                              /* if the device was only reopened, the next frame may succeed */
+                                              kd_render_queue_lost(all->params.renders, NULL)))
         fail(s, &job->error);
     kd_session_pump(s);
     kd_session_unref(s);

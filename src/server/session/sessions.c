@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COUNTS_MS 20. /* time for which a reader of counts waits for the lock */
+#define COUNTS_MS 20. /* maximum time in ms that a reader of counts waits for the lock */
 
-#define TARGET_MS 33.0 /* intended time of a frame while the scene changes */
+#define TARGET_MS 33.0 /* intended time for a frame while the scene changes, in ms */
 
 enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struct kd_sessions **out,
                                   struct kd_error *error)
@@ -22,7 +22,7 @@ enum kd_status kd_sessions_create(const struct kd_sessions_params *params, struc
     return KD_OK;
 }
 
-/* The functions from here on are called with the lock. */
+/* All functions from here on are called with the lock held. */
 
 void kd_session_unref(struct kd_session *s)
 {
@@ -69,7 +69,7 @@ enum kd_status kd_session_scene(const struct kd_session *s, double now, struct k
     return status;
 }
 
-/* Returns the present scene. If the scene of the path is not valid now, returns the latest valid one. */
+/* Returns the present scene. If the scene on the path is not valid now, returns the latest valid one. */
 static struct kd_scene scene_now(const struct kd_session *s, double now)
 {
     struct kd_scene scene;
@@ -77,7 +77,7 @@ static struct kd_scene scene_now(const struct kd_session *s, double now)
     return kd_session_scene(s, now, &scene, &error) ? s->on_path : scene;
 }
 
-/* The functions from here on take the lock. */
+/* All functions from here on take the lock themselves. */
 
 enum kd_status kd_sessions_takes(const struct kd_sessions *all, const struct kd_plan *plan, struct kd_error *error)
 {
@@ -118,7 +118,7 @@ enum kd_status kd_sessions_open(struct kd_sessions *all, const struct kd_scene *
         return kd_error_set(error, KD_ENOMEM, "no memory or no random numbers for a session");
     }
     s->all = all;
-    s->references = 2; /* one reference for the list, one for the caller */
+    s->references = 2; /* one for the list, and one for the caller */
     s->crowded = crowded;
     snprintf(s->demand.client, sizeof s->demand.client, "%s", client);
     s->scene = *scene;
@@ -205,7 +205,7 @@ const char *kd_session_token(const struct kd_session *s) { return s->token; }
 
 bool kd_session_owned(const struct kd_session *s, const char *token) { return kd_secret_equal(s->token, token); }
 
-static unsigned viewers_of(const struct kd_session *s) /* called with the lock */
+static unsigned viewers_of(const struct kd_session *s) /* called with the lock held */
 {
     unsigned n = 0;
     for (const struct kd_viewer *v = s->viewers; v; v = v->next)
@@ -213,7 +213,7 @@ static unsigned viewers_of(const struct kd_session *s) /* called with the lock *
     return n;
 }
 
-static void state(const struct kd_session *s, struct kd_session_state *out) /* called with the lock */
+static void state(const struct kd_session *s, struct kd_session_state *out) /* called with the lock held */
 {
     const double now = kd_clock_ms(), end = kd_timeline_end(&s->path);
     *out = (struct kd_session_state) { .scene = scene_now(s, now),
@@ -240,7 +240,7 @@ void kd_session_govern(struct kd_session *s, double now, const struct kd_scene *
     kd_governor_changed(&s->governor, now, &shown, lens);
 }
 
-/* Sets the scene. Called with the lock. */
+/* Sets the scene. Called with the lock held. */
 static void change(struct kd_session *s, double now, const struct kd_scene *scene, const struct kd_plan *plan)
 {
     s->scene = *scene;
@@ -260,13 +260,13 @@ enum kd_status kd_session_edit(struct kd_session *s, kd_scene_edit *edit, const 
 {
     struct kd_plan plan;
     double now = kd_clock_ms();
-    if (order && order <= s->order) { /* no lock is needed, because only the HTTP thread writes s->order */
+    if (order && order <= s->order) { /* no lock is needed here, because only the HTTP thread writes s->order */
         kd_session_state(s, out);
         return KD_OK;
     }
     pthread_mutex_lock(&s->all->lock);
     struct kd_scene scene = scene_now(s, now);
-    /* the scene cannot change meanwhile, because only the HTTP thread patches it */
+    /* The scene does not change without the lock, because only the HTTP thread patches it. */
     pthread_mutex_unlock(&s->all->lock);
     enum kd_status status;
     KD_TRY(edit(&scene, to, error));
@@ -378,7 +378,7 @@ enum kd_status kd_session_stop(struct kd_session *s, struct kd_error *error)
     pthread_mutex_lock(&s->all->lock);
     const bool goes = s->path.n_keys;
     const struct kd_scene scene = scene_now(s, now);
-    /* the scene cannot change meanwhile, because only the HTTP thread changes it */
+    /* The scene does not change without the lock, because only the HTTP thread changes it. */
     pthread_mutex_unlock(&s->all->lock);
     enum kd_status status = KD_OK;
     if (!goes)

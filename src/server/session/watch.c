@@ -1,4 +1,4 @@
-/* Viewers of sessions, and the regular check of all sessions. */
+/* Viewers of sessions, and the check of all sessions that is made regularly. */
 #include "base/log.h"
 #include "base/clock.h"
 #include "server/session/session_internal.h"
@@ -7,9 +7,9 @@
 #include <poll.h>
 #include <stdlib.h>
 
-#define LOOK_MS 1000.0 /* interval of checks for disconnected clients */
+#define LOOK_MS 1000.0 /* time in ms between two checks for clients that have disconnected */
 
-/* Resumes the viewer's connection. Called with the lock. */
+/* Resumes the connection of the viewer. Called with the lock held. */
 static void wake(struct kd_viewer *viewer)
 {
     if (!viewer->waiting)
@@ -75,7 +75,7 @@ static void give(struct kd_viewer *viewer, struct kd_live_frame *frame, struct k
     *out = frame;
 }
 
-/* Determines what kd_viewer_next returns. Called with the lock. */
+/* Determines the result of kd_viewer_next. Called with the lock held. */
 static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame **frame, struct kd_error *error)
 {
     struct kd_session *s = viewer->session;
@@ -96,12 +96,13 @@ static enum kd_viewer_news news(struct kd_viewer *viewer, struct kd_live_frame *
         give(viewer, owed, frame);
         return KD_VIEWER_FRAME;
     }
-    if (viewer->late && !newer) { /* a newer frame is sent as soon as it is encoded, even after the deadline */
+    /* if there is a newer frame, it is sent as soon as it is encoded, even after the deadline */
+    if (viewer->late && !newer) {
         viewer->late = false;
         return KD_VIEWER_LATE;
     }
     viewer->waiting = true;
-    /* the connection is suspended first, because it can be resumed as soon as the lock is released */
+    /* suspended first, because another thread may resume the connection as soon as the lock is released */
     MHD_suspend_connection(viewer->mhd);
     kd_session_add_kinds(s);
     kd_session_pump(s);
@@ -116,7 +117,7 @@ enum kd_viewer_news kd_viewer_next(struct kd_viewer *viewer, struct kd_live_fram
     return what;
 }
 
-static void sweep_deadlines(struct kd_session *s, double now) /* called with the lock */
+static void sweep_deadlines(struct kd_session *s, double now) /* called with the lock held */
 {
     for (struct kd_viewer *v = s->viewers; v; v = v->next)
         if (v->waiting && now > v->deadline_ms) {
@@ -125,8 +126,8 @@ static void sweep_deadlines(struct kd_session *s, double now) /* called with the
         }
 }
 
-/* Polls all waiting sockets in one call, so that hundreds of idle viewers have no measurable cost. Called with the
- * lock. */
+/* Polls all waiting sockets in one call, so that hundreds of idle viewers cost no measurable time. Called with the
+ * lock held. */
 static void sweep_gone(struct kd_sessions *all)
 {
     size_t n = 0, i = 0;

@@ -169,10 +169,10 @@ const shapes = {
   }),
 };
 
-// True if the orbit has no periods.
+// True if the orbit ends, so that it has no periods.
 export const ends = v => v.orbit === 'plunge';
 
-// The document of the request, from the values of the fields.
+// Makes the document of the request from the values of the fields.
 export function requested(v) {
   const shape = shapes[v.orbit];
   return {

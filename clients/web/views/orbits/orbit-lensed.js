@@ -1,4 +1,4 @@
-// The orbit of the Orbits view as the camera of the scene sees it: its direct image. The server finds each point by the
+// The orbit of the Orbits view as the scene's camera sees it, in its direct image. For each point, the server finds the
 // ray that leads there.
 import { number, t } from '../../words/i18n.js';
 import * as link from '../../base/link.js';
@@ -6,13 +6,13 @@ import { follow, settled } from './orbit-ask.js';
 import { requested, specs } from './orbit-fields.js';
 import { holeOf, lines } from '../../base/server.js';
 
-const apart = (5 * Math.PI) / 180; // angle between neighbouring points as seen from the hole
-const margin = 1.1; // factor, because the largest angle was measured on a path with other samples
-const most = 20000; // the server's limit on samples
+const apart = (5 * Math.PI) / 180; // maximum angle between neighbouring points, as seen from the hole
+const margin = 1.1; // safety factor, because the largest angle was measured on a path with other samples
+const most = 20000; // maximum number of samples that the server accepts
 const patience_ms = 5000;
-const torn = 0.25; // fraction of the window's width: points that are further apart belong to two arcs
+const torn = 0.25; // fraction of the window's width; points further apart belong to different arcs
 const frames = ['static', 'zamo', 'keplerian', 'retrograde', 'infall'];
-// the latest answer, for a camera that has not moved: each picture at rest asks for it
+// Stores the latest answer, because each picture at rest requests it, even if the camera has not moved.
 let last = { key: '', answer: null };
 
 function observer(scene) {
@@ -28,8 +28,8 @@ function observer(scene) {
   };
 }
 
-// The largest angle between neighbouring points as seen from the hole. Azimuths would jump where the path passes the
-// axis.
+// The largest angle between neighbouring points as seen from the hole. (Differences of azimuth would not do, because
+// the azimuth jumps where the path passes the axis.)
 function widest(column) {
   const places = ['x', 'y', 'z'].map(column),
     unit = i => places.map(axis => axis[i] / Math.hypot(...places.map(other => other[i])));
@@ -41,8 +41,8 @@ function widest(column) {
   return angle;
 }
 
-// The same orbit with points that are close enough, over as many periods as one answer can hold: { asked, all }, where
-// all is the requested number of periods. For a circle in the equatorial plane one turn is sufficient.
+// Returns { asked, all }. asked: the same orbit with points that are close enough, over as many periods as one answer
+// can hold. all: the number of periods that was wanted. For a circle in the equatorial plane one turn is sufficient.
 async function sampled(asked) {
   const { duration } = asked,
     path = await follow({ ...asked, samples: 400, digits: 7 }),
@@ -60,7 +60,7 @@ async function sampled(asked) {
   };
 }
 
-// Images of the orbit's points, as many as the server finds within patience_ms.
+// Images of the orbit's points. The list has as many as the server finds within patience_ms.
 async function images(asked, signal) {
   const enough = new AbortController(),
     answer = { rows: [] };
@@ -106,7 +106,7 @@ function share({ rows, asked, all, fate }) {
   return t('orbit-lensed.as-many-as-were', '{0}, as many as were found within 5 s', much);
 }
 
-// look, path: see overlay.js; signal: aborts when the camera moves
+// look, path: see overlay.js. signal: an AbortSignal that aborts when the camera moves.
 export async function orbit(scene, look, path, width, signal) {
   const answer = await seen(scene, signal),
     { rows, columns, spin, charge, shape } = answer,

@@ -14,13 +14,13 @@ export function smooth(points, k, share) {
   return mix(mix(mix(a, b), mix(b, c)), mix(mix(b, c), mix(c, d)));
 }
 
-const grip = 8; // distance from the body within which a drag grasps it; the picture is 200 wide
-const glows = 2.4; // radius of the glow round the hole, in radii of the horizon
-const least_ring = 2.5; // radius below which a circle of the hole is not drawn
-const full = 60; // length of an arrow of the speed of light
+const grip = 8; // distance from the body, in units of the picture (200 wide), within which a drag takes hold of it
+const glows = 2.4; // radius of the glow round the hole, in units of the horizon's radius
+const least_ring = 2.5; // a circle of the hole with a smaller radius, in units of the picture, is not drawn
+const full = 60; // length of the arrow for the speed of light, in units of the picture
 
-// How space is seen from far away, along straight lines: turned about the axis, then tilted. turn, tilt: the sliders.
-// reach: the farthest point that is shown, in M.
+// Projects space as seen from far away, along straight lines: first a rotation about the axis, then a tilt. turn, tilt:
+// the sliders. reach: the distance of the farthest visible point, in M.
 function buildSpace(turn, tilt) {
   const space = {
       reach: 1,
@@ -44,8 +44,8 @@ function buildSpace(turn, tilt) {
     };
   }
 
-  // The point of the equatorial plane at a point of the picture. Seen nearly edge-on, the distance towards the viewer
-  // is limited.
+  // Returns the point of the equatorial plane that is seen at a point of the picture. In a nearly edge-on view, the
+  // distance towards the viewer is limited.
   function inPlane({ x, y }) {
     const [a, i] = angles(),
       c = Math.cos(i),
@@ -55,7 +55,8 @@ function buildSpace(turn, tilt) {
     return [towards * Math.cos(a) - right * Math.sin(a), towards * Math.sin(a) + right * Math.cos(a)];
   }
 
-  // A circle in the equatorial plane; from, to: the part of it that is drawn, in steps of 5 degrees from the right.
+  // A circle in the equatorial plane. from, to: ends of the part that is drawn, in steps of 5 degrees, counted from the
+  // right.
   function ring(r, from = 0, to = 72) {
     const a = angles()[0] + Math.PI / 2,
       points = [];
@@ -83,7 +84,7 @@ const buildGlow = () =>
     ),
   );
 
-// The parts of the path behind and in front of the hole.
+// The path in two parts: behind the hole, and in front of it.
 function halves(places) {
   const parts = { back: '', front: '' },
     text = point => point.map(x => x.toFixed(2)).join(' ');
@@ -100,7 +101,7 @@ function halves(places) {
   return parts;
 }
 
-// The scale bar, a round number of M.
+// The scale bar. Its length is a round number of M.
 function scaleBar(space) {
   const raw = 34 / space.length(),
     ten = 10 ** Math.floor(Math.log10(raw)),
@@ -112,8 +113,8 @@ function scaleBar(space) {
   ];
 }
 
-// The circles of the hole in the equatorial plane: { r, name, text }. r is the radius in the picture, where x and y are
-// sqrt(r^2 + a^2) times the cosine and the sine of the azimuth.
+// The circles of the hole in the equatorial plane: { r, name, text }. r is the radius at which a circle is drawn: in
+// the picture, x and y are sqrt(r^2 + a^2) times the cosine and the sine of the azimuth.
 function circlesOf({ photon_prograde, photon_retrograde, isco }, a) {
   const circle = (r, name, text) => ({ r: Math.hypot(r, a), name, text });
   return [
@@ -137,15 +138,15 @@ const keyOf = ({ name, text }) =>
     text,
   );
 
-// Drags of the body: the first one places it, the next one throws it. outside(place): the nearest place where a body
-// may be. Returns { drag(event), letGo(event), grasp(event), held(), place(point), free() }.
+// Drags of the body. The first drag places it, and the next drag throws it. outside(place): returns the nearest place
+// where a body may be. Returns { drag(event), letGo(event), grasp(event), held(), place(point), free() }.
 function buildBody(picture, body, space, hand, outside) {
   const arrow = svg('path', { class: 'throw' }),
     speed = svg('text', { class: 'axis' }),
     pointer = event => new DOMPoint(event.clientX, event.clientY).matrixTransform(picture.getScreenCTM().inverse());
-  let held = null, // place of a body that is dragged, in the plane
-    aimed = null, // velocity with which it will be thrown
-    put = false, // true if the body was placed: then the next drag throws it
+  let held = null, // place in the plane of the body that is being dragged
+    aimed = null, // velocity with which the body will be thrown
+    put = false, // true if the body has been placed, so that the next drag throws it
     holding = false;
 
   function place(point) {
@@ -156,7 +157,7 @@ function buildBody(picture, body, space, hand, outside) {
 
   return {
     holding: () => holding,
-    // Returns whether the pointer is at the body.
+    // Returns true if the pointer is at the body.
     grasp(event) {
       const at = pointer(event);
       holding = Math.hypot(at.x - body.getAttribute('cx'), at.y - body.getAttribute('cy')) < grip;
@@ -198,7 +199,7 @@ function buildBody(picture, body, space, hand, outside) {
   };
 }
 
-// Drags turn and tilt the view, unless they hold the body.
+// Drags turn and tilt the view, unless they started at the body.
 function listen(picture, turn, tilt, hand, draw) {
   let from = null;
   picture.addEventListener('pointerdown', event => {
@@ -222,8 +223,8 @@ function listen(picture, turn, tilt, hand, draw) {
   for (const input of [turn, tilt]) input.addEventListener('input', draw);
 }
 
-// hand: { placed([x, y]), thrown([x, y], [vx, vy]) } gets places in the equatorial plane in M, and velocities in it in
-// c.
+// hand: { placed([x, y]), thrown([x, y], [vx, vy]) }, two functions that are called after a drag of the body. Places
+// are points of the equatorial plane in M; velocities lie in this plane and are in units of c.
 export function buildPicture(root, hand) {
   const turn = el('input', { type: 'range', id: 'orbit-turn', min: -180, max: 180, value: 30 }),
     tilt = el('input', { type: 'range', id: 'orbit-tilt', min: 0, max: 180, value: 62 }),
@@ -242,7 +243,8 @@ export function buildPicture(root, hand) {
     spin = 0,
     circles = []; // circles of the hole that are large enough to be drawn
 
-  // The hole's circles; the half behind the hole is drawn before it. From below, the other half is nearer.
+  // Draws the hole's circles in two halves; the half behind the hole is drawn before the hole. In a view from below,
+  // the other half is the nearer one.
   const rings = (from, to) =>
     circles.map(({ r, name }) =>
       svg('path', {
@@ -269,7 +271,8 @@ export function buildPicture(root, hand) {
     );
   }
 
-  // A body cannot be placed inside the hole: it stays beside the horizon, at sqrt(r^2 + a^2) from the middle.
+  // A body cannot be placed inside the hole. If it is dragged there, it stays beside the horizon, at sqrt(r^2 + a^2)
+  // from the middle.
   function outside(at) {
     const least = 1.02 * Math.hypot(hole, spin),
       far = Math.hypot(...at);

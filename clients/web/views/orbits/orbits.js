@@ -1,5 +1,5 @@
-// Orbits of bodies, by POST /v1/orbits: the path in space, the effective potential, the numerical drift of the energy,
-// and the advance of the periastron.
+// Orbits of bodies, from POST /v1/orbits: the path in space, the effective potential, the numerical drift of the
+// energy, and the advance of the periastron.
 import { persistent } from '../../base/again.js';
 import { entitle } from '../../words/describe.js';
 import { byId, el, still } from '../../base/dom.js';
@@ -37,7 +37,7 @@ function facts(answer) {
       t('orbits.nearest-farthest', 'Nearest, farthest'),
       `${result.end === 'horizon' || turn.r_min == null ? t('common.horizon', 'horizon') : number(turn.r_min)} – ${turn.r_max == null ? '∞' : number(turn.r_max) + ' M'}`,
     ],
-    // A circle has no periastron, an orbit in the equatorial plane no node.
+    // a circle has no periastron, and an orbit in the equatorial plane has no node
     advance && [
       t('orbits.advance-of-the-periastron', 'Advance of the periastron, exact'),
       answer.circular ? '–' : degrees(advance.periastron),
@@ -90,7 +90,7 @@ export async function openOrbits() {
   );
   hint.textContent = hints;
   let samples = null,
-    shown = '', // name of the orbit that is shown
+    shown = '', // name of the orbit that is on the screen
     at = 0,
     running = !still.matches,
     last = 0;
@@ -108,7 +108,7 @@ export async function openOrbits() {
     }
     if (running) begin();
   }
-  let frame = 0; // one animation frame at a time, even if several orbits are shown quickly
+  let frame = 0; // handle of the animation frame; only one is pending, even if several orbits are shown quickly
   function begin() {
     cancelAnimationFrame(frame);
     frame = requestAnimationFrame(step);
@@ -123,7 +123,7 @@ export async function openOrbits() {
     if (began) (last = performance.now()), begin();
   }
   play.addEventListener('click', () => run(!running));
-  // Shows the orbit over the picture (orbit-lensed.js), whose hole gets the spin of this one.
+  // Shows the orbit over the picture (orbit-lensed.js). The picture's hole gets the spin of this orbit's hole.
   byId('orbit-show').addEventListener('click', () => {
     document.querySelector('nav [data-view=lensing]').click();
     document.dispatchEvent(new CustomEvent('showorbit', { detail: constants?.spin }));
@@ -132,12 +132,13 @@ export async function openOrbits() {
 
   const load = persistent(fault, 'orbits', follows, keep);
 
-  // A drag of the body sets the fields, so that links and the keyboard can do the same. The whole drag is one change.
+  // A drag of the body sets the fields, so that links and the keyboard can do the same as a drag. The whole drag counts
+  // as one change.
   const set = values => (form.put(values), load());
   const azimuth = ([x, y]) => Math.atan2(y, x);
   const digits = (x, n) => Number(x.toFixed(n));
 
-  // x and y are sqrt(r^2 + a^2) times the cosine and the sine of the azimuth.
+  // in the picture, x and y are sqrt(r^2 + a^2) times the cosine and the sine of the azimuth
   function placed(at) {
     const a = Number(form.input('spin').value);
     run(false);
@@ -165,7 +166,7 @@ export async function openOrbits() {
     [thrown]: ['spin', 'r', 'phi_deg', 'v_r', 'v_phi'],
   };
 
-  // When somebody changes to constants of motion, the fields get those of the orbit that is shown.
+  // When the user changes the form to constants of motion, its fields get the constants of the orbit on the screen.
   let constants = null,
     chosen = null;
   function take({ orbit }) {
@@ -192,7 +193,7 @@ export async function openOrbits() {
     const asked = {
       ...requested(v),
       samples: Math.min(Math.max(36 * Number(v.periods), 400), 3000),
-      digits: 7, // enough for a path drawn over some thousand pixels
+      digits: 7, // seven digits are enough for a path that is drawn over a few thousand pixels
     };
     let said = '';
     const { asked: whole, edge, share } = await settled(asked);
@@ -275,8 +276,8 @@ export async function openOrbits() {
       r: `${horizon}:${high}:400`,
       ...(high < 1e3 ? drawn : {}),
     });
-    // Far out, the potential is close to 1 everywhere, and where it exceeds 1 it is a steep wall next to the hole. Then
-    // its difference from 1 is drawn.
+    // Far out, the potential is close to 1 everywhere, and the part above 1 is a steep wall next to the hole. In that
+    // case the chart shows the potential's difference from 1.
     const least = v.values.v_min_matter ?? constants.energy,
       off = 1 - least < 1e-3 ? 1 : 0,
       energy = off ? -constants.binding / (1 + constants.energy) : constants.energy,

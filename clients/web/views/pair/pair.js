@@ -1,5 +1,6 @@
-// Two holes side by side under one camera: the scene, and the scene with other values of some fields. A drag on either
-// of them moves both. The link has the other values as pair.FIELD. Or the scene beside what was measured of M87*.
+// Compares two pictures under one camera. The left one shows the scene. The right one shows the scene with other values
+// of some fields, or the data of M87*. A drag on either picture moves both. A link contains the other values as
+// pair.FIELD.
 import { describe } from '../../words/describe.js';
 import { byId, el, paced, typing } from '../../base/dom.js';
 import { named, number, t, tell, unit, word } from '../../words/i18n.js';
@@ -11,9 +12,9 @@ import { windowSize } from '../../picture/sizes.js';
 
 const prefix = 'pair.';
 const data = prefix + 'data'; // key in a link that says that the other side shows the data of M87*
-const rest_ms = 400; // time since the last change, after which the data are compared again
+const rest_ms = 400; // the data are compared again when nothing has changed for this time
 const smooth = { 'disk.gas.amplitude': 0, 'disk.emission_opacity': 0, 'style.bloom': 0 };
-// Ready pairs: values on both sides, and their labels.
+// Ready pairs: the values on both sides, and the label of each side.
 const ready = [
   {
     name: t('pair.spin-none-nearly-the', 'Spin: none | nearly the most'),
@@ -78,7 +79,8 @@ class Other {
   streams = () => this.scene.streams();
   turns = () => this.scene.turns();
   tellSeen = ({ emitters }) => (this.emitters = emitters);
-  // These do nothing: time and camera are the first scene's, and the server changes both scenes together.
+  // These methods do nothing, because time and camera belong to the first scene, and the server changes both scenes
+  // together.
   land() {}
   settle() {}
   tick() {}
@@ -86,7 +88,7 @@ class Other {
 
 let pair = null;
 
-// Starts the comparison, or shows the one in the link.
+// Starts a comparison, or shows the comparison that the link describes.
 export function besides(stage, scene) {
   document.head.querySelector('[href$="pair.css"]') ??
     document.head.append(el('link', { rel: 'stylesheet', href: new URL('pair.css', import.meta.url) }));
@@ -144,7 +146,7 @@ function build(stage, scene) {
     speak();
   }
   const speak = paced(() => canvas.setAttribute('aria-label', describe(other)));
-  let source = null; // there is no source while the other side shows the data
+  let source = null; // null while the right side shows the data
   const open = () =>
     (source ??= openSource(
       other,
@@ -158,7 +160,7 @@ function build(stage, scene) {
     source = null;
   }
 
-  let measured = Boolean(link.get(data)), // true if the other side has the data
+  let measured = Boolean(link.get(data)), // true if the right side shows the data of M87*
     compare = null, // shows them
     timer = 0;
   async function measure() {
@@ -170,7 +172,7 @@ function build(stage, scene) {
     }
   }
 
-  // Pointers, wheel and double clicks go to the first picture, which handles them for both.
+  // Events of pointers, wheel and double clicks are passed to the first picture, which handles them for both.
   for (const name of ['pointerdown', 'wheel', 'dblclick'])
     box.addEventListener(
       name,
@@ -194,7 +196,7 @@ function build(stage, scene) {
   const sized = new ResizeObserver(() => source?.refresh());
   sized.observe(box);
 
-  // The label of each side.
+  // Makes the label of each side.
   const value = (path, given) => {
     const field = scene.fields.get(path);
     if (typeof given === 'boolean') return given ? t('pair.yes', 'yes') : t('pair.no', 'no');
@@ -230,7 +232,7 @@ function build(stage, scene) {
     if (measured) link.set(data, 1);
   }
 
-  // Sets what differs. left: values of the scene itself.
+  // Sets the values that differ. right: values of the other scene. left: values of the scene itself.
   function differ(right, left = {}) {
     measured = false;
     other.over = Object.fromEntries(
@@ -242,7 +244,7 @@ function build(stage, scene) {
     inputs();
   }
 
-  // Shows the data of M87* beside the scene, which becomes that of M87* if it is of another hole.
+  // Shows the data of M87* on the right side. If the scene is of another hole, it is replaced by that of M87*.
   function measuredBeside() {
     measured = true;
     other.over = {};
@@ -256,7 +258,7 @@ function build(stage, scene) {
     follow();
   }
 
-  // The controls: the field that differs, and its values.
+  // The controls: the field whose values differ, and its value on each side.
   let drawn = null, // the path of the field whose values are shown
     values = []; // input elements of both sides
   const fields = [...scene.fields.values()].filter(comparable),
@@ -295,7 +297,7 @@ function build(stage, scene) {
     });
     return { node, show: () => typed.typed || node.value === String(held()) || (node.value = held()) };
   }
-  // An input that has the focus is kept, and so is a text that is being typed.
+  // The input that has the focus is not replaced, and neither is a text that is being typed.
   function inputs() {
     const [path, more] = Object.keys(other.over),
       alone = path && !more ? path : null;

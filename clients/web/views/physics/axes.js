@@ -4,7 +4,7 @@ import { physics } from '../../base/server.js';
 
 export const degrees = radians => (radians == null ? null : (radians * 180) / Math.PI);
 export const spin = value => ({ name: 'spin', value, min: -0.998, max: 0.998, step: 0.002 });
-// The power with which a disk's line falls off.
+// The exponent of the power law with which a disk's line emission falls off with radius.
 export const falloff = {
   name: 'index',
   label: t('integrals.light-falls-off-as', 'Light falls off as r to minus'),
@@ -16,11 +16,11 @@ export const falloff = {
   about: t('integrals.3-as-far-from', '3 is the value far from a lamp, and far out on a disk that heats itself'),
 };
 export const axis = (label, more) => ({ label, ...more });
-// A range of radii from the horizon outwards.
+// A range of radii that starts at the horizon.
 export const outside =
   (far, points = 141) =>
   async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.horizon}:${far}:${points}` });
-// A range of radii from the ISCO outwards.
+// A range of radii that starts at the ISCO.
 export const ofDisk =
   (far, points = 121) =>
   async p => ({ r: `${(await physics('kerr', { spin: p.spin })).values.isco}:${far}:${points}` });

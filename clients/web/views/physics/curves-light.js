@@ -1,4 +1,4 @@
-// The curves of light, space and the disk. Each has parameters, an equation, and a function that picks what to draw
+// The curves of light, space and the disk. Each has parameters, an equation, and a function that selects what to draw
 // from the values of /v1/physics.
 import { axis, degrees, ofDisk, outside, radius, spin } from './axes.js';
 import { number, t } from '../../words/i18n.js';
@@ -17,7 +17,7 @@ export const light = [
         hill = l => ({ spin: p.spin, l, r }),
         [along, against] = await Promise.all(
           (Number(p.spin) === 0 ? [1] : [1, -1]).map(l => physics('potential', { ...hill(l), ...charted })),
-        ); // without spin, light along and against the spin has the same curve
+        ); // without spin, the curve is the same for light along the rotation and against it
       return {
         r: along.parameters.r,
         along: along.values,

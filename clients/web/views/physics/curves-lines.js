@@ -1,6 +1,7 @@
-// The curves of a disk's X-rays: light that returns, by spin; the iron line as a sum of rings; the echo of a flash.
-// Each curve takes the server long or has many numbers, so it is drawn only when it comes into sight. Two curves use
-// another route than /v1/physics; their `words` names a quantity whose descriptions of parameters they share.
+// The curves of a disk's X-rays: returning light over spin, the iron line as a sum of rings, and the echo of a flash.
+// Each of them takes the server long or has many numbers, so it is drawn only when it comes into sight. Two curves use
+// another route than /v1/physics. Their member `words` names the quantity from which they take the descriptions of
+// their parameters.
 import { axis, falloff, spin } from './axes.js';
 import { number, t } from '../../words/i18n.js';
 import { charted, physics, postJson } from '../../base/server.js';
@@ -10,7 +11,7 @@ const numbersOf = asked => Object.fromEntries(Object.entries(asked).map(([name, 
 const inclination = value => ({ name: 'inclination_deg', value, min: 0, max: 86, step: 1 });
 const energy = t('integrals.energy-kev', 'energy, keV');
 
-// Edges of the rings, as multiples of the ISCO; the last ring ends at 400 M, as the line does by default.
+// Edges of the rings, as multiples of the ISCO's radius. The last ring ends at 400 M, the default end of the line.
 const rings = [1, 1.5, 2.5, 6];
 const far = 400;
 
@@ -24,7 +25,7 @@ async function ringLines(asked) {
   const [{ columns, sources }] = lines,
     wide = columns.energy_high[0] - columns.energy_low[0],
     total = lines.reduce((sum, { values }) => sum + values.total, 0);
-  // The share of all photons of the line that a ring sends, by keV.
+  // The share of all photons of the line that comes from each ring, per keV.
   const parts = lines.map(line => line.columns.share.map(share => (share * line.values.total) / total / wide));
   return {
     sources,
@@ -39,14 +40,14 @@ async function echo(asked) {
   const request = { ...numbersOf(asked), ...keV, energy_max: 9, bins: 64, time_min: 0, time_max: 100, times: 80 };
   const { columns, values, sources } = await postJson('v1/impulse', request),
     time = columns.time_low.slice(0, request.times).map((low, i) => (low + columns.time_high[i]) / 2);
-  // share[i][j]: energy i, time j.
+  // share[i][j]: share at energy i and time j.
   const share = Array.from({ length: request.bins }, (_, i) =>
     columns.share.slice(i * request.times, (i + 1) * request.times),
   );
   return { sources, parameters: { time, request }, values: { ...values, share } };
 }
 
-// For each time: the share of the photons, their mean energy, and the least and the largest energy.
+// For each time: the share of the photons, their mean energy, and their minimum and maximum energy.
 function byTime({ share }, { time, request }) {
   const wide = (request.energy_max - request.energy_min) / request.bins,
     at = i => request.energy_min + (i + 0.5) * wide;

@@ -1,11 +1,11 @@
-// The curves of matter and waves. Each has parameters, an equation, and a function that picks what to draw from the
+// The curves of matter and waves. Each has parameters, an equation, and a function that selects what to draw from the
 // values of /v1/physics.
 import { axis, outside, radius, spin } from './axes.js';
 import { number, t } from '../../words/i18n.js';
 import { charted, physics } from '../../base/server.js';
 import { ringing, soundRow } from '../../base/sound.js';
 
-// Buttons to play the ringdown; the field of octaves shows the shift that is used.
+// Buttons that play the ringdown. The field of octaves shows the shift that was used.
 function listen(v, { t: _, ...asked }, octaves, form) {
   const ring = ringing(v, asked, octaves === undefined ? undefined : Number(octaves));
   form.suggest('octaves', ring.octaves);

@@ -1,4 +1,4 @@
-// The view of curves. Each has parameters, an equation, values of /v1/physics, a short text, and its sources.
+// The view of curves. Each curve has parameters, an equation, values from /v1/physics, a short text, and its sources.
 import { persistent } from '../../base/again.js';
 import { light } from './curves-light.js';
 import { lines } from './curves-lines.js';
@@ -35,7 +35,7 @@ const charts = [...light, ...lines, ...matter].sort(
   (a, b) => order.indexOf(a.id ?? a.name) - order.indexOf(b.id ?? b.name),
 );
 
-// The text under a curve, and its derivation, folded.
+// The text under a curve, followed by its derivation, which is folded.
 function reading(id) {
   const { text, steps } = explained[id];
   return [
@@ -68,12 +68,15 @@ function card(chart, known) {
     chart.inputs.map(input => ({ ...parameter[input.name], ...input })),
     () => draw(),
   );
-  figure.querySelector('figcaption').textContent = chart.title; // the name of its parts until it is drawn
-  formula.innerHTML = `<math display="block">${chart.equation}</math>`; // constant text of this page, so it is safe
+  // the title of the chart stands here until the chart is drawn
+  figure.querySelector('figcaption').textContent = chart.title;
+  // innerHTML is safe here, because the text is a constant of this page
+  formula.innerHTML = `<math display="block">${chart.equation}</math>`;
   inputs.addEventListener('submit', event => event.preventDefault());
 
   const draw = persistent(fault, 'physics', async () => {
-    const { octaves, ...asked } = { ...chart.query, ...form.values() }; // octaves is a parameter of the sound only
+    // octaves is a parameter of the sound, not of the request
+    const { octaves, ...asked } = { ...chart.query, ...form.values() };
     Object.assign(asked, await chart.adjust?.(asked));
     const [answer, also] = await Promise.all([
       chart.ask ? chart.ask(asked) : physics(chart.name, { ...asked, ...charted }),
@@ -147,7 +150,7 @@ function index(cards) {
   ];
 }
 
-// Calls back once, when a node comes into sight.
+// Calls a function once, when a node first comes into sight.
 function whenSeen(node, then) {
   const watch = new IntersectionObserver(entries => {
     if (!entries.some(entry => entry.isIntersecting)) return;
@@ -166,6 +169,7 @@ export async function openPhysics() {
   byId('curve-index').replaceChildren(...index(cards));
   byId('curves').replaceChildren(...cards.map(c => c.node));
   entitle('physics', t('physics.curves-3', '{0} curves', cards.length));
-  // One after the other, so that pictures come first. What takes the server long waits until somebody scrolls there.
+  // Draws one curve after the other, so that pictures of the scene have priority. Curves that take the server long wait
+  // until the user scrolls to them.
   for (const c of cards) c.late ? whenSeen(c.node, c.draw) : await c.draw();
 }

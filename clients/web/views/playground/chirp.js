@@ -1,12 +1,12 @@
-// The gravitational waves of the closest pair, as sound. Their frequency is in units of 1/M. It is scaled to the mass
-// for which the sound begins at begins_hz; the page states this mass in solar masses. The tone changes as fast as the
-// picture does, not as fast as for a hole of this mass.
+// The gravitational waves of the closest pair of bodies, as sound. Their frequency comes in units of 1/M. The page
+// converts it to hertz with the mass for which the sound begins at begins_hz, and states this mass in solar masses. The
+// tone changes as fast as the picture does, not as fast as for a hole of this mass.
 import { number, t } from '../../words/i18n.js';
 
 const key = 'kerrd.playground.sound';
 const begins_hz = 110;
 const highest_hz = 16000;
-const sun_s = 4.925490947e-6; // G M / c^3 of the Sun
+const sun_s = 4.925490947e-6; // G M / c^3 of the Sun, in seconds
 const loudest = 0.5;
 const glide_s = 0.04;
 
@@ -17,7 +17,7 @@ export function chirp(button, words) {
     context = null,
     tone = null,
     gain = null,
-    first = null; // { frequency, strain, hertz: the pitch of a frequency of 1/M }
+    first = null; // the first tick with a wave: { frequency, strain, hertz }; hertz: pitch in Hz of the frequency 1/M
 
   function open() {
     if (context) return context.resume();
@@ -56,7 +56,7 @@ export function chirp(button, words) {
     else hush();
     say();
   });
-  // Browsers allow sound only after a gesture. If the sound is still switched on from last time, it begins with the
+  // Browsers allow sound only after a gesture. If the sound is still switched on from the last visit, it starts at the
   // first gesture.
   for (const event of ['pointerdown', 'keydown']) addEventListener(event, () => (gesture = true), { once: true });
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, hush);

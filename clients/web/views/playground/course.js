@@ -1,16 +1,16 @@
-// Charts of a playground's quantities over time, from its ticks, and of the fallback rate from
+// Charts over time: the playground's quantities, from its ticks, and the fallback rate, from
 // /v1/playground/ID/fallback.
 import { t } from '../../words/i18n.js';
 import { plot } from '../../base/plot.js';
 import { ask } from '../../base/server.js';
 
-const most = 1200; // limit of rows; if there are more, every second one is dropped
+const most = 1200; // limit of the number of rows; beyond it, every second row is dropped
 const draw_ms = 500;
 const fallback_ms = 2000;
 const columns = ['t', 'energy', 'energy_balance', 'angular_momentum', 'separation', 'wave_frequency'];
 const time = { label: t('common.time-t-m', 'time t / M') };
 
-// Rows of text/csv as objects by the names of the columns.
+// Parses text/csv into objects with the names of the columns as keys.
 function table(text) {
   const [names, ...lines] = text
     .trim()
@@ -87,7 +87,7 @@ export function course(root) {
   }
 
   async function fallback(address) {
-    // left out, because a bin that is cut off counts too little
+    // Bins that are cut off are left out, because their rate is too low.
     const list = table(await (await ask(address)).text()).filter(row => row.rate > 0 && row.whole),
       newest = Math.max(...list.map(row => row.source)),
       shown = list.filter(row => row.source === newest);

@@ -1,15 +1,15 @@
-// Debris as light: each piece is spread over four pixels of a picture of its own, and dense parts are brighter. This
-// costs less than as many drawn squares.
-const stages = ['violet', 'glow', 'green']; // leaving, bound, come back
+// Draws debris as light: each piece is spread over four pixels of a separate picture, and dense parts are brighter.
+// This costs less than drawing a square for each piece.
+const stages = ['violet', 'glow', 'green']; // colours of the three stages: leaving, bound, returned
 const gain = 0.9; // optical depth of one piece of debris
-const whiter = 0.5; // share of white in the densest parts
+const whiter = 0.5; // fraction of white in the densest parts
 
 const rgb = colour => [1, 3, 5].map(at => parseInt(colour.slice(at, at + 2), 16));
 
 export class Dust {
   #canvas = document.createElement('canvas');
   #image = null;
-  #pieces; // pieces in each pixel, a number for each stage; 0 between two drawings
+  #pieces; // number of pieces in each pixel, for each stage; all are 0 between two drawings
 
   draw(c, plane, colours) {
     const [w, h] = plane.size;
@@ -24,7 +24,7 @@ export class Dust {
     c.drawImage(this.#canvas, 0, 0, w, h);
   }
 
-  // Counts pieces in pixels. Returns the pixels that have some.
+  // Counts the pieces in each pixel. Returns the pixels that contain some.
   #spread(plane, w, h) {
     const { n, words, f, u } = plane.debris,
       pieces = this.#pieces,

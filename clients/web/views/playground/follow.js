@@ -1,12 +1,12 @@
-// Shows a running playground: its state, its bodies and debris, its clock, its events.
+// Shows a running playground: its state, its bodies and debris, its clock and its events.
 import { el } from '../../base/dom.js';
 import { physics } from '../../base/server.js';
 import { entitle } from '../../words/describe.js';
 import { preset as titled, said, t, tell } from '../../words/i18n.js';
 import { seenOf } from './play-seen.js';
 
-// now: what is chosen, in progress and loaded (playground.js). The other arguments are the parts of the view and its
-// actions.
+// now: the current choice, the requests in progress, and the loaded snapshot (playground.js). The other arguments are
+// the parts of the view and its actions.
 export function listen(running, now, parts) {
   const { part, plane, hand, form, sound, charts, events, say, choose, fit, preset, showAim, showRules, pace } = parts;
   running.addEventListener('begun', ({ detail: state }) => {
@@ -31,7 +31,7 @@ export function listen(running, now, parts) {
     else plane.radii = { horizon: 2, photons: 3, bound: 4, isco: 6 };
   });
   running.addEventListener('state', ({ detail: state }) => {
-    // while changes are unanswered, an older state must not reset the controls
+    // until all changes are answered, a state may be older than them and must not reset the controls
     const newest = !running.waits();
     if (newest) showRules(state.settings);
     part.views[0].parentNode.hidden = !state.scene; // without a scene the server renders no pictures

@@ -1,11 +1,11 @@
-// Predicts the path of a body that is aimed, until it is captured or far away.
+// Predicts the path of a body that the user aims, until it is captured or far away.
 import { latest } from '../../base/dom.js';
 import { ask_kerr, heavy, predict, reference } from './predict.js';
 
-const beyond = 8; // a predicted path ends at this multiple of the visible radius
+const beyond = 8; // a predicted path ends at this multiple of the visible radius from the hole
 
-// aims(): the present aim. mass(): mass of a new body. Returns the speed of a circular orbit at a place, and a function
-// that draws the predicted path.
+// aims(): returns the present aim. mass(): returns the mass of a new body. Returns two functions: the speed of a
+// circular orbit at a place, and a function that draws the predicted path.
 export function foretold(running, plane, aims, mass) {
   const soften = () => running.state?.settings.softening ?? 0.05;
   const speed = place => reference(place, heavy(plane.all()), soften());

@@ -1,16 +1,16 @@
 // Throws bodies by pointer, touch and keyboard. Press on an empty place and drag: the arrow is the velocity. Drag a
 // body to throw it again. Two fingers, the wheel, Shift or another button move the view.
-const small_px = 5; // a shorter movement is a tap
+const small_px = 5; // a movement shorter than this, in pixels, counts as a tap
 const near_px = 12;
-const arrow_px = 90; // length of an arrow of the reference speed (predict.js)
+const arrow_px = 90; // length in pixels of the arrow for the reference speed (predict.js)
 const turn = Math.PI / 36;
 
-// aims: { from: [x, y, z], velocity: [x, y, z], body: id or null, armed: whether a velocity was set }
-// told: { aim(aims), release(), choose(id), pause(), step(), remove(), fit(), speed(place) }; speed: the reference
-// speed at a place.
+// aims: { from: [x, y, z], velocity: [x, y, z], body: id or null, armed: true if a velocity was set }. told: {
+// aim(aims), release(), choose(id), pause(), step(), remove(), fit(), speed(place) }. speed(place) returns the
+// reference speed at a place.
 export function hands(stage, plane, told) {
   const aims = { from: [20, 0, 0], velocity: [0, 0, 0], body: null, armed: false };
-  let drag = null; // { x, y, hit, from, moved } or { pan }
+  let drag = null; // the drag in progress: { x, y, hit, from, moved }, or { pan } if it moves the view
   const fingers = new Map();
 
   function aim(change) {
@@ -23,7 +23,7 @@ export function hands(stage, plane, told) {
     return [event.clientX - box.left, event.clientY - box.top];
   };
 
-  // The velocity of an arrow with this length in pixels, from a place.
+  // The velocity that belongs to an arrow of this length in pixels, which starts at a place.
   function velocity(from, px, py) {
     const [x, y] = plane.project(from),
       v = told.speed(from) / arrow_px,
@@ -94,12 +94,12 @@ export function hands(stage, plane, told) {
     { passive: false },
   );
 
-  // Changes the arrow by keys: its length and its direction.
+  // Changes the length and the direction of the arrow by keys.
   function bend(longer, angle) {
     const [x, y] = aims.velocity,
       ref = told.speed(aims.from),
       size = Math.min(Math.max(Math.hypot(x, y) + longer * 0.05 * ref, 0), 0.999),
-      // the first place is round the hole
+      // the first press of a key moves the place round the hole
       at = (x || y ? Math.atan2(y, x) : Math.atan2(aims.from[0], -aims.from[1])) + angle;
     aim({ velocity: [size * Math.cos(at), size * Math.sin(at), 0], armed: true });
   }

@@ -1,4 +1,4 @@
-// The events of a playground, newest first, each a line of words and numbers.
+// The events of a playground, newest first. Each is a line of words and numbers.
 import { el } from '../../base/dom.js';
 import { number, said, t } from '../../words/i18n.js';
 
@@ -25,7 +25,7 @@ const masses = e =>
     .map(m => number(m, 3))
     .join(e.mass_left == null ? ' + ' : ' → ');
 
-// Returns { happened(event), clear() }; aloud(sentence) is called for each event.
+// Returns { happened(event), clear() }. aloud(sentence) is called for each event, for screen readers.
 export function eventList(root, aloud) {
   const rows = el('tbody', {}),
     none = el('p', { class: 'help' }, t('happened.nothing-yet', 'Nothing yet.'));

@@ -1,4 +1,4 @@
-// The lensed view of the playground: pictures rendered by the server, one after the other.
+// The lensed view of the playground. The server renders its pictures, one after the other.
 import { again_ms } from '../../base/again.js';
 import { el, latest } from '../../base/dom.js';
 import { t, tell } from '../../words/i18n.js';
@@ -6,8 +6,8 @@ import { ask } from '../../base/server.js';
 
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const even = x => Math.max(16, 2 * Math.round(x / 2));
-const slow_ms = 600; // if a picture takes longer than this, the page announces that one is being drawn
-const widest = 960; // largest width, device pixels
+const slow_ms = 600; // if a picture takes longer than this, the page says that it is being drawn
+const widest = 960; // maximum width of a picture, in device pixels
 
 // box: the element for the pictures; running: see running.js. Returns { show(yes) }.
 export function lensed(box, running) {
@@ -22,7 +22,7 @@ export function lensed(box, running) {
     camera = null;
   const words = el('p', { class: 'help', role: 'status' }),
     drawing = el('p', { class: 'drawing', 'aria-hidden': 'true', hidden: true }, t('lensed.drawing', 'Drawing …'));
-  let late = 0; // timer of a picture that is in progress
+  let late = 0; // timer that runs while a picture is in progress
   const begin = () =>
     (words.textContent = t('common.the-server-computes-the', 'The server computes the first picture …'));
   begin();
@@ -47,7 +47,8 @@ export function lensed(box, running) {
     }
   });
 
-  // Sets the size of the pictures to that of the box; a new session has a default size.
+  // Sets the size of the pictures to the size of the box. This is repeated for a new session, which starts with a
+  // default size.
   function fit() {
     const ratio = Math.min(devicePixelRatio || 1, widest / Math.max(box.clientWidth, 1)),
       [width, height] = [even(box.clientWidth * ratio), even(box.clientHeight * ratio)],
@@ -90,7 +91,7 @@ export function lensed(box, running) {
   for (const event of ['visibilitychange', 'viewchange']) document.addEventListener(event, () => wanted && pull());
   running.addEventListener('begun', () => ((frame = 0), (camera = null), begin(), fit()));
 
-  // Dragging, or the arrow keys, turn the camera round the hole.
+  // Drags and arrow keys turn the camera round the hole.
   let from = null;
   function turn({ inclination_deg, azimuth_deg }) {
     camera = {

@@ -1,4 +1,4 @@
-// Marks in the playground's plane: circles of equal distance, those of the hole, the aim, and the scale bar.
+// Marks in the playground's plane: circles of constant distance, the circles of the hole, the aim, and the scale bar.
 import { t } from '../../words/i18n.js';
 
 const margin = 4; // pixels between a name and the picture's edge
@@ -9,7 +9,7 @@ function ring(c, plane, r) {
   c.ellipse(x, y, r * plane.scale, r * plane.scale * Math.cos(plane.tilt), 0, 0, 2 * Math.PI);
 }
 
-// A round length of at most `px` pixels, in M.
+// Returns a round length in M that takes at most `px` pixels.
 function round(plane, px) {
   const raw = px / plane.scale,
     ten = 10 ** Math.floor(Math.log10(raw));
@@ -18,7 +18,7 @@ function round(plane, px) {
 
 const bar_px = plane => 0.2 * Math.min(plane.size[0], 500); // the longest bar
 
-// Circles about the hole, as far apart as the scale bar is long. Those outside the picture are left out.
+// Circles about the hole. Their spacing is the length of the scale bar. Circles outside the picture are left out.
 export function distances(c, plane, colours) {
   const [w, h] = plane.size,
     step = round(plane, bar_px(plane)),
@@ -92,7 +92,8 @@ export function aim(c, plane, colours) {
       c.moveTo(tx, ty), c.lineTo(tx - 9 * Math.cos(angle + side), ty - 9 * Math.sin(angle + side));
   c.stroke();
   c.lineWidth = 1;
-  // The text stands on the side that the arrow points to, shifted so that all of it is in the picture.
+  // The text stands on the side to which the arrow points, shifted if necessary so that all of it is inside the
+  // picture.
   const [w, h] = plane.size,
     wide = c.measureText(text).width,
     left = Math.min(Math.max(tx < x ? tx - 8 - wide : tx + 8, margin), w - margin - wide),
@@ -101,7 +102,7 @@ export function aim(c, plane, colours) {
   c.fillText(text, left, low);
 }
 
-// The scale bar, of a round number of M.
+// The scale bar. Its length is a round number of M.
 export function bar(c, plane, colours) {
   const [w, h] = plane.size;
   const length = round(plane, bar_px(plane));

@@ -4,13 +4,14 @@ import { aim, bar, circles, distances } from './marks.js';
 import { Dust } from './dust.js';
 import { physics } from '../../base/server.js';
 
-// past: number of points of a trail. Up to `few` bodies have full trails; with more than `none` no body has a trail
+// past: number of points of a trail. Up to `few` bodies all have full trails. If there are more than `none` bodies,
+// none has a trail.
 const turns = { past: 160, few: 400, none: 1500 };
 const least_px = 2.5;
-const sample = 400; // number of pieces of debris on which the choice of the view is based
-const ease = 0.12; // fraction of the difference to the requested reach by which one update changes the reach
-// The glow round the hole: its radius in radii of the horizon, its least radius in pixels, and its colours from the
-// horizon outwards.
+const sample = 400; // number of pieces of debris that are examined to choose the view
+const ease = 0.12; // each update changes the reach by this fraction of its difference from the wanted reach
+// The glow round the hole: its radius in units of the horizon's radius, its minimum radius in pixels, and its colours
+// from the horizon outwards.
 const glows = 2.4;
 const least_glow_px = 30;
 const glowing = [
@@ -19,11 +20,13 @@ const glowing = [
   [0.4, '#ff9d3c22'],
   [1, '#ff9d3c00'],
 ];
-const halo = { wide: 5, least: 14, most: 90 }; // round a body: in its radii, and in pixels
-const hot = { least: 1000, most: 30000, n: 117 }; // range in kelvin, and number of entries, of the table of colours
+// glow round a body: width in units of the body's radius; minimum and maximum in pixels
+const halo = { wide: 5, least: 14, most: 90 };
+// table of colours: range of temperatures in kelvin, and number of entries
+const hot = { least: 1000, most: 30000, n: 117 };
 const style = name => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 
-// A colour, as "#rrggbb" or "rgb(r g b)", of this opacity.
+// Returns a colour ("#rrggbb" or "rgb(r g b)") with this opacity in percent.
 function weaker(colour, percent) {
   const byte = Math.round(2.55 * percent);
   return colour[0] === '#' ? colour + byte.toString(16).padStart(2, '0') : colour.replace(')', ` / ${percent}%)`);
@@ -35,9 +38,9 @@ export class Plane {
   scale = 4; // CSS pixels per M
   tilt = 0;
   accompanies = null; // { least, most }: limits of the reach while the view follows bodies and debris automatically
-  follows = null; // object that is kept in the middle: "all", "chosen", or null
+  follows = null; // object that is kept in the middle: "all" bodies, the "chosen" one, or null
   chosen = null; // id of the marked body
-  aim = null; // { from: [x, y, z], to: [x, y, z], text, path, captured, armed }
+  aim = null; // the aim, as the page draws it: { from: [x, y, z], to: [x, y, z], text, path, captured, armed }
   bodies = null;
   debris = null;
   names = new Map();
@@ -46,7 +49,7 @@ export class Plane {
   #canvas;
   #asked = false;
   #trails = new Map();
-  #index = new Map(); // row of each id
+  #index = new Map(); // row of each body, by its id
   #table = null;
   #colours;
   #labels = []; // places of names
@@ -88,7 +91,7 @@ export class Plane {
     return [this.cx + (px - w / 2) / this.scale, this.cy + (h / 2 - py) / (this.scale * Math.cos(this.tilt)), 0];
   }
 
-  // Shows `reach` M from the middle to the nearer edge.
+  // Sets the view so that the distance from the middle to the nearer edge is `reach`, in M.
   fit([x, y], reach) {
     const [w, h] = this.size;
     [this.cx, this.cy] = [x, y];
@@ -97,8 +100,8 @@ export class Plane {
     this.redraw();
   }
 
-  // The middle and the reach of a preset. For a snapshot: those of its bodies about the first body. If the middle is
-  // not the hole, the view follows the bodies.
+  // The middle and the reach of the view for a preset. For a snapshot, the middle is its first body, and the reach
+  // includes all bodies. If the middle is not the hole, the view follows the bodies.
   around(preset) {
     const all = this.all(),
       middle = preset?.centre ?? (!preset && all.length ? all[0].x : [0, 0, 0]);
@@ -117,8 +120,8 @@ export class Plane {
     this.redraw();
   }
 
-  // Shows all bodies and nine tenths of the debris, at a reach that changes slowly. The middle is the hole, or whatever
-  // is followed.
+  // Keeps all bodies and nine tenths of the debris visible, by changing the reach slowly. The middle is the hole, or
+  // the object that the view follows.
   accompany() {
     if (!this.accompanies) return;
     const { least, most } = this.accompanies,
@@ -145,7 +148,7 @@ export class Plane {
     this.#tell();
   }
 
-  // The middle, and the distance from it to the nearer edge, in M.
+  // Reports the middle, and the distance from it to the nearer edge, in M.
   #tell() {
     this.#canvas.dataset.middle = `${this.cx.toPrecision(4)} ${this.cy.toPrecision(4)}`;
     this.#canvas.dataset.reach = (Math.max(Math.min(...this.size), 50) / 2 / this.scale).toPrecision(4);
@@ -305,8 +308,8 @@ export class Plane {
     c.globalAlpha = 1;
   }
 
-  // A section of a trail by the positions and velocities at its ends (Hermite, as a Bezier curve). It is left out if
-  // the body has turned too far in between.
+  // Draws a section of a trail from the positions and velocities at its ends (Hermite, as a Bezier curve). The section
+  // is left out if the body's direction has turned too far in between.
   #stretch(c, before, now, on) {
     const there = this.project(now);
     if (!on) return c.moveTo(...there);
@@ -318,7 +321,7 @@ export class Plane {
     c.bezierCurveTo(...at(before, 1), ...at(now, -1), ...there);
   }
 
-  // Light round a body that shines.
+  // Draws the glow round a body that shines.
   #halo(c, x, y, size, colour) {
     const wide = Math.min(Math.max(halo.wide * size, halo.least), size + halo.most),
       light = c.createRadialGradient(x, y, 0.8 * size, x, y, wide);
@@ -358,7 +361,7 @@ export class Plane {
     const name = this.names.get(body.id) ?? '',
       wide = c.measureText(name).width,
       [left, low] = [x + size + 6, y + 4];
-    // A name that would overlap another one is left out, except that of the chosen body.
+    // a name that would overlap another one is left out, unless it is that of the chosen body
     if (
       body.id !== this.chosen &&
       this.#labels.some(one => Math.abs(one.low - low) < 13 && left < one.left + one.wide && one.left < left + wide)

@@ -1,4 +1,4 @@
-// A short text below each preset of the playground on what it shows.
+// For each preset of the playground, a short text that says what it shows.
 import { t } from '../../words/i18n.js';
 
 const words = {

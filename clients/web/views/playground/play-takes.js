@@ -2,7 +2,8 @@
 import { remembered } from '../../base/job.js';
 import { take } from '../../base/server.js';
 
-// part: see playground-parts.js; running: see running.js; act(task) shows the error of a task; begin(snapshot).
+// part: see playground-parts.js. running: see running.js. act(task) runs a task and shows its error. begin(snapshot)
+// starts a playground from a snapshot.
 export function buildTakes(part, running, act, begin) {
   for (const [button, what, name, type] of part.takes)
     button.addEventListener('click', () => act(() => take(running.address(what), name, type)));
@@ -25,6 +26,6 @@ export function buildTakes(part, running, act, begin) {
     const [file] = part.load.files;
     if (!file) return;
     await act(async () => begin({ rate: running.state?.rate, ...JSON.parse(await file.text()) }));
-    part.load.value = ''; // cleared, so that choosing the same file again is an event
+    part.load.value = ''; // cleared, so that choosing the same file again triggers an event
   });
 }

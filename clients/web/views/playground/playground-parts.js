@@ -2,7 +2,7 @@
 import { el } from '../../base/dom.js';
 import { number, preset as titled, t } from '../../words/i18n.js';
 
-// English names of the presets; locale/ has those of other languages.
+// English names of the presets. Files in locale/ have the names in other languages.
 const english = {
   disruption: 'Torn star',
   'white-dwarf': 'White dwarf',
@@ -23,7 +23,7 @@ const keys = () =>
     'Press where nothing is and drag: the arrow is the velocity, and letting go throws. Drag a body to throw it anew, touch it to choose it. Wheel or two fingers: nearer; Shift and drag, or two fingers: move the view. On a keyboard: arrows move the starting point, I and K lengthen and shorten the arrow, J and L turn it, Enter throws, N and P choose a body, Delete removes it, space stops time, the full stop makes a step, + − 0 and Shift with arrows move the view, Esc lets go.',
   );
 
-// The clock: time, and the rate that the server reaches.
+// The clock: the time, and the speed at which the server runs.
 function clock(node) {
   return tick => {
     const { rate, rate_reached: reached, slowed, paused, resting } = tick,

@@ -1,4 +1,5 @@
-// The playground: bodies thrown round the hole, computed by the server, shown from above and as light shows them.
+// The playground: bodies are thrown round the hole, and the server computes their motion. The page shows them from
+// above, and as they appear with light bending.
 import { persistent } from '../../base/again.js';
 import { chirp } from './chirp.js';
 import { course } from './course.js';
@@ -21,9 +22,11 @@ import { scale } from '../../base/slider.js';
 import { thrown } from './thrown.js';
 
 const paces = { minimum: 0.1, maximum: 1e6, unit: 'M per second', default: 100 };
-const arrow_px = 90; // length of an arrow of the reference speed, as in hands.js
-const torn = ['white-dwarf', 'disruption']; // the view follows the star and its debris
-const first = 'white-dwarf'; // something happens at once: it is torn apart within three seconds
+const arrow_px = 90; // length in pixels of the arrow for the reference speed, as in hands.js
+// presets whose star is torn apart; the view follows the star and its debris
+const torn = ['white-dwarf', 'disruption'];
+// the first preset, because it shows something soon: the star is torn apart within three seconds
+const first = 'white-dwarf';
 const roomy = matchMedia('(min-width: 75rem)'); // matches a window that is wide enough for both pictures
 
 const styled = () =>
@@ -38,10 +41,10 @@ const styled = () =>
     ),
   );
 
-// What is shown: the plane, the picture, or both. Returns show(name), show.usual() and show.now().
+// The choice of view: the plane, the lensed picture, or both. Returns show(name), show.usual() and show.now().
 function buildViews(part, plane, picture) {
   const views = { plan: [true, false], lensed: [false, true], both: [true, true] };
-  // By default the plan is shown and, for the planets in a wide window, the lensed view too.
+  // By default only the plane is shown. In a wide window, the preset with planets also shows the lensed view.
   const usual = () => (part.preset.value === 'system' && roomy.matches ? 'both' : 'plan');
   function show(name) {
     const [plan, light] = views[name] ?? views.plan;
@@ -60,7 +63,7 @@ function buildViews(part, plane, picture) {
   });
 }
 
-// The rate of time, as a slider and as a number. Returns the slider's scale.
+// The rate of time, as a slider and as a number. Returns the scale of the slider.
 function buildPace(part, patch, now) {
   const pace = scale(paces),
     setRate = latest(async rate => {
@@ -84,13 +87,13 @@ function wire(part, plane, clicks) {
   part.middle.addEventListener('change', () => (plane.follows = part.middle.value || null));
 }
 
-// Whether two aims are the same. Aims cannot be compared as objects: aiming makes new arrays, and an existing body that
-// is thrown moves by itself.
+// True if two aims are the same. The objects cannot be compared directly, because aiming makes new arrays, and an
+// existing body that is thrown moves by itself.
 const same = (a, b) => a?.velocity === b.velocity && a.body === b.body && (b.body != null || a.from === b.from);
 
 export async function openPlayground() {
   const known = await getJson('v1/playground');
-  await styled(); // first, because fitting the view needs the sizes of its elements
+  await styled(); // waits for the style sheet, because fitting the view needs the sizes of its elements
   const root = byId('playground'),
     part = parts(root, known),
     plane = (sheet(byId('play-panel')), new Plane(part.canvas)),
@@ -102,12 +105,12 @@ export async function openPlayground() {
     picture = lensed(part.lensed, running);
   const now = {
     chosen: null, // the body
-    awaited: false, // the server has the chosen body, but no picture shows it yet
-    hurries: null, // a rate that the server has not answered yet
-    given: null, // snapshot that was loaded
+    awaited: false, // true if the server has the chosen body, but no picture shows it yet
+    hurries: null, // a rate that was sent but not answered yet, or null
+    given: null, // the snapshot that was loaded, or null
   };
-  let flying = null, // a throw that the server has not answered yet
-    halts = null; // { paused } that the server has not answered yet
+  let flying = null, // a throw that was sent but not answered yet, or null
+    halts = null; // { paused }: a change that was sent but not answered yet, or null
 
   const preset = () => known.presets.find(({ name }) => name === part.preset.value);
   const act = async task => {
@@ -121,7 +124,7 @@ export async function openPlayground() {
   };
   const patch = change => act(() => running.change(change));
 
-  // Draws the aim and its prediction.
+  // Draws the aim and the predicted path.
   const { speed, foretell } = foretold(
     running,
     plane,
@@ -147,7 +150,7 @@ export async function openPlayground() {
   async function release() {
     const mine = { ...hand.aims },
       { from, velocity, body } = mine;
-    if (same(flying, mine)) return; // already sent, and not answered yet
+    if (same(flying, mine)) return; // the same throw was already sent and is not answered yet
     flying = mine;
     const fields = form.fields(),
       v = velocity.map(x => Number(x.toPrecision(9)));
@@ -160,7 +163,7 @@ export async function openPlayground() {
     if (same(hand.aims, mine)) {
       hand.aim({ armed: false, body: null });
       choose(id ?? null);
-    } // if the aim differs, the user has aimed again meanwhile
+    } // if the aim is not the same, the user has aimed again in the meantime
     const name = plane.names.get(id) ?? '';
     say(t('playground.goes-at-c', '{0} goes at {1} c.', name, number(Math.hypot(...v), 3)));
   }
@@ -184,7 +187,7 @@ export async function openPlayground() {
     await patch(mine);
     if (halts === mine) halts = null;
   }
-  // One step at a time, and at most one more waits, because a key that is held down repeats.
+  // Only one step runs at a time, and at most one more waits, because a key that is held down repeats.
   const step = latest(async () => {
     if (!paused()) return;
     const rate = part.rate.validity.valid ? part.rate.valueAsNumber : running.state.rate;
@@ -219,7 +222,7 @@ export async function openPlayground() {
       paused = link.get('play.paused') === '1';
     return running.begin(now.given ?? { preset: part.preset.value, ...hole, ...(rate > 0 ? { rate } : {}), paused });
   });
-  let hole = {}; // gravity, spin and charge, if the user has chosen them
+  let hole = {}; // gravity, spin and charge, if the user has set them
   const showRules = rules(
     part.rules,
     known.settings,

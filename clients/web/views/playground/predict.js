@@ -1,25 +1,25 @@
-// Predicts the path of a thrown body. In the Paczyński–Wiita potential the page integrates it with the server's law and
-// steps (playground/step.c): kick, drift, kick, h <= C (r - 2), softened forces between bodies, speeds limited to c. It
-// leaves out waves, tides, mergers and the forces of light bodies. With gravity "kerr" the server computes the path
-// (POST /v1/orbits).
+// Predicts the path of a thrown body. In the Paczyński–Wiita potential the page integrates the path with the server's
+// law and steps (playground/step.c): kick, drift, kick; h <= C (r - 2); softened forces between bodies; speeds limited
+// to c. It leaves out waves, tides, mergers and the forces of light bodies. With gravity "kerr" the server computes the
+// path (POST /v1/orbits).
 import { postJson } from '../../base/server.js';
 
-const light = 1e-5, // masses of the hole
+const light = 1e-5, // limit of mass, in units of the hole's mass, below which a body exerts no force here
   several = 16,
-  pairs = 1e6, // limit of the pairs of bodies in a prediction, because each pair takes time
+  pairs = 1e6, // limit of the number of pairs of bodies in a prediction, because each pair takes time
   clearance = 1.25,
   captured = 2.05;
 
 const radius = x => Math.hypot(x[0], x[1], x[2]);
 
-// The bodies whose forces are included.
+// The bodies whose forces the prediction includes.
 export const heavy = bodies =>
   bodies
     .filter(({ mass }) => mass >= light)
     .sort((a, b) => b.mass - a.mass)
     .slice(0, several);
 
-// The reference speed at a place: that of a circle round the hole and the bodies near it.
+// The reference speed at a place: the speed of a circular orbit round the hole and the bodies near it.
 export function reference(place, bodies, softening) {
   const r = Math.max(radius(place), 2.5);
   let square = r / (r - 2) ** 2;
@@ -28,8 +28,8 @@ export function reference(place, bodies, softening) {
   return Math.min(Math.sqrt(square), 0.9);
 }
 
-// a: accelerations at x, 3 numbers for each body. Returns the fastest rate of change, which together with C gives the
-// step.
+// a: accelerations at the positions x, 3 numbers for each body. Returns the fastest rate of change, from which C gives
+// the step.
 function pulls(x, mass, n, softening, a) {
   let fastest = 0;
   for (let i = 0; i < 3 * n; i += 3) {
@@ -62,8 +62,8 @@ function kick(v, a, n, time) {
   }
 }
 
-// thrown: { x, v, mass }; bodies: all others. Returns { points, captured }, for up to one and a half turns or to a
-// distance `far` from the hole.
+// thrown: { x, v, mass } of the thrown body. bodies: all other bodies. Returns { points, captured }. The path ends
+// after one and a half turns, or at the distance `far` from the hole.
 export function predict(thrown, bodies, { softening, safety, h_max }, far) {
   const all = [thrown, ...heavy(bodies)],
     x = Float64Array.from(all.flatMap(body => body.x)),
@@ -73,7 +73,7 @@ export function predict(thrown, bodies, { softening, safety, h_max }, far) {
     r = radius(thrown.x),
     end = 3 * Math.PI * Math.sqrt(r) * Math.abs(r - 2),
     points = [[...thrown.x]],
-    apart = r / 300; // least distance between two points
+    apart = r / 300; // minimum distance between two points of the path
   if (r <= captured) return { points, captured: true };
   let n = all.length,
     t = 0,
@@ -107,7 +107,7 @@ export function predict(thrown, bodies, { softening, safety, h_max }, far) {
   return { points, captured: false };
 }
 
-// The predicted path as the server computes it: a test body on a geodesic.
+// Returns the predicted path from the server: the geodesic of a test body.
 export async function ask_kerr({ x, v }, spin, far) {
   const r = radius(x),
     theta = Math.acos(x[2] / r),

@@ -1,4 +1,4 @@
-// The settings of a playground: a control for each setting that the server lists. The common ones come first.
+// The settings of a playground: one control for each setting that the server lists. The common settings come first.
 import { badge } from '../../controls/badge.js';
 import { el, typing } from '../../base/dom.js';
 import { helpOf, t, word } from '../../words/i18n.js';
@@ -27,7 +27,7 @@ const names = {
   seed: t('rules.seed', 'Seed'),
 };
 
-// All other settings are parameters of a model.
+// All settings that are not listed here are parameters of a model.
 const natures = { spin: 'physics', charge: 'physics', h_max: 'physics', safety: 'physics', budget: 'physics' };
 
 function control(row, id, changed) {
@@ -88,8 +88,8 @@ function control(row, id, changed) {
   };
 }
 
-// rows: settings of GET /v1/playground. changed(name, value): called after a change. anew(name, value): called for
-// settings that need a new playground.
+// rows: settings from GET /v1/playground. changed(name, value) is called after a change. anew(name, value) is called
+// instead if the setting needs a new playground.
 export function rules(root, rows, changed, anew) {
   const made = new Map(
       rows.map(row => [row.name, control(row, 'play-' + row.name, fixed.includes(row.name) ? anew : changed)]),

@@ -1,19 +1,19 @@
-// A playground on the server: sends changes, and follows its state. Positions of bodies are requested in binary form
-// for each drawing; events come by a stream. If the server has ended the playground, because it stopped or nobody
-// watched, it is started again.
+// A playground on the server: sends changes to it, and follows its state. Positions of bodies are requested in binary
+// form for each drawing. Events come as a stream. If the server has ended the playground, because it stopped or nobody
+// watched, this module starts it again.
 import { again_ms } from '../../base/again.js';
 import { seen } from '../../base/dom.js';
 import { t } from '../../words/i18n.js';
 import { ask, passes } from '../../base/server.js';
 
 const view = 'playground';
-const pieces = 12000; // limit of pieces: more would not fit the pixels of a window
+const pieces = 12000; // maximum number of pieces of debris in an answer; a window has too few pixels for more
 const debris_ms = 120; // time between two requests for debris
 const names_ms = 400;
 const pause = ms => new Promise(resolve => setTimeout(resolve, ms));
 const seenNow = () => !document.hidden && document.body.dataset.view === view;
 
-// Rows of 32-bit numbers after a header of eight words, little-endian.
+// Parses the binary form: a header of eight words, followed by rows of 32-bit numbers, little-endian.
 function unpack(buffer) {
   const head = new DataView(buffer);
   return {
@@ -27,20 +27,20 @@ function unpack(buffer) {
   };
 }
 
-// Events: begun (state), state, moved (bodies), debris, tick, happened (event), lost (numbers of events), ended
-// (sentence), fault (error or null).
+// Events, with their details in brackets: begun (state), state, moved (bodies), debris, tick, happened (event), lost
+// (numbers of events), ended (sentence), fault (error or null).
 export class Running extends EventTarget {
   #session = null;
   #document = {};
-  // snapshot from the time when the page was hidden, because the server ends a playground that nobody watches
+  // snapshot that was taken when the page was hidden, because the server ends a playground that nobody watches
   #kept = null;
   #polls = new AbortController();
   #events = null;
-  #last = 0; // number of the newest event received
+  #last = 0; // number of the newest event that was received
   #named = 0;
   #tries = 0;
-  // The newest change. Each change is sent after the answer to the change before, so that changes cannot overtake each
-  // other.
+  // A promise that resolves when the newest change is answered. The next change is sent only then, so that changes
+  // cannot overtake each other.
   #turn = Promise.resolve();
 
   state = null;
@@ -93,7 +93,7 @@ export class Running extends EventTarget {
     this.#events = null;
   }
 
-  // given: a document as docs/playground.md describes it. Throws the server's refusal.
+  // given: a document as in docs/playground.md. Throws the server's error message if the document is refused.
   async begin(given) {
     const answer = await ask('v1/playground', {
         method: 'POST',
@@ -125,7 +125,7 @@ export class Running extends EventTarget {
     return this.#session && `${this.#session.url}/${part}`;
   }
 
-  // Requests the state, with names, when bodies have come or gone.
+  // Requests the state, which has the names of the bodies, after bodies have come or gone.
   async #name(session) {
     if (performance.now() < this.#named) return;
     this.#named = performance.now() + names_ms;
@@ -157,7 +157,7 @@ export class Running extends EventTarget {
     return session === this.#session ? this.#take(state) : null;
   }
 
-  // Number of unanswered changes.
+  // Number of changes that the server has not answered yet.
   waits() {
     return this.#session?.waits ?? 0;
   }
@@ -170,8 +170,8 @@ export class Running extends EventTarget {
     return this.#inTurn(this.#session, 'POST', '/step', { by });
   }
 
-  // Starts again after the server has ended the playground: from the snapshot if there is one, otherwise from the same
-  // document.
+  // Starts the playground again after the server has ended it: from the snapshot if there is one, otherwise from the
+  // original document.
   async #anew() {
     const { document: kept } = this.#kept ?? {};
     this.#hush();
@@ -248,6 +248,7 @@ export class Running extends EventTarget {
       this.#tell('happened', happened);
     });
     events.addEventListener('lost', message => this.#tell('lost', told(message)));
-    events.addEventListener('end', () => events.close()); // the next request for bodies then learns that it has ended
+    // the next request for bodies then gets the error that the playground has ended
+    events.addEventListener('end', () => events.close());
   }
 }

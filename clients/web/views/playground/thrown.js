@@ -1,4 +1,4 @@
-// The fields of a body: of one to be thrown, or of an existing one. Setting them does the same as dragging the body.
+// The fields of a body, either a body to be thrown or an existing one. They do the same as dragging the body.
 import { badge } from '../../controls/badge.js';
 import { el, typing } from '../../base/dom.js';
 import { helpOf, number, t } from '../../words/i18n.js';
@@ -14,8 +14,9 @@ const usual = { mass: 1e-6, radius: 0.3, temperature_k: 6000 };
 const axes = ['x', 'y', 'z'];
 const listed = 500;
 
-// rows: body fields of GET /v1/playground. told: { aim(change), release(), choose(id), change(id, fields), remove() }.
-// Returns { bodies(list), choose(body or null), aims(aims, reference), fields() }.
+// rows: fields of a body from GET /v1/playground. told: { aim(change), release(), choose(id), change(id, fields),
+// remove() }, functions that the form calls. Returns { bodies(list), choose(body or null), aims(aims, reference),
+// fields() }.
 export function thrown(root, rows, told) {
   let chosen = null;
   const which = el('select', {

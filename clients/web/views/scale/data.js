@@ -1,13 +1,13 @@
-// The measurements of M87* by the Event Horizon Telescope on 5 April 2017 beside the model: amplitudes and closure
-// phases by the length of the baseline. The server compares the two (POST /v1/compare) and computes the model's curves
-// (POST /v1/visibility), both of one map.
+// The measurements of M87* by the Event Horizon Telescope on 5 April 2017, beside the model: amplitudes and closure
+// phases over the length of the baseline. The server compares data and model (POST /v1/compare) and computes the
+// model's curves (POST /v1/visibility), both from one map.
 import { persistent } from '../../base/again.js';
 import { el } from '../../base/dom.js';
 import { number, t } from '../../words/i18n.js';
 import { plot } from '../../base/plot.js';
 import { postJson } from '../../base/server.js';
 
-const observation = 'm87-2017-04-05-lo', // the server has it (data/eht)
+const observation = 'm87-2017-04-05-lo', // name of the observation, which the server has (data/eht)
   longest_gl = 9,
   steps = 24,
   average_s = 600,
@@ -24,7 +24,7 @@ const grid = Array.from({ length: steps }, (_, i) => ((i + 1) * longest_gl) / st
 const among = (columns, product) => columns.product.map((_, i) => i).filter(i => columns.product[i] === product);
 const stations = (columns, i, n) => Array.from({ length: n }, (_, k) => columns['station_' + (k + 1)][i]);
 
-// The baseline [u, v] in Gλ of each pair of stations, in both directions, by its hour.
+// The baseline [u, v] in Gλ of each pair of stations, in both directions, with the hour as part of the key.
 function baselines(columns) {
   const found = new Map();
   for (const i of among(columns, 'amplitude')) {
@@ -36,7 +36,8 @@ function baselines(columns) {
   return found;
 }
 
-// The closure phases: index of the row, stations, sides 1–2, 2–3 and 3–1, and the length of the longest of these.
+// The closure phases. Each has the index of its row, its stations, the baselines 1–2, 2–3 and 3–1, and the length of
+// the longest of these.
 function triangles(columns) {
   const known = baselines(columns);
   return among(columns, 'closure_phase')
@@ -54,7 +55,7 @@ function triangles(columns) {
     .sort((a, b) => a.length - b.length);
 }
 
-// Picks the shapes of triangles with the most data. For each shape, returns a triangle of middle size.
+// Selects the triangles of stations with the most data. For each, returns the triangle of its middle row.
 function shapes(all) {
   const by = {};
   for (const one of all) (by[one.corners] ??= []).push(one);
@@ -64,12 +65,12 @@ function shapes(all) {
     .map(same => same[same.length >> 1]);
 }
 
-// A curve of angles has a gap where it goes past 180 degrees.
+// A curve of angles gets a gap where it passes 180 degrees.
 const gapped = degrees => degrees.map((y, i) => (Math.abs(y - degrees[i - 1]) > 180 ? NaN : y));
 const turn = degrees => degrees - 360 * Math.round(degrees / 360);
 
-// The model's curves: amplitudes along both directions, and the closure phases of triangles of all sizes with these
-// shapes. flux: of the compared model. The phases of /v1/visibility have the other sign.
+// The model's curves: amplitudes along both directions, and closure phases of triangles with these shapes, for all
+// sizes. flux: flux of the model that was compared. The phases of /v1/visibility have the opposite sign.
 async function curves(document, formed, flux) {
   const ends = [
       ...directions.map(d => [d]),
@@ -79,7 +80,7 @@ async function curves(document, formed, flux) {
     { columns, values } = await postJson('v1/visibility', {
       ...document,
       ...map,
-      digits: 3, // number of digits for curves; the request for the measurements has more digits
+      digits: 3, // three digits are enough for curves; the measurements are requested with more
       u: at.map(([u]) => u),
       v: at.map(([, v]) => v),
     }),
@@ -93,7 +94,7 @@ async function curves(document, formed, flux) {
   );
 }
 
-// The measurements and the model. rows: index and length of each, by length.
+// Points of the measurements and of the model. rows: index and length of each, sorted by length.
 function dots(columns, rows) {
   const x = rows.map(({ length }) => length),
     of = name => rows.map(({ i }) => columns[name][i]);
@@ -104,8 +105,8 @@ function dots(columns, rows) {
 }
 const line = (name, y) => ({ name, x: grid, y });
 
-// Returns show(what), which draws both charts. what: the parts of a request that name a scene; null hides the charts.
-// view: the name of the view that has the charts.
+// Returns show(what), which draws both charts. what: the members of a request that name a scene; null hides the charts.
+// view: the name of the view that contains the charts.
 export function measurements(root, page) {
   const amplitudes = plot(),
     phases = plot(),
@@ -124,7 +125,7 @@ export function measurements(root, page) {
         ...document,
         ...map,
         observation,
-        pulse: 'point', // same shape of a pixel as in /v1/visibility
+        pulse: 'point', // the shape of a pixel that /v1/visibility uses as well
         average_s,
         products: ['amplitude', 'closure_phase'],
         systematic: { amplitude: 0.01, closure_phase_deg: 2 },

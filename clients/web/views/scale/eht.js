@@ -1,6 +1,6 @@
-// M87* and Sgr A* beside the measurements of the Event Horizon Telescope, at one scale on the sky. There are three
-// stages: the rendered picture, the same picture through the telescope's beam, and the measured ring with its error. A
-// slider blends from one to the next.
+// Compares M87* and Sgr A* with the measurements of the Event Horizon Telescope, at one scale on the sky. There are
+// three stages: the rendered picture, the same picture through the telescope's beam, and the measured ring with its
+// error. A slider blends from one stage to the next.
 import { byId, el, svg } from '../../base/dom.js';
 import { persistent } from '../../base/again.js';
 import { number, t } from '../../words/i18n.js';
@@ -9,36 +9,36 @@ import { ask, keptJson, physics } from '../../base/server.js';
 import { measurements } from './data.js';
 import { ringOf } from './ring.js';
 
-const across_uas = 150; // width of each panel on the sky, so that both have the same scale
-const alone_m = 36; // width in M of a hole without a measured ring
+const across_uas = 150; // width on the sky of the panels of measured holes, so that both have the same scale
+const alone_m = 36; // width in M of the panel of a hole without a measured ring
 const most_px = 720;
 const key = 'scale.beside';
 
 const names = { m87: 'M87*', sgra: 'Sgr A*', none: '' };
 
-// The view of each hole, from the server's preset of the same name: inclination, orientation on the sky, and the beam
-// (full width at half maximum). Without a measured ring it is a thin disk.
+// The view of each hole. Inclination, orientation on the sky, and beam (full width at half maximum) come from the
+// server's preset of the same name. A hole without a measured ring gets a thin disk.
 export async function seen(hole) {
   if (hole === 'none') return { inclination: 60, roll: 0 };
   const { camera, style } = await keptJson('v1/presets/' + hole);
   return { inclination: camera.inclination_deg, roll: camera.roll_deg, beam_uas: style.beam_uas };
 }
 
-// Text for each stop of the slider: 0, 1 and 2.
+// The text for each of the three stops of the slider, 0, 1 and 2.
 export const stops = beam_uas => [
   t('eht.our-picture', 'our picture'),
   t('eht.through-a-beam-of', 'through a beam of {0} µas', number(beam_uas)),
   t('eht.the-ring-as-measured', 'the ring as measured'),
 ];
 
-// The panel of one hole: two pictures on top of each other, and lines over both.
+// The panel of one hole: two pictures on top of each other, and lines over them.
 function panel(hole) {
   const stack = el('div', { class: 'sky-stack', role: 'img', 'aria-label': names[hole] }),
     pictures = ['sharp', 'beam'].map(kind => el('img', { class: kind, alt: '', draggable: false, hidden: true })),
     lines = svg('svg', { class: 'sky-lines', 'aria-hidden': 'true' }),
     words = el('p', { class: 'help' }),
-    side = 75, // pixels of the picture in which the ring is measured
-    /* with this factor there are as many rays at the critical curve as in a picture without a beam */
+    side = 75, // width and height, in pixels, of the picture in which the ring is measured
+    /* with this factor, the critical curve gets as many rays as in a picture without a beam */
     sharp = { 'style.beam_uas': 0, 'image.critical_factor': 4 };
   let facts = '',
     fitted = '';
@@ -50,7 +50,7 @@ function panel(hole) {
     stack,
     words,
   );
-  const shown = []; // the addresses from which the pictures were loaded
+  const shown = []; // the address from which each picture was loaded
 
   const scene = look => ({
     'spacetime.spin': look.spin,
@@ -92,7 +92,7 @@ function panel(hole) {
     URL.revokeObjectURL(old);
   }
 
-  // The ring of the picture through the beam.
+  // Measures the ring in the picture seen through the beam.
   async function measure(look) {
     const address =
         'v1/render?' +
@@ -104,7 +104,7 @@ function panel(hole) {
           'image.layers': 'intensity',
         }),
       answer = await (await ask(address, { headers: { Accept: 'application/x-npy' } })).arrayBuffer(),
-      // numbers behind the header of an NPY file
+      // the numbers follow the header of an NPY file
       light = new Float32Array(answer.slice(answer.byteLength - 4 * side * side)),
       { diameter, spread } = ringOf(light, side, across_uas / side, look.beam_uas);
     fitted = t(
@@ -117,7 +117,7 @@ function panel(hole) {
     tell();
   }
 
-  // Lengths are in microarcseconds, or in M where they are too small for that.
+  // Draws lengths in microarcseconds, or in M if they would be too small in microarcseconds.
   function draw(look, edge, v) {
     const [c, s] = [Math.cos, Math.sin].map(of => of((look.roll * Math.PI) / 180)),
       points = edge.alpha.map((a, i) => [
@@ -131,7 +131,7 @@ function panel(hole) {
         .filter(x => x < half * 0.75)
         .sort((a, b) => a - b)
         .at(-1),
-      // drawn round the middle, because its place was not measured
+      // drawn round the middle, because the ring's position was not measured
       ring = { cx: middle[0], cy: middle[1], r: v.ring_uas / 2 },
       text = (12 * look.width) / (stack.clientWidth || 360); // 12 pixels
     lines.setAttribute('viewBox', `${-half} ${-half} ${look.width} ${look.width}`);
@@ -188,8 +188,8 @@ function panel(hole) {
 
   return {
     node,
-    // v: values of the quantity `scale`. Draws the lines. Returns { tasks, scene }: functions that load the pictures
-    // and measure the ring, and a document with the fields that differ from the preset.
+    // v: values of the quantity `scale`. Draws the lines. Returns { tasks, scene }. tasks: functions that load the
+    // pictures and measure the ring. scene: a document with the fields that differ from the preset.
     async show(spin, inclination, v) {
       const edge = (await physics('shadow', { spin, inclination_deg: inclination, angle_deg: '0:357:120', digits: 4 }))
           .values,
@@ -218,7 +218,7 @@ function panel(hole) {
   };
 }
 
-// The slider: 0 is the rendered picture, 1 the picture through the beam, 2 the ring.
+// The slider: 0 is the rendered picture, 1 the picture through the beam, and 2 the measured ring.
 async function slide(root) {
   const texts = stops((await seen('m87')).beam_uas),
     slider = el('input', {
@@ -237,7 +237,7 @@ async function slide(root) {
     const at = slider.valueAsNumber,
       beam = Math.min(at, 1),
       ring = Math.max(at - 1, 0);
-    // the sharp picture is hidden, because it would shine through the dimmed pictures
+    // the sharp picture is hidden when the other one is opaque; otherwise it would shine through when that is dimmed
     root.style.setProperty('--sharp', beam < 1 ? 1 : 0);
     root.style.setProperty('--beam', beam);
     root.style.setProperty('--ring', ring);
@@ -251,7 +251,8 @@ async function slide(root) {
   return el('div', { class: 'beside' }, slider, el('p', { class: 'row' }, marks));
 }
 
-// Returns show(hole, spin, inclination, values), which shows the chosen hole and, beside it, the other measured one.
+// Returns show(hole, spin, inclination, values), which shows the chosen hole and, beside it, the other hole with a
+// measured ring.
 export async function beside(root) {
   const control = await slide(root),
     panels = Object.fromEntries(Object.keys(names).map(hole => [hole, panel(hole)])),
@@ -290,7 +291,7 @@ export async function beside(root) {
       scenes[other] = second.scene;
     }
     scenes[hole] = shown.scene;
-    paint(pictures); // the numbers need not wait for the pictures
+    paint(pictures); // not awaited, because the numbers are shown before the pictures
     compare(scenes.m87 && { preset: 'm87', scene: scenes.m87 });
   };
 }

@@ -1,12 +1,14 @@
-// The diameter of a ring in a picture through a beam, as in EHT Collaboration 2019, ApJL 875, L4, section 9. It follows
-// from the radii of largest brightness at 48 angles, about the centre for which these radii spread least.
+// The diameter of a ring in a picture seen through a beam, as in EHT Collaboration 2019, ApJL 875, L4, section 9. At
+// each of 48 angles, the radius of maximum brightness is found. The centre is the point about which these radii vary
+// least.
 const angles = 48,
-  fwhm = 2 * Math.sqrt(2 * Math.log(2)), // width at half height over the standard deviation
+  // ratio of the full width at half maximum to the standard deviation of a Gaussian
+  fwhm = 2 * Math.sqrt(2 * Math.log(2)),
   least_uas = 5,
   most_uas = 48,
   step_uas = 0.25;
 
-// A Gaussian, cut at 4 standard deviations, along each row and then along each column.
+// Blurs by a Gaussian, cut off at 4 standard deviations: first along each row, then along each column.
 function blurred(light, side, sigma) {
   const reach = Math.ceil(4 * sigma),
     weights = Array.from({ length: 2 * reach + 1 }, (_, k) => Math.exp(-((k - reach) ** 2) / (2 * sigma ** 2))),
@@ -29,7 +31,8 @@ function blurred(light, side, sigma) {
   return from;
 }
 
-// light: side × side numbers. Returns { diameter, spread } in µas; spread: the standard deviation of the diameters.
+// light: side × side numbers. Returns { diameter, spread } in µas. spread: standard deviation of the diameters at the
+// angles.
 export function ringOf(light, side, pixel_uas, beam_uas) {
   const seen = blurred(light, side, beam_uas / fwhm / pixel_uas),
     middle = (side - 1) / 2,

@@ -1,5 +1,5 @@
-// The scales of a hole in kilometres, seconds and microarcseconds, beside the measurements of the Event Horizon
-// Telescope.
+// The scales of a hole in kilometres, seconds and microarcseconds, and their comparison with the measurements of the
+// Event Horizon Telescope.
 import { persistent } from '../../base/again.js';
 import { entitle } from '../../words/describe.js';
 import { byId, el } from '../../base/dom.js';
@@ -78,7 +78,7 @@ const shown = [
   ['fall_longest_s', t('scale.the-longest-there-is', 'the longest there is, a = 0')],
 ];
 
-// The title: it names the hole, or states mass and distance.
+// The title names the hole, or states its mass and distance.
 const name = (hole, v) =>
   entitle('scale', hole === 'none' ? `${number(v.mass)} M☉, ${number(v.distance)} pc` : specs[0].words[hole]);
 

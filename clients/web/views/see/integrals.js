@@ -1,5 +1,5 @@
-// Integrals over a picture of the scene as plots: a line profile, a spectrum, visibilities by baseline. The server
-// computes one when it is chosen, and again when the scene has changed and come to rest.
+// Plots of integrals over a picture of the scene: a line profile, a spectrum, visibilities over baseline. The server
+// computes an integral when it is chosen, and again when the scene has changed and come to rest.
 import { falloff } from '../physics/axes.js';
 import { persistent } from '../../base/again.js';
 import { el } from '../../base/dom.js';
@@ -9,8 +9,8 @@ import { meansSomething } from '../../controls/known.js';
 import { plot } from '../../base/plot.js';
 import { holeOf, postJson } from '../../base/server.js';
 
-const rest_ms = 400; // time since the last change, for example of a drag
-const floor = 1e-5; // share of the largest value below which nothing is drawn
+const rest_ms = 400; // an integral is requested when nothing has changed for this time, so not during a drag
+const floor = 1e-5; // values below this share of the largest value are not drawn
 
 const isRadio = scene =>
   scene.get('volume.model') !== 'none' &&
@@ -28,7 +28,7 @@ function disk(scene) {
   };
 }
 
-// A note that the plot is for a thin disk, if the scene shows something else.
+// A note that the plot is for a thin disk; it is shown if the scene contains something else.
 const elsewhere = scene =>
   (scene.get('disk.model') === 'none'
     ? t('integrals.the-scene-has-no', ' The scene has no disk, so this is computed for a disk that could be there.')
@@ -133,7 +133,8 @@ const kinds = {
       times: 200,
     }),
     show: ({ values, columns }, scene) => {
-      // The first half of the rows is for light that is redder than the gas emits it, the second half for bluer light.
+      // The first half of the rows is for light whose energy is below that of its emission (redshifted), the second
+      // half for light above it (blueshifted).
       const times = columns.share.length / 2,
         wide = columns.time_high[0] - columns.time_low[0],
         x = columns.time_low.slice(0, times).map(low => low + wide / 2),
@@ -247,7 +248,8 @@ const kinds = {
       ...given,
     }),
     show: ({ values, columns, units }) => {
-      const turned = Math.round(columns.length_gl.length / 2), // index of the first row of the second angle
+      // index of the first row of the second direction of baselines
+      const turned = Math.round(columns.length_gl.length / 2),
         part = (second, order) =>
           columns.amplitude
             .map((y, i) => ({ x: columns.length_gl[i], y, is: columns.order[i] === order && i >= turned === second }))
@@ -287,7 +289,7 @@ const kinds = {
   },
 };
 
-// root: the element for the plot. Returns choose(kind); '' is none.
+// root: the element for the plot. Returns choose(kind); kind '' shows no plot.
 export function buildIntegrals(root, scene) {
   const inputs = el('form', { class: 'inputs' }),
     fault = el('p', { class: 'fault', role: 'status' }),
@@ -295,8 +297,8 @@ export function buildIntegrals(root, scene) {
   const folded = root.closest('details');
   let kind = '',
     form = null,
-    data = null, // charts of the data of M87*
-    late = false, // the scene has changed while the view was hidden
+    data = null, // charts with the data of M87*
+    late = false, // true if the scene has changed while the view was hidden
     timer = 0;
   inputs.addEventListener('submit', event => event.preventDefault());
   figure.hidden = true;

@@ -1,19 +1,20 @@
-// "Look around": five things to see on a black hole. Each has its own view, a ring round its place in the picture, and
-// a few sentences. At the end the view from before is restored.
+// "Look around": a tour of five things to see at a black hole. Each has its own view, a ring round its place in the
+// picture, and a few sentences. At the end the view from before the tour is restored.
 import { byId, el, latest, still } from '../../base/dom.js';
 import { t } from '../../words/i18n.js';
 import { startAgain } from '../../controls/presets.js';
 import { holeOf, physics } from '../../base/server.js';
 
 const flight_ms = 1400;
-const least_ms = 60; // time between two steps of a flight
+const least_ms = 60; // minimum time between two steps of a flight
 
-// Places: for the critical curve, an angle counted from the right through the top; for a ring of gas, its radius and
-// its azimuth minus the observer's, where 180 is behind the hole and at 270 the gas approaches.
+// Two kinds of places. On the critical curve: an angle that is 0 at the right and grows through the top. On a ring of
+// gas: its radius, and its azimuth minus that of the observer. At 180 degrees the gas is behind the hole, and at 270
+// degrees it approaches.
 const edge = angle_deg => ['shadow', { angle_deg }];
 const gas = (r, phi_deg) => ['redshift', { r, phi_deg }];
 
-// Name, values of the view, overlays, text, place. Numbers of the view are animated.
+// Each stop has a name, values of the view, overlays, a text and a place. Numbers of the view are animated.
 const stops = [
   [
     t('tour.the-shadow', 'The shadow'),
@@ -82,7 +83,7 @@ export function buildTour(stage, scene) {
   const ring = el('div', { id: 'tour-ring', 'aria-hidden': 'true', hidden: true });
   stage.append(ring);
   let here = 0,
-    before = null, // the scene and its overlays before the tour
+    before = null, // the scene and its overlays as they were before the tour
     flight = 0;
 
   const lines = () => [...document.querySelectorAll('#overlays input:checked')].map(input => input.id.slice(5));
@@ -91,7 +92,8 @@ export function buildTour(stage, scene) {
       if (input.checked !== wanted.includes(input.id.slice(5))) input.click();
   }
 
-  // Animates the numbers of a view, lengths by constant factors; the rest of the view changes at once.
+  // Flies to a view: its numbers change step by step (lengths by constant factors), and all other values change at
+  // once.
   function fly(view) {
     const now = ++flight,
       ways = Object.entries(view).map(([path, to]) => ({
@@ -120,8 +122,8 @@ export function buildTour(stage, scene) {
     step();
   }
 
-  // Puts the ring round the pixel that the text is about. This needs the image plane, which only an observer at
-  // infinity has.
+  // Draws the ring round the pixel that the text describes. This needs coordinates in the image plane, which exist only
+  // for an observer at infinity.
   const point = latest(async () => {
     const now = flight,
       [name, place] = stops[here][4],
@@ -164,7 +166,7 @@ export function buildTour(stage, scene) {
   async function begin() {
     if (before) return;
     before = { document: scene.document({}, true), held: scene.held, lines: lines() };
-    // The tour begins at the camera's place, if the camera is at infinity.
+    // The tour starts from the camera's present place if the camera is at infinity.
     const from =
       scene.get('camera.r') === 'infinity'
         ? Object.fromEntries(['camera.inclination_deg', 'camera.field_m', round].map(path => [path, scene.get(path)]))
@@ -175,7 +177,7 @@ export function buildTour(stage, scene) {
       before = null;
       throw error;
     }
-    scene.hold(true); // the finest pictures are those at rest, so time is stopped
+    scene.hold(true); // time is stopped, because only pictures at rest have full quality
     usual = new Map([...scene.fields.keys()].map(path => [path, scene.get(path)]));
     scene.change(from);
     box.hidden = false;
@@ -195,7 +197,7 @@ export function buildTour(stage, scene) {
   scene.addEventListener('move', () => (ring.hidden = true));
   scene.addEventListener('change', () => before && box.dataset.arrived && point());
   new ResizeObserver(() => before && box.dataset.arrived && point()).observe(stage);
-  // The keys work wherever the focus is, but Esc first closes any element over the tour.
+  // The keys work wherever the focus is. But if an element lies over the tour, Esc closes that element first.
   document.addEventListener(
     'keydown',
     event =>
