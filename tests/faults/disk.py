@@ -59,8 +59,8 @@ class Case(state.Case):
         return str(answer.status)
 
     def reached(self, word, failed):
-        """The word for an outcome if more operations have failed than `failed`. If no further operation has failed, the
-        outcome must be the usual one."""
+        """Compares an outcome with the usual one, which it must equal if no operation failed after the first `failed`
+        ones. Otherwise returns the outcome."""
         if self.faults.files_failed > failed:
             return word
         self.assertIn(word, ("whole", "started"))
@@ -68,7 +68,7 @@ class Case(state.Case):
 
 
 class Operations(Case):
-    """Only the n-th operation on files fails: a disk that is full for a moment, or a sector that cannot be written."""
+    """Only the n-th file operation fails, as on a disk that is full for a moment, or has a bad sector."""
 
     def sweep(self, scenario, number, mask, ask):
         """Lets the n-th operation fail for each n. ask(server, number) returns a word. A failure that does not affect
