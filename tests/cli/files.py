@@ -179,11 +179,8 @@ class Files(support.Case):
         rolled = ["--set", "camera.field_m=32", "--set", "camera.centre_alpha=4", "--set", "camera.roll_deg=90"]
         header = self.opened(self.shot("e.fits", *rolled, layers=["r"]))[0].header
         alpha, beta = WCS(header, key="A").pixel_to_world_values(
-            0,
-            35,
-            # 15.75 pixels left of the centre and 8.75 above it; the camera is rolled by 90 degrees, so that upwards is the
-            # direction of alpha
-        )
+            0, 35
+        )  # 15.75 pixels left of the centre and 8.75 above it; the camera is rolled, so that alpha points upwards
         self.assertAlmostEqual(float(alpha), 4 + 8.75, places=9)
         self.assertAlmostEqual(float(beta), 15.75, places=9)
         east, north = WCS(header).pixel_to_world_values(0, 35)

@@ -77,7 +77,7 @@ class Series(Case):
         alone = self.file("alone.npz", frames)
         for time, factor in ((5, 1), (10, 1), (15, 2), (17.5, 4**0.75), (20, 4), (25, 8**0.5), (30, 2), (1e6, 2)):
             made = self.flux(*series, "--set", f"time={time}")
-            # the difference of 1 %: grid_scale also multiplies the field, and the frames do not
+            # compared with a file and not by grid_scale, which would multiply the field too
             want = self.file("want.npz", [{**one, "density": one["density"] * factor}])
             self.assertAlmostEqual(made / self.flux(*want), 1, delta=1e-5, msg=time)
         self.assertEqual(self.flux(*alone), self.flux(*alone, "--set", "time=7", "--set", "volume.slow_light=true"))

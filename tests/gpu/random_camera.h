@@ -1,4 +1,4 @@
-/* Random cameras: every observer, every spin, all radii, motions and projections. */
+/* Random cameras with all kinds of observers, spins, radii, motions and projections. */
 #ifndef KD_TEST_RANDOM_CAMERA_H
 #define KD_TEST_RANDOM_CAMERA_H
 
@@ -37,7 +37,7 @@ static void random_motion(struct kd_random *random, struct kd_camera *c)
 {
     const double speed = fmin(1 - decades(random, -6, 0), 0.999999), u = between(random, -1, 1),
                  phi = between(random, 0, 2 * M_PI);
-    const bool along = below(random, 2); /* true: the direction is along an axis; false: it may be any direction */
+    const bool along = below(random, 2); /* true: along one axis only; false: in any direction */
     c->velocity_r = along ? 0 : speed * u;
     c->velocity_theta = along ? 0 : speed * sqrt(1 - u * u) * cos(phi);
     c->velocity_phi = along ? (below(random, 2) ? speed : -speed) : speed * sqrt(1 - u * u) * sin(phi);
@@ -53,7 +53,7 @@ static void random_camera(struct kd_random *random, int side, struct kd_scene *s
     c->inclination_deg = below(random, 3) ? between(random, 0, 180) : angles[below(random, 5)];
     s->image.width = s->image.height = side;
     s->image.critical_factor = 1;
-    s->accuracy.orders = below(random, 2) ? 1 : 3; /* only two values, so that few kernels have to be compiled */
+    s->accuracy.orders = below(random, 2) ? 1 : 3; /* one of two values, so that few kernels have to be compiled */
     s->sky.model = KD_SKY_GRID;
     if (!below(random, 8)) {
         c->r = INFINITY;
@@ -74,8 +74,8 @@ static void random_camera(struct kd_random *random, int side, struct kd_scene *s
     }
 }
 
-/* Makes a random camera with a spin close to 1 and a radius close to the horizon, where image orders have small
- * islands. An infalling observer is sometimes within the horizon. */
+/* Makes a random camera for a spin close to 1, at a radius close to the horizon. There image orders have small islands.
+ * An infalling observer is sometimes within the horizon. */
 static void random_camera_near_horizon(struct kd_random *random, int side, struct kd_scene *s)
 {
     struct kd_camera *c = &s->camera;
