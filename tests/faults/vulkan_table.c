@@ -173,16 +173,15 @@ static bool hangs(void) { return atomic_load(&control->hang) == 1; }
     static VKAPI_ATTR VkResult VKAPI_CALL faulty_##name parameters \
     { \
         const VkResult result = before(AT_##name); \
-        if (AT_##name == AT_DeviceWaitIdle) { /* waits also if the device is lost */ \
+        if (AT_##name == AT_DeviceWaitIdle) { /* waits for a lost device too */ \
             const VkResult real = atomic_load(&real_##name) arguments; \
             return result ? result : real; \
         } \
         const VkResult made = result ? result : atomic_load(&real_##name) arguments; \
         if (!made) \
-/* pipelines are created one by one, so that each can fail */
-atomic_fetch_add(&control->objects[AT_##name], 1);
-return made;
-}
+            atomic_fetch_add(&control->objects[AT_##name], 1); /* pipelines are created one by one */ \
+        return made; \
+    }
 ENTRIES(DEFINE)
 #undef DEFINE
 

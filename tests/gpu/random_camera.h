@@ -37,7 +37,7 @@ static void random_motion(struct kd_random *random, struct kd_camera *c)
 {
     const double speed = fmin(1 - decades(random, -6, 0), 0.999999), u = between(random, -1, 1),
                  phi = between(random, 0, 2 * M_PI);
-    const bool along = below(random, 2); /* true: along one axis only; false: in any direction */
+    const bool along = below(random, 2); /* true: the direction is along an axis; false: it may be any direction */
     c->velocity_r = along ? 0 : speed * u;
     c->velocity_theta = along ? 0 : speed * sqrt(1 - u * u) * cos(phi);
     c->velocity_phi = along ? (below(random, 2) ? speed : -speed) : speed * sqrt(1 - u * u) * sin(phi);

@@ -318,7 +318,7 @@ static void over_the_seam(void **state)
             memcpy(others, pixels, sizeof pixels);
             show(w, h, 1, 0, out);
             for (int i = 0; i < 3 * w * h && !half;
-                 i++) /* for comparison, the picture that light across the seam would not reach */
+                 i++) /* for comparison: the same picture without light across the seam, in `others` */
                 differ = abs(pixels[i] - others[i]) > differ ? abs(pixels[i] - others[i]) : differ;
         }
         all_round = false;

@@ -373,7 +373,7 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
 {
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer,
                  radius = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-    static double heat[FINE]; /* flux of this scene's disk at the body, computed once for all bodies */
+    static double heat[FINE]; /* flux at each radius of this scene's disk, computed once for all bodies */
     double sum = 0;
     for (int i = 0; i < FINE; i++)
         for (int k = 0; k < FINE; k++) {

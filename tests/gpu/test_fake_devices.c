@@ -10,7 +10,7 @@
 
 enum { WIDTH = 150, HEIGHT = 120, RAYS = 700, ORDERS = 3, PARTICLES = 500 };
 
-/* Number and bytes of the results of each kind of request. */
+/* Results of each kind of request. */
 struct answers {
     struct kd_frame frames[3];
     struct kd_ray_crossing crossings[RAYS * ORDERS];
@@ -248,10 +248,10 @@ static void test_large_pictures(void **state)
             uint64_t pixels = (uint64_t)plan.picture.width * plan.picture.band_rows,
                      at_curve = plan.lens.critical_part * plan.lens.critical;
             assert_true((pixels + 3) / 4 <= 65535ull * 64); /* post */
-            /* number of rows of the trace pass */
+            /* workgroups of the trace pass along y, one for each row of rays */
             assert_true((uint64_t)plan.picture.band_rows * plan.lens.side <= 65535);
             assert_true((uint64_t)plan.picture.width * plan.lens.side <= 65535ull * 64);
-            assert_true((at_curve + 63) / 64 <= 65535); /* number of rows of the trace pass at the critical curve */
+            assert_true((at_curve + 63) / 64 <= 65535); /* workgroups of the trace pass at the critical curve */
             assert_true(4ull * plan.lens.planes * pixels * plan.lens.side * plan.lens.side + 16 <= UINT32_MAX);
             assert_true(kd_plan_pixel_bytes(&plan.light) * pixels <= UINT32_MAX);
             assert_true((uint64_t)plan.picture.bands * plan.picture.band_rows >= plan.picture.height);

@@ -30,8 +30,8 @@ struct truth {
     int fate[RAYS], orders[RAYS];
 };
 
-/* True if the photon came from outside. For an observer within the horizon, this holds if R(w) = E^2 + A w^2 + 2 K w^3
- * - D w^4 has no zero between the observer and infinity, and E + a (aE - L) w^2 is positive at the horizon
+/* Fate for an observer within the horizon. The photon came from infinity if R(w) = E^2 + A w^2 + 2 K w^3 - D w^4 has no
+ * zero between the observer and infinity, and if E + a (aE - L) w^2 is positive at the horizon
  * (docs/physics/observers.md). */
 static int fate_within(const struct kd_camera_exact *c, const struct kd_camera_label *label)
 {

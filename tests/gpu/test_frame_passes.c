@@ -84,7 +84,7 @@ static void test_learned(void **state)
     for (int k = 0; k < 15; k++) {
         renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
             renderer->store.maps[3].key[0] = 0;
-        renderer->frames = 0; /* the interval is 0, because early frames update the estimates every time */
+        renderer->frames = 0; /* a new renderer, because there each frame updates the estimates */
         frame = drawn(scene, &plan);
         for (size_t i = 0; i < plan.cost.n_passes; i++) {
             learns[plan.cost.passes[i].figure] = true;
@@ -113,7 +113,7 @@ static void test_stars_are_learned(void **state)
     for (int k = 0; k < 10; k++) {
         renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
             renderer->store.maps[3].key[0] = 0;
-        renderer->frames = 0; /* the interval is 0, because early frames update the estimates every time */
+        renderer->frames = 0; /* a new renderer, because there each frame updates the estimates */
         struct kd_frame frame = drawn("{\"image\": {\"width\": 192, \"height\": 108}, \"disk\": {\"model\": \"none\"}, "
                                       "\"sky\": {\"model\": \"stars\"}}",
                                       &plan);
@@ -144,7 +144,7 @@ static void test_refining_is_learned(void **state)
     double took = 0, others = 0;
     renderer->capacity.ns[KD_NS_RAY_REFINED] = 1;
     for (int k = 0; k < 10; k++) {
-        renderer->frames = 0; /* the interval is 0, because early frames update the estimates every time */
+        renderer->frames = 0; /* a new renderer, because there each frame updates the estimates */
         struct kd_frame frame = drawn(scene, &plan);
         if (k >= 5)
             took += timing_of(&frame, "refine") / 5;

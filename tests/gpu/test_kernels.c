@@ -202,8 +202,8 @@ static void compiled(struct kd_compilation *c)
     kd_compilation_end(c);
 }
 
-/* The pictures that determine a density are also rehearsed on a device that computes nothing, so that their kernels are
- * compiled. */
+/* Pictures that determine a density are also rehearsed on a device that computes nothing, in order to compile their
+ * kernels. */
 static void a_density_is_rehearsed(void **state)
 {
     (void)state;
@@ -230,7 +230,7 @@ static bool has_kernel(const char *name)
     return false;
 }
 
-/* The explanation of a pixel with its steps needs two kernels of lists of rays. */
+/* The explanation of a pixel with its steps needs two kernels for lists of rays. */
 static void steps_of_a_pixel(void **state)
 {
     (void)state;
@@ -261,7 +261,7 @@ static bool lacks(void *user, struct kd_compilation *c, bool background)
     return !lack.gives_up;
 }
 
-/* If the driver stops rays early, one more kernel is needed. Any thread may compile it, and only one does. */
+/* If the driver stops rays early, one more kernel is needed. It is compiled by exactly one thread, which may be any. */
 static void a_kernel_that_nobody_foresaw(void **state)
 {
     (void)state;
@@ -288,7 +288,7 @@ static void a_kernel_that_nobody_foresaw(void **state)
         assert_int_equal(lack.times, 1);
         assert_int_equal(lack.background_renders, i == 1);
     }
-    /* requested again, now that the kernel is compiled */
+    /* requested again after the kernel was compiled */
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[2], &error));
     assert_int_equal(lack.times, 1);
     for (int i = 0; i < 3; i++) {
