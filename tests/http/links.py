@@ -24,7 +24,7 @@ def query(pairs):
 
 
 def signed(address, signer="website", key=KEY, ends=HOUR, budget_ms=None):
-    """The link of an address, made as docs/http.md tells a client to make it."""
+    """The signed link of an address, made by the steps that docs/http.md gives to clients."""
     path, _, rest = address.partition("?")
     pairs = urllib.parse.parse_qsl(rest, keep_blank_values=True)
     pairs += [("signer", signer), ("expires", str(int(time.time() + ends)))]
@@ -79,7 +79,7 @@ class Links(access.Access):
                 for ask in (self.works, lambda link: self.ask("HEAD", link)):
                     self.assertEqual(ask(signed(target)).status, 200)
                 self.assertProblem(self.ask("GET", target), 401, "unauthorized")
-        # an answer without access does not reveal that there is no such job
+        # an answer without access must not reveal whether the job exists
         self.assertProblem(self.ask("GET", signed(f"/v1/jobs/{access.ID}/result")), 404, "not-found")
 
     def test_it_opens_nothing_else(self):
@@ -135,7 +135,7 @@ class Links(access.Access):
         target = "/v1/render?preset=jet&image.width=64&image.height=36&style.annotations=shadow%20outline"
         link = signed("/v1/physics/kerr?spin=0.5&fields=a+b%2Cc")
         for one in (link.replace("a%20b", "a+b"), link.replace("spin", "%73pin"), link.replace("physics", "ph%79sics")):
-            # the signature is right, and the quantity refuses the parameter
+            # the signature is valid, but the quantity refuses the parameter
             self.assertProblem(self.ask("GET", one), 422)
         self.assertEqual(
             self.ask("GET", signed(target)).status, self.ask("GET", target, None, access.own(access.VIEW)).status
@@ -160,7 +160,7 @@ class Links(access.Access):
                 self.refused(target, words)
 
     def test_it_ends(self):
-        """Clocks may differ by a minute."""
+        """The clocks of signer and server may differ by a minute."""
         self.works(signed(RENDER, ends=-30))
         self.refused(signed(RENDER, ends=-90), "the link expired at 20")
         self.refused(signed(RENDER, ends=-int(time.time())), "the link expired at 1970-01-01T00:00:00Z")
