@@ -67,7 +67,7 @@ MODULES = {
         "job",
         "server",
     },
-    "main.c": {"base", "cli", "vk"},  # vk may restart the program, which is a function of base
+    "main.c": {"base", "cli", "vk"},  # vk is included because it may restart the program
 }
 # Inside a large module, a folder may include those listed before it. Files of the module that are in no folder may
 # include all folders.

@@ -130,8 +130,7 @@ static void noise_divides_nobody(void **state)
     }
 }
 
-/* On any machine and for any pause, each session gets its share. It comes as close to its target as a session alone on
- * a machine with that share would. */
+/* On any machine, with any pause, each session gets its share, and comes as close to its target as it would alone. */
 static void parts_are_equal_on_any_machine(void **state)
 {
     (void)state;

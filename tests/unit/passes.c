@@ -225,7 +225,8 @@ static void estimates_are_of_a_class(void **state)
     };
     struct kd_capacity c = device();
     kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 1000);
-    kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 2000); /* their mean, weighted by 0.7 and 0.3, is 1300 */
+    /* the mean of these, with weights 0.7 and 0.3, is 1300 */
+    kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 2000);
     for (size_t i = 0; i < sizeof alike / sizeof *alike; i++) {
         const struct kd_plan plan = planned(alike[i], &c);
         assert_true(plan.cost.class == class_of(small));
