@@ -1,5 +1,4 @@
-"""The client for asyncio, for use in one event loop. generate.py derives client.py, the blocking client, from this
-file."""
+"""The client for asyncio, for use in one event loop. generate.py makes client.py, which blocks, from this file."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""The client for asyncio, for use in one event loop. generate.py derives client.py, the blocking client, from this
-file."""
+"""The client that blocks, made of aio.py by generate.py; any thread may use one."""
 
 from __future__ import annotations
 
