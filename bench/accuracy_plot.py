@@ -24,7 +24,7 @@ COLOURS = {
     "ks-euler": "#009e73",
     "ks-tao6": "#cc79a7",
 }  # colours by Okabe and Ito
-FLOOR = 1e-16  # an error of 0 is drawn at this value
+FLOOR = 1e-16  # value at which an error of 0 is drawn, because the axis is logarithmic
 
 
 def points(table, name):
@@ -94,7 +94,7 @@ def main():
     arguments = parser.parse_args()
     with open(arguments.table, encoding="utf-8") as file:
         table = json.load(file)
-    plt.rcParams["svg.hashsalt"] = "kerrd"  # fixed, so that the picture is the same each time
+    plt.rcParams["svg.hashsalt"] = "kerrd"  # fixed, so that each run writes the same bytes
     figure, axes = plt.subplots(figsize=(8, 5.5))
     draw(table, arguments.set, axes)
     head = f"{arguments.set}: {table['sets'][arguments.set]}. kerrd {table['kerrd']}, {table['date'][:10]}, {table['device']}"

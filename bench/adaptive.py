@@ -4,11 +4,11 @@
     bench/adaptive.py            about six minutes, on an idle machine
     bench/adaptive.py --no-times --only gas
 
-Pictures of 640 x 360 at 16 bits are compared with pictures of 64 rays a pixel: PSNR as shown. Times are those of a
-server with one thread pinned to a core, at 1280 x 720 including the lens map. The variants are measured in alternation,
-and the least time of the rounds counts. The noise of the ring is measured on those pixels that additional rays at the
-critical curve change. It is the root mean square difference from a picture with 64 rays elsewhere and 256 rays there.
-Needs numpy (pip install numpy). Writes bench/results/DATE-DEVICE-adaptive.{json,md}.
+The error is the PSNR of a picture of 640 x 360 at 16 bits relative to a picture of 64 rays a pixel. Times are measured
+on a server with one thread pinned to a core, at 1280 x 720 including the lens map. The variants are measured in
+alternation, and the least time of the rounds counts. The noise of the ring is measured on the pixels that change when
+more rays are traced at the critical curve. It is the root mean square difference from a picture with 256 rays at the
+curve and 64 rays elsewhere. Needs numpy (pip install numpy). Writes bench/results/DATE-DEVICE-adaptive.{json,md}.
 """
 
 import http.client
@@ -29,7 +29,7 @@ try:
 except ImportError:
     measure.skip("numpy is missing: pip install numpy")
 
-SCENES = {  # changes of the preset "smooth", except for the default scene
+SCENES = {  # differences from the preset "smooth", for all scenes except the default scene
     "the default": None,
     "smooth disk": {},
     "sharp rim, 60°": {"disk": {"taper": 0}, "camera": {"inclination_deg": 60}},
@@ -175,7 +175,7 @@ def quality(pictures, scene):
 
 
 def ring(pictures, scene):
-    """The noise of a scene at the critical curve: with one ray, with 3 x 3 rays everywhere, and for each
+    """Noise at the critical curve in three kinds of pictures: one ray a pixel, 3 x 3 rays a pixel, and each
     critical_factor."""
     shown = lambda samples, factor: pictures.render(of_size(scene, SIZE, samples, critical_factor=factor))[0]
     truth, bare = shown(8, 2), shown(1, 1)
@@ -212,13 +212,13 @@ class Server:
 
 
 def least(server, scenes, rounds):
-    """The least time of each scene, rendered in alternation. Each round has its own lens maps."""
+    """The least time of each scene. The scenes are rendered in alternation, with new lens maps in each round."""
     found = {name: [] for name in scenes}
     for n in range(rounds + 1):
         for name, scene in scenes.items():
             tilt = scene.get("camera", {}).get("inclination_deg", 80) + 1e-3 * n
             ms = server.ms(merged(scene, camera={"inclination_deg": tilt}))
-            if n:  # leaves out the first one, because it compiles kernels
+            if n:  # skips the first round, which compiles kernels
                 found[name].append(ms)
     return {name: min(ms) for name, ms in found.items()}
 

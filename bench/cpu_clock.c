@@ -1,10 +1,11 @@
-/* A library with which passes are timed by processor time instead of wall time, for a machine on which other programs
- * run. It is preloaded into kd_bench_frame:
+/* A library that makes passes be timed in processor time instead of wall time, for a machine on which other programs
+ * run. The library is preloaded into kd_bench_frame:
  *
  *     LD_PRELOAD=build/bench/libkd_bench_cpu_clock.so LP_NUM_THREADS=1 build/bench/kd_bench_frame -s SCENE.json
  *
- * lavapipe takes its timestamps from CLOCK_MONOTONIC on threads of its own. On these threads this clock becomes the
- * process's processor time. For the main thread, which waits with deadlines, CLOCK_MONOTONIC is unchanged. */
+ * lavapipe reads its timestamps from CLOCK_MONOTONIC on threads of its own. On these threads the library returns the
+ * process's processor time instead. On the main thread CLOCK_MONOTONIC is unchanged, because that thread waits with
+ * deadlines. */
 #include <stdbool.h>
 #include <sys/syscall.h>
 #include <time.h>
@@ -12,7 +13,7 @@
 
 __attribute__((visibility("default"))) int clock_gettime(clockid_t clock, struct timespec *out)
 {
-    static _Thread_local int thread; /* kind of this thread; 0: not known yet */
+    static _Thread_local int thread; /* kind of the calling thread; 0: not determined yet */
     if (!thread)
         thread = (int)syscall(SYS_gettid);
     const bool own = thread == getpid();

@@ -1,8 +1,8 @@
 /* Measures how far the first integrals of an orbit drift in ten thousand loops. Compares the symplectic methods with
- * Runge-Kutta's on the same equations, at the same number of evaluations. Double precision. Sums are not compensated,
- * so that only the methods themselves are compared.
+ * Runge-Kutta's on the same equations, at the same number of evaluations. Arithmetic is in double precision. Sums are
+ * not compensated, because compensation would hide differences between the methods.
  *
- * There are two systems of equations; E and L are constants in both. The first is in Mino time, with w = 1/r and u =
+ * There are two systems of equations. E and L are constants in each. The first is in Mino time, with w = 1/r and u =
  * cos theta, which move independently of each other:
  *   w'^2 = W(w) = E^2 - m + 2m w + (a^2 (E^2 - m) - L^2 - Q) w^2 + 2K w^3 - a^2 Q w^4,  K = Q + (L - aE)^2,
  *   u'^2 = U(u) = Q + (a^2 (E^2 - m) - L^2 - Q) u^2 - a^2 (E^2 - m) u^4,
@@ -10,8 +10,8 @@
  * (p.p - E^2 - f (E + l.p)^2 + m)/2. This is the Hamiltonian of rays_kerr_schild.comp, which explains it, with a mass
  * added.
  *
- * Two errors are measured from position and momentum: that of the invariant p.p + m, in units of E^2 = 1 or m = 1, and
- * that of Carter's constant.
+ * Two errors are computed from position and momentum: the error of the invariant p.p + m, in units of E^2 = 1 or m = 1,
+ * and the error of Carter's constant.
  *
  * There are two orbits. The orbit of matter has a = 0.9, p = 8, e = 0.5, and is inclined by 60 degrees. Outside the
  * horizon light has no stable bound orbit, and errors of unstable orbits grow by e^(2 pi) a turn with every method.
@@ -33,12 +33,13 @@ enum { MARKS = sizeof marks / sizeof *marks };
 struct orbit {
     const char *name;
     double a, mass2, energy, momentum, carter, k;
-    double r;             /* place at the start: pericentre, in the equatorial plane */
+    double r;             /* position at the start: the pericentre, in the equatorial plane */
     double mino, regular; /* length of a loop, from pericentre to pericentre: in Mino time, and in the parameter s with
                              d(affine) = r ds */
 };
 
-/* The numbers of a state: w, u, w', u'; or x and p, and for Tao's method their copies. */
+/* Number of elements of a state: w, u, w', u' in Mino time; x and p in Kerr-Schild coordinates, twice for Tao's method.
+ * */
 struct state { double y[12]; };
 
 static double power2(const struct orbit *o) { return o->a * o->a * (o->energy * o->energy - o->mass2); }
@@ -57,7 +58,7 @@ static double radial(const struct orbit *o, double w)
                      w * (power2(o) - o->momentum * o->momentum - o->carter + w * (2 * o->k - a2 * o->carter * w)));
 }
 
-/* A leapfrog step with one evaluation: moves position, momentum, position. */
+/* One leapfrog step: moves the position, then the momentum (one evaluation of the forces), then the position. */
 static void leapfrog(const struct orbit *o, struct state *s, double h)
 {
     double f[2];
@@ -80,7 +81,7 @@ static void yoshida_6_mino(const struct orbit *o, struct state *s, double h)
         leapfrog(o, s, yoshida[i] * h);
 }
 
-/* J. Albrecht 1955, ZAMM 35, 100: as shaders/ray/nystroem.glsl. */
+/* J. Albrecht 1955, ZAMM 35, 100: the same method as in shaders/ray/nystroem.glsl. */
 static void rkn_6(const struct orbit *o, struct state *s, double h)
 {
     double k[5][2], y[2], *v = s->y + 2;
@@ -115,7 +116,8 @@ static void integrals_mino(const struct orbit *o, const double *y, double *invar
 {
     double w = y[0], u = y[1], r = 1 / w, a = o->a, second = power2(o) - o->momentum * o->momentum;
     double swing =
-        y[3] * y[3] - o->carter - u * u * (second - o->carter - power2(o) * u * u); /* the error of u'^2 = U(u) */
+        /* error of the equation u'^2 = U(u) */
+        y[3] * y[3] - o->carter - u * u * (second - o->carter - power2(o) * u * u);
     double fall = r * r * r * r * (y[2] * y[2] - radial(o, w));
     *invariant = (fall / (r * (r - 2) + a * a) + swing / (1 - u * u)) / (r * r + a * a * u * u);
     *carter = o->carter + swing / (1 - u * u);
@@ -153,9 +155,10 @@ static void flow_at(const struct orbit *o, const double *x, const double *p, dou
 static void flow_kerr_schild(const struct orbit *o, const double *y, double *d) { flow_at(o, y, y + 3, d, d + 3); }
 
 /* M. Tao 2016, Phys. Rev. E 94, 043303: two copies of the phase space. Each copy is moved by the forces at the other
- * copy, and a rotation binds the two. Adjacent sub-steps of the first kind are merged. Of omega = 0.1, 0.15, 0.2, 0.3,
- * 0.5, 1, 3 and 10 this is the best for matter. With a smaller omega the binding is too weak, and the copies separate
- * within a hundred loops. A larger omega costs accuracy. For light inside the inner horizon no value is large
+ * copy, and a rotation binds the two. Adjacent sub-steps of the first kind are merged. The value of omega used here is
+ * the best for matter among 0.1, 0.15, 0.2, 0.3, 0.5, 1, 3 and 10. With a smaller omega the binding is too weak, and
+ * the copies separate within a hundred loops. A larger omega costs accuracy. For light inside the inner horizon no
+ * value is large
  * enough. */
 #define OMEGA 0.3
 
@@ -216,7 +219,7 @@ static void rk_4_kerr_schild(const struct orbit *o, struct state *s, double h)
 
 static const struct method {
     const char *name, *equations;
-    int evaluations; /* evaluations of the forces in a step */
+    int evaluations; /* evaluations of the forces per step */
     void (*step)(const struct orbit *, struct state *, double h);
     bool kerr_schild;
 } methods[] = {
@@ -228,7 +231,7 @@ static const struct method {
 };
 enum { METHODS = sizeof methods / sizeof *methods };
 
-/* The state at the start: at the pericentre in the plane, with no radial velocity, and with theta decreasing. In
+/* State at the start: the pericentre in the equatorial plane, with radial velocity 0 and decreasing theta. In
  * Kerr-Schild coordinates p_r = (2rE - aL)/Delta. */
 static struct state start(const struct orbit *o, bool kerr_schild)
 {
@@ -236,7 +239,8 @@ static struct state start(const struct orbit *o, bool kerr_schild)
     if (!kerr_schild)
         return s;
     double a = o->a, r = o->r, q = r * r + a * a, p_r = (2 * r * o->energy - a * o->momentum) / (r * (r - 2) + a * a);
-    /* At (x, y, z) = (r, a, 0): dr = (1, a/r, 0), d(theta) = (0, 0, -1/r), d(phi) = (-a, r, 0)/q + a dr/q. */
+    /* Differentials at (x, y, z) = (r, a, 0): dr = (1, a/r, 0), d(theta) = (0, 0, -1/r), d(phi) = (-a, r, 0)/q + a
+     * dr/q. */
     double along = p_r + a * o->momentum / q;
     const double y[6] = {
         r, a, 0, along - a * o->momentum / q, along * a / r + r * o->momentum / q, sqrt(o->carter) / r
@@ -246,8 +250,8 @@ static struct state start(const struct orbit *o, bool kerr_schild)
     return s;
 }
 
-/* Measures the length of a loop by an order-6 method in fine steps: the Mino time from pericentre to pericentre, and
- * the mean of ds = Sigma/r dtau over many loops, because the latitude differs between loops. */
+/* Measures the length of a loop by an order-6 method in fine steps. In Mino time it is the time from pericentre to
+ * pericentre. In s it is the mean of ds = Sigma/r dtau over many loops, because loops differ in latitude. */
 static void measure_loop(struct orbit *o)
 {
     enum { FINE = 4096, MANY = 64 };
@@ -257,7 +261,7 @@ static void measure_loop(struct orbit *o)
         last = s;
         rkn_6(o, &s, h);
         tau += h;
-    } while (!(last.y[2] > 0 && s.y[2] <= 0)); /* w grows before a pericentre */
+    } while (!(last.y[2] > 0 && s.y[2] <= 0)); /* w = 1/r grows before a pericentre */
     o->mino = tau - h * s.y[2] / (s.y[2] - last.y[2]);
     s = start(o, false);
     for (int i = 0; i < FINE * MANY; i++) {
@@ -272,7 +276,7 @@ static struct orbit matter(void)
 {
     struct kd_orbit k;
     if (kd_orbit_from_shape(kd_hole(0.9), 8, 0.5, 0.5, &k, NULL))
-        abort(); /* cannot happen, because such an orbit exists */
+        abort(); /* cannot happen, because this orbit exists */
     return (struct orbit) { .name = "matter",
                             .a = k.hole.a,
                             .mass2 = 1,
@@ -299,7 +303,7 @@ static struct orbit light(void)
     return o;
 }
 
-/* Measures one row, the largest value of both errors up to each mark. lost: the loop in which the error of the
+/* Measures one row: the largest values of the two errors up to each mark. lost: the loop in which the error of the
  * invariant reached its unit, or 0 if it did not. */
 static void measure(const struct orbit *o, const struct method *m, int steps, cJSON *row)
 {
@@ -328,7 +332,7 @@ static void measure(const struct orbit *o, const struct method *m, int steps, cJ
 
 int main(void)
 {
-    static const int budgets[] = { 704, 2816 }; /* numbers of evaluations in a loop */
+    static const int budgets[] = { 704, 2816 }; /* evaluations of the forces per loop, for each row */
     struct orbit orbits[2] = { matter(), light() };
     cJSON *root = cJSON_CreateObject(), *list = cJSON_AddArrayToObject(root, "loops"), *rows;
     for (int k = 0; k < MARKS; k++)

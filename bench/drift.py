@@ -25,7 +25,7 @@ def at(figures, row, what, loops):
 
 
 def growth(figures, row):
-    """The exponent with which the invariant's error grows with the number of loops in the last decade."""
+    """Exponent n of the growth of the invariant's error, error ~ loops^n, over the last decade of loops."""
     last, before = (at(figures, row, "invariant", n) for n in (10000, 1000))
     return "lost in loop %d" % row["lost"] if last is None else f"{math.log10(last / before):.2f}"
 
@@ -52,7 +52,7 @@ def plot(figures, path):
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
 
-    plt.rcParams["svg.hashsalt"] = "kerrd"  # fixed, so that the picture is the same each time
+    plt.rcParams["svg.hashsalt"] = "kerrd"  # fixed, so that each run writes the same bytes
     figure, all_axes = plt.subplots(1, 2, figsize=(10, 4.5), sharey=True)
     most = max(r["evaluations"] for r in figures["rows"])
     for axes, (orbit, title) in zip(all_axes, ORBITS.items()):

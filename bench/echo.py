@@ -3,14 +3,14 @@
 
     bench/echo.py --kerrz .../kerrz_cli/kerrz            five minutes; pip install kerrz==0.4.1
 
-Lines: the largest difference of the cumulative share, for six lamps and six rings. Lags: the lag of the whole line
-behind the continuum at three frequencies, for six lamps, because kerrz has no impulse response of a ring. kerrz draws
-the photons of a ring at random: 500 000, as it advises. Its impulse response is counted from the arrival of the direct
-light by kerrd: kerrz's own arrival is up to 1.2 M early (a lamp at 5 M, 60 degrees, a = 0: 26.41 M; the integral over
-the ray is 27.613). About spinning holes kerrz's light to the disk and to the observer is early as well, by 0.04 to 0.3
-M on each way (echo_times.py). This shifts the lags at all frequencies equally. The last column therefore has the
-difference minus the mean difference of the three frequencies, divided by the longest of the three lags. Writes
-bench/results/DATE-cpu-echo.{json,md}.
+Lines are compared by the largest difference of their cumulative share, for six lamps and six rings. Lags of the whole
+line behind the continuum are compared at three frequencies, for six lamps only, because kerrz has no impulse response
+of a ring. kerrz draws the photons of a ring at random: 500 000, as it advises. Its impulse response starts at kerrd's
+arrival time of the direct light, because kerrz's own arrival time is up to 1.2 M early (a lamp at 5 M, 60 degrees, a =
+0: 26.41 M; the integral over the ray is 27.613). For spinning holes, kerrz's light to the disk and to the observer is
+early as well, by 0.04 to 0.3 M on each way (echo_times.py). This shifts the lags at all frequencies equally. The last
+column therefore has the difference minus the mean difference of the three frequencies, divided by the longest of the
+three lags. Writes bench/results/DATE-cpu-echo.{json,md}.
 """
 
 import bisect
@@ -24,7 +24,7 @@ import tempfile
 
 import measure
 
-OUTER, FAR = 400, 1e7  # edge of the disk; radius of kerrz's observer; both in M
+OUTER, FAR = 400, 1e7  # outer edge of the disk, M; radius of kerrz's observer, M
 LAMPS = ((0.001, 10, 30), (0.5, 5, 60), (0.9, 3, 30), (0.9, 10, 75), (0.998, 5, 60), (0.998, 20, 30))  # spin, height, i
 RINGS = (  # spin, radius, height, inclination
     (0.001, 10, 5, 30),
@@ -51,7 +51,7 @@ def table(path):
 
 
 def source(spin, height, inclination, radius=None):
-    """The options of both programs."""
+    """Command-line options of kerrd and kerrz for the same lamp."""
     common = ["--spin", spin, "--inclination-deg", inclination, "--height", height, "--outer", OUTER]
     if radius is None:
         return [*common, "--emissivity", "lamppost"], ["--lamppost", f"h:{height},vr:0"]
@@ -120,7 +120,8 @@ def lags_beside(o, folder, spin, inclination, ours, theirs, wide=0.25):
         path,
     )
     rows = table(path)
-    # a row states the later end of its bin; here the middle is used, so that lags do not depend on the bin's width
+    # kerrz states the end of each time bin. The middle of the bin is used here, so that lags do not depend on the bin's
+    # width.
     back = wide / 2
     for frequency, lag in zip(told["columns"]["frequency"], told["columns"]["lag"]):
         whole = sum(flux * cmath.exp(2j * math.pi * frequency * (time - back)) for time, flux in rows)

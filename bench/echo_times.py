@@ -3,10 +3,10 @@
 
     bench/echo_times.py --kerrz .../kerrz_cli/kerrz            one minute; pip install kerrz==0.4.1 scipy astropy
 
-Light of a lamp on the axis reaches the disk at the radius r after the coordinate time t. kerrz gives t(r) in its table
-of emissivity. This script integrates the same rays in Mino time by an adaptive Runge-Kutta method. The time of a ray to
-the observer is compared with that of `kerrz trace`. The lags of six lamps are compared, too, with time bins of kerrz
-that are 0.25 and 0.125 M wide. Writes bench/results/DATE-cpu-echo-times.{json,md}.
+Light of a lamp on the axis reaches the disk at the radius r after the coordinate time t(r), which kerrz writes in its
+table of emissivity. This script integrates the same rays in Mino time by an adaptive Runge-Kutta method. It also
+compares the travel time of a ray to the observer with that of `kerrz trace`, and the lags of six lamps for kerrz's time
+bins of 0.25 M and 0.125 M. Writes bench/results/DATE-cpu-echo-times.{json,md}.
 """
 
 import math
@@ -32,8 +32,8 @@ def integrate(rates, start, event):
 
 
 def from_lamp(a, h, cosine):
-    """r and t, in the plane, of a photon without angular momentum that leaves the axis at h. The cosine is that of its
-    angle to the axis in the frame at rest."""
+    """r and t in the equatorial plane, for a photon without angular momentum that leaves the axis at height h. cosine:
+    of the photon's angle to the axis, in the frame at rest."""
     k = (h * h + a * a) ** 2 * (1 - cosine**2) / (h * h - 2 * h + a * a)
 
     def rates(_, y):
@@ -53,7 +53,7 @@ def from_lamp(a, h, cosine):
 
 
 def to_observer(a, inclination, alpha, beta, far):
-    """r and t of the first crossing of the plane."""
+    """r and t where the ray first crosses the equatorial plane."""
     u, lam = math.cos(math.radians(inclination)), -alpha * math.sin(math.radians(inclination))
     eta = (alpha * alpha - a * a) * u * u + beta * beta
     k, b, c = eta + (lam - a) ** 2, a * a - a * lam, a * a - eta - lam * lam

@@ -1,8 +1,8 @@
-/* Measures the cost of encoding a live frame. Real pictures, with and without dither, are encoded as kerrd encodes
- * files and live frames, and also through libdeflate and ISA-L at each level after each filter of PNG. Times are
- * processor times of the calling thread, which other programs change little. The least time of --repeat runs counts.
- * With --threads N it measures instead the wall time of files and live frames on 1 to N threads. Prints one line of
- * JSON; encode.py makes the table. */
+/* Measures the cost of encoding a live frame. Real pictures, with and without dither, are encoded by kerrd's own code
+ * for files and live frames. For comparison they are also compressed by libdeflate and ISA-L, at each level, after each
+ * PNG filter. Times are processor times of the calling thread, which other programs change little. The least time of
+ * --repeat runs counts. With --threads N the program instead measures the wall time of files and live frames on 1 to N
+ * threads. Prints one line of JSON; encode.py makes the table. */
 #include "base/clock.h"
 #include "base/parallel.h"
 #include "image/jpeg.h"
@@ -65,7 +65,7 @@ static int predict(int filter, int left, int up, int corner)
     }
 }
 
-/* Inlined for each filter. The pixel before the first one of a row, and the row above the first row, count as zeros. */
+/* Inlined, so that each filter has its own loop. Pixels left of the first one and above the first row count as zero. */
 static inline __attribute__((always_inline)) void filter_rows(struct job *job, int filter)
 {
     size_t stride = 3 * (size_t)job->width;
@@ -81,7 +81,8 @@ static inline __attribute__((always_inline)) void filter_rows(struct job *job, i
     }
 }
 
-__attribute__((noinline)) static size_t by_filter(struct job *job) /* one copy of the code for all callers */
+/* not inlined: all callers use one copy of the code */
+__attribute__((noinline)) static size_t by_filter(struct job *job)
 {
     switch (job->filter) {
     case 0: filter_rows(job, 0); break;
@@ -112,7 +113,7 @@ static size_t by_live(struct job *job)
     return kd_png_live_encode(job->live, job->width, job->height, job->pixels, &job->out, NULL) ? 0 : job->out.size;
 }
 
-static size_t by_jpeg(struct job *job) /* Encodes at the quality `level`. */
+static size_t by_jpeg(struct job *job) /* Encodes at the JPEG quality `level`. */
 {
     job->out.size = 0;
     return kd_jpeg_encode(job->width, job->height, job->pixels, (unsigned)job->level, &job->out, NULL) ? 0
@@ -172,7 +173,7 @@ static void row(cJSON *rows, struct job *job, size_t (*work)(struct job *), cons
 
 static void measure(struct job *job, cJSON *rows, int repeat)
 {
-    job->filter = 1; /* kd_png_encode chooses this filter at level 1 */
+    job->filter = 1; /* the filter that kd_png_encode chooses at level 1 */
     job->level = 1;
     row(rows, job, by_png, "file", repeat);
     for (enum kd_deflate_engine e = 0; e < KD_DEFLATE_COUNT; e++) {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes tables of the cost of encoding a frame, in ms and bytes, by kd_bench_encode on one core, and of files on
-several cores."""
+"""Writes tables of the cost of encoding a frame, in ms and bytes, measured by kd_bench_encode: live frames and files on
+one core, and files on several cores."""
 
 import json
 import os

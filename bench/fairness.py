@@ -5,7 +5,7 @@
     bench/fairness.py --only "a job of 1000 frames" --seconds 5
     bench/fairness.py --size 640 360 --no-session --only nothing --only "all that one may queue" --save fairness-queued
 
-The script starts its own server. The loads come from 127.0.0.1. The measured client is 127.0.0.2: it requests pictures
+The script starts its own server. The loads come from 127.0.0.1. The measured client is 127.0.0.2. It requests pictures
 of 320 x 180, one after the other, each with its own lens map, watches a session, and requests /healthz. Writes
 bench/results/DATE-DEVICE-fairness.{json,md}.
 """
@@ -67,7 +67,7 @@ class Server:
 
 
 class Load:
-    """Threads that run until the load is over. Errors at their end are ignored."""
+    """Threads that run until the load ends. Errors that they raise after that are ignored."""
 
     def __init__(self, server, source="127.0.0.1"):
         self.server, self.source, self.over, self.threads, self.counts = server, source, threading.Event(), [], {}
@@ -104,7 +104,7 @@ class Load:
 
         def pull(connection):
             answer, _ = self.server.ask(self.source, "GET", f"{at}/frame.png?after={frame[0]}", connection=connection)
-            frame[0] = int(answer.headers["Kerrd-Frame"] or frame[0])  # a 204 has no body
+            frame[0] = int(answer.headers["Kerrd-Frame"] or frame[0])  # an answer with status 204 has no body
             return answer
 
         def patch(connection):
@@ -125,7 +125,7 @@ class Load:
 
 
 def picture_of(size):
-    """The default scene, with its own lens map."""
+    """The default scene with values of its own, so that the server traces a new lens map."""
     return (
         f"/v1/render?image.width={size[0]}&image.height={size[1]}&camera.inclination_deg={random.uniform(40, 80):.6f}"
     )
@@ -177,7 +177,7 @@ def plans(load):
 
 
 def jobs(load):
-    """The maximum number of jobs of one client. Every second job is a film along keyframes with motion blur."""
+    """Queues as many jobs as one client may have. Every second job is a film along keyframes with motion blur."""
     scene = {"image": {"width": 1280, "height": 720}}
     for k in range(12):
         frames = [{**scene, "camera": {"inclination_deg": 40 + 0.02 * i + k}} for i in range(50)]
@@ -199,8 +199,8 @@ def playgrounds(load):
 
 
 def queue(load):
-    """The largest load that one client can queue: 20 requests for long pictures, 12 of which may wait, each with its
-    own lens map; 8 for lists of rays; 12 dragged sessions.
+    """The largest load that one client can queue: 20 requests for long pictures, of which 12 may wait, each with its
+    own lens map; 8 requests for lists of rays; 12 dragged sessions.
     """
 
     def long(connection):
@@ -226,7 +226,7 @@ def queue(load):
 
 
 def new_kernels(load):
-    """Preset after preset, each of which needs kernels that were not compiled before."""
+    """Requests one preset after another. Each preset needs kernels that have not been compiled yet."""
     presets = [p["name"] for p in json.loads(load.server.ask(load.source, "GET", "/v1/presets")[1])["presets"]]
     left = iter(presets * 100)
     load.loop(
@@ -252,7 +252,7 @@ LOADS = {
 
 
 def repeat_for(seconds, at_least, step, is_enough=lambda: True):
-    """Milliseconds of each step. The steps continue until is_enough() is true, but for a minute at most."""
+    """Milliseconds of each step. Stops when is_enough() returns true, or after a minute."""
     took, until = [], time.monotonic() + seconds
     while time.monotonic() < until or len(took) < at_least or (not is_enough() and time.monotonic() < until + 60):
         begun = time.monotonic()
@@ -262,9 +262,9 @@ def repeat_for(seconds, at_least, step, is_enough=lambda: True):
 
 
 def look_at_health(port, source, seconds, at_least):
-    """Milliseconds that /healthz takes, and the delay of a sleep before each request, which shows how long the machine
-    delays any process. This runs in a process of its own. In a thread beside the threads of the loads it would measure
-    Python's global lock."""
+    """Milliseconds of each /healthz request, and the delay of a sleep before it. This delay shows how long the machine
+    delays any process. Runs as its own process: a thread beside the threads of the loads would measure Python's global
+    lock instead."""
     connection = http.client.HTTPConnection("127.0.0.1", port, timeout=120, source_address=(source, 0))
     late = []
 
@@ -280,7 +280,7 @@ def look_at_health(port, source, seconds, at_least):
 
 
 def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=True):
-    """The measured client: pictures, the frames of its session, /healthz."""
+    """Requests of the measured client: pictures, the frames of its session, and /healthz."""
     out, viewer = {}, Load(server, source)
     if session:
         viewer.session("own", LIVING)
@@ -293,7 +293,7 @@ def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=Tru
         pool.submit(os.getpid).result()  # starts the process before the measurement begins
         begun, frames = time.monotonic(), viewer.counts.get("own: 200", 0)
         health = pool.submit(look_at_health, server.port, source, seconds, at_least)
-        # on a busy machine a session may show no frame within so few seconds
+        # on a busy machine a session may show no frame in this short time
         out["picture_ms"] = repeat_for(
             seconds, at_least, picture, lambda: not session or viewer.counts.get("own: 200", 0) > frames
         )
@@ -304,13 +304,13 @@ def look(server, seconds, at_least=3, source="127.0.0.2", size=SIZE, session=Tru
 
 
 def warm(server, size=SIZE):
-    """Has the server compile kernels and measure its device."""
+    """Makes the server compile its kernels and measure its device before the measurement."""
     for _ in range(3):
         server.ask("127.0.0.2", "GET", picture_of(size))
 
 
 def empty_cache(folder):
-    """An environment in which neither the driver nor kerrd finds compiled kernels."""
+    """An environment in which the caches of compiled kernels, the driver's and kerrd's, are empty."""
     return {**os.environ, "MESA_SHADER_CACHE_DIR": folder, "XDG_CACHE_HOME": folder}
 
 

@@ -4,9 +4,9 @@
     bench/first.py                                     about four minutes
     bench/first.py --before OTHER/build/src/kerrd      the same for both programs, in alternation
 
-Each round starts a server, requests POST /v1/render of 1280 x 720 as soon as it listens, then a picture half a degree
-further round the hole. It also runs `kerrd render`. The driver's cache of kernels is warm, because an uncounted round
-comes first, unless --no-driver-cache tells Mesa to have no cache. Writes bench/results/DATE-DEVICE-first.{json,md}.
+Each round starts a server and requests POST /v1/render of 1280 x 720 as soon as the server listens. Then it requests a
+picture from half a degree further round the hole, and runs `kerrd render`. A first round that does not count fills the
+driver's cache of kernels. With --no-driver-cache, Mesa uses no cache. Writes bench/results/DATE-DEVICE-first.{json,md}.
 """
 
 import http.client

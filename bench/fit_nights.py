@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Measures the coverage of kerrd.fit on synthetic nights. Each night, a thin disk with random spin, inclination, size
-and position angle is observed by the array of data/eht/, with noise of another seed, and fitted. Prints the number of
-nights in which the injected values are in the 95 % region of highest density, and the widths of the intervals relative
-to Fisher's.
+"""Measures the coverage of kerrd.fit on synthetic nights. Each night has a thin disk of random spin, inclination, size
+and position angle. The array of data/eht/ observes it, with another seed of the noise, and the data are fitted. Prints
+the number of nights in which the injected values are in the 95 % region of highest density, and the ratio of the
+intervals' widths to those of the Fisher matrix.
 
 bench/fit_nights.py [--nights 20] [--steps 400] [--pixels 96] [--out bench/results]
 
@@ -53,7 +53,7 @@ def scene_of(values):
 
 
 def fisher(fit, at):
-    """Errors by the second differences of chi^2 at the best point; NaN where the matrix is not positive."""
+    """Errors from the second differences of chi^2 at the best point; NaN if their matrix is not positive definite."""
     names, steps = fit.names, np.array([STEPS[name] for name in fit.names])
     n, points = len(names), [at]
     for i in range(n):

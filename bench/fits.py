@@ -4,7 +4,7 @@ with "sets". Each set has another spin and inclination, so that none shares a le
 
 bench/fits.py [--sets 200] [--pixels 64] [--average-s 300]
 
-The figure is the number of sets over the processor time of the server, so that other programs on the machine change it
+The result is the number of sets divided by the server's processor time, which other programs on the machine change
 little. A first request compiles the kernels.
 """
 
@@ -17,7 +17,7 @@ import urllib.request
 import measure
 
 NIGHT = measure.ROOT / "data/eht/m87-2017-04-05-lo.uvfits"
-# a thin disk at the equator with the width equal to the height, as for a fit; and the torus with the mass of M87*
+# Two scenes: a thin disk in a square picture, as for a fit; and the torus with the mass of M87*.
 MODELS = {
     "thin disk": {
         "preset": "m87",

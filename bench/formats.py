@@ -4,9 +4,9 @@
     bench/formats.py         about a minute; needs Chromium, and Playwright and Pillow in venv/ (scripts/setup
                              --browser)
 
-Pictures are live frames of a server: half of a window of 1440 x 900, as shown in motion, of the default scene, the
-page's first view and a scene with stars. PNG is the server's; JPEG and WebP are made by libjpeg-turbo and libwebp
-through Pillow, on one core. Writes bench/results/DATE-DEVICE-formats.{json,md}.
+Pictures are live frames of a server, at half the size of a window of 1440 x 900, as shown in motion. Scenes: the
+default scene, the page's first view, and a scene with stars. The server encodes PNG. Pillow encodes JPEG
+(libjpeg-turbo) and WebP (libwebp), on one core. Writes bench/results/DATE-DEVICE-formats.{json,md}.
 """
 
 import base64

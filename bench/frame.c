@@ -1,9 +1,9 @@
 /* Measures the cost of a whole frame, pass by pass. The scene is read from a file, so that it stays the same when the
- * default scene changes. Each repetition renders it with a new lens map ("cold"), and again with this map reused, as
- * when only the exposure or the palette changes. With --turn it renders it a third time from another azimuth, which
- * turns the sky. With --live, cold frames are rendered like those of a drag, and reused ones like those of a session
- * whose time runs. Prints one line of JSON with all runs, in ms. frame.py runs it with one and two lavapipe threads and
- * takes medians. */
+ * default scene changes. Each repetition renders the scene with a new lens map ("cold"). It then renders the scene
+ * again with the map reused, as when only the exposure or the palette changes. With --turn it renders the scene a third
+ * time from another azimuth, which turns the sky. With --live, cold frames are rendered like those of a drag, and
+ * reused ones like those of a session whose time runs. Prints one line of JSON with all runs, in ms. frame.py runs it
+ * with one and two lavapipe threads and takes medians. */
 #include "render/output/png.h"
 #include "render/render.h"
 
@@ -39,7 +39,7 @@ static enum kd_status encode(struct kd_renderer *renderer, const struct kd_scene
     return status;
 }
 
-/* dragged: the frame is rendered like a coarse one during a drag (render/live/governor.h). */
+/* dragged: true if the frame is rendered like a coarse one during a drag (render/live/governor.h). */
 static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_scene *asked, bool dragged, cJSON *runs,
                                 struct kd_error *error)
 {
@@ -63,7 +63,7 @@ static enum kd_status one_frame(struct kd_renderer *renderer, const struct kd_sc
     for (size_t i = 0; i < frame.n_timings; i++)
         cJSON_AddNumberToObject(run, frame.timings[i].name, frame.timings[i].ms);
     cJSON_AddBoolToObject(run, "lens_reused", frame.lens_reused);
-    /* Compression level 1 is that of live views, and 6 that of files of the command line. */
+    /* Level 1 is used for live views, level 6 for files of the command line. */
     status = encode(renderer, scene, &plan, &frame, 1, run, "encode_1", error);
     if (!status)
         status = encode(renderer, scene, &plan, &frame, 6, run, "encode_6", error);

@@ -14,7 +14,7 @@ PASSES = ["trace", "transfer", "expose", "post", "readback", "total", "encode_1"
 
 
 def command_line(kerrd, cores, threads, repeat):
-    """Wall time of `kerrd render` from start to exit, with kernels in the driver's cache."""
+    """Wall time of `kerrd render` from start to exit, with its kernels already in the driver's cache."""
     times = []
     with tempfile.TemporaryDirectory() as folder:
         for _ in range(repeat + 1):
@@ -25,7 +25,7 @@ def command_line(kerrd, cores, threads, repeat):
 
 
 def frames(bench, flags, cores, threads, repeat):
-    """One run of a build's benchmark. Older builds do not know --scene, and have this scene as their default."""
+    """One run of a build's benchmark. An older build has no option --scene; its default scene is this one."""
     known = "--scene" in measure.run([bench, "--help"])
     scene = ["--scene", str(measure.ROOT / "bench/scenes/frame.json")] if known else []
     return json.loads(

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compare fluxes at radio frequencies with published ones: Gold et al. 2020's five tests, and ipole's hot flow.
+"""Compare fluxes at radio frequencies with published fluxes: the five tests of Gold et al. 2020, and ipole's hot flow.
 
     bench/gold.py [--kerrd build/src/kerrd] [--size 256] [--json]      some ten seconds
 
@@ -16,8 +16,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-# R. Gold et al. 2020 (ApJ 897, 148), table 1, Jy; and the program Blacklight (C. J. White 2022, ApJS 262, 28), run for
-# this comparison
+# Fluxes in Jy: R. Gold et al. 2020 (ApJ 897, 148), table 1; and the program Blacklight (C. J. White 2022, ApJS 262,
+# 28), run for this comparison.
 GOLD = {
     "gold-1": (1.6465, 1.65940),
     "gold-2": (1.4360, 1.44882),
@@ -26,11 +26,11 @@ GOLD = {
     "gold-5": (0.0255, 0.0257013),
 }
 OF_GOLD, OF_BLACKLIGHT, OF_IPOLE, OF_IPOLE_POLARISED, OF_IPOLE_EDGE_ON = 0.02, 0.003, 0.01, 0.02, 0.025
-# Blacklight's rays are parallel, but its observer is at rest at 1000 M: its 230 GHz are a lower frequency at infinity,
-# and I/nu^3 is invariant
+# Blacklight's rays are parallel, but its observer is at rest at 1000 M. Its 230 GHz are therefore a lower frequency at
+# infinity. Fluxes are converted by the invariant I/nu^3.
 LAPSE = math.sqrt(1 - 2 / 1000)
-# ipole's model/riaf/riaf.txt (M. Moscibrodzka & C. F. Gammie 2018, MNRAS 475, 43), unpolarised, at 223.005 GHz by
-# degrees, and at 90 degrees by GHz
+# ipole's model/riaf/riaf.txt (M. Moscibrodzka & C. F. Gammie 2018, MNRAS 475, 43), unpolarised: by inclination at
+# 223.005 GHz, and by frequency at 90 degrees
 IPOLE_DEG = {
     5: 1.9744099453676192,
     30: 2.392769883648396,
@@ -47,7 +47,7 @@ IPOLE_CAMERA = {
     "camera__observer": "velocity",
     "camera__velocity_r": -0.002,
 }
-# the same flux with polarised transfer, which lowers I
+# the same flux computed with polarised transfer, which lowers I
 IPOLE_POLARISED_DEG = {5: 1.864400335340764, 30: 2.1902815688664155, 60: 2.6534246703175217, 75: 2.6304077917851245}
 IPOLE_GHZ = {
     26.1016: 0.21402505951085055,
@@ -60,7 +60,7 @@ IPOLE_GHZ = {
 
 
 def flux(kerrd, preset, size, **changes):
-    """The flux in Jy, and the error that nine of ten rays do not exceed."""
+    """The flux in Jy, and the 90th percentile of the rays' errors."""
     settings = [word for name, value in changes.items() for word in ("--set", f"{name.replace('__', '.')}={value}")]
     with tempfile.TemporaryDirectory() as folder:
         command = [

@@ -5,10 +5,10 @@ second through grids.
     venv/bin/python bench/grmhd.py                         some minutes; needs numpy and h5py
     venv/bin/python bench/grmhd.py --nodes 96 48 8 --pixels 48 --rates 96x48x8
 
-Errors are sums of squared differences over sums of squares, of I, Q, U and V. Rates are those of unpolarised rays by
-one thread: the difference between the numbers of rays of two pictures, divided by the difference of their processor
-times. Writes bench/results/DATE-DEVICE-grmhd.{json,md}. Exits with 1 if an error is above 1e-3 in I, or 5e-3 in Q, U or
-V.
+The error of each of I, Q, U and V is the sum of squared differences divided by the sum of squares. Rates are for
+unpolarised rays on one thread: the difference of two pictures' numbers of rays, divided by the difference of their
+processor times. Writes bench/results/DATE-DEVICE-grmhd.{json,md}. Exits with 1 if an error is above 1e-3 in I, or 5e-3
+in Q, U or V.
 """
 
 import json
@@ -74,10 +74,10 @@ def light(program, folder, pixels, *more):
 
 
 def rate(program, grid, sizes, core, rounds):
-    """Rays a second and core: the least processor times of two pictures."""
+    """Rays per second and core, from the least processor times of two pictures of different sizes."""
     arguments = ["-p", "torus", "--asset", "g=" + grid, *GRID]
     least = {}
-    for n in range(rounds + 1):  # the first fills the driver's cache of kernels
+    for n in range(rounds + 1):  # the first picture fills the driver's cache of kernels
         for size in sizes:
             seconds, told = render(program, arguments, size, core)
             if n:

@@ -1,10 +1,10 @@
-/* Measures kernels one by one. Each variant that the presets' pictures need is compiled once more.
+/* Measures kernels one by one: compiles each variant that the presets' pictures need.
  *
  * Without --on: compiles each kernel on the same device, and then dispatches it with no workgroups, because some
- * drivers (lavapipe) compile only then. Measures the processor time of both, with Mesa's disk cache disabled. With --on
- * DEVICE: makes a pipeline of each kernel for that device, which need not be present (RADV with RADV_FORCE_FAMILY). A
- * line "kernel N" on standard error is followed by the driver's statistics of it. Prints one line of JSON. kernels.py
- * runs this program and reads both. */
+ * drivers (lavapipe) compile only then. The processor time of compiling and dispatching is measured, with Mesa's disk
+ * cache disabled. With --on DEVICE: creates a pipeline of each kernel for that device, which need not be present (RADV
+ * with RADV_FORCE_FAMILY). Standard error has a line "kernel N" for each kernel, followed by the driver's statistics of
+ * the kernel. Standard output has one line of JSON. kernels.py runs this program and reads both outputs. */
 #include "render/device/device_internal.h"
 #include "render/render.h"
 
@@ -17,7 +17,7 @@
 
 enum { MOST = 512, MOST_SCENES = 64 };
 struct variant {
-    struct kd_kernel_entry kernel; /* the entry, except its pipeline */
+    struct kd_kernel_entry kernel; /* a kernel's cache entry, without its pipeline */
     cJSON *scenes;
 };
 struct options {
@@ -28,7 +28,7 @@ struct options {
 static struct variant variants[MOST];
 static size_t n_variants;
 
-/* Processor time of all threads of this process, so that other processes do not count. */
+/* Processor time of this process on all threads. Other processes do not affect it. */
 static double processor_ms(void)
 {
     struct timespec t;
@@ -146,7 +146,8 @@ done:
 static enum kd_status make_all(const struct options *o, cJSON *root, struct kd_error *error)
 {
     struct kd_vk *vk;
-    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1); /* Mesa reads this when a device is created */
+    /* set before the device is created, because Mesa reads the variable then */
+    setenv("MESA_SHADER_CACHE_DISABLE", "true", 1);
     enum kd_status status = kd_vk_create(
         &(struct kd_vk_params) {
             .device = o->on ? o->on : o->device, .cache_dir = "", .compiles_only = !o->on, .pipelines_only = o->on },

@@ -3,10 +3,10 @@
 
     bench/landing.py         about three minutes; needs Chromium, and Playwright in venv/ (scripts/setup --browser)
 
-In addition to the server and the browser, --busy processes run that only compute. In each window the landing is opened
-in a browser without a cache. For each frame of the browser the script records what is visible in the view: the still,
-the recording, or a live picture, and its width in pixels, beside the width of the view in CSS pixels. --pictures DIR
-also saves a screenshot a second. Writes bench/results/DATE-DEVICE-landing.{json,md}.
+Beside the server and the browser, as many processes as --busy states keep the processors busy. For each size of window
+the landing page is opened in a browser without a cache. For each frame of the browser the script records what is
+visible in the view: the still, the recording, or a live picture, and its width in pixels, beside the width of the view
+in CSS pixels. --pictures DIR also saves a screenshot a second. Writes bench/results/DATE-DEVICE-landing.{json,md}.
 """
 
 import json
@@ -26,9 +26,9 @@ WINDOWS = {  # width, height, pixels of the device per CSS pixel
     "2560 × 1440": (2560, 1440, 1),
     "390 × 844, a phone": (390, 844, 2),
 }
-LEAST = 0.5  # required share of the view's width
-# A script that returns a list of {at, what, width, view}: one entry whenever one of the last three changes. If pictures
-# lie over one another, the topmost counts. A picture that fades away does not count.
+LEAST = 0.5  # required width of the picture, as a fraction of the view's width
+# A script that returns a list of {at, what, width, view}, with one entry for each change of what, width or view. Where
+# pictures overlap, the topmost counts. A picture that fades out does not count.
 WATCH = """window.seen = [];
 (function note() {
     const stage = document.getElementById('stage'), up = id => { const node = document.getElementById(id); return node && !node.hidden && !node.classList.contains('leaving') && node; };
@@ -70,7 +70,7 @@ def film(browser, base, name, seconds, pictures):
 
 
 def spans(seen, seconds):
-    """Combines successive entries of one kind into a row: begin, end, least and greatest width."""
+    """Combines successive entries of one kind into a row: begin, end, least width and greatest width."""
     rows = []
     for one, after in zip(seen, [*seen[1:], {"at": seconds}], strict=True):
         if not rows or rows[-1]["what"] != one["what"]:
@@ -116,7 +116,7 @@ def main():
             browser = playwright.chromium.launch(
                 executable_path="/usr/bin/chromium", args=["--no-sandbox", "--disable-gpu", "--disable-3d-apis"]
             )
-            # left out of the measurement, because it compiles the kernels
+            # not measured, because it compiles the kernels
             film(browser, base, "1400 × 860", arguments.seconds, None)
             busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(arguments.busy)]
             time.sleep(2)

@@ -5,12 +5,12 @@ by the teacher.
     bench/lesson.py                  a minute, on an idle machine
     bench/lesson.py --pupils 60
 
-The script starts its own server, and opens a session of 480 x 270 and a lesson. Each pupil is a thread that does what
-clients/web/lesson/pupil.js does, without a browser: it keeps one request for a newer frame waiting (JPEG of quality
-80), and asks for the state of the lesson once a second. The teacher fetches frames too, and changes the inclination
-twenty times a second with one patch at a time. A change is seen when the first frame with its revision has arrived.
-Then the teacher asks a question, and each pupil answers. The pupils share the server's processors. Writes
-bench/results/DATE-DEVICE-lesson.{json,md}.
+The script starts its own server, and opens a session of 480 x 270 and a lesson. Each pupil is a thread that sends the
+requests of clients/web/lesson/pupil.js, without a browser. The pupil always has one request for a newer frame waiting
+(JPEG of quality 80), and requests the state of the lesson once a second. The teacher fetches frames too, and changes
+the inclination twenty times a second with one patch at a time. A change counts as seen when the first frame of its
+revision has arrived. Then the teacher asks a question, and each pupil answers. The pupils share the server's
+processors. Writes bench/results/DATE-DEVICE-lesson.{json,md}.
 """
 
 import http.client
@@ -48,7 +48,7 @@ class Line:
 
 
 class Viewer(threading.Thread):
-    """Fetches frames: (time of arrival, revision, bytes, width) of each."""
+    """Fetches frames, and records (time of arrival, revision, bytes, width) of each."""
 
     def __init__(self, port, session, over):
         super().__init__(daemon=True)
@@ -66,7 +66,7 @@ class Viewer(threading.Thread):
 
 
 class Pupil(threading.Thread):
-    """Asks for the state of the lesson once a second, and answers a question when it comes."""
+    """Requests the state of the lesson once a second, and answers a question when the state contains one."""
 
     def __init__(self, port, lesson, key, over):
         super().__init__(daemon=True)
@@ -100,7 +100,7 @@ def drag(line, session, seconds):
 
 
 def delays(viewer, changes):
-    """Seconds from each change until a frame of it, or of a later one, has arrived."""
+    """For each change: seconds until a frame of its revision, or of a later one, has arrived."""
     out = []
     for at, revision in changes:
         came = next((t for t, shows, _, _ in viewer.seen if shows >= revision), None)

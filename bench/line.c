@@ -1,11 +1,11 @@
-/* Measures line profiles by one thread, in its processor time: the cost of the table for a spin and an inclination, the
- * cost of the sum, and the error of the profile. Prints one line of JSON for each spin and inclination.
+/* Measures line profiles on one thread: the processor time of the table for a spin and an inclination, the processor
+ * time of the sum, and the error of the profile. Prints one line of JSON for each spin and inclination.
  *
  *     kd_bench_line [TOLERANCE [REPEAT [DIRECTIONS]]]      defaults: 0.003, 7, 0
  *
  * DIRECTIONS: number of directions of tests/oracle/line_triangles.h, which computes the true error; 0: not computed.
- * The profile has 500 bins from 0 to 1.7, and r^-3 from the ISCO to 400 M. The least time of REPEAT runs counts. Uses
- * no device. */
+ * The profile has 500 bins from 0 to 1.7. Its emissivity is r^-3 from the ISCO to 400 M. The least time of REPEAT runs
+ * counts. No device is used. */
 #include "physics/disk/line_profile.h"
 #include "physics/spacetime/hole.h"
 

@@ -7,9 +7,9 @@ server.
                                          minutes more
     bench/line.py --before OTHER/build   another build directory's bench/kd_bench_line too, in alternation
 
-Cold: spin and inclination are new, and their table is computed. Warm: the table is cached. Times are processor times of
-the computing thread (bench/kd_bench_line) or of the whole server. Other processes therefore affect them only through
-the processor's caches. Writes bench/results/DATE-cpu-line.{json,md}.
+Cold means that spin and inclination are new, so that their table is computed. Warm means that the table is cached.
+Times are processor times of the computing thread (bench/kd_bench_line) or of the whole server. Other processes
+therefore affect them only through the processor's caches. Writes bench/results/DATE-cpu-line.{json,md}.
 """
 
 import http.client
@@ -50,7 +50,8 @@ def used(pid):
 
 def asked(server, count, tolerance, accept, cold):
     """Processor and wall seconds of a profile. All requests use one connection. cold: each request has another spin and
-    inclination, as in a fit. Otherwise all have the same spin and inclination, and a changing emissivity."""
+    inclination, as in a fit. Otherwise all requests have the same spin and inclination, and only the emissivity
+    changes."""
     connection, draw = http.client.HTTPConnection("127.0.0.1", server["port"], timeout=60), random.Random(4711)
     before, begun = used(server["pid"]), time.monotonic()
     for n in range(count):

@@ -8,7 +8,7 @@
     bench/live.py --sized 536x400 268x200 --presets gas gas-stars --before OTHER/build/src/kerrd   frames of these
       sizes, however long they take, on both
 
-The script starts a server on all cores; as its client it takes some of the machine too. Writes
+The script starts a server on all cores. The script is the server's client, and uses a part of the same cores. Writes
 bench/results/DATE-DEVICE-{live,presets,sharing,sized}.{json,md}.
 """
 
@@ -89,7 +89,7 @@ def timings(answer):
 
 
 def summary(answers, seconds, waits):
-    """Passes of those frames that trace rays, if there are enough of them. In a scene that moves by itself, the other
+    """The passes of frames that trace rays, if there are enough such frames. In a scene that moves by itself, the other
     frames reuse the lens map."""
     passes, traced = {}, [a for a in answers if timings(a).get("trace")]
     for answer in traced if 4 * len(traced) > len(answers) else answers:
@@ -125,11 +125,12 @@ def steer(session, patches):
 
 
 def drag(port, k, begin, seconds, settle, scene=None):
-    """One of several sessions dragged at once, from `begin` on: its frames after the first `settle` seconds."""
+    """One of several sessions that are dragged at once from the time `begin`. Returns its frames after the first
+    `settle` seconds."""
     scene = scene or {"image": SIZE, "sky": {"model": "grid"}}
     session = Session(
         port, {**scene, "camera": {**scene.get("camera", {}), "azimuth_deg": 40 * k % 360}}
-    )  # each session also has its own inclinations, so no two share a lens map
+    )  # each session has inclinations of its own, so that no two sessions share a lens map
     time.sleep(max(0, begin - time.monotonic()))
     answers, waits, n = [], [], 0
     while time.monotonic() < begin + seconds:
@@ -150,7 +151,7 @@ def drag(port, k, begin, seconds, settle, scene=None):
 
 
 def dragged_together(server, n, seconds=9, settle=3, scene=None):
-    """One process for each, so that they wait for the server and not for one another."""
+    """One process for each session, so that sessions wait for the server and not for one another."""
     begin = time.monotonic() + 1 + n / 4
     with concurrent.futures.ProcessPoolExecutor(n, mp_context=multiprocessing.get_context("fork")) as pool:
         running = [pool.submit(drag, server.port, k, begin, seconds, settle, scene) for k in range(n)]
@@ -189,7 +190,7 @@ def watch(session, seconds):
 
 
 def many_viewers(server, session, n):
-    """Frames drawn, and processor time, for n viewers of the same twenty frames."""
+    """Frames rendered, and processor time, for n viewers of the same twenty frames."""
 
     def viewer(_):
         connection = http.client.HTTPConnection("127.0.0.1", server.port, timeout=60)
@@ -308,7 +309,7 @@ def preset_rows(server, names):
     for name in names:
         scene = preset(server.port, name)
         scene["image"].update(SIZE)
-        for again in range(2):  # the first session makes the kernels
+        for again in range(2):  # the first session compiles the kernels
             session = Session(server.port, scene)
             rows[f"{name}: time runs"] = watch(session, 6 if again else 2)
             at = scene["camera"]["inclination_deg"]
@@ -329,7 +330,7 @@ def preset(port, name):
 
 
 def sized_rows(server, names, sizes):
-    """Measures frames of fixed sizes, with one ray a pixel: dragged in both directions, and while time runs."""
+    """Measures frames of fixed sizes with one ray a pixel, dragged in both directions, and then with running time."""
     rows = {}
     for name in names:
         for size in sizes:
@@ -339,7 +340,7 @@ def sized_rows(server, names, sizes):
             at, round_it = scene["camera"]["inclination_deg"], scene["camera"]["azimuth_deg"]
             scene["motion"].update(time_rate=0, azimuth_rate_deg=0)
             session = Session(server.port, scene, "?min_scale=1")
-            for again in (10, 40):  # the first ones make the kernels, and the governor adapts
+            for again in (10, 40):  # the first frames compile the kernels, and adapt the governor
                 rows[f"{name}, {size}: inclination"] = steer(
                     session, [{"camera": {"inclination_deg": at - 0.1 * (again + k)}} for k in range(again)]
                 )
@@ -353,7 +354,7 @@ def sized_rows(server, names, sizes):
 
 
 def write_sized(arguments, programs, device, load, rounds=3):
-    """Runs both programs in alternation. For each row returns the round with the median total."""
+    """Runs the two programs in alternation. Returns, for each row, the round with the median total."""
     seen = {}
     for _ in range(rounds):
         for title, path in programs.items():

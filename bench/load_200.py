@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Run two hundred connections beside a dragged session; count failures and measure the frames that they cost.
+"""Run two hundred connections beside a dragged session; count failures, and measure the loss of frames.
 
     bench/load_200.py                        about five minutes, on an idle machine
     bench/load_200.py --seconds 10 --rounds 12   on a machine with other work, which then affects both equally
@@ -9,9 +9,8 @@
 The script starts its own server. `wrk` (the Debian package) keeps 200 connections from 127.0.0.1 busy with cheap
 answers, one after the other: /healthz, /readyz, /v1/schema, /v1/presets, /v1/presets/NAME, /v1/device,
 /v1/physics/kerr. From 127.0.0.2 a session of 640 x 360 is dragged, 30 changes a second. Intervals with and without the
-load alternate, so that other work on the machine affects both. wrk shares the server's processors, because it runs on
-the same machine. It runs at nice 19: a load from another machine would take no processor time on this one. Writes
-bench/results/DATE-DEVICE-load-200.{json,md}.
+load alternate, so that other work on the machine affects both. wrk runs on the server's machine, at nice 19, because a
+load from another machine would take no processor time here. Writes bench/results/DATE-DEVICE-load-200.{json,md}.
 """
 
 import json
@@ -68,7 +67,7 @@ class Dragged:
             time.sleep(0.002)
 
     def during(self, seconds, work):
-        """Frames a second, and the longest gap in ms, while the work goes on."""
+        """Frames per second, and the longest gap between frames in ms, while the load runs."""
         begun = time.monotonic()
         result = work(seconds)
         ended = time.monotonic()
@@ -112,7 +111,7 @@ def run(path, seconds, rounds, connections, nice):
         server = fairness.Server(path)
         try:
             dragged = Dragged(server)
-            time.sleep(5)  # kernels are made, and the governor has measured the device
+            time.sleep(5)  # kernels are compiled, and the governor has measured the device
             out = []
             for _ in range(rounds):
                 _, alone, gap = dragged.during(seconds, time.sleep)

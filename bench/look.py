@@ -5,8 +5,8 @@ default scene.
     bench/look.py            about two minutes, on an idle machine
     bench/look.py --before OTHER/build      also the smooth disk by a build without the features, in alternation
 
-640 x 360, two threads; the least time of the frames of all rounds, whose lens map is traced anew (cold) or reused.
-Writes bench/results/DATE-DEVICE-look.{json,md}.
+Pictures are 640 x 360, by two threads. The result is the least time of all rounds, for frames with a new lens map
+(cold) and for frames that reuse one. Writes bench/results/DATE-DEVICE-look.{json,md}.
 """
 
 import json

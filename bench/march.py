@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Measures the cost of volumes: of the light of rays through them, and of whole frames, compared with the same scene
-without a volume.
+"""Measures the cost of volumes: the time of rays through a volume, and the time of whole frames compared with the same
+scene without a volume.
 
     bench/march.py            about two minutes, on an idle machine
     bench/march.py --before OTHER/build      also the smooth disk, without a volume, by a build from before volumes, in
                                              alternation
 
-Rays are measured on one thread pinned to one core: the rays of a picture, one a pixel, divided by the time of the pass
-that follows them. Frames by two threads. The least time of all rounds counts. The error is the frame's own estimate
-(docs/accuracy.md). Writes bench/results/DATE-DEVICE-march.{json,md}.
+The rate of rays is measured on one thread pinned to one core. It is a picture's number of rays (one a pixel) divided by
+the time of the pass that traces them. Frames are measured on two threads. The least time of all rounds counts. The
+error is the frame's own estimate (docs/accuracy.md). Writes bench/results/DATE-DEVICE-march.{json,md}.
 """
 
 import json
@@ -53,7 +53,7 @@ RAYS, FRAME = (320, 180), (640, 360)
 BLACKLIGHT = (
     2000,
     3200,
-)  # rays/s and core, measured: a smooth volume (Gold et al. 2020, test 1) by Dormand-Prince in Kerr-Schild coordinates
+)  # rays/s and core, as measured: a smooth volume (Gold et al. 2020, test 1), Dormand-Prince in Kerr-Schild coordinates
 
 
 def frames(bench, scene, size, repeat, cores, threads):
@@ -71,8 +71,7 @@ def least(runs, kind, name):
 
 
 def told(kerrd, scene):
-    """The frame's estimate of the error of its volumes: the error that nine rays in ten do not exceed, and the largest
-    error."""
+    """The frame's estimate of the error of its volumes: the 90th percentile of the rays, and the largest error."""
     with tempfile.TemporaryDirectory() as folder:
         command = [
             kerrd,

@@ -38,7 +38,7 @@ def binary(build, name):
 
 
 def run(command, cores=None, threads=None):
-    """Standard output and error of a command, pinned to cores, with this number of lavapipe threads."""
+    """Runs a command pinned to cores, with this number of lavapipe threads. Returns its standard output and error."""
     environment = dict(os.environ, LC_ALL="C")
     if threads is not None:
         environment["LP_NUM_THREADS"] = str(threads)
@@ -57,7 +57,8 @@ def one_core(command, core):
 
 
 def processor(pid):
-    """Processor seconds of another process, by its own clock: it is finer than the steps of 10 ms in /proc."""
+    """Processor seconds of another process, read from its processor clock, because times in /proc have steps of 10
+    ms."""
     return time.clock_gettime((~pid << 3) | 2)  # clock_getcpuclockid(3)
 
 
@@ -91,7 +92,7 @@ def head(device, load_before, command=None):
 
 
 def portable(arguments):
-    """Paths inside the checkout, relative to it. Of other paths only the last part."""
+    """Shortens paths: a path in the checkout becomes relative to it; of any other path only the last part remains."""
     out = []
     for a in arguments:
         if os.path.isabs(a):

@@ -5,9 +5,9 @@ ray a pixel compared with 64.
     bench/motion.py            about five minutes, on an idle machine
 
 The script starts its own server and renders a hundred frames of 320 x 180, in linear light. It computes each pixel's
-variance in time, and the mean square of the step from frame to frame, both relative to pictures of 64 rays a pixel: for
-the whole picture, and for the pixels with the finest gas, where one ray a pixel is worst. Needs numpy. Writes
-bench/results/DATE-DEVICE-motion.{json,md}.
+variance in time, and the mean square of the change from frame to frame. Both are given relative to pictures of 64 rays
+a pixel, once for the whole picture and once for the pixels with the finest gas, where one ray a pixel is worst. Needs
+numpy. Writes bench/results/DATE-DEVICE-motion.{json,md}.
 """
 
 import http.client
@@ -67,7 +67,8 @@ def film(port, samples, inclination):
 
 
 def figures(light, truth):
-    """Computed from the square root of light, as an eye perceives it, so that bright gas does not dominate."""
+    """Computed from the square root of the light, which is close to perceived brightness. Otherwise bright gas would
+    dominate."""
     light, truth = numpy.sqrt(light), numpy.sqrt(truth)
     lit = truth.mean(0) > 0.02
     step = lambda x: numpy.square(numpy.diff(x, axis=0)).mean(0)

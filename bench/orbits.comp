@@ -1,5 +1,5 @@
-// Yoshida's step of src/physics/orbit/orbit_path.c in double precision, without compensated sums, one orbit for each
-// invocation. It shows the cost of a kernel for lists of orbits.
+// Yoshida's step of src/physics/orbit/orbit_path.c, in double precision, without compensated sums. Each invocation
+// integrates one orbit. bench/orbits_device.c uses this kernel to measure the cost of lists of orbits.
 #version 450
 layout(local_size_x = 64) in;
 

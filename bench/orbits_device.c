@@ -1,10 +1,10 @@
-/* The step of the orbit integrator on the device, compared with the same step on the processor, one orbit at a time and
- * eight side by side. Shows whether a kernel for lists of orbits would be faster.
+/* Compares the step of the orbit integrator on the device with the same step on the processor, there for one orbit at a
+ * time and for eight at once. The result shows whether a kernel for lists of orbits would be faster.
  *
  *     LP_NUM_THREADS=1 taskset -c 0 kd_bench_orbits [ORBITS [STEPS]]
  *
- * All follow the same orbits by the same number of steps. The device's sums are not compensated. The device checks only
- * the energy, and not Q, the rest mass and periastra. */
+ * All three integrate the same orbits by the same number of steps. The device does not compensate its sums. It checks
+ * only the energy, not Q, the rest mass or the periastra. */
 #include "physics/orbit/orbit_lanes.h"
 #include "physics/spacetime/hole.h"
 #include "vk/vk.h"

@@ -4,10 +4,10 @@
     bench/page.py            about two minutes, on an idle machine; needs Chromium, and Playwright in venv/
                              (scripts/setup --browser)
 
-A window of 1440 x 900 on the server's machine. Rows: time running; the camera dragged round the hole; both again on a
-line of 300 ms and 1 Mbit/s, simulated by Chromium; the first view before any input; a fall; a thick disk; a drag beside
-a second visitor whose time runs. A row's target, if it has one, is shown beside the row. If a recording plays in the
-first view instead of live pictures, the row says so. Writes bench/results/DATE-DEVICE-page.{json,md}.
+A window of 1440 x 900 on the server's machine. Rows: time running; the camera dragged round the hole; each of these on
+a line of 300 ms and 1 Mbit/s, simulated by Chromium; the first view before any input; a fall; a thick disk; a drag
+while a second visitor's scene runs. If a row has a target, the table shows it. If a recording plays in the first view
+instead of live pictures, the row says so. Writes bench/results/DATE-DEVICE-page.{json,md}.
 """
 
 import json
@@ -23,7 +23,7 @@ import measure
 WINDOW = {"width": 1440, "height": 900}
 PATIENCE_MS = 120_000
 SCENES = {"default": "preset=default", "first view": "preset=gas-stars"}
-# These rows are not measured on the slow line. In the fall, the running time is the observer's own.
+# Rows that are not measured on the slow line. In the fall, the clock shown is the observer's own.
 BESIDE = {"fall": "preset=infall", "thick disk": "preset=thick-disk&motion.time_rate=4"}
 FAR = {"offline": False, "latency": 300, "downloadThroughput": 1e6 / 8, "uploadThroughput": 1e6 / 8}
 # Records each frame that the page reads: its width, the server's time for it, and the time from answer to picture.
@@ -47,7 +47,7 @@ WATCH = """() => {
 
 
 def drag(page, seconds):
-    """Drags back and forth round the hole, at some sixty positions a second, like a user's hand."""
+    """Drags back and forth round the hole, with some sixty positions a second, as a mouse does."""
     page.mouse.move(700, 400)
     page.mouse.down()
     page.evaluate(
@@ -101,7 +101,7 @@ def first_picture(browser, base):
 
 
 def watched(browser, address):
-    """A page at this address whose frames are recorded, once it shows a picture."""
+    """Opens a page at this address, waits until it shows a picture, and records its frames."""
     page = browser.new_page(viewport=WINDOW)
     page.set_default_timeout(PATIENCE_MS)
     page.goto(address)
@@ -115,7 +115,7 @@ def waits(page):
 
 
 def landing(browser, base, seconds):
-    """The first view, which drifts until somebody touches it."""
+    """The first view, whose camera drifts until the visitor's first input."""
     page = watched(browser, base)
     page.wait_for_timeout(4000)
     seen = row(page, waits(page), seconds)
@@ -124,7 +124,7 @@ def landing(browser, base, seconds):
 
 
 def beside_another(browser, base, seconds):
-    """The default scene, dragged, while another visitor's time runs."""
+    """Drags the default scene while another visitor's scene runs."""
     pages = [watched(browser, f"{base}#{SCENES['default']}&motion.time_rate=4") for _ in range(2)]
     drag(pages[1], 3)
     before = len(pages[0].evaluate("() => window.seen"))
@@ -193,7 +193,7 @@ def main():
             browser = playwright.chromium.launch(
                 executable_path="/usr/bin/chromium", args=["--no-sandbox", "--disable-gpu", "--disable-3d-apis"]
             )
-            first_picture(browser, base)  # left out of the measurement, because it compiles the kernels
+            first_picture(browser, base)  # not measured, because it compiles the kernels
             first, rows = first_picture(browser, base), rows_of(browser, base, arguments.seconds)
             browser.close()
     finally:

@@ -3,10 +3,10 @@
 
     bench/paired.py OLD NEW [--pairs 8] [--frames 3] [--size 640x360] [--scenes-of old] PRESET ...
 
-OLD and NEW are build folders; the presets are those of NEW's kerrd. With --scenes-of old they are those of OLD's, for
-an OLD that does not know all fields of NEW's scenes. Both builds render each scene in turn, many times, on one lavapipe
-thread; NEW's clock of processor time (cpu_clock.c) is loaded into both. The ratio of a pass is that of the least times,
-and its spread that of the medians.
+OLD and NEW are build folders. Scenes are the presets of NEW's kerrd, or of OLD's kerrd with --scenes-of old, for an OLD
+that lacks some fields of NEW's scenes. The two builds render each scene in alternation, many times, on one lavapipe
+thread. NEW's library for processor time (cpu_clock.c) is preloaded into both. For each pass the script prints the ratio
+of the least times, and the ratio of the medians as its spread.
 """
 
 import argparse

@@ -59,7 +59,7 @@ static enum kd_status measure(struct kd_renderer *renderer, double epicycles, in
     for (int k = 0; k <= repeat && !status; k++) {
         scene.top.time = 37.7 * k;
         status = one_frame(renderer, &scene, device, total, &grid, error);
-        if (!k) { /* the first run compiles the kernels and traces the rays */
+        if (!k) { /* the first run compiles the kernels and traces the rays, so it does not count */
             cJSON_DeleteItemFromArray(device, 0);
             cJSON_DeleteItemFromArray(total, 0);
         }

@@ -19,14 +19,16 @@ import radio
 SPIN, INCLINATION, HALF_WIDTH = 0.9, 70.0, 12
 OBSERVER = 1e7  # M: kerrz's own default for its distant observer
 
-# For each pair: its title, (method, computes) of kd_bench_trace, and the mapper and flags of kerrz.
+# For each pair: its title; (method, computes), which select the figure of kd_bench_trace; the mapper and flags of
+# kerrz.
 PAIRS = [
     ("r of the first crossing", ("closed form", "r of 1 crossing"), "radius", ["--no-false-image"]),
     ("r, later crossings too", ("closed form", "r of 3 crossings"), "radius", []),
     ("r and φ, later crossings too", ("closed form", "r, phi of 3 crossings"), "azimuth", []),
 ]
-# Values of kd_bench_trace's `computes` for which kerrz makes no picture. AART 2.1.10 and geokerr compute r, t and φ of
-# a crossing. Their figures were measured earlier, on one core of a machine of the same kind.
+# Values of kd_bench_trace's `computes` for which kerrz makes no picture. These compute r, t and φ of a crossing, as
+# AART 2.1.10 and geokerr do. The rates of AART and geokerr were measured earlier, on one core of a machine of the same
+# kind.
 ALONE = ["r, phi, sky, fate", "r, phi, sky, fate, delay"]
 AART, GEOKERR = 136_000, 300_000
 
@@ -44,7 +46,8 @@ def find_kerrz():
 
 
 def time_kerrz(program, mapper, flags, side, core):
-    """Rays/s from the time that kerrz prints: its tracing and mapping, without starting up or writing the file."""
+    """Rays per second, from the time that kerrz prints for tracing and mapping. Its startup and the writing of the file
+    do not count."""
     with tempfile.TemporaryDirectory() as folder:
         text = measure.one_core(
             [
@@ -138,7 +141,7 @@ def first_crossing(np, lam, eta, up, w0):
 
 
 def judge_kerrz(np, library, n):
-    """Errors of r compared with the reference, both for kerrz's own constants and start and for an observer at
+    """Errors of r relative to the reference: for kerrz's own constants and starting point, and for an observer at
     infinity."""
     metric = library.krz_KerrMetric_init(1.0, SPIN)
     eye = library.krz_FourVector(t=0, r=OBSERVER, th=math.radians(INCLINATION), ph=0)
@@ -162,7 +165,7 @@ def judge_kerrz(np, library, n):
 
 
 def through_volumes(kerrd, o):
-    """Rays/s and core of the scenes of radio.py, measured as it does."""
+    """Rays per second and core of the scenes of radio.py, measured by the method of radio.py."""
     figures = radio.figures_of(*radio.measured(kerrd, o.sizes, o.volume_rounds, o.core), o.sizes)
     return [
         {

@@ -21,7 +21,7 @@ import matplotlib.pyplot as plt
 BLUE, SKY, GREEN, ORANGE, RED, PINK = "#0072b2", "#56b4e9", "#009e73", "#e69f00", "#d55e00", "#cc79a7"  # Okabe and Ito
 KERRD = "build/src/kerrd"
 NAN = float("nan")
-# radius sqrt(x^2 + y^2) of the horizon of a = 0.9 in the plane, where x^2 + y^2 = r^2 + a^2
+# radius sqrt(x^2 + y^2) of the horizon for a = 0.9, in the plane of the orbit, where x^2 + y^2 = r^2 + a^2
 HORIZON = (2 * (1 + 0.19**0.5)) ** 0.5
 
 
@@ -33,7 +33,8 @@ def run(*words, text=None):
 
 
 def save(figure, path):
-    """Writes an SVG with the same bytes each time. Paths are rounded to a tenth of a point, which halves the file."""
+    """Writes an SVG file that has the same bytes in each run. Paths are rounded to a tenth of a point, which halves the
+    file's size."""
     figure.savefig(path, metadata={"Date": None})
     plt.close(figure)
     tenth = lambda found: f"{float(found[0]):.1f}".removesuffix(".0")
@@ -75,7 +76,7 @@ def frequencies(axes):
         for name, label, colour in lines:
             axes.plot(p["r"], v[name], style, color=colour, label=f"{label}, a = {a}")
         isco = ask("kerr", spin=a)[1]["isco"]
-        p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # kappa vanishes at the ISCO, and is drawn from there on
+        p, v = ask("kerr", spin=a, r=f"{isco!r}:14:601")  # drawn outside the ISCO, because kappa vanishes there
         axes.plot(p["r"], v["kappa"], style, color=RED, label=f"$\\kappa$, a = {a}")
     axes.set(
         xlabel="r / M",
@@ -155,7 +156,7 @@ def flux(axes):
 def colours(axes):
     p, v = ask("blackbody", temperature_k="1000:12000:111")
     for i, t in enumerate(p["temperature_k"]):
-        # the strips overlap, so that there are no seams
+        # adjacent strips overlap, because seams would be visible otherwise
         axes.axvspan(t - 50, t + 150, color=(v["srgb_r"][i], v["srgb_g"][i], v["srgb_b"][i]), linewidth=0)
     for name, style in (("srgb_r", "-"), ("srgb_g", "--"), ("srgb_b", ":")):
         axes.plot(p["temperature_k"], v[name], style, color="black", label=name[-1].upper())
@@ -216,8 +217,9 @@ def fallback(axes):
 
 
 def light(axes):
-    """Rays in the equatorial plane that end at an observer far to the right, by the steps of the Kerr-Schild engine.
-    The engine traces them in the mirrored spacetime (t, phi) -> (-t, -phi), so y is drawn with the opposite sign."""
+    """Rays in the equatorial plane that end at an observer far to the right, computed step by step as in the
+    Kerr-Schild engine. The engine traces them in the mirrored spacetime (t, phi) -> (-t, -phi), so y is drawn with the
+    opposite sign."""
     for b in (-12, -10, -8, -6, -4, -3.2, -2.9, -2.7, -2, 0, 2, 4, 6, 6.6, 6.9, 7.5, 9, 11):
         text = run(
             "rays",
@@ -273,7 +275,7 @@ def azimuths_seen(axes):
 
 
 def distances(axes):
-    """Size of the shadow as seen from near the hole, compared with the straight lines for a distant observer."""
+    """Size of the shadow as seen from near the hole, compared with the size for straight rays."""
     for name, colour in (("static", BLUE), ("zamo", RED)):
         radius, angle = [], []
         for k in range(41):
@@ -371,7 +373,7 @@ def main():
     KERRD = arguments.kerrd
     plt.rcParams.update(
         {"svg.hashsalt": "kerrd", "svg.fonttype": "none", "path.simplify": True}
-    )  # fixed, so that the file is the same each time
+    )  # fixed, so that each run writes the same bytes
     for name in arguments.chapters or (*PANELS, *PICTURES):
         if name in PANELS:
             draw(PANELS[name], arguments.output / f"{name}.svg")

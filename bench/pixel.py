@@ -5,9 +5,10 @@
     bench/pixel.py --before OTHER/build/src/kerrd
     bench/pixel.py --new      the first pixels of views whose kernels are new: empty caches, about two minutes
 
-The script starts its own server for each row. It requests pixels of a picture of 1600 x 900 at random places, as the
-page does, after a few that compile the kernels. With --new it requests them along a row of pixels that crosses the
-photon ring, 20 s after the view has its last frame. Writes bench/results/DATE-DEVICE-pixel.{json,md}, or -pixel-new.
+The script starts its own server for each row. It first requests a few pixels, which compile the kernels. Then it
+requests pixels at random places of a picture of 1600 x 900, as the page does. With --new it requests pixels along a row
+that crosses the photon ring, beginning 20 s after the last frame of the view. Writes
+bench/results/DATE-DEVICE-pixel.{json,md}, or -pixel-new.
 """
 
 import json
@@ -28,7 +29,7 @@ LONG = {"image": {"width": 2560, "height": 1440, "samples": 4}}
 
 
 def rests(load):
-    """A view whose camera jumps every 3 s. After each jump its picture is refined."""
+    """A view whose camera jumps every 3 s. After each jump the server refines the picture."""
 
     def jump():
         time.sleep(3)
@@ -78,7 +79,7 @@ def run_one(path, preset, begin, n):
 
 
 def last_frame(server, connection, preset):
-    """Watches a view until its last frame, or for half a minute if its time runs."""
+    """Watches a view until its last frame, or for half a minute if time runs in it."""
     made = json.loads(server.ask(SOURCE, "POST", f"/v1/sessions?preset={preset}", VIEW, connection=connection)[1])
     begun, number, quality = time.monotonic(), 0, ""
     while "final=1" not in quality and time.monotonic() - begun < 30:

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Measures the speed of the playground, in milliseconds of a sub-step that moves all bodies and all debris.
+"""Measures the speed of the playground: milliseconds for a sub-step that moves all bodies and all debris.
 
     bench/playground.py [KERRD]      a table in Markdown on standard output
 
-A star is torn into the given number of pieces, among bodies of no radius that attract one another. The same snapshot
-then runs for few sub-steps and for many. Each sub-step is a hundredth of the longest one that debris allows. The
-difference of the two times is divided by the difference of the numbers of sub-steps. The least of three runs counts.
+A star is torn into the given number of pieces, among point-like bodies that attract one another. The same snapshot then
+runs for few sub-steps and for many. Each sub-step is a hundredth of the longest one that debris allows. The time of a
+sub-step is the difference of the two times divided by the difference of the numbers of sub-steps. The least of three
+runs counts.
 """
 
 import json
@@ -29,7 +30,7 @@ def run(*args, code=0):
 
 
 def bodies(n):
-    """Bodies on circles from 100 to 300 M in all directions, of a ten-billionth of the hole's mass each."""
+    """Bodies on circular orbits from 100 to 300 M in all directions, each with a ten-billionth of the hole's mass."""
     rng = random.Random(n)
     for _ in range(n):
         r, phi = rng.uniform(100, 300), rng.uniform(0, 2 * math.pi)

@@ -5,10 +5,10 @@ many bodies.
     bench/playground_pictures.py [KERRD]     about two minutes, on an idle machine: a table in Markdown on standard
                                              output
 
-The script starts a server on all cores, and is its client. Each playground runs at 100 M a second. It is watched for
-six seconds, after a warm-up of two seconds. Columns: rays a pixel that the session has chosen for the speed of the
-device; states of the playground shown by its frames; ms of the device for a frame; M/s that the motion reached beside
-the pictures.
+The script starts a server on all cores, and acts as its client. Each playground runs at 100 M a second. It is watched
+for six seconds, after a warm-up of two seconds. Columns: rays a pixel that the session chose for the device's speed;
+number of states of the playground that frames showed; device time of a frame in ms; speed in M/s that the simulation
+reached while pictures were rendered.
 """
 
 import http.client
@@ -59,7 +59,7 @@ class Server:
 
 
 def torn(pieces, folder):
-    """The preset's star after its passage, torn into this number of pieces."""
+    """The preset's star after its passage, when it is torn into this number of pieces."""
     begun, ended = (os.path.join(folder, name) for name in ("begun.json", "ended.json"))
     with open(begun, "w") as file:
         json.dump(
@@ -73,7 +73,7 @@ def torn(pieces, folder):
 
 
 def crowd(n):
-    """Bodies on circles from 15 to 60 M round the hole."""
+    """Bodies on circular orbits of 15 to 60 M round the hole."""
     rng = random.Random(n)
     bodies = []
     for _ in range(n):

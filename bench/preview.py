@@ -3,10 +3,9 @@
 
     bench/preview.py            about a minute
 
-For each preset the script starts a server; the driver's cache already contains the kernels. It requests three previews
-in turn: of the preset (first), of the preset from elsewhere, whose lens map the server does not have (other), and of
-the preset with another brightness, whose lens map it has (lens map). Writes
-bench/results/DATE-DEVICE-preview.{json,md}.
+For each preset the script starts a server, with the kernels already in the driver's cache. It requests three previews
+in turn: the preset (first); the preset from another camera position, which needs a new lens map (other); and the preset
+with another brightness, which reuses the lens map (lens map). Writes bench/results/DATE-DEVICE-preview.{json,md}.
 """
 
 import json

@@ -1,9 +1,9 @@
-"""A model of servers of kerrd behind HAProxy, by discrete events. The model does not render; it uses measured service
+"""A model of servers of kerrd behind HAProxy, by discrete events. The model renders nothing. It uses measured service
 times.
 
 Times are in seconds. Each part models:
 
-    Shares     src/server/http/shares.c: which work is next, by client, by class, and within a class
+    Shares src/server/http/shares.c: order of work by client, by class, and within a class
     Server     src/server/render: the bounded queue, slices of long pictures and the lanes that they need, the encoders
     Balancer   docs/examples/haproxy.cfg: leastconn, maxconn, one queue, retries, servers that die, HAProxy's own time
     visitor    a session, dragged and resting in turn; frames while it is dragged are as fine as the governor allows
@@ -22,23 +22,23 @@ import simpy
 
 WEIGHTS = {"live": 8, "picture": 4, "rays": 4, "refinement": 2, "job": 1}  # KD_CLASSES
 CREDIT = 0.2  # CREDIT_MS of shares.c
-MOMENT, SLICE = 0.1, 0.04  # KD_MOMENT_MS; device time of a submission of a long picture
+MOMENT, SLICE = 0.1, 0.04  # KD_MOMENT_MS in seconds: device time of one submission of a long picture
 BRIEF, BRIEF_LANES, LANES = 3.0, 2, 8  # BRIEF_MS and BRIEF_LANES of device_scheduler.c, KD_BACKGROUND_RENDERS
 ENCODERS = 2  # KD_ENCODERS
 
 
 class Refused(Exception):
-    """503: the queue is full, or the server has died."""
+    """Status 503: the queue is full, or the server has died."""
 
 
 @dataclasses.dataclass(eq=False)
 class Work:
     seconds: float  # seconds of device time
-    estimate: float  # seconds of device time by its plan's estimate
-    encode: float = 0.0  # seconds that an encoder takes after the device
+    estimate: float  # device time in seconds, as estimated by the plan
+    encode: float = 0.0  # seconds of an encoder, after the device has finished
     kind: str = "picture"
     client: str = "proxy"
-    paid: float = 0.0  # state of the scheduler: this member and the following ones
+    paid: float = 0.0  # this member and the ones below: state of the scheduler
     left: float = 0.0
     expected: float = 0.0
     stage: str = "waits"
@@ -117,8 +117,8 @@ class Shares:
 
 
 class Server:
-    """One device and its encoders. `limit`: --queue. `aside`: seconds that a request takes without device and encoder,
-    which serve other requests meanwhile."""
+    """One device and its encoders. limit: the value of --queue. aside: seconds of a request that need neither device
+    nor encoder, so that other requests are served meanwhile."""
 
     def __init__(self, env, limit=16, aside=0.0):
         self.env, self.limit, self.aside = env, limit, aside
@@ -128,7 +128,7 @@ class Server:
         env.process(self._run())
 
     def submit(self, work):
-        """An event that succeeds when the work is done, or fails with Refused."""
+        """Returns an event that succeeds when the work is done, or fails with Refused."""
         work.done, work.left, work.expected = self.env.event(), work.seconds, work.estimate
         waiting = sum(w.stage != "works" and w.kind in ("picture", "rays") for w in self.works)
         if not self.alive or (work.kind in ("picture", "rays") and waiting >= self.limit + (self.holder is None)):
@@ -204,10 +204,10 @@ class Server:
 
 
 class Balancer:
-    """HAProxy. A request goes to the server with the fewest connections. If several servers have the fewest, it goes to
-    the one that has had this number for the longest time. If each server has `maxconn` connections, the request waits
-    in one queue for at most `patience` seconds. A refused request goes to another server, `retries` times at most.
-    `own`: seconds that a request takes on one of HAProxy's `cores`."""
+    """HAProxy. A request goes to the server with the fewest connections. On a tie it goes to the server that has had
+    this number for the longest time. If each server has `maxconn` connections, the request waits in one queue for at
+    most `patience` seconds. A refused request goes to another server, `retries` times at most. `own`: seconds that a
+    request takes on one of HAProxy's `cores`."""
 
     def __init__(self, env, servers, maxconn=2, patience=700.0, retries=5, own=0.0, cores=1):
         self.env, self.servers, self.maxconn, self.patience, self.retries, self.own = (
@@ -222,7 +222,7 @@ class Balancer:
         self.waiting = collections.deque()
         self.by_count = collections.defaultdict(
             dict
-        )  # number of connections -> the servers that have it, in the order in which they reached it
+        )  # for each number of connections: the servers that have it, in the order in which they reached it
         self.count = {server: 0 for server in servers}
         for server in servers:
             self.by_count[0][server] = None
@@ -255,7 +255,7 @@ class Balancer:
     def release(self, server):
         self._move(server, -1)
         while self.waiting:
-            if self.waiting[0].triggered:  # gives up, because its patience has ended
+            if self.waiting[0].triggered:  # gives up, because `patience` seconds have passed
                 self.waiting.popleft()
                 continue
             server = self._least()
@@ -275,7 +275,7 @@ class Balancer:
                 yield self.env.timeout(self.own)
 
     def request(self, make):
-        """The process of a request for the work that make() returns. The process's value is 200 or 503."""
+        """The process of one request, whose work is made by make(). The process's value is 200 or 503."""
         work = make()
         yield from self.passes()
         for _ in range(self.retries + 1):
@@ -305,24 +305,25 @@ class Habits:
 
     drag: float = 3.0  # mean seconds of a stroke
     rest: float = 12.0  # mean seconds between two strokes
-    pause: float = 0.001  # seconds from a picture to the next request
-    frames: int = 2  # frames per input: the one in progress when the input comes, and the one that shows the input
+    pause: float = 0.001  # seconds between receiving a picture and sending the next request
+    # frames for each input: the one in progress when the input arrives, and the one that shows the input
+    frames: int = 2
     encode: float = 0.001
-    floor: float = 0.010  # device seconds of the smallest frame
-    full: float = 0.100  # device seconds of the largest frame
-    fill: float = 0.85  # fraction of the governor's target that its frames take
-    settle: float = 0.3  # device seconds in which a picture at rest becomes as fine as asked
+    floor: float = 0.010  # device seconds of the smallest frame allowed
+    full: float = 0.100  # device seconds of the largest frame allowed
+    fill: float = 0.85  # fraction of the governor's target time that a frame takes
+    settle: float = 0.3  # device seconds to refine a picture at rest to the requested accuracy
 
 
 def frame_seconds(habits, dragged):
-    """Device seconds of a frame while `dragged` sessions are dragged: governor.h, target_ms 33 and sparse_ms 60."""
+    """Device seconds of a frame while `dragged` sessions are dragged, as in governor.h (target_ms 33, sparse_ms 60)."""
     share = 1 / dragged
     return min(max(habits.fill * share * min(0.033 / math.sqrt(share), 0.060), habits.floor), habits.full)
 
 
 def stroke(env, server, habits, seconds, log):
     """A drag: sends a patch, gets frames until one shows it, and sends the next patch.
-    log: (when, seconds from input to picture)."""
+    log: a list of (time, seconds from input to picture)."""
     server.dragged += 1
     end = env.now + seconds
     try:
@@ -338,7 +339,8 @@ def stroke(env, server, habits, seconds, log):
 
 
 def visitor(env, server, habits, rng, stay, log):
-    """A session on one server until its visitor leaves: rests and strokes, and a refined picture after each stroke."""
+    """A session on one server until its visitor leaves: rests and strokes in turn, with a refined picture after each
+    stroke."""
     end = env.now + stay
     try:
         yield env.timeout(min(rng.expovariate(1 / habits.rest), stay))
@@ -347,12 +349,12 @@ def visitor(env, server, habits, rng, stay, log):
             server.submit(Work(habits.settle, habits.settle, 0, "refinement")).defused = True
             yield env.timeout(min(rng.expovariate(1 / habits.rest), max(end - env.now, 0)))
     except Refused:
-        log.append((env.now, None))  # the session is lost with its server
+        log.append((env.now, None))  # the server has died, and the session with it
 
 
 def open_renders(env, balancer, arrivals, make, log):
-    """Sends requests at given times. make(k): the work of request k.
-    log: (number, arrival, seconds to the answer, status)."""
+    """Sends requests at given times. make(k) returns the work of request k. log: a list of (number, arrival, seconds to
+    the answer, status)."""
 
     def one(k, at):
         status = yield env.process(balancer.request(lambda: make(k)))

@@ -4,12 +4,13 @@
     bench/queueing_check.py            nine minutes, on an idle machine of two cores; needs haproxy (scripts/setup
                                        --proxy) and simpy (pip install simpy)
 
-Two servers by docs/examples/haproxy.cfg, pinned to a core each. Their capacity is measured by four clients that request
-pictures one after the other. Then pictures are requested at random times, at 0.3, 0.6, 0.9 and 1.2 of the capacity, and
-with queues that refuse. The model gets the same arrivals twice. "replayed" uses the service times of that run, by
-Server-Timing, and tests the model of the queues. "foretold" uses the service times of the measurement of capacity, by
-size, and tests the plan. The same is done with two and ten servers for tests, whose device sleeps instead of computing.
-Sleeping takes no processor time, so that ten fit on the machine. Writes bench/results/DATE-DEVICE-queueing.{json,md}.
+Two servers are configured by docs/examples/haproxy.cfg and pinned to one core each. Their capacity is measured by four
+clients that request pictures one after the other. Then pictures are requested at random times, at 0.3, 0.6, 0.9 and 1.2
+of the capacity, and once more with queues so short that they refuse requests. The model gets the same arrivals twice.
+"replayed" uses the service times of that run, by Server-Timing, and tests the model of the queues. "foretold" uses the
+service times of the measurement of capacity, by size, and tests the plan. The same is done with two and with ten test
+servers, whose device sleeps instead of computing. Ten fit on the machine, because sleeping takes no processor time.
+Writes bench/results/DATE-DEVICE-queueing.{json,md}.
 """
 
 import asyncio
@@ -35,7 +36,7 @@ except ImportError:
 
 PRIORITY = os.getpriority(os.PRIO_PROCESS, 0)
 CONFIGURATION = measure.ROOT / "docs/examples/haproxy.cfg"
-# width, height, percentage of the pictures
+# width, height, and share of the pictures in per cent
 MIX = ((64, 48, 25), (160, 90, 35), (320, 180, 35), (640, 360, 5))
 # Settings of HAProxy and the servers: --queue, changes of the configuration; settings of the model: patience, maxconn,
 # retries.
@@ -62,8 +63,8 @@ ASLEEP = [(n, load) for n in (2, 10) for load in (0.6, 0.9, 1.2)]
 
 
 def go_first():
-    """Raises this process's priority above the servers', if permitted. In practice clients and HAProxy run on other
-    machines; here they take little processor time."""
+    """Raises this process's priority above the servers', if the system permits it, because in practice clients and
+    HAProxy run on other machines. They take little processor time here."""
     try:
         os.setpriority(os.PRIO_PROCESS, 0, PRIORITY - 10)
     except PermissionError:
@@ -77,7 +78,7 @@ def free_port():
 
 
 class Server(live.Server):
-    """A server with this command line and --queue."""
+    """Starts a server with this command line and this value of --queue."""
 
     def __init__(self, command, queue, priority=PRIORITY):
         self.process = subprocess.Popen(
@@ -134,7 +135,7 @@ def haproxy():
 
 
 def targets(rng, n):
-    """Pictures of several sizes, each with its own lens map: (size, address)."""
+    """Pictures of several sizes, each with its own lens map, as (size, address)."""
     sizes = rng.choices(range(len(MIX)), [weight for *_, weight in MIX], k=n)
     return [
         (
@@ -146,7 +147,7 @@ def targets(rng, n):
 
 
 async def ask(port, target):
-    """Status, seconds to the whole answer, Server-Timing in seconds."""
+    """Returns the status, the seconds until the whole answer has arrived, and the seconds in Server-Timing."""
     begun = time.perf_counter()
     reader, writer = await asyncio.open_connection("127.0.0.1", port)
     writer.write(f"GET {target} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
@@ -204,7 +205,7 @@ def estimates(port):
 
 
 def calibrate(proxied, rng, n):
-    """Service times by size with both servers busy, and the pictures a second."""
+    """Service times by size while both servers are busy, and pictures per second."""
     asked = targets(rng, n)
     cpu = [server.cpu() for server in proxied.servers]
     answers, rate = asyncio.run(closed(proxied.port, asked, 4))
@@ -227,9 +228,9 @@ def calibrate(proxied, rng, n):
 
 
 def simulate(n, setting, arrivals, takes, estimated, aside):
-    """Models n servers. takes[k], estimated[k]: actual and estimated seconds of picture k. aside: seconds that it takes
-    in addition to its service time. Returns (seconds to the answer, status) by number, and the seconds of the whole
-    run."""
+    """Models n servers. takes[k], estimated[k]: actual and estimated service seconds of picture k. aside: seconds of a
+    picture in addition to its service time. Returns (seconds to the answer, status) by number, and the seconds of the
+    whole run."""
     env = simpy.Environment()
     servers = [queueing.Server(env, setting["queue"], aside) for _ in range(n)]
     balancer, log = queueing.Balancer(env, servers, **setting["model"]), []
@@ -251,19 +252,19 @@ def told(rows, seconds):
 
 
 def run(proxied, setting, load, rng, n):
-    """One run of n pictures, and the model of it both ways."""
+    """One run of n pictures on real servers, and the model of the run with replayed and with foretold service times."""
     c = calibrate(proxied, rng, 200)
     asked, arrivals = targets(rng, n), queueing.poisson(rng, load * c["rate"], n)
     answers, seconds = asyncio.run(opened(proxied.port, asked, arrivals))
     lone = list(alone(arrivals, answers))
-    if len(lone) > 20:  # overhead of a picture that ran alone in this run, beyond the time in Server-Timing
+    if len(lone) > 20:  # overhead of a picture that ran alone in this run: its seconds minus those in Server-Timing
         c["aside_s"] = statistics.mean(lone)
     foretold = [rng.choice(c["took"][size]) + c["beyond_s"] for size, _ in asked]
     served = [timing["total"] + timing["encode"] if "total" in timing else None for _, _, timing, _ in answers]
     like = [
         [took for took, (at, _) in zip(served, asked) if took and at == size] or c["took"][size]
         for size in range(len(MIX))
-    ]  # service times of pictures of this size; those of refused pictures are drawn from them
+    ]  # measured service times of pictures of this size; a refused picture gets one of them at random
     replayed = [(took or rng.choice(like[size])) + c["beyond_s"] for took, (size, _) in zip(served, asked)]
     out = {"real": told([(took, status) for status, took, *_ in answers], seconds)}
     estimated = [c["estimates"][size] for size, _ in asked]
@@ -280,12 +281,12 @@ def run(proxied, setting, load, rng, n):
 
 
 def sent(arrivals, answers):
-    """The times at which the requests were really sent. A busy machine wakes this script late."""
+    """The times at which the requests were really sent, because a busy machine wakes this script late."""
     return [at + late for at, (*_, late) in zip(arrivals, answers)]
 
 
 def alone(arrivals, answers):
-    """For each request that ran alone: the seconds of its answer, minus those in Server-Timing."""
+    """For each request that ran alone: the seconds until its answer, minus the seconds in Server-Timing."""
     free = 0.0
     for at, (status, took, timing, late) in zip(arrivals, answers):
         if at > free and status == 200:
@@ -294,8 +295,8 @@ def alone(arrivals, answers):
 
 
 def sleeping(path, n, load, rng, count):
-    """n servers whose devices sleep for the given time: real queues and a real HAProxy, with hardly any processor time.
-    One run, and the model of it with the measured service times."""
+    """n servers whose devices sleep for the given time. The queues and HAProxy are real, but hardly any processor time
+    is used. Returns one run, and the model of it with the measured service times."""
     proxied = Proxied(
         [Server([path], 16, os.getpriority(os.PRIO_PROCESS, 0)) for _ in range(n)], SETTINGS["as in docs/examples"]
     )
@@ -316,7 +317,7 @@ def sleeping(path, n, load, rng, count):
     finally:
         proxied.stop()
     beyond = max(0.0, n / rate - mean)  # seconds from the end of a picture to the start of the next one
-    estimate = 64 * 36 * 1e-6  # estimate of that renderer in seconds: a microsecond a ray
+    estimate = 64 * 36 * 1e-6  # estimate of that renderer for a picture of 64 x 36, in seconds: a microsecond per ray
     model = simulate(
         n,
         SETTINGS["as in docs/examples"],
@@ -337,13 +338,13 @@ def sleeping(path, n, load, rng, count):
 
 
 def calmest(rounds):
-    """The round in which this script woke up with the least delay, that is, in which the machine was disturbed
+    """The round in which this script was woken with the least delay: there other programs disturbed the machine
     least."""
     return min(rounds, key=lambda one: one["late_ms"])
 
 
 def cells(row, way):
-    """A table row: the figures of the model and the real ones."""
+    """One table row: figures of the model beside the measured ones."""
     of, real = row[way], row["real"]
     return (
         [f"{of['rate']:.1f} ({100 * (of['rate'] / real['rate'] - 1):+.0f} %)"]

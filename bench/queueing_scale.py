@@ -25,9 +25,10 @@ from queueing_check import queueing, simpy
 
 NUMBERS = (1, 2, 10, 100, 1000)
 LOADS = (0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 1.0, 1.1, 1.2)
-EACH = 300  # pictures for each server, beginning with an idle one, as in bench/queueing_check.py
+EACH = 300  # pictures requested from each server, which is idle at the start, as in bench/queueing_check.py
 FAST = 0.2  # longest time in seconds from input to picture that still feels immediate
-STROKES = {"drag": 3.0, "rest": 12.0}  # seconds: a fifth of the time
+# seconds of a drag and of the rest after it: a visitor drags for a fifth of the time
+STROKES = {"drag": 3.0, "rest": 12.0}
 
 
 def haproxy_cost(path, n=4000, rounds=5):
@@ -77,7 +78,8 @@ def haproxy_cost(path, n=4000, rounds=5):
 
 
 def pictures(rng, measured):
-    """A function that draws the work of a picture from the measured ones, and the mean seconds of a picture."""
+    """A function that returns the work of a random picture, drawn from the measured ones; and the mean seconds of a
+    picture."""
     samples, beyond, estimated = measured["samples_s"], measured["beyond_s"], measured["estimates"]
     weights = [weight for *_, weight in queueing_check.MIX]
     mean = sum(w * statistics.mean(took) for w, took in zip(weights, samples)) / sum(weights) + beyond
@@ -90,8 +92,8 @@ def pictures(rng, measured):
 
 
 def renders(n, load, measured, each, own=0.0, cores=1, lost_at=None, seed=7):
-    """Answers of n servers at a load, `each` pictures for each server: (arrival, seconds, status). lost_at: fraction of
-    the arrivals after which a server dies."""
+    """Models n servers at a load, with `each` pictures for each server. Returns (arrival, seconds, status) of each
+    answer. lost_at: fraction of the arrivals after which one server dies."""
     rng = random.Random(seed)
     make, mean = pictures(rng, measured)
     env = simpy.Environment()
@@ -119,7 +121,7 @@ def curve(n, measured):
     out = {}
     for load in (
         LOADS if n < 1000 else (load for load in LOADS if load < 1)
-    ):  # a thousand servers take minutes to model, and from load 1 on they behave like a hundred
+    ):  # not modelled, because a thousand servers take minutes and behave like a hundred from load 1 on
         each = EACH if n < 1000 else EACH // 5
         logs = [renders(n, load, measured, each, seed=seed)[0] for seed in range(max(1, 20 // n))]
         out[load] = round(p95([row for log in logs for row in log]), 4)
@@ -128,7 +130,7 @@ def curve(n, measured):
 
 
 def lost(n, load, measured, each=EACH):
-    """p95 before and after a server is lost, and the requests that failed."""
+    """95th percentile of the answers' seconds before and after a server is lost, and the number of failed requests."""
     before, after, failed = [], [], 0
     for seed in range(max(2, 20 // n)):
         log, arrivals, _ = renders(n, load, measured, each, lost_at=0.5, seed=seed)
@@ -159,7 +161,7 @@ def visitors(n, each, habits, seconds, stay=120.0, seed=7):
         held[server] -= 1
 
     def come():
-        for k in range(n * each):  # clients that are present at the start
+        for k in range(n * each):  # visitors that are present at the start
             env.process(visit(servers[k % n]))
         while True:
             yield env.timeout(rng.expovariate(n * each / stay))
@@ -206,7 +208,7 @@ def habits_of(plan):
 
 
 def plot(result, checked, path):
-    """Draws the measured points over the curves, with the model's values for these pictures."""
+    """Draws the measured points over the model's curves, with the model's values for the same pictures."""
     import matplotlib
 
     matplotlib.use("svg")

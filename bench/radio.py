@@ -5,10 +5,10 @@ with Blacklight and ipole.
     bench/radio.py            two or three minutes
     bench/radio.py --sizes 48 96 --rounds 1      half a minute
 
-One picture of each scene at two sizes, by one thread. The number of rays is the difference of the two numbers of
-pixels. Their time is the difference of the processor times of the two processes. Startup, kernels and the rays that
-measure the error cancel in this difference, and other processes hardly affect it. The least times of all rounds count.
-Writes bench/results/DATE-DEVICE-radio.{json,md}.
+Each scene is rendered at two sizes, by one thread. The rate is the difference of the two numbers of pixels, divided by
+the difference of the two processes' processor times. Startup, kernels and the rays that measure the error cancel in the
+latter difference. Other processes hardly affect it. The least times of all rounds count. Writes
+bench/results/DATE-DEVICE-radio.{json,md}.
 """
 
 import json
@@ -23,7 +23,7 @@ import measure
 
 TRANSFER = ["--set", "polarization.model=transfer"]
 KAPPA = ["--set", "volume.electrons=kappa"]
-SCENES = {  # arguments of `kerrd render`; and whether the light is polarised
+SCENES = {  # arguments of `kerrd render`; true if the light is polarised
     "gold-1, no absorption": (["-p", "gold-1"], False),
     "gold-5, thin and deep": (["-p", "gold-5"], False),
     "riaf": (["-p", "riaf"], False),
@@ -34,8 +34,8 @@ SCENES = {  # arguments of `kerrd render`; and whether the light is polarised
     "riaf, kappa electrons, polarised": (["-p", "riaf", *KAPPA, *TRANSFER], True),
     "torus, polarised": (["-p", "torus", *TRANSFER], True),
 }
-# Rays/s and core, measured: unpolarised, gold-1 by Dormand and Prince in Kerr-Schild coordinates; polarised, ipole's
-# riaf.
+# Rays per second and core, as measured. Unpolarised: scene gold-1, by Dormand-Prince in Kerr-Schild coordinates.
+# Polarised: ipole's riaf.
 BLACKLIGHT, IPOLE = 3000, 89
 
 
@@ -70,7 +70,7 @@ def render(kerrd, arguments, size, core):
 def measured(kerrd, sizes, rounds, core):
     """The least processor seconds of each scene at each size, and the statistics of its last picture."""
     least, told = {}, {}
-    for n in range(rounds + 1):  # the first one fills the driver's cache of kernels
+    for n in range(rounds + 1):  # the first picture fills the driver's cache of kernels
         for name, (arguments, _) in SCENES.items():
             for size in sizes:
                 seconds, told[name] = render(kerrd, arguments, size, core)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Measures listed rays from end to end. Starts kerrd serve on a free port, sends N rays, and receives their ends, in
-every format and by several engines.
+"""Measures lists of rays from end to end: starts kerrd serve on a free port, sends N rays, and receives their end
+points, in each format and by several engines.
 
     rays.py KERRD [N]     N: default 1000000
 

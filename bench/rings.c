@@ -1,4 +1,4 @@
-/* Prints lensing bands and demagnification as the tables in Markdown of docs/physics/photon-rings.md. It needs no
+/* Prints lensing bands and demagnification as Markdown tables, for docs/physics/photon-rings.md. The program needs no
  * device, has no options, and takes a millisecond. */
 #include "physics/null/lensing.h"
 #include "physics/spacetime/kerr.h"

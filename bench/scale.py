@@ -34,7 +34,7 @@ def pin(core):
 
 
 def alone(kerrd, binary, scenes):
-    """Seconds, the server's milliseconds a scene, and the pictures."""
+    """Renders the scenes on one server. Returns the seconds, the server's milliseconds per scene, and the pictures."""
     with kerrd.local(binary=binary, env=ONE_THREAD) as hole:
         os.sched_setaffinity(hole.process.pid, {0})
         for thread in os.listdir(f"/proc/{hole.process.pid}/task"):
@@ -51,7 +51,8 @@ def alone(kerrd, binary, scenes):
 
 
 def together(kerrd, distributed, binary, scenes, killed=False):
-    """Seconds and pictures of two workers, one of which is killed when half of the pictures have been made."""
+    """Renders the scenes on two workers, and kills one of them when half of the pictures are made. Returns seconds and
+    pictures."""
     with (
         distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50) as cluster,
         distributed.Client(cluster) as dask,

@@ -4,8 +4,9 @@
     bench/scale_plan.py            three minutes, on an idle machine
     bench/scale_plan.py --quick    one minute: a rough result, from fewer frames and sessions
 
-The script starts a server on all cores; as its client it takes some of the machine too. Device seconds are those of
-Server-Timing; on a busy machine processor seconds are less disturbed. Writes bench/results/DATE-DEVICE-plan.{json,md}.
+The script starts a server on all cores. The script is the server's client, and uses a part of the same cores. Device
+seconds are read from Server-Timing. Processor seconds are given too, because other programs change them less. Writes
+bench/results/DATE-DEVICE-plan.{json,md}.
 """
 
 import os
@@ -19,7 +20,7 @@ import measure
 SIZE = {"width": 1280, "height": 720}
 SCREEN_4K = {"width": 3840, "height": 2160}
 PRESETS = {"default": None, "first view": "gas-stars", "M87*": "m87", "volume": "torus"}
-FILM_FRAMES = 1440  # a minute at 24 a second
+FILM_FRAMES = 1440  # frames in a minute, at 24 frames a second
 
 
 def scene_of(server, name, size=SIZE):
@@ -30,7 +31,7 @@ def scene_of(server, name, size=SIZE):
 
 
 def picture(server, session, scene):
-    """Server-Timing of a render, milliseconds by pass, and its processor seconds on all cores."""
+    """For one render: milliseconds of each pass by Server-Timing, and processor seconds on all cores."""
     before = measure.processor(server.process.pid)
     answer, data = session.ask("POST", "/v1/render", scene)
     assert answer.status == 200, data[:300]
@@ -47,15 +48,15 @@ def spread(values):
 
 
 class Asker(live.Session):
-    """A connection of its own."""
+    """A new connection for this client alone."""
 
     def __init__(self, port):
         self.connection = live.http.client.HTTPConnection("127.0.0.1", port, timeout=600)
 
 
 def frames(server, rounds):
-    """Device seconds of a picture of each scene, measured in alternation: with new rays, and with only the time
-    changed."""
+    """Device seconds of a picture of each scene, with new rays and with only the time changed. Scenes are measured in
+    alternation."""
     asker, rows = (
         Asker(server.port),
         {name: {"traced": [], "kept": [], "encode": [], "processor": []} for name in PRESETS},
@@ -79,14 +80,14 @@ def frames(server, rounds):
 
 
 def film(server, sample):
-    """Device and encoder seconds of a minute's film, the camera once round the default scene, from a sample of its
-    frames."""
+    """Device and encoder seconds of a film of one minute, in which the camera moves once round the default scene.
+    Measured from a sample of its frames."""
     asker, device, encode, cores = Asker(server.port), [], [], []
     for k in range(sample + 1):
         scene = scene_of(server, "default")
         scene["camera"] = {"azimuth_deg": 360.0 * k / sample}
         took = picture(server, asker, scene)
-        if k:  # the first frame traces the rays; all other frames reuse them
+        if k:  # the first frame traces the rays, and all other frames reuse them
             device.append(took["total"] / 1e3)
             encode.append(took["encode"] / 1e3)
             cores.append(took["processor"])
@@ -104,8 +105,8 @@ def used(answers, seconds):
 
 
 def watched(server, name, size, seconds):
-    """A session whose time runs, with frames requested as fast as they come: frames a second, width, device seconds a
-    second."""
+    """A session whose time runs. Frames are requested as fast as they come. Returns frames per second, width, and
+    device seconds per second."""
     session = live.Session(server.port, scene_of(server, name, size))
     first = session.first_ms
     end = time.monotonic() + 2
@@ -129,7 +130,8 @@ def width(answer):
 
 
 def resting(server, name, size, seconds):
-    """A session in which nothing moves: its cost until it is as fine as requested, and for each second after that."""
+    """A session in which nothing moves. Returns its cost until the requested accuracy is reached, and its cost for each
+    second after that."""
     scene = scene_of(server, name, size)
     scene["motion"] = {"time_rate": 0}
     live.Session(server.port, scene).end()  # makes its kernels
@@ -154,9 +156,9 @@ def resting(server, name, size, seconds):
 
 
 def dragged(server, name, size, n, seconds, rounds):
-    """n sessions dragged at once, each by a process of its own; of several rounds the one in which the server had most
-    of the machine."""
-    settle = 3 + n / 2  # their first pictures come one after the other
+    """n sessions dragged at once, each by its own process. Returns the round in which the server got most of the
+    processors."""
+    settle = 3 + n / 2  # their first pictures are rendered one after the other
     row = max(
         (
             live.dragged_together(server, n, seconds + settle, settle, scene_of(server, name, size))

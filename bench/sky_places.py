@@ -4,11 +4,12 @@ catalogue's stars.
 
     bench/sky_places.py KERRD PANORAMA.png      needs numpy and Pillow; a minute
 
-Each place is searched at its SIMBAD position (J2000) as the centre of the light that exceeds its surroundings. This is
-done in the panorama, and in a picture by kerrd from so far away that the hole bends no light. A pixel is 0.176 degrees,
-that of A. Mellinger's panorama. Then the panorama is compared with the catalogue: the surroundings of thousands of
-stars of data/hipparcos.stars are added up in the picture of the panorama, and in one of kerrd's stars. Where a panorama
-shows stars, or remains of them, the sum has a peak, which must be in its middle.
+Each place is searched near its SIMBAD position (J2000): its measured position is the centre of the light that exceeds
+the surroundings. This is done in the panorama, and in a picture by kerrd from so far away that the hole bends no light.
+A pixel is 0.176 degrees wide, as in A. Mellinger's panorama. Then the panorama is compared with the catalogue: the
+surroundings of thousands of stars of data/hipparcos.stars are added up, once in the picture of the panorama and once in
+a picture of kerrd's stars. If the panorama shows stars, or remains of removed stars, the sum has a peak. This peak must
+be in the middle of the sum.
 """
 
 import collections
@@ -45,8 +46,8 @@ def galactic(ra, dec):
 
 
 def centre(light, left, b, radius):
-    """Centre of the brighter part of the light within a circle, as an offset in degrees. left: degrees to the left of
-    the middle column."""
+    """Centre of the brighter part of the light in a circle, as an offset in degrees. left: degrees from the middle
+    column to the left."""
     height, width = light.shape
     scale = width / 360
     x, y, c = (180 - left) % 360 * scale, (90 - b) * scale, np.cos(np.radians(b))
@@ -70,7 +71,7 @@ def stacked(light, faintest, brightest):
     chosen = (rows["v"] < 1000 * faintest) & (rows["v"] >= 1000 * brightest) & (abs(b) > 8) & (abs(b) < 50)
     x, y = (180 - (l[chosen] - 180)) % 360 / 360 * width, (90 - b[chosen]) / 180 * height
     column, row, steps = np.floor(x).astype(int), np.floor(y).astype(int), np.arange(-reach, reach + 1)
-    # The mean of the logarithm, so that no single star dominates.
+    # The mean of the logarithm is used, because a single bright star would dominate a plain mean.
     sky = np.log(light + 1e-3)
     total = np.array([[sky[row + j, (column + i) % width].mean() for i in steps] for j in steps])
     total -= np.median(total)
@@ -86,7 +87,7 @@ def stacked(light, faintest, brightest):
 
 
 def shown(kerrd, panorama, *fields):
-    """Luminance seen from 1e5 M of a hole at longitude 180, where an observer at azimuth 0 looks."""
+    """Luminance of the view from 1e5 M, by an observer at azimuth 0 who looks towards longitude 180."""
     sets = [
         "camera.r=1e5",
         "camera.inclination_deg=90",

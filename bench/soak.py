@@ -10,8 +10,8 @@
     bench/soak.py --build build-tsan --minutes 10      under the thread sanitizer, whose reports fail it as well, and
                                                        whose memory may grow
 
-Requests: pictures, some abandoned before they come; sessions that are dragged, left, or ended; streams that are cut;
-jobs that are awaited or stopped; rays, orbits, numbers; requests that are refused. The allowed statuses are 2xx, 4xx
+Requests: pictures, some of them abandoned early; sessions that are dragged, left open, or ended; streams that are cut;
+jobs that are awaited or stopped; rays, orbits and numbers; and invalid requests. The allowed statuses are 2xx, 4xx
 where the request is meant to be refused, 429, 503 and 507; with faults also 500 and a closed connection.
 
 Exit code 1 in any of these cases:
@@ -22,8 +22,8 @@ Exit code 1 in any of these cases:
 - An accepted job did not end correctly, or ended twice, or a checksum of its result is wrong.
 - A half file is left in the state folder.
 - Without kills and faults, more than a minute after the last client: /metrics names more than 256 MiB as kept
-  (kerrd_kept_bytes); or more is resident, by 160 MiB, than at the start and in the caches that it names; or the next
-  picture then takes more processor time than the first of all.
+  (kerrd_kept_bytes); or resident memory exceeds the sum of that at the start and the named caches by 160 MiB; or the
+  next picture takes more processor time than the very first one.
 
 Writes bench/results/DATE-DEVICE-soak.{json,md}.
 """
@@ -53,7 +53,7 @@ GONE = (OSError, http.client.HTTPException)
 
 
 class Server:
-    """A server on its own folder. It may be killed, and comes back on the same port."""
+    """A server with its own state folder. After a kill it is started again on the same port."""
 
     def __init__(self, path, state, log, *options, env=None):
         self.path, self.state, self.log, self.options, self.env = path, state, log, options, env
@@ -113,10 +113,11 @@ class Server:
 
     def processor_s(self):
         fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
-        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")  # user and kernel time
+        # processor time in user mode and in the kernel
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
 
     def metrics(self):
-        """The metrics, or None if it does not answer."""
+        """The server's metrics, or None if it does not answer."""
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=10)
         try:
             connection.request("GET", "/metrics")
@@ -127,7 +128,7 @@ class Server:
             connection.close()
 
     def held(self):
-        """Memory by the server's metrics: the device's, and the kept memory by kind, in MiB."""
+        """Memory by the server's metrics, in MiB: of the device, and kept memory by kind."""
         told = self.metrics() or ""
         device = re.search(r"^kerrd_device_memory_bytes(?:{[^}]*})? (\S+)$", told, re.M)
         return {
@@ -140,7 +141,7 @@ class Server:
 
 
 def is_png(data):
-    """True if the picture has its last chunk, and each chunk is complete."""
+    """True if each chunk of the PNG is complete, and the last chunk is present."""
     at, name = 8, b""
     while at + 12 <= len(data) and name != b"IEND":
         length, name = int.from_bytes(data[at : at + 4], "big"), data[at + 4 : at + 8]
@@ -153,7 +154,7 @@ def is_png(data):
 
 
 def is_whole(file, frames):
-    """True if the result of a job has each of its pictures once, and complete."""
+    """True if the job's result has each picture exactly once, and each picture is complete."""
     try:
         with zipfile.ZipFile(io.BytesIO(file)) as z:
             pictures = [name for name in z.namelist() if name.endswith(".png")]
@@ -262,7 +263,7 @@ class Client(threading.Thread):
             self.ask("DELETE", f"/v1/sessions/{opened['id']}", meant=(204,), **token)
 
     def stream(self):
-        """Some bytes of a stream, which is then cut."""
+        """Reads some bytes of a stream, and then closes the connection."""
         opened = self.open_session()
         if not opened:
             return
@@ -354,7 +355,7 @@ class World:
         )
 
     def lossy(self):
-        """True if the connection may be closed instead of an answer."""
+        """True if the server may close the connection instead of answering."""
         return self.kills or self.failing.is_set()
 
     def answered(self, status, meant):
@@ -385,13 +386,13 @@ class World:
 
 
 def risen(samples, name):
-    """The difference of the means of the last and of the first third of the samples."""
+    """Mean of the last third of the samples, minus the mean of the first third."""
     n = max(len(samples) // 3, 1)
     return (sum(s[name] for s in samples[-n:]) - sum(s[name] for s in samples[:n])) / n
 
 
 def slope(samples, name):
-    """The growth over the samples, by a least-squares line."""
+    """Growth from the first to the last sample, by a least-squares line."""
     xs, ys = [s["s"] for s in samples], [s[name] for s in samples]
     middle, mean = sum(xs) / len(xs), sum(ys) / len(ys)
     spread = sum((x - middle) ** 2 for x in xs)
@@ -399,7 +400,7 @@ def slope(samples, name):
 
 
 def finish(world):
-    """Waits for jobs whose clients ended when the test's time was over."""
+    """Waits for jobs that were still running when the test's time ended and their clients stopped."""
     client = Client(world, 10**6)
     for job, frames, token in world.unfinished:
         until = time.monotonic() + 600
@@ -416,12 +417,13 @@ def finish(world):
 
 
 FIRST_VIEW = {"image": {"width": 640, "height": 360}}
-# MiB that may be kept while no request comes. The server computes these kinds from what is resident, so that they
-# cannot show a leak by themselves.
+# MiB that the server may keep while no request comes. The server computes these kinds from its resident memory, so that
+# they cannot show a leak.
 KEPT_MIB = 256
 UNBOUNDED = ("heap", "other")
-OTHER_MIB = 160  # MiB resident beyond the start and the caches; mostly memory that the driver keeps for its kernels
-RESTS_S = 75  # seconds until memory that is not kept has been freed
+# MiB allowed beyond the start and the caches; most of it is memory that the driver keeps for its kernels
+OTHER_MIB = 160
+RESTS_S = 75  # seconds until the server has freed memory that it does not keep
 
 
 def first_view_s(world):
@@ -471,8 +473,8 @@ def is_file_whole(path):
 
 
 def left_over(state, known):
-    """Files of jobs that ended and were deleted, and half files. Complete files may remain for jobs whose clients did
-    not receive the acceptance."""
+    """Checks the state folder: no files of jobs that ended and were deleted, and no half files. Complete files may
+    remain for a job whose client did not receive the acceptance."""
     for path in sorted(pathlib.Path(state).rglob("*")):
         job = next((part for part in path.relative_to(state).parts if part.removesuffix(".new") in known), None)
         if job:
@@ -482,7 +484,7 @@ def left_over(state, known):
 
 
 def live(world, a, harm):
-    """Runs the whole test. Returns the samples of each second, and the number of kills."""
+    """Runs the whole test. Returns one sample for each second, and the number of kills."""
     server, samples, killed, next_fault, mend_at = world.server, [], 0, 0.0, None
     began, times = time.monotonic(), random.Random(a.seed)
     while (now := time.monotonic() - began) < 60 * a.minutes:
@@ -505,7 +507,7 @@ def live(world, a, harm):
 
 
 def over_time(samples):
-    """Prints ten rows of samples, each with the answers since the row before."""
+    """Prints ten rows of samples. Each row has the number of answers since the row before."""
     rows, before = [], {}
     for s in samples[:: max(len(samples) // 10, 1)]:
         device = f"{s['device_mib']:.0f}" if s["device_mib"] is not None else ""
@@ -526,8 +528,8 @@ def over_time(samples):
     )
 
 
-# the device's memory is allocated in blocks of this size (KD_VK_BLOCK_BYTES); when the last one is needed depends on
-# how buffers happen to fit
+# the device's memory is allocated in blocks of this size (KD_VK_BLOCK_BYTES); it is a matter of chance when one more
+# block is needed
 BLOCK_MIB = 64
 GROWTH = {
     "rss_mib": "resident memory, MiB",
@@ -558,12 +560,12 @@ def main():
     with tempfile.TemporaryDirectory() as folder, open(pathlib.Path(folder) / "log", "w+b") as log:
         state = str(pathlib.Path(folder) / "state")
         if a.faults:
-            import soak_faults  # imported only here, because the module is built with the tests
+            import soak_faults  # imported here, because the module is built with the tests and may be missing
 
             harm = soak_faults.Faults(a.build, random.Random(a.seed))
             server = Server(harm.command(), state, log, "--device-reopenings", "100000", env=harm.environment())
         else:
-            # ignores races within the driver and the libraries
+            # these races are within the driver and the libraries, and are ignored
             server = Server(
                 measure.binary(a.build, "src/kerrd"),
                 state,

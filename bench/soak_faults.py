@@ -1,6 +1,6 @@
-"""Random faults injected below a server, for bench/soak.py: memory, files and descriptors by a preloaded library
-(tests/faults/control.h), Vulkan's calls by a kerrd with a table of them that fails on command
-(tests/faults/vulkan_table.c), and the wall clock."""
+"""Injects random faults into a server, for bench/soak.py. A preloaded library makes calls for memory, files and
+descriptors fail on command, and sets the wall clock (tests/faults/control.h). Vulkan calls fail on command in a kerrd
+that is built with a special table of Vulkan functions (tests/faults/vulkan_table.c)."""
 
 import collections
 import errno
@@ -45,7 +45,7 @@ CALLS = [
 
 
 class Faults:
-    """The faults of one server. `happen` injects one; `mend` ends those that last."""
+    """The faults of one server. `happen` injects one fault; `mend` ends lasting faults."""
 
     def __init__(self, build, random):
         self.build, self.random = build, random
@@ -64,8 +64,8 @@ class Faults:
         }
 
     def happen(self):
-        """Injects a fault of a random kind. Returns the seconds for which the fault lasts. A fault that is armed but
-        not triggered in this time does not happen, and is not counted."""
+        """Injects a fault of a random kind. Returns the seconds for which the fault lasts. If the fault is not
+        triggered in this time, it is disarmed and not counted."""
         r = self.random
         self.before = self.memory.failed + self.memory.files_failed
         kind = r.choice(["memory", "files", "vulkan", "clock"])

@@ -3,10 +3,10 @@
 
     bench/table.py KERRD [--points 1000] [--seed 1] [--axis FIELD=VALUES]... [--set FIELD=VALUE]...
 
-The options are those of kerrd table. At random places the profiles of the neighbouring nodes are interpolated, linearly
-or in the logarithm, and compared with the profile there. The result is the largest difference of their cumulative
-shares at any edge. Only the nodes that are needed are computed, not the whole table; tests/cli/xspec_reads.py shows
-that the table's file gives the same values.
+The options are those of kerrd table. At random points the profile is interpolated from the neighbouring nodes, linearly
+or in the logarithm, and compared with the exact profile. The result is the largest difference of the two cumulative
+shares at any edge of a bin. Only the needed nodes are computed, not the whole table. tests/cli/xspec_reads.py tests
+that the file of the table gives the same values.
 """
 
 import argparse

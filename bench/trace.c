@@ -1,9 +1,9 @@
 /* Measures rays per second of the lens-map kernels and their error on the device at hand.
  *
- * Every method computes the same image: a = 0.9, i = 70 degrees, +-12 M, observer at infinity. Errors are those of a
- * sample of rays, measured against the Kerr-Schild oracle of tests/oracle. Times are those of the device's trace pass,
- * and for listed rays (delays) wall times of the host. With one lavapipe thread (LP_NUM_THREADS=1 taskset -c 0) the
- * figure is that of one core. */
+ * Every method computes the same image: a = 0.9, i = 70 degrees, +-12 M, observer at infinity. Errors are measured for
+ * a sample of rays, relative to the Kerr-Schild oracle of tests/oracle. Times are those of the device's trace pass. For
+ * listed rays (delays) they are wall times of the host. With one lavapipe thread (LP_NUM_THREADS=1 taskset -c 0) the
+ * result is the speed of one core. */
 #include "base/clock.h"
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
@@ -74,11 +74,11 @@ static double quantile(double *values, int n, double q)
 
 static double turn(double x) { return fabs(remainder(x, 2 * M_PI)); }
 
-/* Errors of the first two orders at a sample of pixels. */
+/* Errors of image orders 0 and 1 for a sample of pixels. */
 static void judge(const struct options *o, const struct kd_scene *scene, const struct kd_plan *plan,
                   const float *planes, struct figures *f)
 {
-    /* Only radii at which a disk can be, because Boyer-Lindquist azimuth diverges at the horizon. */
+    /* Compares only radii at which a disk can be, because the Boyer-Lindquist azimuth diverges at the horizon. */
     double isco = kd_kerr_isco(kd_scene_hole(scene));
     int n = o->sample, count[2] = { 0, 0 };
     double *r_error[2], *phi_error[2];
@@ -90,7 +90,7 @@ static void judge(const struct options *o, const struct kd_scene *scene, const s
     for (int j = 0; j < n; j++) {
         for (int i = 0; i < n; i++) {
             int x = (int)((i + 0.5) * plan->picture.width / n), y = (int)((j + 0.5) * plan->picture.height / n);
-            /* The kernel's own arithmetic for the pixel, so that only the tracing is compared. */
+            /* Computes the pixel's coordinates in the kernel's own arithmetic, so that only the tracing is compared. */
             float step = (float)(field / plan->picture.width), middle = 0.5f * (float)plan->picture.width - 0.5f;
             double alpha = ((float)x - middle) * step, beta = (middle - (float)y) * step;
             struct ks_path path = ks_trace(ks_from_infinity(scene->spacetime.spin, u, alpha, beta), 2);
@@ -149,7 +149,7 @@ static enum kd_status measure(const struct options *o, struct kd_renderer *rende
         const double began = kd_clock_ms();
         double *out_ms = &ms[k < 0 ? 0 : k];
         status = kd_render_lens(renderer, &scene, &plan, planes, out_ms, error);
-        /* wall time is used for listed rays, because the host computes a part of them and copies the map */
+        /* wall time for listed rays, because the host computes a part of them and copies the map */
         if (plan.lens.path == KD_LENS_LISTED)
             *out_ms = kd_clock_ms() - began;
     }
@@ -194,7 +194,7 @@ static bool write_json(const char *name, const char *device, const struct option
         cJSON_AddNumberToObject(m, "r_median", f[i].r_median);
         cJSON_AddNumberToObject(m, "r_worst", f[i].r_worst);
         cJSON_AddNumberToObject(m, "r_median_order_1", f[i].r1_median);
-        cJSON_AddNumberToObject(m, "phi_median", f[i].phi_median); /* null where it is not computed */
+        cJSON_AddNumberToObject(m, "phi_median", f[i].phi_median); /* null if the error was not computed */
         cJSON_AddNumberToObject(m, "phi_worst", f[i].phi_worst);
         cJSON_AddNumberToObject(m, "phi_median_order_1", f[i].phi1_median);
         cJSON_AddItemToArray(list, m);

@@ -18,7 +18,7 @@ def one_run(command, core):
 
 
 def merge(runs):
-    """Median speed; the errors are the same in every run."""
+    """Takes the median speed; the errors are the same in every run."""
     out = []
     for i, method in enumerate(runs[0]["methods"]):
         speeds = [r["methods"][i]["mray_per_s"] for r in runs]
@@ -36,7 +36,7 @@ def main():
     runs = {case: [] for case in CASES}
     for k in range(o.rounds):
         for a, i in CASES:
-            sample = o.sample if k == 0 else 2  # the number of samples is chosen once
+            sample = o.sample if k == 0 else 2  # the number of samples is chosen in the first run only
             command = [bench, "--spin", str(a), "--inclination", str(i), "--repeat", "3", "--sample", str(sample)]
             runs[a, i].append(one_run(command, o.core))
     h = measure.head(runs[CASES[0]][0]["device"], load)

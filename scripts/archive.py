@@ -1,4 +1,4 @@
-"""Writes archives that have the same bytes each time: wheels and tars."""
+"""Writes wheels and tars. The same input always gives the same bytes."""
 
 import base64
 import hashlib
@@ -6,7 +6,7 @@ import io
 import tarfile
 import zipfile
 
-DATE = (2020, 2, 2, 0, 0, 0)  # date of every file, as in hatchling
+DATE = (2020, 2, 2, 0, 0, 0)  # date that every file in an archive gets, as in hatchling
 SECONDS = 1580601600  # the same
 
 
@@ -20,7 +20,8 @@ def write_wheel(path, members):
         rows.append(f"{name},," if name == record else f"{name},sha256={digest},{len(data)}")
     members = {**members, record: (("\n".join(rows) + "\n").encode(), 0o644)}
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
-        for name in sorted(members, key=lambda name: (".dist-info/" in name, name)):  # as PEP 427 advises
+        # RECORD is the last file, as PEP 427 advises
+        for name in sorted(members, key=lambda name: (".dist-info/" in name, name)):
             data, mode = members[name]
             entry = zipfile.ZipInfo(name, DATE)
             entry.external_attr = (0o100000 | mode) << 16
@@ -29,7 +30,7 @@ def write_wheel(path, members):
 
 
 def info(name, **more):
-    """An entry of a tar: a file that everybody may read, unless the arguments set other values."""
+    """An entry of a tar. By default it is a file that everybody may read; the arguments change this."""
     entry = tarfile.TarInfo(name)
     entry.mode = 0o644
     for key, value in more.items():
@@ -38,8 +39,8 @@ def info(name, **more):
 
 
 def write_tar(members):
-    """The bytes of a tar of these entries, (tarfile.TarInfo, bytes) by name, with the folders that hold them. Owners
-    that are not root keep their numbers."""
+    """The bytes of a tar with these entries and the folders that contain them. entries: (tarfile.TarInfo, bytes) by
+    name. Owners other than root keep their numbers."""
     out = io.BytesIO()
     folders = {name.rsplit("/", depth)[0] for name in members for depth in range(1, name.count("/") + 1)}
     folders = {name: (info(name, type=tarfile.DIRTYPE, mode=0o755), b"") for name in folders if name not in members}

@@ -3,10 +3,10 @@
 
     scripts/debs.py            choose the newest versions, and write them with their checksums to packaging/root/lock
 
-The lock names each package that mesa-vulkan-drivers and the rest of WANTED need, for amd64 and arm64. When the lock is
-made, the index of each archive is checked by Debian's signature. Afterwards only the checksums in the lock count. The
-mirror therefore need not be trusted, and two builds use the same packages. A version that is no longer on the mirror is
-taken from snapshot.debian.org as of the lock's date. KERRD_MIRROR: a Debian mirror instead of deb.debian.org.
+The lock lists each package that WANTED needs (mesa-vulkan-drivers and others), for amd64 and arm64. When the lock is
+written, Debian's signature of each archive's index is checked. A build checks only the checksums in the lock. The
+mirror therefore need not be trusted, and every build uses the same packages. A version that is no longer on the mirror
+is taken from snapshot.debian.org as of the lock's date. KERRD_MIRROR: a Debian mirror instead of deb.debian.org.
 """
 
 import concurrent.futures
@@ -36,9 +36,9 @@ SNAPSHOT = "http://snapshot.debian.org/archive"
 SUITE = "bookworm"
 ARCHIVES = {"debian": SUITE, "debian-security": f"{SUITE}-security"}
 MACHINES = {"x86_64": "amd64", "aarch64": "arm64"}
-# base-files has /etc/os-release, from which scanners know what system this is.
+# base-files is included because it has /etc/os-release, by which scanners identify the system.
 WANTED = ("base-files", "libc6", "libvulkan1", "mesa-vulkan-drivers")
-# Packages that are only used when a package is configured, or by programs that come with a driver.
+# Not included: packages that are used only while a package is configured, or by programs that come with a driver.
 UNUSED = {"awk", "debconf", "debconf-2.0", "dpkg", "libx11-data", "python3"}
 
 
@@ -64,7 +64,7 @@ def base(name):
 
 
 def index(place, arch):
-    """The packages of an archive for a machine, and the date of its signed index."""
+    """The packages of an archive for one architecture, and the date of the archive's signed index."""
     suite = ARCHIVES[place]
     with tempfile.NamedTemporaryFile() as signed, tempfile.NamedTemporaryFile("r+") as text:
         signed.write(read(f"{base(place)}/dists/{suite}/InRelease"))
@@ -97,7 +97,7 @@ def newest(stanzas):
 
 
 def closure(packages, provided):
-    """The packages that WANTED needs, transitively. Of alternatives it takes the first that exists."""
+    """The packages that WANTED needs, transitively. From alternatives the first existing package is taken."""
     found, todo = {}, list(WANTED)
     while todo:
         name = todo.pop()
@@ -140,14 +140,15 @@ def choose():
 
 
 def locked(arch):
-    """The date of the lock, and (name, version, checksum, path) of each package for a machine."""
+    """The date of the lock; and (name, version, checksum, path) of each package for one architecture."""
     lines = [line.split() for line in LOCK.read_text().splitlines() if not line.startswith("#")]
     (date,) = (words[1] for words in lines if words[0] == "date")
     return date, [tuple(words[1:]) for words in lines if words[0] == arch]
 
 
 def fetch(digest, path, date):
-    """The file of a package, from the cache, the mirror or the snapshot. Its checksum is checked in any case."""
+    """The file of a package, from the cache, the mirror or the snapshot. The checksum is checked for each of these
+    sources."""
     file = CACHE / f"{digest}.deb"
     if file.exists() and hashlib.sha256(file.read_bytes()).hexdigest() == digest:
         return file
@@ -170,7 +171,8 @@ def fetch(digest, path, date):
 
 
 def members(file):
-    """The control text and the data archive of a package, which is an ar archive with a tar for each (deb(5))."""
+    """The control text and the data archive of a package. A package is an ar archive that contains a tar for each of
+    these (deb(5))."""
     data, at, out = file.read_bytes(), 8, {}
     while at < len(data):
         name, size = data[at : at + 16].decode().strip().rstrip("/"), int(data[at + 48 : at + 58])
@@ -189,7 +191,7 @@ def unpack(name, data):
     return tarfile.open(fileobj=io.BytesIO(data))
 
 
-# Manuals and translations are left out, and /usr/share/doc except the licences.
+# Not included: manuals, translations, and /usr/share/doc except for the licences.
 LEFT_OUT = re.compile(r"usr/share/(man|locale|lintian|bug|info|doc-base|gdb)/|usr/share/doc/[^/]+/(?!copyright$)")
 MERGED = re.compile(r"(bin|sbin|lib|lib32|lib64|libx32)(/|$)")
 
@@ -201,9 +203,9 @@ def merged(name):
 
 
 def tree(arch):
-    """The files of all locked packages for a machine: (tarfile.TarInfo, bytes, package) by name. The packages are not
-    configured. dpkg's record is therefore a file for each package in var/lib/dpkg/status.d, as scanners of images
-    expect."""
+    """The files of all locked packages for one architecture: (tarfile.TarInfo, bytes, package) by name. The packages
+    are not configured, so there is no status file of dpkg. Scanners of images find a file for each package in
+    var/lib/dpkg/status.d instead."""
     date, rows = locked(arch)
     files = {}
 

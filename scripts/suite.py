@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Helpers of scripts/test on a build's tests.
+"""Commands on a build's tests, for scripts/test.
 
     suite.py known BUILD [ARGUMENT...]    exit 2 and a sentence for a test or suite that `meson test ARGUMENT...` would
                                           not find
@@ -12,7 +12,7 @@
                                           go to BUILD/meson-logs/counts.txt, the failed tests with their last lines to
                                           failed.txt
 
-For an unknown name Meson itself runs no test, and reports success.
+`known` exists because Meson reports success, and runs no test, if it is given an unknown name.
 """
 
 import collections
@@ -22,7 +22,7 @@ import pathlib
 import subprocess
 import sys
 
-# Options of `meson test` that are followed by a value (1.0 to 1.7).
+# Options of `meson test` that take a value as the next argument (Meson 1.0 to 1.7).
 VALUED = {
     "-C",
     "-t",
@@ -42,7 +42,7 @@ VALUED = {
 
 
 def asked(arguments):
-    """Names and suites among the arguments."""
+    """Names of tests and suites among the arguments."""
     names, suites = [], []
     rest = iter(arguments)
     for argument in rest:
@@ -78,7 +78,7 @@ def check(build, arguments):
 
 
 def by_suite(tests):
-    """Number of tests of each suite and the sum of their seconds, most first. A test of several suites counts in each.
+    """Number of tests and sum of their seconds for each suite, longest first. A test of several suites counts in each.
     Tests run in parallel, so the sum exceeds the time of the run."""
     sums = {}
     for test in tests:
@@ -88,11 +88,12 @@ def by_suite(tests):
     return sorted(((suite, *figures) for suite, figures in sums.items()), key=lambda row: -row[2])
 
 
-LAST = 20  # number of lines of a failed test's output that are kept
+LAST = 20  # number of last lines kept of a failed test's output
 
 
 def failure(test, flaky):
-    """The result of a test and the last lines of its output; for one that passed when repeated, the output alone."""
+    """A test's result and the last lines of its output. For a test that passed when it was repeated, only the
+    output."""
     name = test["name"].split(" / ")[-1]
     lines = (test.get("stdout", "") + "\n" + test.get("stderr", "")).strip().splitlines()[-LAST:]
     head = f"FAILED: {name} ({test['result']}, {test['returncode']}, after {test['duration']:.0f} s)"
@@ -104,7 +105,7 @@ def failure(test, flaky):
 def report(build, *options):
     log = max(
         pathlib.Path(build, "meson-logs").glob("testlog*.json"), key=lambda path: path.stat().st_mtime
-    )  # a wrapper is part of its name
+    )  # with a wrapper, Meson adds the wrapper's name to the file's name
     tests = read(log)
     slowest = sorted(tests, key=lambda test: -test["duration"])[:8]
     if len(tests) > len(slowest):
@@ -136,7 +137,7 @@ def report(build, *options):
     return 0
 
 
-MOST_AGAIN = 3  # if more tests have failed than this, a race is not the cause
+MOST_AGAIN = 3  # largest number of failed tests that are repeated; if more have failed, a race is not the cause
 
 
 def read(log):

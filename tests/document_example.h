@@ -103,7 +103,7 @@ static const struct kd_row tea_rows[] = {
 #undef AT
 static const struct kd_document tea_document = { tea_rows, sizeof tea_rows / sizeof *tea_rows, 0, "host|guests", NULL };
 
-/* A document with nested objects, a list, and a former name of an element. Typed names are paths. */
+/* A document with nested objects, a list, and a former name of an element. A name with a type is a path. */
 struct tray {
     double weight_g;
     uint32_t plates;

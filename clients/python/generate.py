@@ -94,7 +94,7 @@ def write(name, node, out):
 
 
 def served(kerrd):
-    """The JSON Schema of scenes and the OpenAPI document, from a server that is started for this."""
+    """The JSON Schema of scenes and the OpenAPI document, requested from a server that is started for this purpose."""
     server = subprocess.Popen([kerrd, "serve", "--port", "0"], stdout=subprocess.PIPE, text=True)
     try:
         address = server.stdout.readline().split()[-1]
@@ -151,7 +151,7 @@ class Answers:
         self.schemas, self.out, self.done = schemas, [], set()
 
     def type_of(self, node, name):
-        """The type of a schema. name: name of the class, if the schema is an inline object."""
+        """The type of a schema. name: name that the class gets if the schema is an inline object."""
         if "$ref" in node:
             known = node["$ref"].rsplit("/", 1)[-1]
             if known == "Scene":

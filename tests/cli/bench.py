@@ -1,5 +1,5 @@
-"""Tests of kerrd bench accuracy, run once on a real device. Its table must be plausible, stored, and used by the
-server."""
+"""Tests of kerrd bench accuracy, run once on a real device. The table that it writes must be plausible, and the server
+must use it."""
 
 import json
 import math
@@ -18,7 +18,7 @@ SETS = ["bulk", "near-critical", "near-axis", "edge-on", "near-extremal"]
 
 
 def serve(cache, path):
-    """Status and document of one GET request to a server that is started for it."""
+    """Status and JSON of one GET request, to a server that is started for this request."""
     daemon = subprocess.Popen(
         [KERRD, "serve", "--port", "0"], stdout=subprocess.PIPE, env={**os.environ, "XDG_CACHE_HOME": cache}
     )
@@ -42,8 +42,8 @@ class Accuracy(unittest.TestCase):
         cls.cache = folder.name
         cls.before = serve(cls.cache, "v1/accuracy")
         files = [os.path.join(folder.name, name) for name in ("table.json", "table.md")]
-        # Meson makes malloc fill freed memory. With the buffers of a thousand submissions this would take most of the
-        # time, so the filling is switched off here.
+        # Meson makes malloc fill freed memory. The filling is switched off here, because for the buffers of a thousand
+        # submissions it would take most of the test's time.
         done = run(
             "bench",
             "accuracy",
@@ -108,7 +108,7 @@ class Accuracy(unittest.TestCase):
         self.assertLessEqual(bulk["phi"]["median"], 2e-7)
         self.assertEqual(bulk["differ"], 0)
         # Single precision resolves b to 6e-8. Next to the critical curve it cannot decide the fate of a ray, and such
-        # rays count as errors. A fifth of the set is 1e-6 away from the curve.
+        # rays count as errors. A fifth of the tested rays are 1e-6 away from the curve.
         near = self.rows["mino-rkn6", "f32", 16]["near-critical"]
         self.assertLess(near["differ"], near["rays"] / 4)
 
@@ -169,8 +169,8 @@ class Accuracy(unittest.TestCase):
         self.assertIn("damaged", problem["detail"])
 
     def test_planned_by(self):
-        """A plan looks up a tolerance in the device's table, which the renderer owns. Freed memory is filled, so that a
-        use after free would be detected."""
+        """A plan looks up a tolerance in the device's table, which the renderer owns. Meson makes malloc fill freed
+        memory, so that a use after free would change the result."""
         done = run(
             "plan",
             "--set",

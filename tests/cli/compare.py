@@ -1,5 +1,5 @@
-"""Tests of kerrd compare and kerrd observe: chi^2 of scenes for the observation of M87*, compared with ehtim's
-numbers; fitted values; both files of one observation; simulated observations; refusals."""
+"""Tests of kerrd compare and kerrd observe: chi^2 of scenes for the observation of M87*, compared with ehtim's values;
+fitted values; uvfits and CSV files of one observation; simulated observations; refusals."""
 
 import csv
 import io
@@ -30,7 +30,7 @@ class Compare(Case):
         options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "64", "--average-s", "300"]
         told = self.told(*options, "--systematic-amplitude", "0.05")
         options[1] = "m87-2017-04-05-lo"
-        # the same file, which is built into the program
+        # the same observation, which is built into the program
         self.assertEqual(self.told(*options, "--systematic-amplitude", "0.05"), told)
         columns, seen = told["columns"], told["observation"]
         self.assertEqual((seen["source"], seen["mjd"], seen["visibilities"]), ("M87", 57848, 1507))
@@ -57,8 +57,8 @@ class Compare(Case):
         self.assertEqual(len(file) - start, 12 * 8 * len(table))
 
     def test_the_flux_that_fits_best(self):
-        """No other flux has a smaller chi^2. For a thin disk, whose light has no frequency, the flux is fitted even if
-        this is not requested."""
+        """No other flux has a smaller chi^2. For a thin disk, whose light has no frequency, the flux is fitted even
+        without a request."""
         options = [
             "--observation",
             compared.CSV,
@@ -84,8 +84,8 @@ class Compare(Case):
         self.assertAlmostEqual(closures["chi2"]["closure_phase"], best["chi2"]["closure_phase"], delta=1e-6)
 
     def test_size_and_angle_that_fit_best(self):
-        """The search finds the size and the angle on the sky. A scene with a rolled camera and another mass gives the
-        same chi^2 as the size and the angle that were found."""
+        """The search finds the size and the angle on the sky. A scene whose camera is rolled by the found angle, and
+        whose mass gives the found size, has the same chi^2."""
         options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "96", "--average-s", "600"]
         options += ["--check", "none"]
         found = self.told(*options, "--solve", "flux,size,position_angle")
@@ -116,15 +116,16 @@ class Compare(Case):
         return sum(told["chi2"][name] * n for name, n in told["n"].items() if n)
 
     def test_visibilities_determine_the_position(self):
-        """Amplitudes and closures do not change with a shift. A visibility has two rows, its real and its imaginary
-        part."""
+        """Amplitudes and closures do not change when the picture is shifted. A visibility has two rows, one for its
+        real and one for its imaginary part."""
         options = ["--observation", compared.UVFITS, *compared.THIN, "--pixels", "64", "--average-s", "600"]
         options += ["--check", "none", "--flux-jy", "0.6", "--products", "amplitude,closure_phase,visibility"]
         plain, found = self.told(*options), self.told(*options, "--solve", "shift")
         self.assertNotEqual(found["values"]["shift_east_uas"], 0)
         self.assertLess(found["chi2"]["visibility"], plain["chi2"]["visibility"])
         self.assertAlmostEqual(found["chi2"]["amplitude"] / plain["chi2"]["amplitude"], 1, delta=1e-9)
-        # means over bins in which a baseline is missing at some times do not quite form closed triangles
+        # closure phases change slightly: in a bin where a baseline is missing at some times, the means do not form
+        # closed triangles
         self.assertAlmostEqual(found["chi2"]["closure_phase"] / plain["chi2"]["closure_phase"], 1, delta=1e-3)
         columns = found["columns"]
         rows = [i for i, product in enumerate(columns["product"]) if product.startswith("visibility")]
@@ -139,8 +140,8 @@ class Compare(Case):
         self.assertAlmostEqual(chi2 / found["chi2"]["visibility"], 1, delta=1e-9)
 
     def test_a_set_that_cannot_be_rendered(self):
-        """An error that only rendering finds also names its set: this torus does not have the requested flux at any
-        density."""
+        """An error that is detected only while rendering also names its parameter set. Here the torus cannot have the
+        requested flux at any density."""
         request = {"preset": "torus", "pixels": 32, "average_s": 600, "sets": [{}, {"volume.normalise_to_jy": 1e6}]}
         with open(self.path("sets.json"), "w", encoding="utf-8") as file:
             json.dump(request, file)
@@ -154,7 +155,8 @@ class Compare(Case):
         )
 
     def test_a_dark_set(self):
-        """A set without light has no numbers; it must not repeat those of the set before it."""
+        """A parameter set whose picture is dark has no numbers. In particular, it must not repeat those of the set
+        before it."""
         sets = [{"spacetime.spin": 0.5}, {"disk.model": "none"}, {"spacetime.spin": 0.7}]
         thin = {"disk": {"model": "novikov-thorne", "outer": 15}, "volume": {"model": "none"}}
         request = {"preset": "m87", "scene": thin, "pixels": 32, "average_s": 600, "solve": ["size"], "sets": sets}
@@ -184,8 +186,9 @@ class Compare(Case):
         self.assertAlmostEqual(scattered["chi2"]["closure_phase"] / plain["chi2"]["closure_phase"], 1, delta=1e-9)
 
     def test_a_simulated_observation(self):
-        """Without noise chi^2 is 0 to the file's single precision. With noise it is 1 within its error. Files of both
-        formats have the visibilities of the answer; another seed gives other noise. In the uvfits all other bytes
+        """Without noise chi^2 is 0 to the file's single precision. With noise it is 1 for each datum, within its error.
+        Files of both formats have the visibilities of the answer. Another seed gives other noise. In the uvfits all
+        other bytes
         are unchanged, and none of the measured visibilities remain."""
         options = ["-p", "riaf", "--pixels", "32", "--check", "none", "--flux-jy", "0.6"]
         seen = ["--observation", compared.UVFITS, *options]
@@ -231,7 +234,7 @@ class Compare(Case):
             self.bad(2, words, "observe", *given)
 
     def test_columns_as_npz(self):
-        """The members of a file by numpy.savez: numbers as float64, words as UTF-32, and the rest of the answer."""
+        """The members of an NPZ file: numbers as float64, words as UTF-32, and the rest of the answer."""
         options = ["--observation", compared.CSV, *compared.THIN, "--pixels", "32", "--average-s", "600"]
         told = self.told(*options)
         self.good("compare", *options, "-o", self.path("a.npz"))

@@ -1,5 +1,5 @@
-"""The requests to kerrd compare and the results of ehtim 1.3.2 for them (tests/cli/ehtim_chi2.json).
-tests/cli/ehtim_reads.py runs ehtim; tests/cli/compare.py works without it."""
+"""Requests to kerrd compare, and ehtim 1.3.2's results for them (tests/cli/ehtim_chi2.json). tests/cli/ehtim_reads.py
+runs ehtim again. tests/cli/compare.py uses only the stored results."""
 
 import json
 import pathlib
@@ -14,7 +14,7 @@ for setting in ("disk.model=novikov-thorne", "disk.outer=15", "volume.model=none
 
 
 def options(case, file=UVFITS):
-    """Options of kerrd compare."""
+    """The options of kerrd compare for one request."""
     size = case["scene"][case["scene"].index("--size") + 1].split("x")[0]
     flux = ["--flux-jy", str(case["flux_jy"])] if case["flux_jy"] else []
     given = ["--observation", file, *case["scene"], "--pixels", size, "--check", "none", *flux]

@@ -1,4 +1,4 @@
-"""Tests of the sources of options for `kerrd serve`: flags, environment, file, defaults, in this order."""
+"""Tests of the sources of options of `kerrd serve`. The order of precedence is: flags, environment, file, defaults."""
 
 import json
 import os
@@ -12,7 +12,7 @@ from support import KERRD
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CLEAN = {name: value for name, value in os.environ.items() if not name.startswith("KERRD_")}
-# For each option an allowed value and a refused one, as text and as in the file.
+# For each option, an allowed and a refused value, each as text and as JSON of the file.
 GOOD = {
     "listen": ("127.0.0.2", "127.0.0.2"),
     "port": ("9", 9),
@@ -175,8 +175,8 @@ class Config(support.Case):
         self.assertEqual(self.shown(env={"KERRD_VALIDATE": "0"}), self.shown())
 
     def test_links_of_kubernetes_are_none(self):
-        """Kubernetes puts each Service of a namespace into the environment of its pods. A Service called kerrd sets
-        these variables, which are ignored."""
+        """Kubernetes puts variables for each Service of a namespace into the environment of its pods. The server
+        ignores the variables of a Service called kerrd."""
         links = {
             "KERRD_PORT": "tcp://10.0.0.1:8080",
             "KERRD_SERVICE_HOST": "10.0.0.1",

@@ -7,7 +7,7 @@ from support import run
 
 
 def contexts():
-    """Each command, and "physics NAME" for each quantity."""
+    """The name of each command, and "physics NAME" for each quantity."""
     listed = re.findall(r"^  ([a-z-]+)  ", run("--help").stdout.decode(), re.M)
     return [[name] for name in listed] + [
         ["physics", line.split()[0]] for line in run("physics").stdout.decode().splitlines()
@@ -19,7 +19,7 @@ def told(context):
     "-o": ""}."""
     text = run(
         *context, "--help", env={**os.environ, "ARGP_HELP_FMT": "rmargin=900,opt-doc-col=60"}
-    ).stdout.decode()  # one option on each line
+    ).stdout.decode()  # --help has one option on each line
     options = {}
     for line in re.findall(r"^ {2,}(-.*)", text, re.M):
         for option, argument in re.findall(r"(?:^|, )(--?[a-zA-Z?][a-z0-9-]*)(\[?=[^\s\]]+)?", line.split("   ")[0]):

@@ -1,5 +1,5 @@
 """Tests that ehtim and astropy read a FITS file of numbers: pixels to the bit, the total flux to 1e-6, the angular
-scale. Both are in a virtual environment of their own."""
+scale. ehtim and astropy are installed in their own virtual environment."""
 
 import json
 import math
@@ -50,16 +50,17 @@ class Ehtim(support.Case):
         return found
 
     def test_the_hole_of_m87(self):
-        """The picture is blurred by a beam. Its width in microarcseconds follows from mass, distance and field."""
+        """The picture is blurred by a beam. The beam's width in microarcseconds follows from mass, distance and
+        field."""
         found = self.read_by_ehtim("-p", "m87", "--size", "128x128")
         field = json.loads(self.good("scene", "-p", "m87"))["camera"]["field_m"]
         self.assertEqual(found["size"], [128, 128])
         self.assertAlmostEqual(128 * found["pixel_uas"] / (field * M_UAS), 1, delta=1e-4)
 
     def test_visibilities(self):
-        """kerrd visibility is compared with ehtim's direct transform of the file, whose phase centre is the centre of
-        the picture too. ehtim 1.3.2 transforms with exp(+2 pi i), kerrd with exp(-2 pi i). The results are therefore
-        complex conjugates."""
+        """The results of kerrd visibility are compared with ehtim's direct Fourier transform of the file. In both, the
+        phase centre is the centre of the picture. ehtim 1.3.2 transforms with exp(+2 pi i), kerrd with exp(-2 pi i).
+        The results are therefore complex conjugates."""
         code = """
 import json, sys
 import ehtim, numpy
@@ -119,7 +120,7 @@ print(json.dumps([[z.real, z.imag] for z in v]))
                 self.assertAlmostEqual(imaginary / columns["re"][0], -theirs_im, delta=1e-5)
 
     def test_flux_and_polarisation(self):
-        """Stokes I, Q, U and V are in Jy a pixel, each in its place. The flux is the one stated in the file."""
+        """Stokes I, Q, U and V are in Jy per pixel, in the right order. Their flux is the one stated in the file."""
         code = """
 import json, sys
 import ehtim, numpy
@@ -136,7 +137,7 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
                   "fraction": float(abs(image.lin_polfrac())), "rate": image.rf / fits.getheader(sys.argv[1])["FREQ"]}))
 """
         scene = ["-p", "riaf", "--size", "64x64", "--set", "polarization.model=transfer"]
-        # the layers that the preset has by default, without image.layers
+        # without image.layers the file has the preset's default layers
         self.good("render", *scene, "-o", self.path("a.fits"))
         layers = "image.layers=stokes_q,stokes_u,stokes_v,intensity"
         self.good("render", *scene, "--set", layers, "-o", self.path("a.npz"))
@@ -155,7 +156,8 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
         self.assertEqual(found["rate"], 1)
 
     def test_the_tutorial(self):
-        """The last step of docs/tutorials/ehtim.md, which tests/http/documents.py runs only where ehtim is installed."""
+        """Runs the last step of docs/tutorials/ehtim.md. tests/http/documents.py runs it only where ehtim is
+        installed."""
         text = TUTORIAL.read_text()
         options = re.search(r"^kerrd (render .*) --stats -o sgra\.fits", text, re.M)[1].split()
         program = re.search(r"^cat > load\.py << 'END'\n(.*?)^END$", text, re.M | re.S)[1]
@@ -169,8 +171,8 @@ print(json.dumps({"flux": float(image.total_flux() / told), "off": off, "angles"
         )
 
     def test_numbers_that_are_compared_where_ehtim_is_not(self):
-        """tests/cli/files.py uses these numbers: flux, polarisation, and the centroid of the light (east is to the
-        left)."""
+        """Numbers that tests/cli/files.py uses without ehtim: flux, polarisation, and the centroid of the light (east
+        is to the left)."""
         code = """
 import json, sys
 import ehtim
@@ -191,8 +193,8 @@ print(json.dumps({"flux_jy": float(image.total_flux()), "linear": float(abs(imag
             self.assertAlmostEqual(found[name] / value, 1, delta=1e-5, msg=name)
 
     def test_chi2(self):
-        """kerrd compare is compared with ehtim's chisq for the same picture and the same observation. Also, ehtim must
-        still give the stored numbers that tests/cli/compare.py uses without ehtim."""
+        """chi^2 of kerrd compare equals that of ehtim's chisq for the same picture and observation. ehtim also still
+        gives the numbers that are stored for tests/cli/compare.py."""
         code = """
 import json, sys
 import ehtim
@@ -241,10 +243,10 @@ print(json.dumps(told))
         return json.loads(done.stdout.splitlines()[-1])
 
     def test_scattering(self):
-        """At each baseline of the observation, the ratio of scattered to unscattered amplitude is the kernel of ehtim's
-        ScatteringModel, with its exact phase structure function. ehtim 1.3.2 uses the one-element array that scipy's
-        minimize returns as if it were a number, which numpy 2.4 refuses. Here minimize is replaced by a function that
-        searches more finely and returns a number."""
+        """At each baseline of the observation, the ratio of scattered to unscattered amplitude equals the kernel of
+        ehtim's ScatteringModel, computed with its exact phase structure function. In ehtim 1.3.2, minimize of scipy
+        returns an array of one element, which is used as a number. numpy 2.4 refuses this. Here minimize is replaced by
+        a function that searches more finely and returns a number."""
         code = """
 import json, sys
 import numpy, ehtim.scattering.stochastic_optics as optics

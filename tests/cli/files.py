@@ -1,5 +1,5 @@
-"""Tests of files of numbers. The numbers in NPY, NPZ, FITS and EXR are equal to the bit, as read by numpy, astropy and
-OpenEXR. Also tests units, world coordinates, and the embedded scene."""
+"""Tests of files of numbers. numpy, astropy and OpenEXR read numbers from NPY, NPZ, FITS and EXR that are equal to the
+bit. Also tests units, world coordinates, and the embedded scene."""
 
 import json
 import math
@@ -43,7 +43,7 @@ def bits(array):
 class Files(support.Case):
     @classmethod
     def setUpClass(cls):
-        """One scene in each format: a.npy, a.npz, a.fits, a.exr."""
+        """Writes one scene in each format: a.npy, a.npz, a.fits, a.exr."""
         super().setUpClass()
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
@@ -83,7 +83,7 @@ class Files(support.Case):
             for found in (apart[name], numpy.moveaxis(rows, 0, -1) if name == "rgb" else rows, other):
                 self.assertTrue(numpy.array_equal(bits(found), bits(whole[name])), name)
         self.assertTrue(numpy.isnan(whole["r"]).any() and numpy.nanmin(whole["r"]) > 1 and whole["intensity"].max() > 0)
-        # the picture is not symmetric between top and bottom
+        # otherwise a flipped picture would not be detected
         self.assertFalse(numpy.array_equal(bits(whole["intensity"]), bits(whole["intensity"][::-1])))
 
     def test_a_file_makes_itself_again(self):
@@ -111,8 +111,8 @@ class Files(support.Case):
             self.bad(2, words, "render", "--from", self.path("cut." + end), "-o", self.path("d.png"))
 
     def test_red_green_and_blue_come_first_in_an_exr_file(self):
-        """OpenImageIO sorts channels without regard to case, with those outside any layer first, and shows the first
-        three channels of a file."""
+        """OpenImageIO sorts channels without regard to case. Channels outside any layer come first. A viewer shows a
+        file's first three channels."""
         path = self.shot("a.exr", layers=["r", "g", "rgb"])
         names = OpenEXR.File(path, separate_channels=True).channels()
         order = {"r": 0, "g": 1, "b": 2}
@@ -123,7 +123,7 @@ class Files(support.Case):
         self.assertEqual(len({name.lower() for name in names}), len(names))
 
     def test_an_exr_file_whose_channels_have_no_layer(self):
-        """kerrd wrote such files until November 2026."""
+        """Until November 2026, kerrd wrote files of this form."""
         old = os.path.join(os.path.dirname(os.path.abspath(__file__)), "names_without_layer.exr")
         self.assertEqual(set(OpenEXR.File(old, separate_channels=True).channels()), {"R", "G", "B", "r", "g"})
         self.good("render", "--from", old, "-o", self.path("new.exr"))
@@ -165,8 +165,8 @@ class Files(support.Case):
         self.assertIn("sampled=", header["KDACCUR"])
 
     def test_world_coordinates(self):
-        """The coordinates are computed by hand: half a width of pixels from the centre, with east to the left and north
-        up."""
+        """The expected coordinates are computed by hand: the upper left pixel is half the picture's width from the
+        centre, with east to the left and north up."""
         header = self.opened(
             self.shot("a.fits", "--set", "camera.field_m=32", "--set", "camera.centre_alpha=4", layers=["r"])
         )[0].header
@@ -180,7 +180,7 @@ class Files(support.Case):
         header = self.opened(self.shot("e.fits", *rolled, layers=["r"]))[0].header
         alpha, beta = WCS(header, key="A").pixel_to_world_values(
             0, 35
-        )  # 15.75 pixels left of the centre and 8.75 above it; the camera is rolled, so that upwards is along alpha
+        )  # 15.75 pixels left of the centre and 8.75 above it; the camera is rolled, so that alpha points upwards
         self.assertAlmostEqual(float(alpha), 4 + 8.75, places=9)
         self.assertAlmostEqual(float(beta), 15.75, places=9)
         east, north = WCS(header).pixel_to_world_values(0, 35)
@@ -202,8 +202,8 @@ class Files(support.Case):
         self.assertAlmostEqual(float(up), 45, places=6)
 
     def test_a_field_in_microarcseconds(self):
-        """The picture equals that of the same width in M, to the byte. The file's coordinates give the width in
-        microarcseconds."""
+        """A picture whose width is given in microarcseconds equals, to the byte, the picture of the same width in M.
+        The file's coordinates give the width in microarcseconds."""
         hole = ["--set", "spacetime.mass_msun=6.5e9", "--set", "spacetime.distance_pc=16.8e6"]
         on_sky = self.shot("a.fits", "--set", "camera.field_uas=200", *hole, layers=["r"])
         header, numbers = self.opened(on_sky)[0].header, self.opened(on_sky)[0].data
@@ -254,8 +254,8 @@ class Files(support.Case):
         )
 
     def test_a_disk_at_one_frequency_in_janskys(self):
-        """A disk alone at one frequency is written like a radio source, with its polarisation. Light of all frequencies
-        is not, and neither is a disk in front of a sky."""
+        """A disk alone at one frequency is written like a radio source, with its polarisation. Light summed over all
+        frequencies is written otherwise, and so is a disk in front of a sky."""
         band = ["--set", "disk.band=frequency", "--set", "disk.frequency_ghz=3e5"]
         self.good(
             "render", *band, "--set", "polarization.model=scattering", "--size", "48x40", "-o", self.path("a.fits")
@@ -277,8 +277,8 @@ class Files(support.Case):
             self.assertEqual("FREQ" in units[0].header, args[0] == band[0] and args[1] == band[1])
 
     def test_a_radio_source_begins_with_janskys(self):
-        """Without image.layers the file contains janskys, so that ehtim reads a preset's file directly. With
-        image.layers it contains the listed layers."""
+        """Without image.layers the file has Jy per pixel, so that ehtim can read a preset's file directly. With
+        image.layers it has exactly those layers."""
         hot = ["render", "-p", "riaf", "--size", "24x20"]
         polarised = ["--set", "polarization.model=transfer"]
         jansky, stokes = "jy_per_pixel", ["stokes_q", "stokes_u", "stokes_v"]

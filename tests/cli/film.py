@@ -1,7 +1,8 @@
 """Tests of films by the command line.
 
-Tested are: frames, which equal those of `kerrd render`, with one exposure; the folder of frames and its continuation;
-refusals. With FFMPEG=real (suite `film`) the output of the program ffmpeg is also read by ffprobe and ffmpeg.
+Frames equal the pictures of `kerrd render`, with one exposure. Other tests: the folder of frames, and its continuation
+by another run; refusals. With FFMPEG=real (suite `film`) the output of the program ffmpeg is also read by ffprobe and
+ffmpeg.
 """
 
 import json
@@ -24,8 +25,7 @@ except ImportError as missing:
     print(f"left out: {missing}; scripts/setup --browser installs it")
     sys.exit(77)
 
-# in dB; the measured value was 50. The loss is caused by 4:2:0 at edges of colours, and by H.264 at its quality
-# setting.
+# least PSNR in dB; 50 dB were measured. Losses: 4:2:0 chroma at edges of colours, and H.264 at its quality setting.
 PSNR = 46
 REAL = os.environ.get("FFMPEG") == "real"
 SIZE = {"width": 96, "height": 54}
@@ -65,7 +65,7 @@ def text_of(png, name):
 
 
 def as_shown(light):
-    """Linear light encoded as sRGB, at 16 bits."""
+    """Encodes linear light as sRGB of 16 bits."""
     light = numpy.clip(light, 0, 1)
     return 65535 * numpy.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
 
@@ -93,7 +93,7 @@ class Case(support.Case):
         return self.read("again.png")
 
     def killed(self, name, request, folder, frames, *options):
-        """Starts a run and kills it when this many frames exist."""
+        """Starts a run, and kills it as soon as this number of frames exists."""
         self.write("request.json", json.dumps(request))
         process = subprocess.Popen(
             [support.KERRD, "film", self.path("request.json"), "-o", self.path(name), "--state", folder, *options],
@@ -171,8 +171,8 @@ class Pictures(Case):
             self.assertEqual(self.again(frames[k]), frames[k], k)
 
     def test_one_exposure(self):
-        """The film has one exposure: the median of the exposures of nine frames, measured at 160 pixels. There are
-        two exceptions: the request gives each frame its own, or a keyframe gives a number."""
+        """The film has one exposure: the median of the exposures of nine frames, measured at a width of 160 pixels.
+        Exceptions: the request asks for an exposure of each frame, or a keyframe sets a number."""
         stats = self.film("a.zip", TURN)
         scenes = [self.scene_of(png) for png in self.frames("a.zip")]
         self.assertEqual((stats["exposure_frames"], {s["style"]["exposure"] for s in scenes}), (9, {stats["exposure"]}))
@@ -219,7 +219,7 @@ class Pictures(Case):
     }
 
     def light_at(self, place, image=SIZE):
-        """Linear light of one picture, at a time between the keyframes of BLURRED."""
+        """Linear light of one picture of the film BLURRED, at a time between its keyframes."""
         scene = {
             **self.BLURRED["scene"],
             "image": {**image, "layers": ["rgb"]},
@@ -249,7 +249,7 @@ class Pictures(Case):
             self.assertGreater(numpy.abs(shown - other).max(), 1000)
 
     def test_motion_blur_in_bands(self):
-        """A blurred picture that is rendered in two bands, from the top down, is the same."""
+        """A blurred picture that is rendered in two bands, one above the other, is the same as in one piece."""
         image = {"width": 320, "height": 180, "samples": 8}
         request = {
             **self.BLURRED,
@@ -266,7 +266,7 @@ class Pictures(Case):
         self.assertLess(off.max(), 2)
 
     def test_motion_blur_by_options(self):
-        """Samples and shutter are given on the command line. With one sample the frame equals the picture itself."""
+        """Sets samples and shutter on the command line. With one sample, the frame equals the unblurred picture."""
         plain = {k: v for k, v in self.BLURRED.items() if k != "motion_blur"}
         self.film("a.zip", plain)
         self.film("b.zip", self.BLURRED, "--samples", "1")
@@ -281,8 +281,8 @@ class Pictures(Case):
         self.assertEqual(text_of(self.frames("e.zip")[0], b"kerrd:motion_blur"), "samples=2 shutter=0.5")
 
     def test_motion_blur_of_what_is_refined(self):
-        """Rays are refined by the pixel's displayed value, and each frame has its own exposure. The mean is of the same
-        light, also with glare and a beam."""
+        """Refinement of rays depends on the displayed value of a pixel, and each frame has its own exposure. The
+        blurred frame is nevertheless the mean of the same light. This holds with glare and a beam too."""
         request = {
             "scene": {
                 "image": {**SIZE, "samples": "auto"},
@@ -367,12 +367,12 @@ class Pictures(Case):
         )
 
     def test_a_playground(self):
-        """The frames equal those of `kerrd playground --every`, also if some of them exist already."""
+        """The frames equal those of `kerrd playground --every`, also when some of them exist before the run."""
         document = {
             "preset": "white-dwarf",
             "debris_per_body": 200,
             "budget": 40,
-        }  # this budget of sub-steps does not reach the time of the next frame
+        }  # with this budget of sub-steps the simulation does not reach the time of the next frame
         request = {"playground": document, "every": 200, "frames": 4, "scene": {"image": SIZE}}
         self.film("a.zip", request, "--state", self.path("kept"))
         whole = self.read("a.zip")
@@ -407,8 +407,8 @@ class Pictures(Case):
         return text
 
     def test_goes_on(self):
-        """After a killed run the existing frames stay, and the rest is rendered. The film equals that of an
-        uninterrupted run."""
+        """After a killed run the existing frames are kept, and only the missing ones are rendered. The film equals that
+        of an uninterrupted run."""
         folder = self.path("kept")
         there = self.killed("b.zip", LONG, folder, 3)
         self.assertLess(there, 60)
@@ -496,7 +496,7 @@ class Pictures(Case):
         self.bad(2, "-o FILE is missing", "film", "-")
         self.bad(2, "KEYFRAMES.json is missing", "film", "-o", self.path("a.zip"))
         self.bad(2, "cannot open", "film", self.path("none.json"), "-o", self.path("a.zip"))
-        # without ffmpeg nothing is rendered
+        # nothing is rendered if ffmpeg is missing
         done = support.run(
             "film",
             "-",
@@ -513,7 +513,7 @@ class Pictures(Case):
 
 
 class Films(Case):
-    """Films by the real ffmpeg."""
+    """Tests of films that the real ffmpeg encodes."""
 
     def probed(self, name):
         about = json.loads(
@@ -558,8 +558,8 @@ class Films(Case):
         return numpy.frombuffer(done.stdout, numpy.uint8).astype(float)
 
     def test_ten_seconds(self):
-        """240 frames of 1280 x 720 from a run that is killed and continued equal those of an uninterrupted run, to the
-        byte. The film shows these frames."""
+        """A run of 240 frames of 1280 x 720 is killed and continued. Its frames equal those of an uninterrupted run to
+        the byte, and the film shows them."""
         request = {
             "scene": {"image": {"width": 1280, "height": 720}, "disk": {"gas": {"amplitude": 0}}},
             "keyframes": [{"frame": 239, "scene": {"camera": {"azimuth_deg": 90}, "time": 60}}],

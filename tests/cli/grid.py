@@ -1,5 +1,5 @@
-"""Tests of volume.model "grid". The torus sampled by docs/examples/torus_grid.py is compared with the analytic torus,
-also polarised. Other tests: a flow with a vertical field, and files that are refused."""
+"""Tests of volume.model "grid". The torus that docs/examples/torus_grid.py samples is compared with the analytic torus,
+unpolarised and polarised. Other tests: a flow with a vertical field, and files that are refused."""
 
 import json
 import os
@@ -46,7 +46,8 @@ class Grid(Case):
             return {name: file[name].astype(float) for name in self.layers.split(",")}
 
     def test_it_becomes_the_torus(self):
-        """With twice as many nodes in each direction the error is a quarter: in the flux, and in each pixel."""
+        """The error of the flux, and of each pixel, falls to a quarter when the number of nodes is doubled in each
+        direction."""
         self.layers = "brightness_temperature"
         want, off = self.maps()[self.layers], []
         for shape in ((48, 24), (96, 48), (192, 96)):
@@ -77,8 +78,8 @@ class Grid(Case):
                 self.assertTrue(3 < before / now < 5.5, off)
 
     def test_a_dump(self):
-        """Converts B and u of a simulation's dump. The result is the field b in the frame of the matter from which B
-        was computed; the converter uses the metric as a matrix."""
+        """Converts B and u of a simulation's dump to the field b in the frame of the matter, by another way than the
+        converter of the client: the metric is a matrix here."""
         random, a, rho_unit = numpy.random.default_rng(3), 0.9, 2e-18
         r, theta, phi = (
             numpy.geomspace(1.2, 40, 24),
@@ -105,7 +106,7 @@ class Grid(Case):
         lapse, scale = 1 / numpy.sqrt(1 + h), numpy.sqrt(numpy.abs(numpy.einsum("aa...->a...", g)))
         still = numpy.array([1 / lapse, -lapse * h, 0 * h, 0 * h]) * numpy.ones(
             shape
-        )  # an observer at rest in the slices, g_ab still^b = (-lapse, 0, 0, 0)
+        )  # four-velocity of an observer at rest in the slices of constant time: g_ab still^b = (-lapse, 0, 0, 0)
         push = numpy.array([numpy.zeros(shape), *(random.normal(size=(3, *shape)) / scale[1:])])
         u = still * numpy.sqrt(1 + times(push, push)) + push
         self.assertLess(abs(times(u, u) + 1).max(), 1e-9)
@@ -162,8 +163,8 @@ class Grid(Case):
         self.assertGreater(json.loads(done.stderr)["flux_jy"], 0)
 
     def test_uneven_columns(self):
-        """On columns that are denser at the plane, and in some rows more than in others, the torus gives the same light
-        as on even columns."""
+        """The torus gives the same light on uneven columns as on even ones. The uneven columns are denser at the plane,
+        more so in some rows than in others."""
         self.layers = "brightness_temperature"
         want, off = self.maps()[self.layers], []
         self.sampled(192, 192)
@@ -195,8 +196,8 @@ class Grid(Case):
         self.assertTrue(all(3 < coarse / fine < 5.5 for coarse, fine in zip(*off)), off)
 
     def test_a_vertical_field(self):
-        """Outside the ISCO the result equals that of the model riaf: components of the field in r and theta, and how
-        the motion changes them."""
+        """Outside the ISCO the picture equals that of the model riaf, which tests the field's r and theta components,
+        and their change by the motion."""
         self.layers = "intensity,stokes_q,stokes_u,stokes_v"
         a, mp, c = 0.5, 1.67262192369e-24, 2.99792458e10
         r, theta = numpy.geomspace(5, 25, 128)[:, None], ((numpy.arange(96) + 0.5) * numpy.pi / 96)[None, :]
@@ -251,7 +252,7 @@ class Grid(Case):
             self.assertLess(off, 0.01)
 
     def test_what_uses_it(self):
-        """Tests other commands that use a grid: the density for a flux, a spectrum, and a pixel."""
+        """Tests other commands with a grid: the density that gives a flux, a spectrum, and a pixel."""
         asset = self.sampled(48, 24)
         told = json.loads(
             run(
@@ -431,7 +432,7 @@ class Grid(Case):
             "g=" + path,
             *GRID,
         )
-        # matter at rest for observers of zero angular momentum about a charged hole, whose u^t is 1/lapse
+        # matter that moves with observers of zero angular momentum about a charged hole; its u^t is 1/lapse
         a, q2, s2 = 0.5, 0.64, numpy.sin(theta) ** 2
         rows = r[:, None]
         delta, sigma = rows**2 - 2 * rows + a * a + q2, rows**2 + a * a * (1 - s2)

@@ -1,4 +1,4 @@
-"""Tests of arguments and scenes, good and bad. Needs no device."""
+"""Tests of valid and invalid arguments and scenes. Needs no device."""
 
 import json
 import os
@@ -61,7 +61,7 @@ class Usage(Case):
         self.bad(2, "it must be at most 1279", "scene", "--tile", "1280x720+1+0")
 
     def test_assets(self):
-        """The scene does not refer to these assets. tests/cli/render.py tests an asset that is shown."""
+        """The scene does not use these assets. tests/cli/render.py tests an asset that a picture shows."""
         picture = self.path("a.png")
         chunk = lambda kind, data: (
             struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -183,8 +183,8 @@ class Usage(Case):
 
 
 class Names(Case):
-    """The suffix of a file's name determines the format. An unknown suffix is an error, so that no format is mistaken
-    for another."""
+    """The suffix of a file's name determines the format. An unknown suffix is an error, so that a file never has an
+    unexpected format."""
 
     def test_a_name_that_ends_as_another_format_does(self):
         table, tabled = ["a.h5", "a.csv.gz", "a.fit", "a.txt", "a.xlsx", "a.png"], ["--output"]
@@ -299,7 +299,7 @@ class Files(Case):
 
     @unittest.skipIf("SANITIZED" in os.environ, "the address sanitizer reserves terabytes of addresses")
     def test_limit_of_the_address_space(self):
-        """A driver that has too little address space ends the process without a message."""
+        """With too little address space, a driver ends the process without a message."""
 
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (700 << 20, 700 << 20))
@@ -311,7 +311,7 @@ class Files(Case):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_limit_of_the_size_of_a_file(self):
-        """If the file would grow beyond the limit, no partial file remains."""
+        """If the file would grow beyond the system's limit, no partial file remains."""
 
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
@@ -377,7 +377,7 @@ class Scenes(Case):
         self.assertEqual(merged["camera"]["inclination_deg"], 80)
 
     def test_rules_apply_to_the_whole(self):
-        # each field alone is valid; together they put the edges of the disk in the wrong order
+        # each field alone is valid, but together they put the disk's inner edge outside its outer edge
         document = self.write("scene.json", '{"disk":{"inner":30}}')
         self.bad(2, "(at /disk/", "scene", document)
         self.assertEqual(self.scene(document, "--set", "disk.outer=40")["disk"]["inner"], 30)

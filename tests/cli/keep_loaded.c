@@ -1,5 +1,5 @@
-/* Preloaded under the address sanitizer: keeps libraries in memory. The Vulkan loader unloads its drivers. Leaks of an
- * unloaded driver have no library name, and could not be suppressed by name. */
+/* Preloaded under the address sanitizer. Keeps libraries in memory, because the Vulkan loader unloads its drivers:
+ * leaks of an unloaded driver would be reported without a library's name, and could not be suppressed by name. */
 int dlclose(void *library);
 
 int dlclose(void *library)

@@ -22,7 +22,7 @@ class LightCurve(Case):
         )
         for a, b in zip(first, last):
             self.assertAlmostEqual(a, b, delta=1e-4)
-        # The preset's hole is seen from below: the motion is clockwise, as GRAVITY saw it.
+        # In this preset the hole is seen from below. The motion is therefore clockwise, as GRAVITY observed.
         angles = [math.atan2(float(r["spots_centroid_y"]), float(r["spots_centroid_x"])) for r in rows]
         for a, b in zip(angles, angles[1:]):
             self.assertTrue(0.3 < (a - b) % (2 * math.pi) < 1.4, angles)

@@ -1,5 +1,5 @@
-"""Tests of the manual pages and of bash completion against the program itself. Each option of --help is in both, the
-examples run, and the listed words are accepted."""
+"""Tests of the manual pages and of bash completion against the program itself. Pages and completion have each option of
+--help. The examples run, and the listed words are accepted."""
 
 import json
 import os
@@ -12,7 +12,7 @@ import sys
 from contexts import contexts, told
 from support import KERRD, Case, main, run
 
-MADE = pathlib.Path(sys.argv.pop(1))  # folder into which the build has put the pages
+MADE = pathlib.Path(sys.argv.pop(1))  # folder of the pages that the build has written
 SOURCES = pathlib.Path(__file__).parents[2] / "src"
 
 
@@ -68,8 +68,8 @@ class Manual(Case):
                 )
 
     def test_docs_of_help(self):
-        """The text of --help before and after the options, compared word by word because its lines are wrapped
-        differently."""
+        """Compares the text of --help before and after the options with the page, word by word, because lines are
+        wrapped differently."""
         for context in contexts():
             words = " ".join(run(*context, "--help").stdout.decode().replace("`", "").split())
             text = plain(pages()[f"kerrd-{context[0]}.1"])
@@ -143,8 +143,8 @@ class Examples(Case):
         self.assertGreater(seen, 20)
 
     def environment(self, line, env):
-        """An environment without stored tables, because a table measured while other tests run must not decide which
-        engines are used."""
+        """An environment without stored tables, because a table that is measured while other tests run could choose
+        other engines."""
         if not line.startswith("kerrd bench"):
             return env
         shaders = env.get("MESA_SHADER_CACHE_DIR") or env.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
@@ -172,8 +172,8 @@ class Examples(Case):
 
 class Words(Case):
     def test_words_of_help(self):
-        """The words that --help lists as a|b|c are exactly those that the program accepts. A wrong word is refused, and
-        the message lists the accepted words."""
+        """The program accepts exactly the words that --help lists as a|b|c. It refuses any other word with a message
+        that lists the accepted words."""
         seen = 0
         for context in contexts():
             for option, argument in told(context).items():
@@ -195,10 +195,10 @@ class Words(Case):
 
 
 class Bash(Case):
-    """The completion function, called as bash calls it."""
+    """Calls the completion function as bash does."""
 
     def complete(self, line):
-        """The proposals for this line, with the cursor at its end."""
+        """The proposals for this command line, with the cursor at its end."""
         tokens = re.findall(r"[=:]+|[^\s=:]+", line) + ([""] if line.endswith(" ") else [])  # words as bash splits them
         script = 'source "$1"; COMP_LINE=$2 COMP_POINT=${#2}; shift 2; COMP_WORDS=("$@") COMP_CWORD=$(($# - 1)); _kerrd; printf "%s\\n" "${COMPREPLY[@]}"'
         env = {**os.environ, "PATH": os.path.dirname(KERRD) + os.pathsep + os.environ["PATH"]}
@@ -270,7 +270,7 @@ class Bash(Case):
             fields.add(name[:-1])
         self.assertIn("camera.inclination_deg", fields)
         self.assertGreater(len(fields), 100)
-        # all fields have the document's names, except elements of lists, which the document does not name
+        # all fields must be in the document; it does not list elements of lists, which are excluded
         for field in fields:
             self.assertIn(f'"{field.split(".")[-1]}"', document) if ".0." not in field else None
         self.assertEqual(self.complete("kerrd scene --set camera.incl"), ["camera.inclination_deg="])
@@ -288,8 +288,8 @@ class Bash(Case):
         self.assertEqual(self.complete("kerrd scene --set camera.r="), ["infinity"])
 
     def test_words_of_fields_are_taken(self):
-        """Each word proposed for a field is a value of the field. It may be refused in combination with other fields,
-        but not by itself."""
+        """Each word proposed for a field is accepted as a value of that field alone. It may be refused in combination
+        with other fields."""
         complaint = lambda field, word: run("scene", "--set", field + word).stderr.decode()
         words = 0
         for field in [name for name in self.complete("kerrd scene --set ") if ".0." not in name]:

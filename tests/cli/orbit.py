@@ -16,7 +16,7 @@ def records(data):
     """Shape and rows of an NPY file whose fields are all 8-byte floats."""
     assert data[:8] == b"\x93NUMPY\1\0", data[:20]
     start = 10 + struct.unpack("<H", data[8:10])[0]
-    header = eval(data[10:start].decode(), {})  # a literal that kerrd wrote
+    header = eval(data[10:start].decode(), {})  # the header is a Python literal that kerrd wrote
     names = [name for name, kind in header["descr"]]
     assert all(kind == "<f8" for _, kind in header["descr"])
     return (

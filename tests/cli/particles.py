@@ -54,7 +54,8 @@ class Particles(Case):
             self.assertAlmostEqual(math.remainder(later - phi - 7 * rate, 2 * math.pi), 0, delta=2e-6)
 
     def test_lists_reach_beyond_the_edges_of_the_disk(self):
-        """Guiding orbits extend beyond both edges by disk.epicycles, because particles oscillate by that fraction."""
+        """Guiding orbits extend beyond the disk's inner and outer edges by the fraction disk.epicycles, because
+        particles oscillate in radius by that fraction."""
         swing = 0.1
         disk = ["disk.inner=10", "disk.outer=14", f"disk.epicycles={swing}", "disk.plunging=0"]
         options = [word for each in disk for word in ("--set", each)]

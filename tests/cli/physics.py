@@ -33,7 +33,7 @@ class Physics(Case):
         rows = list(
             csv.DictReader(io.StringIO(self.good("physics", "qnm", "--spin", "0:0.68:2", "-f", "csv").decode()))
         )
-        # Berti's public table, and Stein 2019
+        # expected values: Berti's public table, and Stein 2019
         for row, omega in zip(rows, (0.3736716844180419, 0.5239751042900845)):
             self.assertAlmostEqual(float(row["omega_re"]), omega, delta=1e-13)
         self.bad(2, "(at /m)", "physics", "qnm", "--l", "3", "--m=-4")
@@ -79,7 +79,7 @@ class Physics(Case):
             ("0.5 must be an option, as in --spin VALUE", "0.5"),
             ("json, csv or wav", "-f", "npy"),
         ):
-            done = run("physics", "kerr", *args)  # the hint that argp adds takes two lines
+            done = run("physics", "kerr", *args)  # argp's hint takes two lines of the message
             self.assertEqual((done.returncode, done.stdout), (2, b""))
             self.assertIn(words, done.stderr.decode().splitlines()[0])
         for option, value, words in (

@@ -1,4 +1,4 @@
-"""Tests of kerrd pixel: tables and JSON agree, and bad places are refused."""
+"""Tests of kerrd pixel. The table and the JSON have the same values. Pixels outside the picture are refused."""
 
 import json
 import math
@@ -46,7 +46,7 @@ class Pixel(Case):
             found = json.loads(self.good("pixel", *scene, "--at", f"{x},{y}", "--format", "json"))
             layers = struct.unpack_from("<5f", numbers, 20 * (width * y + x))
             self.assertLess((x, y), (width, height))
-            told = found.get("pixel_polarization")  # None if the ray crosses nothing
+            told = found.get("pixel_polarization")  # the value is None if the ray crosses nothing
             if not told or told["evpa"] is None:
                 self.assertEqual(layers[1:3], (0, 0))
                 continue

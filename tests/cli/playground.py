@@ -65,8 +65,8 @@ class Playground(Case):
         self.assertLess(separations[-1], 0.5 * separations[0])
 
     def test_all_that_happens_is_told(self):
-        """If there are more events than are stored at once, none is lost as long as they are written while the motion
-        goes on. If a single sub-step has more events, the lost ones are reported."""
+        """If more events occur than can be stored at once, all of them are written, because writing goes on during the
+        motion. If a single sub-step has more events than can be stored, the number of lost events is reported."""
         events, document = self.path("events.ndjson"), self.path("many.json")
         ring = [
             {
@@ -130,8 +130,8 @@ class Playground(Case):
             return [{name: float(text or "nan") for name, text in row.items()} for row in csv.DictReader(file)]
 
     def test_the_documented_chirp(self):
-        """The inspiral reaches its end. The rows of the series are evenly spaced from the beginning to the requested
-        time."""
+        """The inspiral reaches its end. The rows of the time series are evenly spaced from the beginning to the
+        requested time."""
         path = self.path("chirp.csv")
         done = run("playground", "--preset", "emri", "--time", "20000", "--series", path, "-o", "-")
         self.assertEqual((done.returncode, done.stderr), (0, b""))
@@ -146,8 +146,8 @@ class Playground(Case):
         self.assertTrue(all(math.isnan(row["separation"]) for row in rows[len(falling) :]))
 
     def test_rows_between_sub_steps(self):
-        """A circular orbit at 20 M stays a circle between its long sub-steps: h+ is 4 m v^2 cos(2 phi), as with short
-        steps."""
+        """A circular orbit at 20 M stays circular between its long sub-steps. h+ equals 4 m v^2 cos(2 phi), as it does
+        for short sub-steps."""
         path, document = self.path("circle.csv"), self.path("circle.json")
         speed = math.sqrt(20) / 18
         with open(document, "w") as file:
@@ -174,8 +174,8 @@ class Playground(Case):
         self.assertIn(b"a playground ends at 1e+12 M", done.stderr)
 
     def test_momentum_that_is_lost_at_c_is_told(self):
-        """Bodies smaller than 2 (m1 + m2) accelerate each other beyond c. Their speed is limited to c, and the momentum
-        lost by this is reported."""
+        """Bodies smaller than 2 (m1 + m2) would accelerate each other beyond c. Their speed is limited to c, and the
+        resulting loss of momentum is reported."""
         document = self.path("small.json")
         for radius, told in (1.0, False), (0.2, True):
             with open(document, "w") as file:

@@ -133,17 +133,18 @@ class Rays(Case):
     def test_no_device_is_asked_for(self):
         self.good("rays", "--ray", "1,2", "--device", "no such device")
         done = run("rays", "--ray", "1,2", "--device", "no such device", "--engine", "mino-rkn6")
-        self.assertIn(done.returncode, (1, 2))  # there is no device, or no device of this name
+        self.assertIn(done.returncode, (1, 2))  # refused: there is no device, or no device of this name
         self.assertTrue(done.stderr.startswith(b"kerrd: "), done.stderr)
 
     def test_a_tolerance_is_held_ray_by_ray(self):
-        """On a device: next to the critical curve, values of five orders that 32 bits cannot resolve to the tolerance
-        are traced again. Those that double precision cannot resolve either are marked."""
+        """On a device, rays next to the critical curve have values of five image orders that 32 bits cannot resolve to
+        the tolerance. These are traced again in double precision. Values that double precision cannot resolve either
+        are marked."""
         near = [
             "--ray=5.8396981340323952,-2.9198490670161976",
             "--ray=5.8438,-2.9219",
             "--ray=-7,1",
-        ]  # 1e-6 and 1e-3 from the curve
+        ]  # distances of 1e-6 and 1e-3 from the critical curve
         for tolerance, beyond in ((1e-5, 0), (1e-12, 1)):
             done = run(
                 "rays",

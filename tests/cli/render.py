@@ -25,7 +25,7 @@ from support import KERRD, SMALL, Case, main, run
 
 
 def chunks(png):
-    """The chunks of a PNG file as (type, body), with their checksums checked."""
+    """The chunks of a PNG file as (type, body). Checks their checksums."""
     assert png[:8] == b"\x89PNG\r\n\x1a\n"
     at, found = 8, []
     while at < len(png):
@@ -45,7 +45,7 @@ NOTES, GPANO = "{urn:x-kerrd:notes#}", "{http://ns.google.com/photos/1.0/panoram
 
 
 def xmp(file):
-    """The properties of a file's XMP packet, by their names with namespaces."""
+    """The properties in a file's XMP packet, by their names with namespace."""
     packet = file[file.index(b"<x:xmpmeta") : file.index(b"</x:xmpmeta>") + len(b"</x:xmpmeta>")]
     found = {}
     for one in xml.etree.ElementTree.fromstring(packet).iter(
@@ -72,7 +72,8 @@ class Pictures(Case):
         self.assertEqual(stat.S_IMODE(os.stat(self.path("a.png")).st_mode), 0o666 & ~mask)
 
     def test_lossy_pictures(self):
-        """JPEG and WebP are as large as their quality, keep the scene, and are read by Pillow and as XML."""
+        """JPEG and WebP files are larger for a higher quality, and contain the scene. Pillow reads them, and an XML
+        parser their metadata."""
         self.good("render", *SMALL, "-o", self.path("a.png"))
         for name in ("a.jpg", "a.JPEG", "a.webp"):
             sizes = []
@@ -108,7 +109,7 @@ class Pictures(Case):
         self.assertFalse(os.path.exists(self.path("c.jpg")) or os.path.exists(self.path("c.webp")))
 
     def test_panoramas(self):
-        """Each kind of file has the metadata by which viewers of photographs recognise a picture of all directions."""
+        """Each kind of file has the metadata by which photo viewers recognise a panorama."""
         scene = (
             "--set",
             "camera.r=20",
@@ -256,8 +257,8 @@ class Pictures(Case):
             self.assertEqual(self.read(name), self.read("a.fits"), name)
 
     def test_a_limit_of_the_size_of_a_file(self):
-        """A picture that would exceed the limit is an error, not a signal, and leaves no partial file. The test is not
-        possible with a driver that keeps memory in a file."""
+        """A picture larger than the memory limit gives an error, not a signal, and leaves no partial file. Skipped for
+        drivers that keep memory in a file."""
 
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
@@ -280,8 +281,8 @@ class Pictures(Case):
         self.assertIn(b'"spin":0.1,', text(other)[b"kerrd:scene"])
 
     def test_layers_are_numbers(self):
-        """NumPy's header and records are read by this test itself. Values are NaN where there is no disk, and the
-        picture's light equals that of the layer."""
+        """Reads NumPy's header and records with code of this test. Values are NaN where there is no disk. The picture's
+        light equals that of the layer."""
         self.good("render", *SMALL, "--set", "image.layers=r,rgb,intensity", "-o", self.path("a.npy"))
         file = self.read("a.npy")
         (length,) = struct.unpack("<H", file[8:10])
@@ -458,8 +459,8 @@ class Pictures(Case):
         )
 
     def test_every_preset(self):
-        """Each preset is found by its name, and differs from the others. That each can be rendered is tested by
-        tests/http/kerrd.py and the reference pictures."""
+        """Each preset is found by its name, and differs from the others. tests/http/kerrd.py and the reference pictures
+        test that each preset can be rendered."""
         names = [line.split()[0] for line in self.good("presets").decode().splitlines()]
         plans = {self.good("plan", *SMALL, "--preset", name) for name in names}
         self.assertGreater(len(names), 10)
@@ -497,7 +498,7 @@ class Outputs(Case):
         self.assertEqual(self.read("a.png")[:4], b"\x89PNG")
 
     def test_pipes_stay(self):
-        # a pipe instead of /dev/null, because a failing test as root would remove the machine's /dev/null
+        # a pipe instead of /dev/null: if this test failed as root, it would remove the machine's /dev/null
         os.mkfifo(self.path("pipe"))
         read = threading.Thread(target=lambda: self.assertEqual(self.read("pipe")[:4], b"\x89PNG"), daemon=True)
         read.start()
@@ -516,7 +517,8 @@ class Outputs(Case):
         reader, writer = os.pipe()
         os.close(reader)
         done = run("render", *SMALL, "-o", "-", stdout=writer)
-        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))  # ends as cat and similar tools do
+        # ends by SIGPIPE, as cat and similar tools do
+        self.assertEqual((done.returncode, done.stderr), (-signal.SIGPIPE, b""))
         os.close(writer)
 
     def test_nowhere_to_write(self):
@@ -569,13 +571,14 @@ class Devices(Case):
         self.assertIn(b"apt install mesa-vulkan-drivers", doctor.stdout)
 
     def own_driver(self):
-        """A copy of the program, the path of lavapipe, and an environment in which the system has no driver."""
+        """Returns a copy of the program, the path of lavapipe, and an environment in which the system has no Vulkan
+        driver."""
         manifest = next(iter(glob.glob("/usr/share/vulkan/icd.d/lvp_icd*.json")), None)
         if not manifest:
             self.skipTest("lavapipe is not installed")
         with open(manifest) as file:
             lavapipe = json.load(file)["ICD"]["library_path"]
-        if "/" not in lavapipe:  # a name that the dynamic linker looks up, as in Debian 13
+        if "/" not in lavapipe:  # a driver by a name without a path, which the dynamic linker looks up, as in Debian 13
             lavapipe = glob.glob(f"/usr/lib/*/{lavapipe}")[0]
         os.makedirs(self.path("bin"))
         program = self.path("bin/kerrd")
@@ -593,13 +596,14 @@ class Devices(Case):
         return program, lavapipe, manifest, none
 
     def assert_drawn(self, done, name):
-        """The command has drawn the pixels of lavapipe in this file."""
+        """Checks that lavapipe has rendered the pixels of this file."""
         self.assertEqual(done.returncode, 0, done.stderr)
         pixels = [[body for kind, body in chunks(self.read(file)) if kind == b"IDAT"] for file in (name, "here.png")]
         self.assertEqual(*pixels)
 
     def test_own_driver(self):
-        """If the system has no driver, the driver beside the program is used, unless the environment names drivers."""
+        """If the system has no Vulkan driver, kerrd uses the driver beside the program. If the environment names
+        drivers, it uses those instead."""
         program, lavapipe, manifest, none = self.own_driver()
 
         def draw(**more):

@@ -1,5 +1,5 @@
 """Tests of kerrd doctor --selftest: the table, its form as JSON, and the exit codes. tests/gpu/test_selftest.c tests
-that a wrong number is detected."""
+that the self-test detects a wrong number."""
 
 import json
 import re

@@ -1,5 +1,5 @@
-"""Tests of a grid with several frames in time: what is refused, times between the frames and beyond them, light curves,
-and a density by its flux."""
+"""Tests of a grid with several frames in time: refusals, times between and beyond the frames, light curves, and the
+density that gives a flux."""
 
 import json
 import sys
@@ -54,7 +54,7 @@ def ring(lump):
 
 class Series(Case):
     def file(self, name, frames, time=None, **header):
-        """Writes frames, each a dictionary of arrays; without times, only the first of them."""
+        """Writes frames, each a dictionary of arrays. Without times, writes only the first frame."""
         places, _ = ring(None)
         arrays = frames[0] if time is None else {key: numpy.stack([one[key] for one in frames]) for key in NAMES}
         times = {} if time is None else {"time": numpy.array(time, float)}
@@ -69,15 +69,15 @@ class Series(Case):
         return self.told(*args)["flux_jy"]
 
     def test_between_frames(self):
-        """Where the density grows by the same factor everywhere, the density between two frames is their geometric
-        mean."""
+        """If the density grows by the same factor everywhere, the density between two frames is the geometric mean of
+        theirs."""
         _, one = ring(1.0)
         frames = [{**one, "density": one["density"] * factor} for factor in (1, 4, 2)]
         series = self.file("series.npz", frames, (10, 20, 30))
         alone = self.file("alone.npz", frames)
         for time, factor in ((5, 1), (10, 1), (15, 2), (17.5, 4**0.75), (20, 4), (25, 8**0.5), (30, 2), (1e6, 2)):
             made = self.flux(*series, "--set", f"time={time}")
-            # grid_scale multiplies the field as well, which the frames do not
+            # compared with a file and not by grid_scale, which would multiply the field too
             want = self.file("want.npz", [{**one, "density": one["density"] * factor}])
             self.assertAlmostEqual(made / self.flux(*want), 1, delta=1e-5, msg=time)
         self.assertEqual(self.flux(*alone), self.flux(*alone, "--set", "time=7", "--set", "volume.slow_light=true"))
@@ -112,7 +112,8 @@ class Series(Case):
 
     def test_light_curves(self):
         """A lump orbits the hole. The light curves with and without slow light differ, and both repeat after a turn. If
-        the scene is normalised to a flux, the middle of the series has this flux, so that the curve keeps its shape."""
+        the scene is normalised to a flux, only the middle of the series has that flux, because the curve keeps its
+        shape."""
         times, period = numpy.linspace(0, 300, 31), 100
         frames = [ring(2 * numpy.pi * t / period)[1] for t in times]
         series = self.file("series.npz", frames, times)

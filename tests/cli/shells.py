@@ -1,5 +1,5 @@
-"""Tests of completions in zsh and fish themselves, and of manual pages in mandoc and man. They are the suite `shells`;
-scripts/setup --shells installs the programs."""
+"""Tests of completions in zsh and fish themselves, and of manual pages in mandoc and man. The tests form the suite
+`shells`; scripts/setup --shells installs the programs."""
 
 import fcntl
 import os
@@ -21,7 +21,7 @@ from support import KERRD, Case, run
 MADE = pathlib.Path(sys.argv.pop(1))  # folder into which the build has put the completions
 NEEDED = ["zsh", "fish", "mandoc", "man"]
 
-# Writes the proposals, one whole word to a line, instead of displaying them.
+# A script that writes the proposals, one on each line, instead of displaying them.
 ZSH = r"""
 PROMPT= RPROMPT=
 unsetopt zle_bracketed_paste 2> /dev/null
@@ -57,7 +57,7 @@ print ready >> $CAPTURE
 
 
 class Completes:
-    """Tests for each shell, by the method complete(line) of the subclass. folder_completed: how the shell writes a
+    """Tests that each shell inherits. A subclass defines complete(line). folder_completed: how the shell writes a
     completed folder."""
 
     def test_commands(self):
@@ -121,7 +121,7 @@ class Zsh(Completes, Case):
             os.execvpe("zsh", ["zsh", "-o", "no_global_rcs", "-i"], env)
         fcntl.ioctl(
             self.fd, termios.TIOCSWINSZ, struct.pack("HHHH", 1000, 200, 0, 0)
-        )  # a smaller number, because the shell would otherwise ask whether to show so many proposals
+        )  # a prefix with fewer proposals, because the shell asks a question before it shows many
         self.reader = threading.Thread(target=self.drain, daemon=True)
         self.reader.start()
         self.addCleanup(self.end)
@@ -192,7 +192,7 @@ class Read(Case):
     def lint(self, path):
         """Neither program reports anything about a page."""
         mandoc = subprocess.run(["mandoc", "-Tlint", "-W", "warning", path], capture_output=True, text=True)
-        # the options with which Debian's lintian reads them
+        # the options that Debian's lintian uses
         env = {**os.environ, "LC_ALL": "C.UTF-8", "MANROFFSEQ": "", "MANWIDTH": "80"}
         man = subprocess.run(
             ["man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", path],

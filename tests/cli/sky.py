@@ -1,8 +1,8 @@
 """Tests of a photographed panorama as scripts/sky makes it.
 
 In the panorama, and in kerrd's picture of it, M42, omega Cen and M31 are within a pixel of their places in the
-catalogue. The panorama is aligned with 37 000 stars of the catalogue. bench/sky_places.py measures this; it has the
-places by SIMBAD.
+catalogue. The panorama is also aligned with 37 000 stars of the catalogue. bench/sky_places.py makes these
+measurements, and has the SIMBAD positions.
 """
 
 import importlib.util
@@ -14,7 +14,8 @@ import support
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PANORAMA = ROOT / "venv/sky-gaia.png"
-TEXEL = 0.5  # a texel of the panorama, which is 4096 wide, in pixels of sky_places.py, which are 0.176 degrees
+# size of a texel of the panorama, which is 4096 texels wide, in pixels of sky_places.py, which are 0.176 degrees wide
+TEXEL = 0.5
 
 try:
     spec = importlib.util.spec_from_file_location("sky_places", ROOT / "bench/sky_places.py")
@@ -41,8 +42,8 @@ class Sky(support.Case):
                 self.assertLess(places.length(where), TEXEL, (name, off))
 
     def test_the_panorama_and_the_catalogue_are_aligned(self):
-        """At the catalogue's stars the panorama is far brighter than elsewhere. At the centre of the summed
-        surroundings of stars it is as bright as a picture of the catalogue."""
+        """At the positions of the catalogue's stars the panorama is far brighter than elsewhere. The summed
+        surroundings of stars are as bright at their centre as in a picture of the catalogue."""
         for row in places.aligned(self.seen, places.shown(support.KERRD, None, *places.STARS_ALONE)):
             self.assertGreater(row.peak, 10, row)
             self.assertLess(places.length(row.panorama), 0.1, row)

@@ -1,5 +1,5 @@
-"""Tests of sweeps: a cube as astropy and numpy read it, equal to single renders to the bit; axes, world coordinates,
-tables; pictures and light by axes; refusals."""
+"""Tests of sweeps. A cube, read by astropy and numpy, equals single renders to the bit. Other tests: axes, world
+coordinates, tables, pictures and light along axes, refusals."""
 
 import csv
 import io
@@ -48,7 +48,7 @@ def bits(array):
 
 class Sweep(support.Case):
     def setUp(self):
-        """The same cube in both formats, made once: cube.fits, cube.npz, and the command line's output for each."""
+        """Makes the same cube in both formats: cube.fits, cube.npz, and for each the command line's output."""
         super().setUp()
         if not MADE:
             for name in "cube.fits", "cube.npz":
@@ -96,7 +96,7 @@ class Sweep(support.Case):
         """A cube in both formats equals a file of each single scene."""
         self.assertEqual(
             (self.stats["scenes"], self.stats["lens_maps_traced"]), (12, 6)
-        )  # three inclinations, of two disks that need different quantities of a lens map
+        )  # three inclinations, and two disks that need different quantities of a lens map
         units, arrays = self.opened("cube.fits"), numpy.load(self.path("cube.npz"))
         self.assertEqual([unit.header["EXTNAME"] for unit in units], [*LAYERS, *AXES, "SCENES"])
         hashes = units["SCENES"].data["hash"].reshape(SHAPE)
@@ -144,7 +144,7 @@ class Sweep(support.Case):
         header = units[0].header
         self.assertEqual((json.loads(header["KDAXES"]), json.loads(header["KDSCENE"])), (told["axes"], told["scene"]))
         self.assertEqual((header["SPIN"], "CAM_INCL" in header), (0.7, False))
-        # world coordinates by astropy: the second outer radius, the third inclination, the first disk, layer r
+        # astropy's world coordinates of the second outer radius, the third inclination, the first disk, and layer r
         self.swept("b.fits", axes=ARGUMENTS[:2] + ARGUMENTS[4:])
         for name in "cube.fits", "b.fits":
             world = WCS(self.opened(name)["r"].header)
@@ -165,8 +165,8 @@ class Sweep(support.Case):
         self.assertIn("differ from scene to scene", str(header["COMMENT"]))
 
     def test_cards_leave_out_what_of_the_source_is_swept(self):
-        """A property of the source that the sweep varies is on the axis. A property that is the same in all scenes has
-        a card."""
+        """A property of the source that the sweep varies is on an axis of the cube. A property that is the same in all
+        scenes is a card of the header."""
         cards = {
             "source.name": ["OBJECT"],
             "source.ra_deg": ["OBSRA"],
@@ -185,7 +185,7 @@ class Sweep(support.Case):
             axis = ["-x", path + "=" + ",".join(map(str, values))]
             for name in "a.fits", "a.npz":
                 stats = self.swept(name, *source, layers=["r"], axes=axis)
-                self.assertEqual(stats["lens_maps_traced"], 1)  # the position of the hole on the sky changes no ray
+                self.assertEqual(stats["lens_maps_traced"], 1)  # the hole's position on the sky does not change any ray
             units, arrays = self.opened("a.fits"), numpy.load(self.path("a.npz"))
             header = units[0].header
             for other, keys in cards.items():
@@ -221,8 +221,8 @@ class Sweep(support.Case):
         return json.loads(done.stderr)
 
     def test_a_cube_of_a_radio_source_has_the_layers_that_are_asked_for(self):
-        """A cube has the requested layers. Unlike a FITS file of one picture, it does not have janskys instead of the
-        picture, because with a sky these are undefined."""
+        """A cube has the requested layers. A FITS file of one picture can have Jy per pixel instead of the picture. A
+        cube cannot, because Jy per pixel are undefined with a sky."""
         for name in ("a.fits", "a.npz"):
             sky = ["-x", "sky.model=none,grid"]
             done = support.run("sweep", "-p", "riaf", "--size", "12x12", *sky, "-o", self.path(name))
@@ -231,8 +231,8 @@ class Sweep(support.Case):
         self.assertEqual(numpy.load(self.path("a.npz"))["rgb"].shape, (2, 12, 12, 3))
 
     def test_frequencies(self):
-        """Maps at a list of frequencies. Each plane is the picture at its frequency; astropy finds each frequency; and
-        each plane has its own flux."""
+        """Pictures at a list of frequencies. Each plane equals the picture at its frequency, and has that frequency's
+        flux. astropy finds each frequency."""
         layers, given = ["rgb", "brightness_temperature", "specific_intensity"], [345, 86, 230]
         axes = ["-x", "camera.inclination_deg=30,60", "-x", "volume.frequency_ghz=" + ",".join(map(str, given))]
         stats = self.radio("a.fits", *axes, layers=",".join(layers))
@@ -274,16 +274,16 @@ class Sweep(support.Case):
             pixels = [[0] * axis + [j] + [0] for j in range(3)]
             self.assertEqual((world.wcs.ctype[axis], str(world.wcs.cunit[axis])), ("FREQ-TAB", "Hz"))
             self.assertEqual([*world.all_pix2world(pixels, 0)[:, axis]], [f * 1e9 for f in given])
-            # the primary coordinates 1, 2, 3 are in the header itself; only the coordinates with the key F are in a
-            # table of the file
+            # the primary coordinates 1, 2, 3 are in the header; the coordinates with the key F are in a table of the
+            # file
             first = WCS(units[name].header)
             self.assertEqual([*first.all_pix2world(pixels, 0)[:, axis]], [1, 2, 3])
             self.assertEqual([*first.celestial.wcs.ctype], [*world.celestial.wcs.ctype])
             self.assertEqual([*first.celestial.wcs.cdelt], [*world.celestial.wcs.cdelt])
 
     def test_frequencies_that_are_even(self):
-        """Evenly spaced frequencies become an axis FREQ in Hz with ordinary world coordinates. A sweep of other
-        pictures states no flux."""
+        """Evenly spaced frequencies become an axis FREQ in Hz with ordinary world coordinates. A sweep whose pictures
+        have no frequency states no flux."""
         for text, expected in (
             ("86:230:72", [86e9, 158e9, 230e9]),
             ("230", [230e9]),
@@ -314,7 +314,7 @@ class Sweep(support.Case):
         self.assertNotIn("FREQ", units[0].header)
 
     def test_every_credit_is_told(self):
-        """Two photographs of the sky, by different authors: both are credited. One name is long."""
+        """Two photographs of the sky by different authors are both credited. One of the names is long."""
         names = ["Ada " + "of Somewhere " * 12, "Bo"]
         for name, text, grey in zip("ab", names, (90, 200)):
             parts = (
@@ -370,7 +370,7 @@ class Sweep(support.Case):
             self.assertIn("0 warning(s) and 0 error(s)", done.stdout)
 
     def test_style_and_disk_take_one_lens_map(self):
-        """A hundred scenes use one lens map."""
+        """A hundred scenes share one lens map."""
         axes = ["-x", "disk.outer=15:24:1", "-x", "style.exposure=-1:1/5", "-x", "camera.azimuth_deg=0,90"]
         self.assertEqual(self.swept("a.npz", layers=["rgb"], axes=axes)["lens_maps_traced"], 1)
         self.assertEqual(numpy.load(self.path("a.npz"))["rgb"].shape, (10, 5, 2, 36, 64, 3))

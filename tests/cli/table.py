@@ -1,5 +1,5 @@
-"""Tests of kerrd table. The file is a FITS file in the format of OGIP memo 92-009. Its spectra are those of kerrd line,
-an interrupted table is continued, and interpolated profiles are near those of kerrd line."""
+"""Tests of kerrd table. The file is a FITS file in the format of OGIP memo 92-009. Its spectra equal those of kerrd
+line, and interpolated profiles are close to them. An interrupted table can be continued."""
 
 import json
 import os
@@ -80,7 +80,7 @@ class Table(support.Case):
             self.assertIn(b"found 0 warning(s) and 0 error(s)", told)
 
     def test_spectra_are_lines(self):
-        """Every node, in the order in which the last parameter varies fastest."""
+        """The parameters of every node. The last parameter varies fastest."""
         self.good("table", *SMALL, "-o", self.path("a.fits"))
         file = self.opened("a.fits")
         rows = file["PARAMETERS"].data
@@ -92,13 +92,13 @@ class Table(support.Case):
             a, i, h = (float(v) for v in nodes[k])
             shown = f"--spin={a}", f"--inclination-deg={i}", f"--height={h}"
             share = self.line(*shown, "--emissivity=lamppost", *ENERGIES)[:, 2]
-            # tolerance: edges and shares in the table have 32 bits
+            # tolerance: the table stores edges and shares in 32 bits
             off = numpy.abs(numpy.cumsum(spectra["INTPSPEC"][k], dtype=float) - numpy.cumsum(share)).max()
             self.assertLess(off, 3e-6, nodes[k])
 
     def test_charge_is_an_axis(self):
-        """The axis of the charge comes after that of the spin. For each charge the image of the disk is that of the
-        charged hole."""
+        """The axis of the charge comes after that of the spin. For each charge the spectra are those of a disk round a
+        hole with that charge."""
         axes = "charge=0,0.8", "inclination_deg=40,50", "index=2,3"
         self.good(
             "table", *(f"-x{axis}" for axis in axes), "-s", "spin=0.5", "-s", "bins=50", "-o", self.path("q.fits")
@@ -114,7 +114,7 @@ class Table(support.Case):
             self.assertLess(off, 3e-6, (q, i, index))
 
     def test_axes(self):
-        """Tests an inner edge over the ISCO, a fixed inclination, and an axis of ranges."""
+        """Tests an inner edge in units of the ISCO, a fixed inclination, and an axis given by ranges."""
         axes = "-x", "inner_isco=1,2:4/3", "-x", "spin=0,0.9"
         self.good("table", *axes, "-s", "inclination_deg=40", "-s", "index=2.5", "-o", self.path("a.fits"))
         file = self.opened("a.fits")
@@ -154,7 +154,7 @@ class Table(support.Case):
         self.opened("a.fits")
 
     def test_complete_but_for_its_name(self):
-        """If only the last step of a table failed, the same command gives the table its name."""
+        """If only the last step failed, the renaming of the file, the same command renames it."""
         self.good("table", *SMALL, "-o", self.path("a.fits"))
         whole = self.read("a.fits")
         os.rename(self.path("a.fits"), self.path("b.fits.part"))
@@ -162,7 +162,8 @@ class Table(support.Case):
         self.assertEqual(self.read("b.fits"), whole)
 
     def test_the_request_can_be_asked(self):
-        """KDTABLE is a request that kerrd line accepts, except for its axes, with edges or without."""
+        """The header's KDTABLE is a request that kerrd line accepts after its axes are removed, with or without
+        edges."""
         for extra in [], ["-s", "edges=1,2,4,8"]:
             self.good("table", *SMALL, *extra, "-o", self.path("a.fits"))
             asked = json.loads(self.opened("a.fits")[0].header["KDTABLE"])
@@ -202,7 +203,8 @@ class Table(support.Case):
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_edge_on(self):
-        """Rows next to edge on, and edge on, are the profiles of kerrd line, which tells of the lower face."""
+        """Rows at and next to an inclination of 90 degrees equal the profiles of kerrd line, which reports the lower
+        face of the disk."""
         some = ["spin=0.9", "bins=50", "energy_min=1", "energy_max=10"]
         self.good(
             "table", "-x", "inclination_deg=86,89,90", *[w for v in some for w in ("-s", v)], "-o", self.path("a.fits")
@@ -221,7 +223,7 @@ class Table(support.Case):
             self.assertEqual(any("lower face" in text for text in line["approximations"]), i > 87)
 
     def test_between_nodes(self):
-        """Profiles interpolated in the default table, at a few places: bench/table.py has a thousand."""
+        """Interpolates profiles in the default table at a few points. bench/table.py does so at a thousand points."""
         axes = json.loads(self.good("table", "--plan"))["axes"]
         chance = random.Random(4)
         for _ in range(6):

@@ -1,5 +1,5 @@
-"""Tests of kerrd rays --trace: one ray step by step and as a path, equal in all formats. The roots of its radial
-potential are compared with numpy's."""
+"""Tests of kerrd rays --trace: one ray step by step and as a path. All output formats have the same numbers. The roots
+of its radial potential are compared with numpy's."""
 
 import csv
 import io
@@ -86,7 +86,7 @@ class Trace(Case):
             for r in roots:
                 square, rest = (r * r + a * a - a * lam) ** 2, (r * r - 2 * r + a * a) * carter
                 self.assertLess(abs(square - rest), 1e-9 * (abs(square) + abs(rest) + 1e-3), (a, i, alpha, beta, r))
-            self.assertAlmostEqual(abs(sum(roots)), 0, delta=1e-9)  # R has no cubic term
+            self.assertAlmostEqual(abs(sum(roots)), 0, delta=1e-9)  # the coefficient of r^3 is 0
             real = sorted(r.real for r in roots if r.imag == 0)
             horizon = 1 + math.sqrt(1 - a * a)
             outside = sum(r > horizon for r in real)

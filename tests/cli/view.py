@@ -21,7 +21,7 @@ KITTY, SIXEL, NEITHER = b"\x1b_Gi=31;OK\x1b\\\x1b[?62;c", b"\x1b[?62;4;22c", b"\
 
 
 class Terminal:
-    """Runs kerrd in a pseudo-terminal. All queries are answered at once, after the last one has come."""
+    """Runs kerrd in a pseudo-terminal. The terminal answers all queries at once, after the last one has arrived."""
 
     def __init__(self, *args, answer=b"", columns=80, rows=24, pixels=(640, 384), env=None, cwd=None, keys=b""):
         master, slave = pty.openpty()
@@ -52,7 +52,7 @@ class Terminal:
         reader.join()
         os.close(master)
         self.queries, _, self.sent = self.got.partition(b"\x1b[c")
-        self.sent = self.sent.replace(b"\r\n", b"\n")  # the terminal's driver converts newlines
+        self.sent = self.sent.replace(b"\r\n", b"\n")  # the terminal's driver converts \n to \r\n
 
     def talk(self, master):
         answered = False
@@ -65,11 +65,11 @@ class Terminal:
                         time.sleep(0.02)
                         os.write(master, piece) if piece else None
         except OSError:
-            pass  # ignored, because the other end is closed
+            pass  # ignored: the other end of the terminal is closed
 
 
 def kitty(sent):
-    """The controls of the first command and the bytes of the picture, and the output outside the commands."""
+    """Returns the control keys of the first command, the bytes of the picture, and the output outside the commands."""
     commands = re.findall(rb"\x1b_G([^;]*);([^\x1b]*)\x1b\\", sent)
     for i, (controls, text) in enumerate(commands):
         last = i + 1 == len(commands)
@@ -83,7 +83,8 @@ def kitty(sent):
 
 
 def sixel(sent):
-    """Width, height and rows of (r, g, b) from 0 to 255, and the output after the picture."""
+    """Decodes a sixel picture. Returns width, height, rows of (r, g, b) from 0 to 255, and the output after the
+    picture."""
     body, _, rest = sent.partition(b"\x1bP")[2].partition(b"q")[2].partition(b"\x1b\\")
     head = re.match(rb'"1;1;(\d+);(\d+)', body)
     width, height = int(head[1]), int(head[2])
@@ -151,7 +152,7 @@ class View(Case):
 
     def test_kitty_before_sixel(self):
         self.assertEqual(kitty(Terminal(*SMALL, answer=KITTY[:12] + SIXEL).sent)[1], self.rendered(*SMALL))
-        # kitty's answer comes after the answer about sixel, and is therefore ignored
+        # kitty's answer comes after the answer about sixel, and is ignored because it is late
         shown = Terminal(*SMALL, answer=SIXEL + KITTY[:12])
         self.assertIn(b"\x1bP", shown.sent)
 
@@ -162,8 +163,8 @@ class View(Case):
         self.assertEqual((width, height, rest), (192, 108, b"\n"))
         _, _, wanted = pixels(self.rendered("--size", "192x108"))
         self.assertNotIn(None, [pixel for row in rows for pixel in row])
-        # The error of a palette of 256 colours of this picture, dithered, with components in steps of 1/100. The steps
-        # contribute 2.55 / 2, and the palette the rest.
+        # Allowed error: that of this picture with a dithered palette of 256 colours whose components are multiples of
+        # 1/100. The multiples contribute 2.55/2, the palette the rest.
         errors = [abs(a - b) for mean, want in zip(block_means(rows), block_means(wanted)) for a, b in zip(mean, want)]
         self.assertLess(max(errors), 12)
         self.assertLess(sum(errors) / len(errors), 2)
@@ -187,7 +188,7 @@ class View(Case):
             "or the tmux in front of it",
             Terminal(*SMALL, answer=NEITHER, env={**os.environ, "TMUX": "/tmp/x,1,0"}).stderr,
         )
-        # "44" and "64" are not a 4 in the list
+        # a list with "44" and "64" does not contain the attribute 4, which means sixel
         self.assertNotEqual(Terminal(*SMALL, answer=NEITHER.replace(b"6", b"44;64")).code, 0)
 
     def test_typed_meanwhile(self):
@@ -197,7 +198,7 @@ class View(Case):
 
     def test_no_terminal(self):
         self.bad(1, "standard output is not a terminal", "view", *SMALL)
-        self.bad(2, "(at /image/width)", "view", "--set", "image.width=0")  # the size is checked first
+        self.bad(2, "(at /image/width)", "view", "--set", "image.width=0")  # the size of the terminal is checked first
         self.bad(2, "kitty or sixel", "view", "--protocol", "iterm")
         _, png, rest = kitty(self.good("view", *SMALL, "--protocol", "kitty"))
         self.assertEqual((png, rest), (self.rendered(*SMALL), b"\n"))
@@ -216,13 +217,13 @@ class View(Case):
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(160, 384)), (160, 90))
         self.assertEqual(
             self.size(*wide, answer=KITTY, pixels=(640, 96)), (163, 92)
-        )  # one of the 24 lines stays free for the next output
+        )  # the picture leaves one of the 24 lines free for the next output
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(640, 384), columns=0, rows=0), (320, 180))
         self.assertEqual(self.size(*SMALL, "--enlarge", answer=KITTY, pixels=(128, 384)), (128, 72))
         self.assertEqual(self.size("--size", "100x1", answer=KITTY, pixels=(20, 384)), (20, 1))
         shown = Terminal(
             *wide, answer=b"\x1b[4;384;80t" + NEITHER, pixels=(0, 0)
-        )  # the terminal itself reports the size that the system does not know
+        )  # the system does not know the size, so the terminal is queried
         self.assertIn(b"\x1b[14t", shown.queries)
         self.assertEqual(self.size(*wide, answer=KITTY[:12] + b"\x1b[4;384;80t" + NEITHER, pixels=(0, 0)), (80, 45))
         self.assertEqual(self.size(*wide, answer=KITTY, pixels=(0, 0)), (320, 180))
@@ -265,10 +266,10 @@ class View(Case):
         self.assertEqual(sixel(Terminal("same.png", **{**small, "answer": SIXEL}).sent)[:2], (32, 18))
         self.assertIn(
             b",c=78,", kitty(Terminal("same.png", "--enlarge", answer=KITTY, cwd=self.folder).sent)[0]
-        )  # 22 of 24 lines high
+        )  # height of 22 of the 24 lines
 
     def test_bits(self):
-        """16 bits a channel, shown as sixel: the same picture except for rounding."""
+        """A picture of 16 bits a channel gives the same sixel picture, except for rounding."""
         low, high = (
             sixel(self.good("view", *SMALL, "--set", f"image.bit_depth={bits}", "--protocol", "sixel"))[2]
             for bits in (8, 16)

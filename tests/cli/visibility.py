@@ -10,7 +10,8 @@ import struct
 
 from support import Case, main, run
 
-M_UAS = 1476.625 / 3.0856775814913673e16 * math.degrees(1) * 3.6e9  # a solar mass at a parsec, in microarcseconds
+# angle of a solar mass (GM/c^2) at a distance of a parsec, in microarcseconds
+M_UAS = 1476.625 / 3.0856775814913673e16 * math.degrees(1) * 3.6e9
 GIGA_UAS = 1e9 * math.radians(1) / 3.6e9
 
 
@@ -44,8 +45,8 @@ class Visibility(Case):
         start = 10 + struct.unpack("<H", file[8:10])[0]
         light = struct.unpack(f"<{n * n}f", file[start:])
         pixel = 39.11063 / n * 4.3e6 / 8300 * M_UAS * math.radians(1) / 3.6e9
-        # First the rows, then the columns. Index k is k/(n pixel) wavelengths, and the first pixel is 15.5 pixels from
-        # the centre.
+        # Transforms the rows, then the columns. Index k stands for k/(n pixel) wavelengths. The first pixel is 15.5
+        # pixels from the centre.
         rows = [fft([complex(x) for x in light[n * j : n * (j + 1)]]) for j in range(n)]
         columns = [fft([row[k] for row in rows]) for k in range(n)]
         ks = [(a, b) for a in range(0, n // 2, step // 2) for b in range(0, n // 2, step // 2)]
@@ -66,14 +67,16 @@ class Visibility(Case):
         flux = sum(light) * pixel**2
         self.assertAlmostEqual(told["values"]["flux_jy"] / flux, 1, delta=1e-6)
         for (a, b), re, im in zip(ks, told["columns"]["re"], told["columns"]["im"]):
-            # Indices grow to the right and down, x and y to the left and up, so that u and v are negative.
+            # Indices of pixels grow to the right and down, but x and y grow to the left and up. u and v therefore have
+            # the opposite sign.
             want = columns[a][b] * pixel**2 * cmath.exp(2j * math.pi * (a + b) * (n - 1) / 2 / n)
             self.assertLess(abs(complex(re, im) - want), 1e-6 * flux, (a, b))
         rows = list(csv.DictReader(io.StringIO(self.good("visibility", *options, "-f", "csv").decode())))
         self.assertEqual([float(row["amplitude"]) for row in rows], told["columns"]["amplitude"])
 
     def test_digits(self):
-        """Columns are rounded, in JSON and CSV; values and the observation's words are not."""
+        """JSON and CSV have rounded numbers in the columns, but exact values elsewhere and exact words of the
+        observation."""
         common = ["visibility", "-p", "m87", "--pixels", "32", "--check", "none", "--lengths", "1.23456789,4"]
         exact, rounded = (json.loads(self.good(*common, *more)) for more in ([], ["--digits", "3"]))
         self.assertEqual(exact["values"], rounded["values"])
@@ -87,7 +90,7 @@ class Visibility(Case):
 
     def test_rings_ring(self):
         """The visibility of a ring of diameter d is J0(pi d u), with zeros 1/d apart (Johnson et al. 2020). For light
-        of order 2 about a hole without spin d = 2 sqrt(27) M, within half a percent."""
+        of image order 2 and a hole without spin, d = 2 sqrt(27) M within half a percent."""
         document = {
             "preset": "smooth",
             "scene": {
@@ -192,8 +195,8 @@ class Visibility(Case):
             self.assertAlmostEqual(jy / self.thin_sphere(radius, n, field, hz), 1, delta=0.01)
 
     def test_a_spectrum_of_a_given_flux(self):
-        """The density that gives 2 Jy at the scene's 223 GHz is used at all frequencies: the spectrum equals that of a
-        scene with this density."""
+        """The density that gives 2 Jy at the scene's 223 GHz is used at all frequencies. The spectrum therefore equals
+        that of a scene with this density."""
         settings = ("--set", "camera.inclination_deg=45", "--set", "volume.normalise_to_jy=2")
         told = json.loads(
             run("render", "-p", "riaf", "--size", "48x48", *settings, "--stats", "-o", self.path("n.png")).stderr
@@ -221,7 +224,7 @@ class Visibility(Case):
 
     def test_a_spectrum_of_a_disk_at_one_frequency(self):
         """Pictures of a disk at each frequency have the flux of kerrd's integral over the disk's image. This integral
-        is in double precision with rays in closed form, and contains only the direct image. The visibility at length 0
+        uses double precision and rays in closed form, and contains only the direct image. The visibility at baseline 0
         equals that flux."""
         disk = {
             "inner": "isco",
@@ -256,27 +259,28 @@ class Visibility(Case):
                 )
             )["columns"]
             for mine, its in zip(pictures["flux_jy"], integral["flux_jy"], strict=True):
-                self.assertAlmostEqual(mine / its, 1, delta=4e-4)  # tolerance: the rim lies within pixels
+                self.assertAlmostEqual(mine / its, 1, delta=4e-4)  # tolerance: the rim of the disk crosses pixels
         asked = {"scene": scene, "u": [0, 0], "v": [0, 3e6], "pixels": 384, "orders": 1}
         told = json.loads(self.good("visibility", self.write("b.json", json.dumps(asked))))
         self.assertAlmostEqual(told["values"]["flux_jy"] / integral["flux_jy"][2], 1, delta=4e-4)
         columns = told["columns"]
-        for i in range(2):  # the light of the only order is all of the light
+        for i in range(2):  # with a single image order, the light of this order is all light
             mine, its = (columns["amplitude"][2 * i + k] for k in range(2))
             self.assertAlmostEqual(mine / its, 1, delta=1e-4)
         self.assertAlmostEqual(columns["amplitude"][0] / told["values"]["flux_jy"], 1, delta=1e-5)
 
     def test_a_disk_at_one_frequency_far_from_its_hole(self):
-        """Face-on, with the gas's shifts off, the disk has the flux Int B_nu(T) 2 pi b db/D^2 with Shakura and Sunyaev's
-        T; far from a hole without spin light that crosses the disk at r has the impact parameter b = r + M."""
-        inner, outer, peak = 200, 600, 3e5  # K, where the flux is largest: at 49/36 of the ISCO
+        """Face-on, with the gas's shifts off, the disk has the flux Int B_nu(T) 2 pi b db/D^2 with the temperature T of
+        Shakura and Sunyaev. Far from a hole without spin, light that crosses the disk at r has the impact parameter b =
+        r + M."""
+        inner, outer, peak = 200, 600, 3e5  # K, at 49/36 of the ISCO, where the flux is largest
         nu, h, k, c = 6e14, 6.62607015e-27, 1.380649e-16, 2.99792458e10
 
         def shape(r):
             return r**-3 * (1 - math.sqrt(6 / r))
 
         kelvin = [peak * (shape(r) / shape(6 * 49 / 36)) ** 0.25 for r in (inner, outer)]
-        # checks that the frequencies are at neither end of Planck's law
+        # checks that the frequencies are on neither power-law end of Planck's law
         self.assertTrue(all(0.1 < h * nu / (k * t) < 20 for t in kelvin), kelvin)
 
         def bright(r):
@@ -308,12 +312,13 @@ class Visibility(Case):
         }
         settings = [word for name, value in changes.items() for word in ("--set", f"{name}={value}")]
         told = json.loads(run("render", *settings, "--size", "512x512", "--stats", "-o", self.path("a.png")).stderr)
-        self.assertAlmostEqual(told["flux_jy"] / jansky, 1, delta=1e-3)  # tolerance: the rims lie within pixels
+        self.assertAlmostEqual(told["flux_jy"] / jansky, 1, delta=1e-3)  # tolerance: the rims of the disk cross pixels
 
     @staticmethod
     def thin_sphere(radius, n, field, hz):
         """Pandya et al. 2016, table 4: j = n e^2 nu_c/c exp(-X^(1/3)) sqrt(2) pi/27 sin (X^(1/2) + 2^(11/12)
-        X^(1/6))^2, X = nu/nu_s, nu_s = 2/9 nu_c Theta^2 sin, at a right angle to the field. Jy at 8300 pc."""
+        X^(1/6))^2, X = nu/nu_s, nu_s = 2/9 nu_c Theta^2 sin, for light perpendicular to the field. Result: Jy at 8300
+        pc."""
         e2, turn = 4.80320471e-10**2, 4.80320471e-10 * field / (2 * math.pi * 9.1093837015e-28 * 2.99792458e10)
         x = hz / (2 / 9 * turn * 100)
         j = (

@@ -68,7 +68,7 @@ class Xspec(support.Case):
         return found["found"]
 
     def test_linear(self):
-        """A fine table in two dimensions: within 0.3 % of the line at places between its nodes."""
+        """A fine table with two parameters. Between its nodes it is within 0.3 % of the line."""
         places = [[0.5031, 30.07], [0.5219, 30.33], [0.5377, 30.11]]
         found = self.read(places, "-x", "spin=0.5:0.54/5", "-x", "inclination_deg=30:30.4/3")
         for (spin, angle), cumulative in zip(places, found):
@@ -76,7 +76,7 @@ class Xspec(support.Case):
             self.assertLess(max(abs(a - b) for a, b in zip(cumulative, line)), 3e-3, (spin, angle))
 
     def test_logarithm(self):
-        """An axis in the logarithm: the mean of two nodes is at their geometric mean."""
+        """On a logarithmic axis, the mean of two nodes is interpolated at their geometric mean."""
         options = "-s", "emissivity=lamppost", "-s", "spin=0.9", "-s", "inclination_deg=45"
         found = self.read([[(4 * 25) ** 0.5], [25]], *options, "-x", "height=log:4,25")
         given = "--emissivity=lamppost", "--spin=0.9", "--inclination-deg=45"

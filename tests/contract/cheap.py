@@ -6,8 +6,7 @@ import re
 RANGE = re.compile(r"^([^:]+):([^:]+):(\d+)$")
 WIDTH, HEIGHT = 40, 24
 
-# The largest value of a number, or the largest length of a list, by the member's name, wherever the member is in a
-# body.
+# By the name of a member of a body, at any depth: the largest value of a number, or the largest length of a list.
 NUMBERS = {
     "bins": 8,
     "rings": 3,
@@ -42,11 +41,11 @@ DURATIONS = {"periods": 3, "time": 1e4}
 def is_count(value):
     return (isinstance(value, int) and not isinstance(value, bool)) or (
         isinstance(value, float) and value.is_integer()
-    )  # JSON counts 8.0 as a whole number
+    )  # 8.0 counts as a whole number in JSON Schema
 
 
 def smaller_image(image):
-    """Makes an image smaller. Changes only objects, and in them only sizes that are missing or valid."""
+    """Makes an image smaller. Only objects are changed, and in these only sizes that are missing or valid."""
     if not isinstance(image, dict):
         return
     for name, most in (("width", WIDTH), ("height", HEIGHT)):
@@ -58,8 +57,8 @@ def smaller_image(image):
 
 
 def smaller_scene(scene, whole):
-    """Makes a scene smaller. whole: a size is added if there is none, because pictures of the scene must not have the
-    default size."""
+    """Makes a scene smaller. whole: adds a size if there is none, because a picture of the scene would otherwise have
+    the default size."""
     if not isinstance(scene, dict):
         return
     if whole:
@@ -129,8 +128,8 @@ def smaller_job(path, value):
 
 
 def body(path, value, sound):
-    """Makes a body smaller. sound: the body is valid by the schema. In an invalid body only pictures are made smaller:
-    a list that is invalid because it is too long must stay too long."""
+    """Makes a body smaller. sound: true if the body is valid by the schema. In an invalid body only pictures are made
+    smaller, because a list that is too long must stay too long."""
     if not isinstance(value, dict):
         return
     if sound:
@@ -144,7 +143,7 @@ def body(path, value, sound):
 
 
 def query(path, value):
-    """Makes a query smaller; it is a mapping of names to values."""
+    """Makes a query, a mapping from names to values, smaller."""
     for name, one in value.items():
         match = RANGE.match(one) if isinstance(one, str) else None
         if match and 3 < int(match[3]) <= 100000:

@@ -24,8 +24,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 import cheap  # noqa: E402
 import known  # noqa: E402
 
-# the number of sessions, playgrounds, jobs and assets of each kind that are not deleted, so that stateful cases find
-# what earlier cases created
+# number of resources of each kind (sessions, playgrounds, jobs, assets) that are kept, because stateful cases use what
+# earlier cases created
 KEPT = 24
 ENDLESS = ("multipart/x-mixed-replace", "application/x-kerrd-frames")
 # Headers of HTTP itself, and of caches, proxies and browsers, which any answer may have. openapi.json names all other
@@ -59,11 +59,11 @@ plain_send = HTTPAdapter.send
 
 
 def send(self, request, **more):
-    """Sends a request. A stream that ends only with its client is read up to its first bytes."""
+    """Sends a request. From a stream without an end only the first bytes are read."""
     response = plain_send(self, request, **{**more, "stream": True})
     if response.headers.get("Content-Type", "").startswith(ENDLESS):
         response._content = response.raw.read1(65536)
-        response.raw.close()  # closed first, because a connection whose stream continues cannot be reused
+        response.raw.close()  # closed, because a connection whose stream continues cannot be reused
         response._content_consumed = True
     return response
 
@@ -83,7 +83,7 @@ def before_call(context, case, kwargs):
         case.query = copy.copy(case.query)
         cheap.query(path, case.query)
     if case.headers and "Range" in case.headers:
-        # a part of a JSON document, or of its gzip, is neither JSON nor gzip; tests/http/ranges.py tests Range
+        # not checked: a part of a JSON or gzip document is neither JSON nor gzip; tests/http/ranges.py tests Range
         del case.headers["Range"]
 
 
@@ -107,7 +107,7 @@ def delete(base, path, token):
 
 
 def remember(case, response):
-    """Records what a case created. If there are more resources of a kind than needed, deletes the oldest."""
+    """Records what a case created. Deletes the oldest resources of a kind if there are more than needed."""
     try:
         one = response.json()
         path = f"{case.operation.path}/{one.get('id') or one['sha256']}", one["token"]
@@ -141,7 +141,7 @@ def after_call(context, case, response):
 
 @schemathesis.hook
 def filter_failure(context, failure, case, response):
-    """Drops failures that are due to the protocol; known.py has the reasons."""
+    """Drops failures that are due to the protocol, for the reasons in known.py."""
     reason = known.why(failure, case, response)
     if reason:
         with lock:

@@ -1,5 +1,5 @@
-"""Failures of schemathesis' checks that are due to the protocol. Each is recognised by operations, a check and a text
-in the answer, and its reason is stated here. Any other failure fails the run."""
+"""Failures of schemathesis' checks that are due to the protocol. Each is recognised by its operations, its check, and a
+text in the answer. Its reason is given below. Any other failure fails the run."""
 
 import pathlib
 import re
@@ -13,7 +13,7 @@ CONVERSION = re.compile(r"%(?:\.\*|\.\d+)?(?:ll|z|h)?([a-zA-Z])")
 
 
 def words(sentence):
-    """A regular expression for the texts that a format string of C may produce."""
+    """A regular expression that matches each text that a C format string may produce."""
     parts, at = [], 0
     for one in CONVERSION.finditer(sentence):
         parts += [re.escape(sentence[at : one.start()].replace("%%", "%")), ".*?" if one[1] == "s" else r"[-+.\deinf]+"]
@@ -36,8 +36,8 @@ RANGE = re.compile(
 
 
 def together(label, sentence):
-    """The sentence of TOGETHER that this refusal matches, or None. These are refusals of values that do not fit
-    together."""
+    """The sentence of TOGETHER that matches this refusal, or None. These sentences refuse values that are valid alone
+    but not together."""
     for operation, sentences in RULES:
         if operation.match(label):
             for name, one in sentences:
@@ -48,8 +48,8 @@ def together(label, sentence):
 
 
 def of_an_axis(label, problem):
-    """True if a value of a sweep's axis is refused. Which values are valid depends on the field that the axis names, so
-    the document would have to repeat the schema of each of its 331 fields."""
+    """True if a value of a sweep's axis is refused. The valid values depend on the axis's field. To express this, the
+    document would have to repeat the schemas of all 331 fields."""
     name = re.match(r"/axes/([^/]+)(/\d+)?$", problem.get("pointer", ""))
     return (
         label in ("POST /v1/jobs", "POST /v1/plan")
@@ -63,14 +63,14 @@ def of_an_axis(label, problem):
 def refused(label, problem):
     """The reason why a refusal of a request that fits the document is due to the protocol, or None."""
     sentence, pointer = problem.get("detail", ""), problem.get("pointer", "")
-    # U+0000 is valid JSON, but no text of kerrd may contain it; the schema of each text would have to say so
+    # U+0000 is valid JSON, but kerrd allows it in no text; a schema would have to forbid it for each text
     if problem.get("status") == 400:
         return "NUL in a text" if "NUL in a string" in sentence else None
     if problem.get("status") != 422:
         return None
     if (
         problem.get("type") == "urn:kerrd:problem:too-large"
-    ):  # the request needs more than this server, on this device, allows for one request
+    ):  # the request needs more memory or time than this server on this device allows for one request
         return "more than this server does"
     # a CSV file is a text, and a schema cannot describe its content
     if problem.get("type") == "urn:kerrd:problem:invalid-asset":
@@ -82,11 +82,11 @@ def refused(label, problem):
     state = {"POST /v1/playground": "/state", "POST /v1/jobs": "/playground/state"}.get(label)
     if state and (pointer + "/").startswith(
         state + "/"
-    ):  # a member of a snapshot, which clients give back unchanged and cannot make themselves
+    ):  # a member of a snapshot: clients return it unchanged and cannot create it
         return "the state of a snapshot"
     if label.startswith("GET /v1/physics/") and sentence.endswith(
         " such values"
-    ):  # a range is a text, and no pattern can bound the numbers in it
+    ):  # a range is a text such as "0:1:5", and a pattern cannot limit the numbers in it
         return "the numbers of a range" if RANGE.match(sentence) else None
     return together(label, sentence)
 
@@ -103,8 +103,8 @@ def has_a_list_by_index(value):
 
 
 def is_null(body, found):
-    """True if the value that a message names, as in body - scene -> spots -> 0 -> r, is null; by RFC 7396 null resets a
-    value."""
+    """True if the value that a message names, as in body - scene -> spots -> 0 -> r, is null, because null resets a
+    value by RFC 7396."""
     for name in found[1].split(" -> ") if found else []:
         body = (
             body.get(name, 0)
@@ -124,8 +124,8 @@ def why(failure, case, response):
     # 501: there is no ffmpeg; 503 and 507: the server, or its disk, is full
     if kind == "ServerError" and status in (501, 503, 507):
         return "what this server lacks"
-    # docs/scene.md describes this form, for a document applied over a preset and for a patch. The schema is that of a
-    # whole scene, which answers contain as well.
+    # docs/scene.md describes this form for a document that is applied over a preset, and for a patch. The schema is
+    # that of a whole scene, because answers contain whole scenes.
     if (
         kind == "AcceptedNegativeData"
         and re.match(OF_SCENES, label)
@@ -139,21 +139,21 @@ def why(failure, case, response):
         and is_null(case.body, re.search(r"in body - (.*): Incorrect type", failure.message))
     ):
         return "null in a scene that lies over another"
-    # An empty list or object disappears from a query, so that the request is as valid as without the parameter.
+    # An empty list or object disappears from a query. The request is therefore a valid one without the parameter.
     named = re.search(r"parameter `([^`]+)` in query", failure.message) if kind == "AcceptedNegativeData" else None
     if named and named[1] not in urllib.parse.parse_qs(
         urllib.parse.urlsplit(response.request.url).query, keep_blank_values=True
     ):
         return "a parameter that is not in the request"
-    # OpenAPI 3.1 has one schema for the whole stream, which is a text. schemathesis applies this schema to each event.
+    # In OpenAPI 3.1 a stream has one schema, that of a text. schemathesis applies this schema to each event.
     if (
         failure.title == "SSE event violates schema"
         and status == 200
         and response.headers["content-type"][0].startswith("text/event-stream")
     ):
         return "an event of a stream"
-    # The token of a session, playground, job or asset is a capability: without it the answer is 403 with its problem
-    # type; 401 is only for the server's token file.
+    # The token of a session, playground, job or asset is a capability: without the token the answer is 403 with a
+    # problem type of its own. 401 is used only for the server's token file.
     if (
         kind == "MissingHeaderNotRejected"
         and status == 403

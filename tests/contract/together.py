@@ -1,10 +1,8 @@
 """Refusals of values that are valid each by itself but not together, which no schema of OpenAPI 3.1 can express. They
-are listed by the operations that give them, as they are written in the source.
-
-A sentence is a format string of the C source, verbatim. If it contains a bar, the part before the bar is the format
-into which the rest is inserted. The test contract_sentences checks that each sentence is in the source. A rule that a
-schema can express (a bound, a word, a member that requires or excludes another) does not belong here: if a case fits
-the document and is refused for such a rule, the document is wrong.
+are listed by operation. Each sentence is a format string of the C source, verbatim. In a sentence with a bar, the part
+before the bar is the format into which the rest is inserted. The test contract_sentences checks that each sentence is
+in the source. A rule that a schema can express (a bound, a word, a member that requires or excludes another) does not
+belong here: if a case fits the document and is refused for such a rule, the document is wrong.
 """
 
 # Invalid combinations of an observer's values, with the names of these fields in a scene, in rays and in physics.
@@ -18,11 +16,11 @@ OBSERVER = (
     "%sinfall_momentum |is %s M, with which the observer turns back outside %s%s %s M; it must be closer to 0",
 )
 
-# Spin and charge of a hole.
+# Refusals about a hole's spin and charge.
 HOLE = "charge is %.16g M; with spin %.16g its magnitude must be below %.9g M"
 
-# Fields of a scene that depend on each other. A document is applied over a preset, and a patch over the present scene.
-# A member that is missing in the request therefore still has a value, and the rules apply to this value.
+# Fields of a scene that depend on each other. A document is applied over a preset, and a patch over the current scene.
+# The rules therefore apply also to values that the request does not contain.
 SCENE = (
     "there is no %s.%zu: the list has %zu element%s, and the next free index is %zu",
     "%s is an old name of %s.%zu, and cannot be used with %s",
@@ -84,7 +82,7 @@ SCENE = (
     'polarization.model is "transfer", which needs a scene where only the volume shines: disk.model and sky.model "none", no jets, spots, flash or bodies',
     'polarization.model is "transfer"; with camera.projection "ring", whose picture has no upward direction, it must be "none"',
     "volume.grid has matter for a hole of %s %s; spacetime.%s is %s and must be the same",
-    # the plan of a scene refuses this
+    # refused when the scene is planned
     "image.layers has %s; its image orders must be below accuracy.orders, %d",
     "image.layers has %s; with volumes or bodies, whose light is between the crossings, it must be %.*s",
     'image.layers has %s, which needs polarised light: polarization.model must not be "none"',
@@ -121,7 +119,7 @@ SCENE = (
     "volume.normalise_to_jy is %.9g Jy, but %s %.4g Jy; it must be 0, or a flux that this matter has at some density",
     '%s is "%s", whose file is missing; it must be %s',
 )
-# These refusals depend on the engine and its precision, and on the device or the table of its driver.
+# Refusals that depend on the engine and its precision, and on the device or the table of its driver.
 ENGINE = (
     'the closed engine works in double precision: precision must be "f64", or the engine must be another',
     "steps cannot be used with the closed engine, which takes none: it must be 0, or the engine must be another",
@@ -148,7 +146,8 @@ TIMELINE = (
     "proper_time is %.9g M; it must be 0 unless the observer stays at a finite camera.r, orbits there in the equatorial plane, or falls from there at constant latitude",
     "%s cannot be used, because the keyframe before it is at %.9g, the latest place",
     "%s cannot be used with motion.proper_time_rate",
-    "keyframes/%zu/at is %s; it must be |a number %s %.9g to %.9g",  # each keyframe is later than the one before it
+    # each keyframe must be later than the one before it
+    "keyframes/%zu/at is %s; it must be |a number %s %.9g to %.9g",
     "keyframes/%zu/frame is %s; it must be |a whole number from %u to %u",
     "frames is %s; it must be |a whole number from %u to %u",
     'keyframes/%zu/proper_time is %s; it must be |0 to 1000000000000 M, or "horizon" or "end" for an observer that falls from further out at constant latitude',
@@ -334,7 +333,7 @@ TOGETHER = [
             "the picture of %u x %u pixels is dark and has no visibilities",
         ),
     ),
-    # a measurement of the light of pictures
+    # the job measures the light of pictures
     (
         "POST /v1/(spectrum|visibility|compare|observe|jobs)",
         (
@@ -347,7 +346,7 @@ TOGETHER = [
         "POST /v1/rays",
         ENGINE
         + (
-            # OpenAPI's parameters apply to all bodies of an operation
+            # in OpenAPI, parameters of an operation apply to all kinds of its bodies
             "the query may have parameters only with a body of application/x-npy|; with JSON they must be in the document",
             'r is %.16g; it must be "infinity", or more than %.9g, the horizon, and at most %g',
             HOLE,
@@ -453,7 +452,7 @@ TOGETHER = [
     ),
     ("GET /v1/physics/(shadow|sky)$", ("there is no critical curve for this observer",)),
     ("GET /v1/physics/", ("the ranges make more than %d points together",)),
-    # The refusal of one scene of a sweep, or of a scene between two keyframes, inside another message.
+    # The refusal of one scene of a sweep, or of a scene between two keyframes, is inserted into another message.
     (
         "POST /v1/(jobs|plan)",
         (
@@ -485,7 +484,7 @@ TOGETHER = [
             "velocity is %.9g c; it must be %s",
             "position is %.9g M from the hole; it must be more than %g M, inside which the hole captures everything",
             "a snapshot cannot have this body, because it is captured by the hole or faster than c",
-            "name is not a string of at most %zu bytes",  # a schema counts characters, not bytes
+            "name is not a string of at most %zu bytes",  # a schema limits characters, but the server limits bytes
             # this sentence and the next two are given with gravity "kerr"
             "r is %.16g; it must be above the horizon at %.9g",
             "%s at r = %.16g, inside %s, which ends at %.9g here; frame must be %s",
@@ -517,5 +516,5 @@ TOGETHER = [
         ),
     ),
 ]
-# If there are several scenes, the sentence is preceded by a name of the scene.
+# With several scenes, the sentence follows the name of the scene.
 AMONG = ("scene %u: ", "frame %u: ", "with %s: ", "frame %.9g, between two keyframes, is not a valid scene: ")

@@ -1,5 +1,5 @@
-/* Preloaded: sets clocks ahead when a test requests it (control.h), for the program and the libraries that it is linked
- * with. Timed waits on such a clock still last as long as without the fault. */
+/* Preloaded: sets clocks ahead when a test requests it (control.h), as seen by the program and the libraries that it is
+ * linked with. A timed wait on such a clock lasts as long as it would without the fault. */
 #include "control.h"
 
 #include <dlfcn.h>

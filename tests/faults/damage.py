@@ -4,7 +4,7 @@ small tmpfs is filled up, and another is read-only.
 damage.py FAULTS SERVER                 a file of each kind
 KD_WHOLE=1 damage.py FAULTS SERVER      every file
 
-A disk of its own needs a mount namespace, which some machines do not permit to users. Then that part is skipped with a
+The tmpfs needs a mount namespace, which some machines do not permit to users. There that part is skipped with a
 message.
 """
 
@@ -106,8 +106,8 @@ class Damage(state.Case):
             return f.read()
 
     def outcome(self, name, unseen):
-        """A word for the effect on the resource that the file belongs to; all others must be unchanged. unseen: the
-        damage can be detected only by a reader of the content, for example by the checksums of a PNG."""
+        """A word for the effect of the damage on the file's resource. All other resources must be unchanged. unseen:
+        only a reader of the content can detect the damage, for example by a PNG's checksums."""
         with open(os.path.join(self.folder, "told"), "wb") as told:
             server = self.start(by=lambda *options: daemon.Daemon("--log", 1, *options, stderr=told))
         word = "whole"
@@ -123,7 +123,7 @@ class Damage(state.Case):
                 word = "made again"
             got = server.get(self.at(job, "/result"))
             if mine and name.endswith("request.json") and got.status == 200 and got.body != result:
-                # excluded, because the last job's table has columns for what the request varies
+                # excluded, because the last job's table has columns that depend on the request
                 self.assertIs(job, self.done[-1])
                 word = "whole, without the columns of its axes"
                 continue
@@ -145,10 +145,11 @@ class Damage(state.Case):
 
 
 class Disk(state.Case):
-    """The server has a file system of its own. Other processes reach it through the server's process."""
+    """The file system is mounted for the server alone. Other processes reach it through the server's process in
+    /proc."""
 
     def in_a_namespace(self, script, *options):
-        """A server that is started after a line of shell, in a mount namespace of its own. None if namespaces are not
+        """Runs a line of shell in a mount namespace, and then starts a server in it. None if namespaces are not
         permitted."""
         wrap = (
             ["unshare", "--mount", "--propagation", "private"]
@@ -166,7 +167,7 @@ class Disk(state.Case):
 
     def test_it_fills_up(self):
         """While the disk is full, jobs wait, new jobs and assets are refused, and other requests are answered.
-        Everything continues when there is room again."""
+        When there is room again, waiting jobs continue."""
         server = self.in_a_namespace(
             f"mount -t tmpfs -o size=512k none {self.folder}", "--state", self.folder + "/state"
         )
@@ -193,8 +194,8 @@ class Disk(state.Case):
         self.assertEqual(server.stop(), 0)
 
     def test_it_is_read_only(self):
-        """A folder that cannot be written cannot be the state folder, and the server says so at the start. If the
-        folder becomes unwritable later, the server continues to run, and refuses jobs until it can store them."""
+        """A server refuses to start with a state folder that it cannot write. If the folder becomes unwritable later,
+        the server continues to run, and refuses jobs until it can store them."""
         script = (
             f"mount -t tmpfs none {self.folder} && mkdir {self.folder}/state && mount -o remount,ro none {self.folder}"
         )

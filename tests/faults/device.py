@@ -1,6 +1,6 @@
 """Tests of the real program on a device, as a server and as `kerrd render`, with injected faults. Memory and files
-fail, caches are damaged, pipes are closed, clocks jump. Allocations of the Vulkan driver itself never fail here;
-docs/faults-vulkan.md has the faults of drivers.
+fail, caches are damaged, pipes are closed, clocks jump. Allocations of the Vulkan driver itself do not fail in these
+tests; docs/faults-vulkan.md has the faults of drivers.
 
 device.py FAULTS KERRD serve                 some faults of each series
 KD_WHOLE=1 device.py FAULTS KERRD serve      all of them
@@ -63,7 +63,7 @@ class Memory(sweep.Case):
                     answer = self.ask("GET", at + "/frame.png?wait_ms=20000")
                     answer.body = (
                         answer.body if answer.status != 200 else answer.body[:16]
-                    )  # left out, because its quality depends on the time it took
+                    )  # not compared, because the quality depends on the time it took
             finally:
                 self.faults.mend()
                 self.assertEqual(self.server.request("DELETE", at, headers=owner).status, 204)
@@ -107,7 +107,7 @@ class Drawing:
         self.case, self.folder, self.out = case, folder.name, os.path.join(folder.name, "a.png")
         self.faults = faults.Faults()
         case.addCleanup(self.faults.close)
-        case.assertEqual(self.draw().returncode, 0)  # the first run stores its measurements of the device
+        case.assertEqual(self.draw().returncode, 0)  # the first run stores its measurements of the device in the cache
         self.calm = self.faults.live  # number of blocks that a run without faults does not free
         with open(self.out, "rb") as f:
             self.good = f.read()
@@ -118,7 +118,7 @@ class Drawing:
             *wrap,
             "env",
             *(f"{name}={value}" for name, value in self.faults.environment().items()),
-        ]  # set after `wrap`, so that only allocations of kerrd fail
+        ]  # set after `wrap`, so that only allocations of kerrd itself fail
         return subprocess.run(
             [*wrap, daemon.COMMAND[0], "render", *DRAW, *(options or ("-o", self.out))],
             stderr=subprocess.PIPE,
@@ -127,8 +127,8 @@ class Drawing:
         )
 
     def judge(self, done, n):
-        """A word for how the program ended. Either the old file is unchanged or the new one is complete. There are no
-        other files, and no memory leaked."""
+        """A word for how the program ended. Checks that the output file is either unchanged or complete, that there are
+        no other files, and that no memory leaked."""
         case = self.case
         case.assertEqual(os.listdir(self.folder), ["a.png"], n)
         with open(self.out, "rb") as f:
@@ -146,7 +146,8 @@ class Drawing:
         return "exit code 1 with a reason"
 
     def memory(self, stack, n, count=1):
-        """The outcome when the n-th allocation by this stack of calls fails; stack 0: the n-th of all."""
+        """The outcome when the n-th allocation by this stack of calls fails. stack 0: the n-th allocation of the whole
+        program."""
         failed = self.faults.failed
         self.faults.set("by_stack", stack)
         self.faults.memory(n, count)
@@ -169,8 +170,8 @@ class CommandMemory(unittest.TestCase):
         self.one = Drawing(self)
 
     def test_memory(self):
-        """Most allocations come from a few stacks of calls. Each stack fails at its first, its second and its last
-        allocation."""
+        """Most allocations come from a few stacks of calls. Of each stack, the first, second and last allocation fails
+        in turn."""
         self.one.faults.set("by_stack", 1)
         self.one.draw()
         stacks = self.one.faults.stacks()
@@ -226,8 +227,8 @@ class Command(unittest.TestCase):
                 faults.record(errno.errorcode[number], "kerrd render", outcomes, count + 1)
 
     def test_a_cache_that_is_read_only(self):
-        """The server cannot store what it learns about a device; nothing else is affected. The disk needs a mount
-        namespace, which some machines do not permit to users."""
+        """If the server cannot store its measurements of a device, nothing else is affected. The test's disk needs a
+        mount namespace, which some machines do not permit to users."""
         wrap = (
             ["unshare", "--mount", "--propagation", "private"]
             if os.geteuid() == 0
@@ -243,8 +244,8 @@ class Command(unittest.TestCase):
         faults.record("EROFS", "kerrd render, caches of a device", ["whole picture"])
 
     def test_a_machine_that_was_held(self):
-        """A machine was suspended: ten minutes between two readings of the monotonic clock must not be mistaken for a
-        lost device."""
+        """After a machine was suspended, two readings of the monotonic clock may be ten minutes apart. This must not be
+        reported as a lost device."""
         clocks = self.one.faults
         clocks.set("steady_step_ms", 600_000)
         self.assertEqual(self.one.judge(self.one.draw(), "held"), "whole picture")
@@ -284,7 +285,7 @@ class Command(unittest.TestCase):
         )
 
     def test_caches(self):
-        """A cache of the device is made again after damage."""
+        """A damaged cache of a device is replaced."""
         folder = os.path.join(CACHES.name, "kerrd")
         names = sorted(os.listdir(folder))
         self.assertTrue([name for name in names if name.endswith(".pipelines")], names)
@@ -308,7 +309,7 @@ class Command(unittest.TestCase):
 
 class Streams(unittest.TestCase):
     def test_nobody_reads_what_a_server_says(self):
-        """The server's standard output and error are closed pipes, while it logs everything."""
+        """The server's standard output and error are closed pipes. The server continues while it logs every request."""
         read, write = os.pipe()
         os.close(read)
         server = daemon.Daemon("--log-level", "debug", stderr=write)
@@ -322,7 +323,7 @@ class Streams(unittest.TestCase):
 
     def test_streams_that_are_not_open(self):
         """If standard streams are closed at the start, no connection and no file of the state folder gets the
-        descriptor of a standard stream. Otherwise messages would be written into it."""
+        descriptor of a standard stream. Otherwise messages would be written into that connection or file."""
         port = daemon.free_port()
         with tempfile.TemporaryDirectory() as folder:
             process = subprocess.Popen(

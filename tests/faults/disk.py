@@ -59,8 +59,8 @@ class Case(state.Case):
         return str(answer.status)
 
     def reached(self, word, failed):
-        """The word for an outcome if more operations have failed than `failed`. If no further operation has failed, the
-        outcome must be the usual one."""
+        """Returns the outcome if an operation has failed since the count was `failed`. Otherwise checks that the
+        outcome is the usual one, and returns "not reached"."""
         if self.faults.files_failed > failed:
             return word
         self.assertIn(word, ("whole", "started"))
@@ -68,7 +68,7 @@ class Case(state.Case):
 
 
 class Operations(Case):
-    """Only the n-th operation on files fails: a disk that is full for a moment, or a sector that cannot be written."""
+    """Only the n-th file operation fails, as on a disk that is full for a moment, or has a bad sector."""
 
     def sweep(self, scenario, number, mask, ask):
         """Lets the n-th operation fail for each n. ask(server, number) returns a word. A failure that does not affect
@@ -128,7 +128,7 @@ class Operations(Case):
                 self.assertEqual(self.sweep("PUT /v1/assets", number, mask, put).stop(), 0)
 
     def test_a_job_to_its_end(self):
-        """An accepted job ends with the right bytes, and still has them after a restart."""
+        """An accepted job ends with the correct result, and the result is the same after a restart."""
         for number, mask in FAULTS:
             with self.subTest(errno.errorcode[number]):
                 accepted, good = [], []
@@ -154,7 +154,7 @@ class Operations(Case):
                 server = self.sweep("a job from POST to its result", number, mask, run)
                 self.assertEqual(server.stop(), 0)
                 server = self.start()
-                for job in accepted[-60:]:  # only the last 60 are compared, because the server keeps 64
+                for job in accepted[-60:]:  # compares only the last 60 jobs, because the server keeps 64
                     self.assertEqual(
                         (self.status(job, server)["state"], self.frames_of(job, server)), ("done", good[0])
                     )
@@ -165,7 +165,7 @@ class Operations(Case):
 
     def test_a_restart(self):
         """If a start cannot read or write its files, it reports this and ends, or it sets aside what it cannot read. In
-        both cases the next start has everything."""
+        both cases the next start, without a fault, finds everything."""
         server = self.start()
         job = self.job(server).json()
         self.until(job, "done", server)
@@ -206,7 +206,7 @@ class Operations(Case):
 
 
 class Scarce(Case):
-    """A resource that is exhausted for a while."""
+    """Tests in which a resource is exhausted for a while."""
 
     def refused(self, server, status, word):
         problem = self.assertProblem(self.job(server), status, word)
@@ -228,8 +228,8 @@ class Scarce(Case):
         self.assertEqual(server.stop(), 0)
 
     def test_what_runs_out_comes_back(self):
-        """While a resource is short the running job waits and states the reason, and other jobs are refused. Then
-        everything continues."""
+        """While a resource is short the running job waits and states the reason, and other jobs are refused. When the
+        resource is available again, all jobs continue."""
         for number, mask in (
             (errno.ENOSPC, faults.WRITE),
             (errno.EMFILE, faults.OPEN | faults.CREATE),
@@ -256,7 +256,8 @@ class Scarce(Case):
                 self.assertEqual(self.half_written(), [])
 
     def test_several_jobs_wait(self):
-        """The disk stays full until the second attempt, with three jobs in the queue. One can be deleted meanwhile."""
+        """The disk stays full until the second attempt, with three jobs in the queue. Meanwhile one of the jobs can be
+        deleted."""
         server = self.start(by=self.faults.start)
         jobs = [self.make({"scenes": [{**SCENE, "time": 30}] * 4}, server=server) for _ in range(3)]
         self.faults.files(faults.WRITE, errno.ENOSPC)
@@ -296,11 +297,11 @@ class Scarce(Case):
             self.assertEqual(server.stop(), 0)
 
     def test_one_exposure_is_kept_before_it_is_used(self):
-        """All frames of a film have one exposure, which is measured first. The job waits until the record of the
-        exposure is written, because after a restart a different exposure might be measured."""
+        """All frames of a film have one exposure, which the job measures first. The job waits until its record of the
+        exposure is written. Otherwise it might measure a different exposure after a restart."""
         server = self.start(by=self.faults.start)
         scene = {"image": SCENE["image"], "time": 20, "style": {"exposure": "auto"}}
-        # three renames when the job is accepted, and one for the record of its attempt
+        # the first four renames succeed: three when the job is accepted, and one for the record of its attempt
         self.faults.files(faults.RENAME, errno.ENOSPC, 4)
         job = self.make({"scene": scene, "keyframes": [{"frame": 5, "scene": {"time": 25}}]}, server=server)
         told = self.delayed(job, server)

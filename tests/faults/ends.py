@@ -13,13 +13,13 @@ import daemon
 import state
 from job_case import SCENE
 
-BIG = {"image": {"width": 800, "height": 600, "samples": 2}, "time": 5}  # 1.4 MB that nothing compresses
+BIG = {"image": {"width": 800, "height": 600, "samples": 2}, "time": 5}  # 1.4 MB of data that cannot be compressed
 
 
 class Descriptors(state.Case):
     def test_none_is_left(self):
-        """While no descriptor is left, connected clients are answered and new ones get an error with the reason. No
-        accepted work is lost, and everything works when descriptors are available again."""
+        """While no descriptor is left, connected clients get answers, and new clients get an error with the reason. No
+        accepted work is lost. When descriptors are available again, the server answers as before."""
         server = self.start()
         held = [http.client.HTTPConnection("127.0.0.1", server.port, timeout=600) for _ in range(3)]
 
@@ -37,8 +37,8 @@ class Descriptors(state.Case):
         job = self.make({"scenes": [{**SCENE, "time": 50}] * 20}, server=server)
         self.assertTrue(daemon.eventually(lambda: self.status(job, server)["finished"]))
         limits = resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE)
-        # The minimum of several readings, because during some of them a frame of the job is being written, and its
-        # descriptor is soon closed.
+        # The minimum of several readings, because during some readings a frame of the job is being written and has an
+        # open descriptor.
         least = min(server.open_files() for _ in range(50) if not time.sleep(0.01))
         resource.prlimit(server.process.pid, resource.RLIMIT_NOFILE, (least - 1, limits[1]))
         outcomes = []
@@ -81,8 +81,8 @@ class Descriptors(state.Case):
 
 class Clients(state.Case):
     def test_a_client_goes_away_in_the_middle_of_an_answer(self):
-        """For each kind of answer: after the client disappears no resource of it remains, and the next answer is
-        complete."""
+        """For each kind of answer: after the client has disappeared, the server frees all resources of the answer, and
+        the next answer is complete."""
         server = self.start()
         session = server.post("/v1/sessions", {**BIG, "motion": {"time_rate": 10}}).json()
         job = self.make({"scenes": [{**BIG, "time": 1 + i} for i in range(6)]}, server=server)
@@ -131,7 +131,7 @@ class Clients(state.Case):
                             got += more
                             s.settimeout(2)
                     except TimeoutError:
-                        pass  # ignored, because the stream has no more data to send now
+                        pass  # ignored, because the stream has no more data to send
                     if taken > 1:
                         self.assertRegex(got, rb"^HTTP/1.1 (200|202|204) ")
                     outcomes.append(

@@ -48,7 +48,7 @@ WHOLE = bool(os.environ.get("KD_WHOLE"))
 
 
 class Faults:
-    """The shared memory that tells a program what must fail. `set` takes effect at once."""
+    """The shared memory that tells a program which calls must fail. `set` takes effect at once."""
 
     def __init__(self):
         self.file = tempfile.NamedTemporaryFile()
@@ -64,15 +64,14 @@ class Faults:
         struct.pack_into("<q", self.map, 8 * FIELDS.index(name), value)
 
     def memory(self, n, count=1):
-        """Makes the n-th allocation from now on fail, counted from 0, and those after it: `count` allocations in
-        all."""
+        """Makes `count` successive allocations fail, beginning with the n-th from now, counted from 0."""
         self.set("fail_at", -1)
         self.set("fail_for", count)
         self.before, self.counted = self.allocations, None
         self.set("fail_at", n)
 
     def files(self, mask, errno, n=0, count=ALWAYS):
-        """Like memory(), for operations on files."""
+        """Like memory(), for operations on files instead of allocations."""
         self.set("files_at", -1)
         self.set("files_mask", mask)
         self.set("files_errno", errno)
@@ -80,20 +79,20 @@ class Faults:
         self.set("files_at", n)
 
     def mend(self):
-        """No more failures from now on. If `memory` was called before, `counted` is then the number of allocations that
-        could have failed."""
+        """Ends the failures. After a call of `memory`, `counted` is then the number of allocations that could have
+        failed."""
         if self.counted is None:
             self.counted = self.allocations - self.before
         self.set("fail_at", -1)
         self.set("files_at", -1)
 
     def blocks(self):
-        """The blocks that the program has not freed: address -> where they were allocated."""
+        """The blocks that the program has not freed, as address -> the caller that allocated it."""
         words = struct.unpack_from(f"<{2 * BLOCKS}Q", self.map, 8 * len(FIELDS))
         return {at: place for at, place in zip(words[::2], words[1::2]) if at}
 
     def forget(self):
-        """Call this before another program is started with this memory, because that program has no blocks yet."""
+        """Must be called before this memory is used for another program, because that program has no blocks yet."""
         self.set("live", 0)
         self.map[8 * len(FIELDS) : 8 * len(FIELDS) + 16 * BLOCKS] = bytes(16 * BLOCKS)
 
@@ -124,12 +123,12 @@ class Faults:
 
 
 def fake():
-    """True if the server under test is the one without a device, which has additional options."""
+    """True if the server under test is the one without a device, which has additional options for tests."""
     return "fake_server" in daemon.COMMAND[0]
 
 
 def where(place):
-    """The source line of a place that control.h calls `from`; for a library, its number."""
+    """The source line of a caller as in control.h; for a caller in a library, the library's number."""
     if place >> 48:
         return f"library {place >> 48}+{place & (1 << 48) - 1:#x}"
     done = subprocess.run(

@@ -190,8 +190,8 @@ static bool is_written(int fd)
     return flags >= 0 && (flags & O_ACCMODE) != O_RDONLY && is_file(fd);
 }
 
-/* A failing close still closes the descriptor, as on a network file system that reports a write error late. Closing
- * a file that was only read never fails. */
+/* A failed close still closes the descriptor, as on network file systems, which report write errors late. Closing a
+ * file that was only read never fails. */
 int close(int fd)
 {
     KD_FAULT_REAL(int, "close", int);

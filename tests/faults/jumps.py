@@ -22,15 +22,14 @@ class Jumps(state.Case):
         self.addCleanup(self.faults.close)
 
     def make_by(self, hours, server):
-        """Makes a job, waits for its end and deletes it. Its time shows that the clock did jump; without this the tests
-        would prove nothing."""
+        """Makes a job, waits for its end, and deletes it. The job's time proves that the clock did jump."""
         made = self.make({"scene": SCENE}, server=server)
         self.assertAlmostEqual(self.until(made, "done", server)["created"], time.time() + hours * 3600, delta=60)
         self.assertEqual(self.delete(made, server).status, 204)
 
     def test_the_clock_on_the_wall(self):
-        """Finished jobs are kept for a day by the monotonic clock, whatever the wall clock says, also across
-        restarts."""
+        """Finished jobs are kept for a day of the monotonic clock, also across restarts. Jumps of the wall clock do not
+        matter."""
         server = self.start(by=self.faults.start)
         job = self.make({"scene": SCENE}, server=server)
         self.until(job, "done", server)
@@ -65,7 +64,7 @@ class Jumps(state.Case):
         self.assertEqual(server.stop(), 0)
 
     def test_a_machine_that_was_held(self):
-        """After a suspension, requests that were running may be given up as too late, with an answer that says so.
+        """After a suspension of the machine, the server may give up running requests as too late; the answer says so.
         Jobs, watched sessions and connections in use continue."""
         server = self.start("--sessions", 4, by=self.faults.start)
         session = server.post(

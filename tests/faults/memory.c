@@ -17,7 +17,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-/* Present under a sanitizer only. */
+/* The function exists under a sanitizer only. */
 void __lsan_disable(void) __attribute__((weak));
 void __lsan_enable(void) __attribute__((weak));
 
@@ -31,9 +31,9 @@ static struct object {
     bool library; /* libmicrohttpd */
 } objects[OBJECTS];
 static size_t n_objects;
-static bool tells; /* KD_FAULTS_TELL is set: print the stack of each failed allocation */
+static bool tells; /* true if KD_FAULTS_TELL is set: prints the stack of each failed allocation */
 
-/* Memory for allocations that are made before the real functions are known: dlsym itself allocates. */
+/* Memory for the allocations of dlsym, which are made before the real functions are known. */
 static _Alignas(16) unsigned char early[EARLY];
 static _Atomic size_t early_used;
 static void *(*real_malloc)(size_t), *(*real_calloc)(size_t, size_t), *(*real_realloc)(void *, size_t);
@@ -61,7 +61,7 @@ static void *early_block(size_t size)
     return at + size <= EARLY ? early + at : NULL;
 }
 
-/* Records the objects that are loaded before main. A driver is loaded later. */
+/* Records the objects that are loaded before main. Drivers are loaded later, so they are not among them. */
 static int note(struct dl_phdr_info *info, size_t size, void *unused_user)
 {
     static const char *const others[] = { "libc.so", "ld-linux", "libstdc++", "libgcc_s",
@@ -93,7 +93,7 @@ __attribute__((constructor)) static void begin(void)
     void *map = fd < 0 ? MAP_FAILED : mmap(NULL, sizeof unused, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     dl_iterate_phdr(note, NULL);
     if (__lsan_disable)
-        __lsan_disable(); /* the first call loads a library, which is never unloaded */
+        __lsan_disable(); /* the first call of backtrace loads a library, which is never unloaded */
     tells = backtrace(stack, 1) && getenv("KD_FAULTS_TELL");
     if (__lsan_enable)
         __lsan_enable();
@@ -114,7 +114,7 @@ bool kd_fault_ours(const void *caller, uint64_t *where)
     return false;
 }
 
-/* Hash of the stack of return addresses in our objects; always above 1. */
+/* Hash of the stack's return addresses in the recorded objects. Always above 1. */
 static int64_t stack_number(void)
 {
     void *frames[DEEPEST];
@@ -138,10 +138,10 @@ static void note_stack(int64_t number, uint64_t where)
         atomic_fetch_add(&s->count, 1);
         return;
     }
-    abort(); /* there are more stacks than slots */
+    abort(); /* the table of stacks is full */
 }
 
-/* True if this allocation is counted, for the case that only one stack is counted. */
+/* True if this allocation counts. If a single stack is selected, only its allocations count. */
 static bool of_stack(uint64_t where)
 {
     const int64_t wanted = atomic_load(&kd_faults->by_stack), number = wanted ? stack_number() : 0;
@@ -184,8 +184,8 @@ static void *counted(void *block, uint64_t where)
     return block;
 }
 
-/* Removes a block from the table; false if it was not counted. Searches as many slots as probing can displace an entry
- * in a table that is a quarter full. *where: the caller that allocated the block. */
+/* Removes a block from the table. Returns false if the block is not in the table. Looks at as many slots as probing can
+ * displace an entry in a table that is a quarter full. *where: the caller that allocated the block. */
 static bool uncount(const void *block, uint64_t *where)
 {
     for (uint64_t i = slot_of(block), n = 0; n < 64; n++) {

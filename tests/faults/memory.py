@@ -54,7 +54,8 @@ class Memory(sweep.Case):
                 self.sweep(self.get(target), 200, "GET " + target)
 
     def test_a_new_connection(self):
-        """A new connection may be closed, after an answer if there is memory for one. Other connections stay open."""
+        """On a new connection the server may close the connection, after an answer if there is memory for one.
+        Connections that are in use stay open."""
         self.closes = True
 
         def ask():
@@ -124,8 +125,8 @@ class Memory(sweep.Case):
         self.sweep(self.owned("/v1/sessions"), 201, "POST /v1/sessions")
 
     def test_a_change_of_a_session(self):
-        """A change that was answered with success has happened. A change that was refused has happened completely or
-        not at all, because the allocation that failed may have been that of the answer."""
+        """A change whose answer is a success was made. A refused change was made completely or not at all, because the
+        failed allocation may have been one for the answer."""
         session = self.server.post("/v1/sessions", {**IMAGE, "time": 1}).json()
         at, owner = f"/v1/sessions/{session['id']}", {"Authorization": "Bearer " + session["token"]}
         turn = [20]
@@ -135,7 +136,7 @@ class Memory(sweep.Case):
 
         def change():
             before = inclination()
-            # uses two cameras in turn, because critical curves are cached by camera and so at most two are cached
+            # two cameras in turn: the server caches critical curves by camera, so that it caches at most two here
             turn[0] = 41 - turn[0]
             try:
                 answer = self.ask("PATCH", at, {"camera": {"inclination_deg": turn[0]}}, owner)
@@ -154,7 +155,7 @@ class Memory(sweep.Case):
         self.puts("a grid", lambda seed: assets.grid(seed / 1024), "application/x-npz")
 
     def test_pictures_of_assets(self):
-        """A scene that refers to a picture or a grid is never called invalid because memory was short."""
+        """A shortage of memory is never reported as an invalid scene, if the scene refers to a picture or a grid."""
         for data, kind, scene in (
             (assets.png(32, 16), "image/png", lambda asset: {"sky": {"model": "image", "image": asset}}),
             (assets.grid(0.5), "application/x-npz", lambda asset: GRID | {"volume": {"model": "grid", "grid": asset}}),
@@ -166,7 +167,8 @@ class Memory(sweep.Case):
             self.end_one("/v1/assets", {"id": put["sha256"], "token": put["token"]})
 
     def puts(self, name, made, kind):
-        """Each attempt uploads different bytes. If they were accepted, exactly these must be found afterwards."""
+        """Each attempt uploads different bytes. If the server accepted them, it must return exactly these bytes
+        afterwards."""
         seed = [0]
 
         def put():
@@ -186,7 +188,7 @@ class Memory(sweep.Case):
         self.sweep(put, 201, "PUT /v1/assets of " + name)
 
     def test_a_job_to_its_end(self):
-        """An accepted job ends with the same bytes as without a failure, possibly after a wait."""
+        """An accepted job ends with the same result as without a failure, possibly after a wait."""
 
         def ask():
             answer = self.post("/v1/jobs", {"scenes": [{**IMAGE, "time": 1}, {**IMAGE, "time": 2}]})()

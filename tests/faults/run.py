@@ -25,7 +25,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 DOCUMENT = ROOT / "docs/faults.md"
 BEGIN, END = "<!-- what run.py has found -->", "<!-- its end -->"
-# These tests run side by side. Each case of those with several words runs separately.
+# Tests that run side by side. If an entry has several words, each case of the test runs separately.
 TESTS = (
     "memory",
     "disk",
@@ -63,12 +63,12 @@ def start(build, name, ledger, whole):
 
 
 def happened(outcomes):
-    """Number of faults that were injected."""
+    """Number of injected faults."""
     return sum(n for word, n in outcomes.items() if word != "not reached")
 
 
 def rows(entries):
-    """Markdown: a line for each fault and scenario, in the order in which they were tried."""
+    """Markdown with a line for each fault and scenario, in the order in which they were tried."""
     found = {}
     for e in entries:
         points, outcomes = found.setdefault((e["kind"], e["scenario"]), [0, collections.Counter()])
@@ -92,8 +92,8 @@ def rows(entries):
 
 
 def run(build, folder, whole):
-    """Runs the tests; returns those that failed. The results of the others are in files of the folder, named after the
-    tests. A test that already has a file is not run again."""
+    """Runs the tests, and returns the failed ones. The results of a passed test are in a file of the folder, named
+    after the test. A test that already has a file is not run again."""
     running = {
         name: start(build, name, folder / f"{name}.part", whole) for name in TESTS if not (folder / name).exists()
     }

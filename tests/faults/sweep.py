@@ -5,7 +5,7 @@ import http.client
 import json
 import unittest
 
-import faults  # must come first, because it adds the folder of `daemon` to the path
+import faults  # must be imported first, because it adds the folder of `daemon` to the search path
 
 import daemon
 
@@ -13,7 +13,7 @@ PROBLEM = {"type", "title", "status", "detail"}
 
 
 def shape(document):
-    """The document without its numbers and texts, which shows whether a part is missing."""
+    """The document with its numbers and texts removed. Two answers can then be compared for missing parts."""
     if isinstance(document, dict):
         return {k: shape(v) for k, v in document.items()}
     return (
@@ -26,8 +26,8 @@ def shape(document):
 
 
 def plain(answer):
-    """The answer without the state of a job's or a session's frame, because the frame may have failed for lack of
-    memory, or may be done already."""
+    """The answer without the state of a frame of a job or session. That state is not compared: the frame may have
+    failed for lack of memory, or may already be done."""
     document = answer.json()
     return (
         {
@@ -41,12 +41,12 @@ def plain(answer):
 
 
 class Case(unittest.TestCase):
-    """Each test has a server of its own, which must not leak; under a sanitizer this is checked too."""
+    """Each test starts its own server, which must not leak memory; a sanitizer checks this too."""
 
     options = ("--jobs", 100, "--sessions", 100)
-    most = 12  # number of failures of each request without KD_WHOLE=1
-    armed = None  # the number of the allocation that fails once a request is made
-    closes = False  # a new connection may be closed without an answer
+    most = 12  # number of failures tried for each request, without KD_WHOLE=1
+    armed = None  # number of the allocation that fails after a request is sent
+    closes = False  # true if the server may close a new connection without an answer
 
     def setUp(self):
         self.faults = faults.Faults()
@@ -82,7 +82,8 @@ class Case(unittest.TestCase):
         return lambda: self.ask("POST", target, body)
 
     def connect(self):
-        """A new connection that has carried one request, so that its thread has allocated all it needs."""
+        """A new connection that has already carried one request, so that the server's thread for it has allocated what
+        it needs."""
         self.connection.close()
         self.assertEqual(self.get("/v1/schema")().status, 200)
 
@@ -103,7 +104,7 @@ class Case(unittest.TestCase):
         return self.faults.live
 
     def leaks(self, ask, n):
-        """Blocks that accumulate when the same place fails several times, and where they were allocated."""
+        """Callers whose blocks accumulate when the same allocation fails several times."""
         grown, begin = [], self.faults.blocks()
         for _ in range(4):
             before = self.faults.live
@@ -117,7 +118,7 @@ class Case(unittest.TestCase):
         )
 
     def judge(self, n, answer, good, by_library):
-        """A word for the outcome of the n-th failure."""
+        """A word for the outcome when the n-th allocation fails."""
         at = lambda: f"allocation {n}, asked for at {faults.where(self.faults.failed_from)}"
         if answer is None:
             if self.closes:

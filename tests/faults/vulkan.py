@@ -69,7 +69,8 @@ CODES = {
     FRAGMENTATION: "FRAGMENTATION",
 }
 MEMORY = (HOST, DEVICE)
-# In the order of vulkan_table.c, with the codes that the specification of Vulkan 1.2 lets each return.
+# Entry points in the order of vulkan_table.c. For each, the codes that it may return by the specification of Vulkan
+# 1.2.
 ENTRIES = {
     "EnumerateInstanceVersion": (HOST,),
     "EnumerateInstanceLayerProperties": MEMORY,
@@ -119,7 +120,7 @@ SCENE = {"image": IMAGE, "disk": {"gas": {"amplitude": 0}}}
 
 
 class Faults:
-    """The file that the server under test has mapped."""
+    """The file through which the test controls the server under test. Both map it."""
 
     def __init__(self):
         self.file = tempfile.NamedTemporaryFile()
@@ -136,7 +137,7 @@ class Faults:
             struct.pack_into("<q", self.map, 8 * FIELDS.index(field), value)
 
     def arm(self, name, n, code):
-        """Arms a failure of the n-th call from now, counted from 0."""
+        """Makes the n-th call from now fail, counted from 0."""
         self.set(entry=NAMES.index(name), code=code, injected=0)
         self.set(countdown=n)
 
@@ -147,7 +148,7 @@ class Faults:
         return dict(zip(NAMES, struct.unpack_from(f"<{len(NAMES)}q", self.map, 8 * len(FIELDS))))
 
     def objects(self):
-        """Objects of Vulkan that were not destroyed, by the entry point that created them."""
+        """Number of Vulkan objects that were not destroyed, by the entry point that created them."""
         made = dict(zip(NAMES, struct.unpack_from(f"<{len(NAMES)}q", self.map, 8 * (len(FIELDS) + len(NAMES)))))
         return {name: made[name] for name in MAKERS if made[name]}
 
@@ -173,11 +174,11 @@ class Server(daemon.Daemon):
 
 
 class Refused(Exception):
-    """A clear answer that is not a success: status, type and detail."""
+    """A valid answer that reports a failure: status, type and detail."""
 
 
 class Broken(Exception):
-    """A result that no fault may cause."""
+    """Raised for a result that no fault may cause."""
 
 
 def wanted(answer, statuses=(200,)):
@@ -197,8 +198,8 @@ def wanted(answer, statuses=(200,)):
     raise Refused(f"{answer.status} {problem['type'].rsplit(':', 1)[1]}: {problem['detail']}")
 
 
-# Each scenario returns bytes that are compared. It starts with a new server, whose device has been opened and not yet
-# used.
+# Each scenario returns bytes, which are compared. A scenario starts with a new server. This server has opened its
+# device but not used it yet.
 
 
 def render(server):
@@ -206,7 +207,7 @@ def render(server):
 
 
 def last_frame(server, session, after):
-    """The last frame of a picture that does not move, which is not refined further; with its number."""
+    """The last frame, and its number, of a picture in which nothing moves. It is not refined further."""
     for _ in range(60):
         answer = wanted(
             server.request(
@@ -272,7 +273,7 @@ def rays(server):
     ).body
 
 
-# Pictures of one view in several ways, which share lens maps, and pictures of other views.
+# Several pictures of one view, which share lens maps, and pictures of other views.
 REFINED = {"image": {**IMAGE, "samples": "auto"}, "disk": {"gas": {"amplitude": 0}}}
 SKY = {"image": IMAGE, "sky": {"model": "stars"}, "style": {"bloom": 0.3}, "camera": {"inclination_deg": 77}}
 
@@ -305,13 +306,14 @@ MIXED = {
 
 
 def mixed(server):
-    """Two kinds of requests at the same time; the result of each, in the order of the list."""
+    """Sends two kinds of requests at the same time. Returns the result of each, in the order of the list."""
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         under_way = [pool.submit(kind, server) for kind in MIXED.values()]
     return b"".join(one.result() for one in under_way)
 
 
-# at_start: the fault is during the start. loses: the device is lost as well. only: for these entry points alone.
+# at_start: true if the fault occurs while the server starts. loses: true if the device is lost as well. only: entry
+# points that the scenario is limited to.
 Scenario = collections.namedtuple(
     "Scenario", "run at_start loses incoherent only", defaults=(False, False, False, NAMES)
 )
@@ -346,7 +348,7 @@ def reopened(server):
 
 
 def stop(server):
-    """Stops the server; returns how it ended. A server that does not end counts as hanging."""
+    """Stops the server, and returns how the process ended. A server that does not end counts as hanging."""
     server.terminate()
     try:
         return server.wait(PATIENCE_S)
@@ -357,7 +359,7 @@ def stop(server):
 
 
 def live(server, scenario, faults, fault, same):
-    """The outcome of a fault in a server that has started."""
+    """The outcome of a fault that occurs after the server has started."""
     if scenario.loses:
         faults.set(lost=1)
     if fault and not scenario.at_start:
@@ -367,7 +369,7 @@ def live(server, scenario, faults, fault, same):
     except Refused as refused:
         got, outcome = None, f"error {refused}"
     if faults.get("injected"):
-        faults.disarm()  # no longer armed, because the fault might otherwise occur while the server stops
+        faults.disarm()  # disarms the fault, because it might otherwise occur while the server stops
     if same is not None and got is not None and got != same:
         raise Broken("other bytes than without the fault")
     if outcome:  # the next request must work as if nothing had happened
@@ -383,7 +385,7 @@ def live(server, scenario, faults, fault, same):
 
 
 def to_its_end(server, scenario, faults, fault, same):
-    """Like live(), for a fault that may also occur while the server stops."""
+    """Like live(), for a fault that can also occur while the server stops."""
     try:
         outcome, got = live(server, scenario, faults, fault, same)
         code = stop(server)
@@ -408,7 +410,7 @@ def no_objects(faults):
 
 
 def starts_not(faults):
-    """The one line that says why the server does not start."""
+    """The single line in which the server says why it does not start."""
     done = subprocess.run(
         [*daemon.COMMAND, "--port", "0"],
         capture_output=True,
@@ -451,18 +453,18 @@ def one(scenario, fault=None, same=None):
         faults.close()
 
 
-CACHE = tempfile.TemporaryDirectory()  # the pipeline cache, and the stored results about the device
+CACHE = tempfile.TemporaryDirectory()  # deletes the pipeline cache and the stored results about the device
 
 
 def kind_of(scenario, fault, outcome, injected):
-    """A word for an outcome, if this fault may have that outcome."""
+    """A word for the outcome. Raises Broken if this fault must not have that outcome."""
     name, _, code = fault
     word = "error" if outcome.startswith("error") else outcome
     if not injected:
         if word != ("recovered" if scenario.loses else "same"):
             raise Broken(f"without a fault: {outcome}")
         return "not reached"
-    # the message must then say that there is no driver
+    # in this case the message must say that there is no driver
     if word == "error" and f"vk{name}" not in outcome and code != DRIVER:
         raise Broken(f"this does not say what has failed: {outcome}")
     if word == "error" and code == LOST and not scenario.at_start:
@@ -492,7 +494,7 @@ def attempt(scenario, fault, same, until):
 
 def sweep(name, rotate, workers, until, kept):
     """A row for each entry point that the scenario calls: name, number of calls, number of possible faults, and number
-    of faults by outcome. Adds to the stored results."""
+    of faults by outcome. The rows are added to the stored results."""
     scenario = SCENARIOS[name]
     _, same, _, calls = one(scenario)
     with concurrent.futures.ThreadPoolExecutor(workers) as pool:
@@ -529,7 +531,7 @@ def full(arguments):
         "--table", default=str(pathlib.Path(__file__).resolve().parents[2] / "docs" / "faults-vulkan.md")
     )
     options = parser.parse_args(arguments)
-    one(SCENARIOS["render"])  # opens the device for the first time, which is tested then
+    one(SCENARIOS["render"])  # opens the device for the first time; kerrd tests the device then
     names = [name for name in SCENARIOS if not options.only or name in options.only]
     begun, results, kept = time.monotonic(), {}, Kept(options.keep)
     for i, name in enumerate(names):  # each entry point has an equal share of the remaining time

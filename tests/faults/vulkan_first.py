@@ -1,5 +1,5 @@
-"""Tests of failing first calls of Vulkan, of devices that cannot be recovered, and of devices and drivers that hang.
-vulkan.py tests all calls."""
+"""Tests of three cases: the first call of a Vulkan entry point fails; a device cannot be recovered; a device or driver
+hangs. vulkan.py tests all calls."""
 
 import concurrent.futures
 import contextlib
@@ -33,7 +33,7 @@ from vulkan import (
     wanted,
 )
 
-UNKNOWN = -13  # VK_ERROR_UNKNOWN: a failure that says nothing of memory, nor that the device is lost
+UNKNOWN = -13  # VK_ERROR_UNKNOWN: a failure that is neither a lack of memory nor a lost device
 
 
 class Case(unittest.TestCase):
@@ -50,7 +50,7 @@ class Case(unittest.TestCase):
 
 class Vulkan(Case):
     def test_first_calls(self):
-        """With a single server: each request gets as far as the entry point that fails."""
+        """A single server serves all requests. Each request reaches the entry point that fails."""
         server, told = self.start(), {}
         for name in (
             "CreateBuffer",
@@ -127,7 +127,7 @@ class Vulkan(Case):
         before = {name: kind(server) for name, kind in MIXED.items()}
         reached = 0
         for name, n in (("CreateBuffer", 0), ("CreateBuffer", 7), ("BindBufferMemory", 3), ("QueueSubmit", 2)):
-            # this view uses buffers of its own
+            # this view needs buffers of its own
             view = {
                 "image": {"width": 64 + 16 * n, "height": 36, "samples": "auto"},
                 "camera": {"inclination_deg": 50 + n},
@@ -135,7 +135,7 @@ class Vulkan(Case):
             self.faults.arm(name, n, DEVICE)
             with concurrent.futures.ThreadPoolExecutor(2) as pool:
                 for one in [pool.submit(ask, server, view) for ask in (picture, job_of, picture)]:
-                    # a refusal is permitted; any other answer without success raises Broken
+                    # a refusal is permitted; any other failure raises Broken
                     with contextlib.suppress(Refused):
                         one.result()
             reached += self.faults.get("injected")
@@ -146,7 +146,8 @@ class Vulkan(Case):
         self.assertEqual(server.stop(), 0, server.said())
 
     def test_often(self):
-        """The device is reopened only a limited number of times. An accepted job still exists after the next start."""
+        """The server reopens the device only a limited number of times, and then ends. An accepted job still exists
+        after the next start."""
         for how, options in (("often", ("--device-reopenings", 1)), ("dead", ())):
             with self.subTest(how), tempfile.TemporaryDirectory() as state:
                 server = self.start("--state", state, *options)
@@ -166,8 +167,8 @@ class Vulkan(Case):
                 self.assertEqual(server.stop(), 0, server.said())
 
     def test_a_device_that_hangs(self):
-        """Waiting clients get an answer, and the process ends. The kernels are compiled beforehand, because on a busy
-        machine that takes longer than a hanging driver is allowed."""
+        """Clients that wait for a hanging device get an answer, and the process ends. The kernels are compiled
+        beforehand: on a busy machine this would take longer than the time allowed for a hanging driver."""
         server = self.start()
         self.assertEqual(server.get(RENDER).status, 200)
         self.assertEqual(server.stop(), 0, server.said())
@@ -181,11 +182,11 @@ class Vulkan(Case):
 
 
 class Long(Case):
-    """A call never returns: clients notice only that the process ends."""
+    """A call never returns. Clients get no answer, and notice only that the process ends."""
 
     def test_a_driver_that_hangs(self):
-        """The device that hangs is the one that compiles a picture's kernels. If the kernels are compiled already, it
-        is the one that renders the picture."""
+        """The call of the device that compiles a picture's kernels never returns. If the kernels are compiled already,
+        it is the call that renders the picture."""
         for there in (False, True):
             with self.subTest(there=there):
                 server = self.start("--device-timeout", 1)
@@ -199,8 +200,8 @@ class Long(Case):
                 self.faults.set(hang=0)
 
     def test_a_device_that_fails_while_it_hangs_is_not_opened_beside_itself(self):
-        """The first piece of work never ends, and the second cannot begin. A hanging device cannot be closed, so that
-        no second one is opened."""
+        """The first submission never completes, so the second cannot start. A hanging device cannot be closed, so no
+        second device is opened."""
         server = self.start("--device-timeout", 1)
         self.assertEqual(server.get(RENDER).status, 200)  # compiles its kernels
         before = self.faults.calls()["CreateDevice"]

@@ -1,4 +1,5 @@
-"""Outcomes of Vulkan faults, stored in a file from run to run and written as docs/faults-vulkan.md (for vulkan.py)."""
+"""Stores the outcomes of Vulkan faults in a file from run to run, and writes them as docs/faults-vulkan.md (for
+vulkan.py)."""
 
 import collections
 import json

@@ -1,5 +1,5 @@
-/* Linked into a kerrd under test (vulkan.py) instead of the table of Vulkan entry points. Its calls fail as requested
- * in a file named by KD_VULKAN_FAULTS, which the test maps too. Without this file it is an ordinary kerrd. */
+/* Linked into a kerrd under test (vulkan.py) instead of the table of Vulkan entry points. Calls through this table fail
+ * as requested in a file named by KD_VULKAN_FAULTS, which the test maps too. Without this file no call fails. */
 #include "vk/functions.h"
 
 #include <dlfcn.h>
@@ -12,7 +12,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Entry points that can fail. vkResetDescriptorPool cannot, by the specification. */
+/* Entry points that can fail. By the specification, vkResetDescriptorPool cannot fail. */
 #define CREATES(X, object) CREATES_AS(X, object, object##CreateInfo)
 #define CREATES_AS(X, object, info) \
     X(Create##object, (VkDevice a, const Vk##info *b, const VkAllocationCallbacks *c, Vk##object *d), (a, b, c, d))
@@ -63,8 +63,8 @@
       (VkDevice a, VkQueryPool b, uint32_t c, uint32_t d, size_t e, void *f, VkDeviceSize g, VkQueryResultFlags h), \
       (a, b, c, d, e, f, g, h))
 
-/* Entry points that destroy what one of those above created: name, parameters, arguments, the object, the creating
- * entry point. */
+/* Entry points that destroy objects created by the entry points above: name, parameters, arguments, the object, the
+ * creating entry point. */
 #define DESTROYS(X, object) \
     X(Destroy##object, (VkDevice a, Vk##object b, const VkAllocationCallbacks *c), (a, b, c), b, Create##object)
 #define ENDS(X) \
@@ -88,23 +88,26 @@
 enum { ENTRIES(NAME) N_ENTRIES };
 #undef NAME
 
-/* Shared with vulkan.py: 64-bit words. */
+/* Memory shared with vulkan.py: 64-bit words. */
 struct control {
-    /* The call of this entry at which the countdown reaches 0 returns the code and is not made; negative: none. */
+    /* When the countdown reaches 0, the call of this entry point returns the code and is not passed to the driver.
+     * Negative: no call fails. */
     _Atomic int64_t entry, countdown, code;
-    _Atomic int64_t injected;   /* number of failures injected so far */
-    _Atomic int64_t lost;       /* a lost device reports so at every call that can, until another device is created */
-    _Atomic int64_t dead;       /* 1: after the next loss of the device no device can be created */
+    _Atomic int64_t injected; /* number of failures injected so far */
+    /* 1: the device is lost; each call that can report this does so, until another device is created */
+    _Atomic int64_t lost;
+    _Atomic int64_t dead;       /* 1: no device can be created after the next loss of the device */
     _Atomic int64_t hang;       /* 1: submissions never complete; 2: the next submission does not return */
-    _Atomic int64_t incoherent; /* 1 at the start: memory as on devices whose host must flush it */
+    _Atomic int64_t incoherent; /* 1, set at the start: memory is not coherent, so that the host must flush it */
     _Atomic int64_t calls[N_ENTRIES];
-    /* Objects created and not yet destroyed; for entry points that create none: successful calls. */
+    /* Number of objects created and not yet destroyed. For an entry point that creates none: number of successful
+     * calls. */
     _Atomic int64_t objects[N_ENTRIES];
 };
 static struct control unused = { .entry = -1 }, *control = &unused;
 
-/* The driver's functions: the same for all devices open at a time. The loader unloads the driver with the last of these
- * devices, and may load it at another address later. */
+/* The driver's functions, which are the same for all open devices. With the last of these devices the loader unloads
+ * the driver. Later it may load the driver at another address. */
 #define REAL(name, parameters, arguments) static _Atomic(PFN_vk##name) real_##name;
 ENTRIES(REAL)
 #define REAL_END(name, parameters, arguments, object, maker) static _Atomic(PFN_vk##name) real_##name;
@@ -119,7 +122,7 @@ static void __attribute__((noreturn)) wait_for_ever(void)
         nanosleep(&(struct timespec) { .tv_sec = 1 }, NULL);
 }
 
-/* Uses processor time while it waits: if it used hardly any, the caller would extend its time limit. */
+/* Waits with a busy loop. The caller would extend its time limit if the thread used hardly any processor time. */
 static VkResult hanging_wait(uint64_t timeout)
 {
     struct timespec begun, now;
@@ -136,7 +139,7 @@ static bool tells_of_loss(int entry)
            entry == AT_QueueSubmit || entry == AT_GetQueryPoolResults;
 }
 
-/* The code to return instead of calling the driver; VK_SUCCESS: call it. */
+/* The code to return instead of calling the driver. VK_SUCCESS means that the driver is called. */
 static VkResult fault(int entry)
 {
     atomic_fetch_add(&control->calls[entry], 1);
@@ -215,8 +218,8 @@ static VKAPI_ATTR void VKAPI_CALL incoherent_GetPhysicalDeviceMemoryProperties(V
         out->memoryTypes[i].propertyFlags &= ~(VkMemoryPropertyFlags)VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 }
 
-/* Under a sanitizer the driver stays loaded after its last device: leaks are searched at the end, and the driver's
- * are recognised by its name. */
+/* Under a sanitizer the driver stays loaded after its last device is closed. Leaks are detected at exit, and the
+ * driver's leaks are recognised by the driver's name. */
 static void keep_driver(const struct kd_vk_functions *fn)
 {
 #ifdef __SANITIZE_ADDRESS__
@@ -230,8 +233,8 @@ static void keep_driver(const struct kd_vk_functions *fn)
 #endif
 }
 
-/* Called after each of the three steps that load functions. Members that are already ours were copied from an earlier
- * table. */
+/* Called after each of the three steps that load functions. A member that already has a function of this file was
+ * copied from an earlier table. */
 static void plant(struct kd_vk_functions *fn)
 {
 #define PLANT(name, parameters, arguments) \

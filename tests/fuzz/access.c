@@ -1,4 +1,4 @@
-/* Fuzz target: a token file. The words of the file are then looked up as tokens. */
+/* Fuzz target: a token file. The words of the file are looked up as tokens after it is read. */
 #include "fuzz.h"
 
 #include "server/http/access.h"

@@ -2,8 +2,8 @@
  * sky, or a grid of matter.
  *
  * The checksums of a PNG's chunks, which mutations break, are repaired first. Input that begins with "grid" becomes an
- * NPZ file. It then consists of records of a byte, two bytes of length, and an array's bytes (for a header only its
- * text). The byte selects a name of the list, and a value of `ways`. */
+ * NPZ file. After "grid" it consists of records. A record is a byte, two bytes of length, and an array's bytes (or only
+ * the text of a header). The first byte selects a name from the list and a value of `ways`. */
 #include "fuzz.h"
 
 #include "image/npy.h"
@@ -15,14 +15,14 @@
 
 #include <math.h>
 
-#define PIXELS (1u << 16) /* maximum size of a picture that is decoded too */
+#define PIXELS (1u << 16) /* maximum size of a picture that is also decoded */
 
 static const char *const names[] = { "header",      "r",           "theta",       "phi",       "density",
                                      "temperature", "u_con_r",     "u_con_theta", "u_cov_phi", "u_con_t",
                                      "b_con_r",     "b_con_theta", "b_cov_phi",   "time" };
 enum { NAMES = sizeof names / sizeof *names, MEMBERS = 64 };
 
-/* The form in which a member is stored in the file, or its error. */
+/* How a member is stored in the file, or which error it has. */
 enum way { STORED, DEFLATED, LONG, METHOD, CHECKSUM, ENCRYPTED, SIZE, PLACE, WAYS };
 
 static void add(struct kd_zip *zip, const char *name, enum way way, const uint8_t *data, size_t size)
@@ -36,7 +36,7 @@ static void add(struct kd_zip *zip, const char *name, enum way way, const uint8_
     snprintf(file, sizeof file, "%s.npy", name);
     CHECK(!(size && *data == '{' && kd_npy_write_header(&text, &bytes)) && !kd_buffer_append(&bytes, data, size),
           "out of memory");
-    for (int i = 0; way == LONG && i < 4200; i++) /* 17 MB, beyond every limit */
+    for (int i = 0; way == LONG && i < 4200; i++) /* 17 MB, which exceeds every limit */
         CHECK(!kd_buffer_append(&bytes, zeros, sizeof zeros), "out of memory");
     const void *at = bytes.data ? (void *)bytes.data : "";
     if (way == STORED)
@@ -46,12 +46,12 @@ static void add(struct kd_zip *zip, const char *name, enum way way, const uint8_
     kd_buffer_finish(&bytes);
 }
 
-/* Corrupts entries of the directory, in the fields of APPNOTE 4.3.12. */
+/* Corrupts entries of the ZIP directory, in the fields of APPNOTE 4.3.12. */
 static void spoil(struct kd_buffer *file, const enum way *ways, const uint8_t *values, size_t n)
 {
     static const int fields[WAYS] = { [METHOD] = 10, [CHECKSUM] = 16, [ENCRYPTED] = 8, [SIZE] = 24, [PLACE] = 42 };
     size_t at = 0;
-    memcpy(&at, file->data + file->size - 6, 4); /* little-endian, as this machine */
+    memcpy(&at, file->data + file->size - 6, 4); /* the file is little-endian, like this machine */
     for (size_t i = 0; i < n; i++) {
         uint8_t *entry = file->data + at;
         if (fields[ways[i]])

@@ -1,6 +1,7 @@
 /* Fuzz target: the options of `kerrd serve`. The input is the document of a --config file, a line "---" and environment
- * variables, one a line. Values that are read are valid by the table; the environment overrides the file; and a file
- * written from the effective settings reads back the same. The list of --cors-origin is parsed as origins, too. */
+ * variables, one a line. Values that are read must be valid by the table. The environment must override the file. A
+ * file that is written from the effective settings must read back the same. The list of --cors-origin is also parsed as
+ * origins. */
 #include "fuzz.h"
 
 #include "base/utf8.h"
@@ -11,7 +12,7 @@
 
 enum { VARIABLES = 32 };
 
-/* Checks the effective value of an option against its kind, from the text alone. */
+/* Checks the effective value of an option against its kind. The check uses only the text of the value. */
 static void check_value(const struct kd_cli_setting *setting, const char *text)
 {
     char *end;
@@ -67,7 +68,7 @@ static cJSON *item_of(const struct kd_cli_setting *setting, const char *text)
                                               : cJSON_CreateString(text);
 }
 
-/* The settings as a file; malloc'd. */
+/* The settings as the text of a file, allocated by malloc. */
 static char *write_file(const struct kd_settings *settings)
 {
     cJSON *object = cJSON_CreateObject();

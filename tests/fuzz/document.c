@@ -1,10 +1,10 @@
-/* Fuzz target: a document of a table with a field of each kind; as JSON, and line by line as NAME=VALUE. */
+/* Fuzz target: a document of a table with a field of each kind; read as JSON, and line by line as NAME=VALUE. */
 #include "fuzz.h"
 
 #include "../document_example.h"
 #include "document/tree.h"
 
-/* If a row accepts a range, it must accept the numbers of the range. */
+/* A row that accepts a range must also accept the numbers of the range. */
 static void check_range(const char *name, const char *text)
 {
     const struct kd_row *row = kd_document_find(&tea_document, name);
@@ -48,7 +48,7 @@ static void check(struct tea *tea, enum kd_status status, const struct kd_error 
     kd_json_end(&json);
     CHECK(!kd_json_finish(&json), "the document cannot be written");
     kd_fuzz_json(&out);
-    /* The written text reads back as the same values. */
+    /* The written text must read back as the same values. */
     struct tea again;
     cJSON *tree = NULL;
     struct kd_error why = { 0 };

@@ -7,7 +7,7 @@
 #include "image/unzip.h"
 #include "playground/base64.h"
 
-/* A header that was read and written again reads as the same array. */
+/* A header that was read is written. The written header must read as the same array. */
 static void read_array(const struct kd_fuzz_text *bytes)
 {
     struct kd_npy array, again;
@@ -71,7 +71,7 @@ static void read_header(const struct kd_fuzz_text *bytes)
     kd_buffer_finish(&out);
 }
 
-/* A header written with these texts reads back with the same texts. */
+/* A header written with these texts must read back with the same texts. */
 static void write_header(const struct kd_fuzz_text *text)
 {
     struct kd_buffer cards = { 0 }, file = { 0 }, back = { 0 };

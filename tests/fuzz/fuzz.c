@@ -93,7 +93,7 @@ void kd_fuzz_json(const struct kd_buffer *text)
     cJSON_Delete(root);
 }
 
-/* Implements kd_row_holds, which is under test, a second time from the row of scene/table.h. */
+/* Does the check of kd_row_holds, which is under test, in another way, from the row in scene/table.h. */
 static bool allows(const struct kd_row *field, double value)
 {
     double most = field->most;
@@ -133,7 +133,8 @@ struct kd_capacity kd_fuzz_device(void)
                                   .accuracy = kd_accuracy_built_in() };
 }
 
-/* The scene itself, or a copy without unresolved names of assets, which have no identity. */
+/* The scene itself. If it has unresolved names of assets, a copy without these, because unresolved names have no
+ * identity. */
 static struct kd_scene without_names(const struct kd_scene *scene)
 {
     struct kd_scene known = *scene;

@@ -17,21 +17,22 @@
 _Noreturn void kd_fuzz_fail(const char *file, int line, const char *format, ...) __attribute__((format(printf, 3, 4)));
 #define CHECK(holds, ...) ((holds) ? (void)0 : kd_fuzz_fail(__FILE__, __LINE__, __VA_ARGS__))
 
-/* A copy of bytes with a NUL, of exactly that size, so that the sanitizer detects reads beyond it. */
+/* A copy of bytes with a NUL at the end. The allocation has exactly that size, so that the sanitizer detects reads
+ * beyond it. */
 struct kd_fuzz_text {
     char *at; /* malloc'd; never NULL */
     size_t size;
 };
 struct kd_fuzz_text kd_fuzz_copy(const uint8_t *data, size_t size);
-/* A copy of bytes without the NUL, for readers that are given a size. */
+/* A copy of bytes without a NUL, for functions that are given the size. */
 struct kd_fuzz_text kd_fuzz_bare(const uint8_t *data, size_t size);
 
 /* Takes the next part of an input: up to a line "---", which is dropped, or to the end. Empty if nothing is left. */
 struct kd_fuzz_text kd_fuzz_part(const uint8_t **data, size_t *size);
-/* Takes the next line, up to LF, NUL or the end; false if nothing is left. */
+/* Takes the next line, up to LF, NUL or the end of the input. Returns false if no input is left. */
 bool kd_fuzz_next(const uint8_t **data, size_t *size, struct kd_fuzz_text *out);
 
-/* Checks an error: it has a status, a one-line message in UTF-8, and a JSON pointer (RFC 6901) or none. */
+/* Checks an error: it has a status, a one-line message in UTF-8, and an optional JSON pointer (RFC 6901). */
 void kd_fuzz_refused(enum kd_status status, const struct kd_error *error);
 
 /* Checks that each field of the scene has a value that its row permits. */
@@ -48,8 +49,8 @@ void kd_fuzz_json(const struct kd_buffer *text);
 /* Checks that a text is UTF-8 without control characters except line feeds. */
 void kd_fuzz_shown(const char *text);
 
-/* A folder that exists as long as the process: returns its path, and in *out (may be NULL) its descriptor.
- * kd_fuzz_file puts a regular file with these bytes in it, under one of up to four names. */
+/* A folder that exists as long as the process. Returns its path, and its descriptor in *out (may be NULL). kd_fuzz_file
+ * writes these bytes to a regular file in the folder, under one of up to four names. */
 const char *kd_fuzz_folder(int *out);
 void kd_fuzz_file(const char *name, const void *data, size_t size);
 

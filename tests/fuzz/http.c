@@ -44,7 +44,7 @@ static void check_target(const char *raw, const struct kd_base_path *base)
     kd_target_finish(&target);
 }
 
-/* If the beginning of a request is recognised as a health check, the whole request must be a health check. */
+/* A request is recognised as a health check from its beginning. The whole request must then be a health check. */
 static void check_begins(const char *raw, const struct kd_base_path *base)
 {
     struct kd_buffer line = { 0 };
@@ -60,7 +60,7 @@ static void check_begins(const char *raw, const struct kd_base_path *base)
     kd_buffer_finish(&line);
 }
 
-/* Blanks round a list, and an empty entry, do not change the result. */
+/* Blanks round a list, and an empty entry in it, must not change the result. */
 static void check_accept(const char *accept, const char *encoding)
 {
     static const char *const types[] = { "image/png", "application/json", "text/csv", "application/x-npy" };
@@ -105,8 +105,8 @@ static void check_others(const char *etag, const char *type, const char *host)
     CHECK(!kd_host_listed("", hosts), "no host is one");
 }
 
-/* A request's own id is used if it may be written in a log and a header; otherwise a new one is made. A number is
- * accepted only in canonical form. */
+/* A request's own id is used if it may appear in a log and a header. Otherwise a new id is made. A number is accepted
+ * only in its canonical form. */
 static void check_numbers(const char *id, const char *event)
 {
     static const char letters[] = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-._+/=";

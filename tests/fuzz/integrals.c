@@ -1,4 +1,5 @@
-/* Fuzz target: a request for an integral, selected by the first byte: as JSON, and line by line as NAME=VALUE. */
+/* Fuzz target: a request for an integral, whose kind the first byte selects. It is read as JSON, and line by line as
+ * NAME=VALUE. */
 #include "fuzz.h"
 
 #include "integral/request.h"
@@ -23,7 +24,7 @@ static void check(struct kd_integral_request *request, enum kd_status status, co
     kd_buffer_finish(&out);
 }
 
-/* A comparison or a simulation gets an observation of three stations first. */
+/* A comparison or a simulation first gets an observation by three stations. */
 static void begin(struct kd_integral_request *request, enum kd_integral what)
 {
     static const char seen[] = "#SRC:M87,DATE(MJD):57848,FREQ:227.0707GHz\n"

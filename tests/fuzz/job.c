@@ -1,5 +1,5 @@
-/* Fuzz target: the specification of a job. The scenes of its first, middle and last frame are valid, or the error
- * names the keyframes between which they are not. */
+/* Fuzz target: the specification of a job. The scenes of its first, middle and last frame must be valid, or the error
+ * must name the keyframes between which a scene is invalid. */
 #include "fuzz.h"
 
 #include "job/exposure.h"

@@ -1,5 +1,5 @@
 /* Fuzz target: the scene arguments of a command line, one a line: PATH=VALUE, WIDTHxHEIGHT, WIDTHxHEIGHT+LEFT+TOP, and
- * after "axis " an axis of a sweep. The line that describes the resulting scene makes the same scene again. */
+ * after "axis " an axis of a sweep. The command line that describes the resulting scene must give the same scene. */
 #include "fuzz.h"
 
 #include "scene/difference.h"
@@ -54,7 +54,7 @@ static void read_axes(const struct words *words, const struct kd_scene *scene)
     kd_sweep_free(sweep);
 }
 
-/* An asset's name may contain blanks, at which the line would be split. */
+/* not split: an asset's name may contain blanks */
 static bool has_name(const struct kd_scene *scene)
 {
     for (size_t k = 0; k < KD_FIELD_COUNT; k++)
@@ -75,7 +75,7 @@ static void tell(const struct kd_scene *scene)
     CHECK(!kd_scene_line(scene, &line), "a scene has no line");
     char *text = strdup((const char *)line.data);
     CHECK(text, "out of memory");
-    /* the style is set first, because it sets other fields, as in a document */
+    /* the style is set first, because it sets other fields; a document does the same */
     for (int style = 1; style >= 0; style--) {
         strcpy(text, (const char *)line.data);
         for (char *word = strcmp(text, "the default scene") ? strtok_r(text, " ", &rest) : NULL; word;

@@ -1,6 +1,6 @@
-/* Fuzz target: the code of a shared scene, as in /s/CODE. The input is that code, or after a first byte "=" the text
- * that a code is made of. The results are the valid scenes of both sides, and the link of each is a code of the same
- * scene. */
+/* Fuzz target: the code of a shared scene, as in /s/CODE. The input is such a code, or, after a first byte "=", the
+ * text that a code is made of. The code must be refused, or give valid scenes for the sides of the link. The link of
+ * each of these scenes must give the same scene again. */
 #include "fuzz.h"
 
 #include "image/text_code.h"
@@ -20,7 +20,7 @@ static void again(const struct kd_scene *scene)
           error.message);
     CHECK(!both.measured && !memcmp(&both.left, &both.right, sizeof both.left), "a link of one scene is a pair");
     back = both.left;
-    back.image.width = scene->image.width; /* a link has no size */
+    back.image.width = scene->image.width; /* a link does not contain the picture's size */
     back.image.height = scene->image.height;
     back.tile = scene->tile;
     CHECK(!memcmp(scene, &back, sizeof back), "the link \"%s\" is of another scene", (char *)link.data);

@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Writes the correct CRC after each chunk of a PNG file, as far as it has chunks; other bytes stay. */
+/* Writes the correct CRC after each complete chunk of a PNG file. All other bytes are unchanged. */
 void kd_fuzz_mend_png(uint8_t *data, size_t size);
 
 #endif

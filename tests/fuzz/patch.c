@@ -1,4 +1,4 @@
-/* Fuzz target: a scene, a line "---" and a merge patch (RFC 7396). Applying a patch twice gives the same scene as
+/* Fuzz target: a scene, a line "---" and a merge patch (RFC 7396). Applying a patch twice must give the same scene as
  * applying it once, and as patching the document. A refused patch changes nothing. */
 #include "fuzz.h"
 
@@ -22,7 +22,7 @@ static bool is_special(const cJSON *patch)
     return special;
 }
 
-/* RFC 7396, section 2. */
+/* Applies a merge patch as in RFC 7396, section 2. */
 static void merge(cJSON *target, const cJSON *patch)
 {
     for (const cJSON *item = patch->child; item; item = item->next) {
@@ -50,7 +50,7 @@ static bool has_asset(const struct kd_scene *scene)
     return has;
 }
 
-/* A patched scene equals the scene of its patched document. */
+/* A patched scene must equal the scene of the patched document. */
 static void check_document(const struct kd_scene *before, const struct kd_scene *after,
                            const struct kd_fuzz_text *patch)
 {

@@ -1,6 +1,6 @@
-/* Fuzz target: the scene in a picture file (PNG, JPEG, WebP, FITS, OpenEXR or NPZ), as for --from. Also a PNG's pixels
- * and texts, which must read back the same after writing. Input that is not a picture is wrapped into one as its
- * scene. */
+/* Fuzz target: the scene in a picture file (PNG, JPEG, WebP, FITS, OpenEXR or NPZ), as for --from. A PNG's pixels and
+ * texts are read too, and must read back the same after writing. Input that is not a picture becomes the scene in a
+ * picture file. */
 #include "fuzz.h"
 
 #include "image/jpeg.h"
@@ -29,7 +29,7 @@ static void check_png(const void *data, size_t size)
                                           picture.pixels, picture.text,   picture.n_text };
     status = kd_png_encode(&params, &out, &error);
     if (status)
-        kd_fuzz_refused(status, &error); /* refused, because some texts have keys that kerrd may not write */
+        kd_fuzz_refused(status, &error); /* writing fails, because kerrd may not write the keys of some texts */
     else {
         CHECK(!kd_png_decode(out.data, out.size, &again, &error), "a picture that was written cannot be read: %s",
               error.message);

@@ -1,5 +1,5 @@
 /* Fuzz target: a document of a playground, a line "---", a patch of it, another line "---" and the body of a step.
- * Snapshots before and after the step must read back bit for bit. */
+ * The snapshots before and after the step must read back unchanged to the bit. */
 #include "fuzz.h"
 
 #include "playground/json.h"

@@ -1,5 +1,5 @@
-/* Fuzz target: requests for a quantity, orbits, rays or particles by names: a line with the kind, and then one
- * NAME=VALUE a line. Cheap quantities are computed. */
+/* Fuzz target: requests for a quantity, orbits, rays or particles by name. The first line is the kind, and each further
+ * line is NAME=VALUE. Cheap quantities are also computed. */
 #include "fuzz.h"
 
 #include "orbit/request.h"

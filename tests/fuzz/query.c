@@ -1,5 +1,5 @@
 /* Fuzz target: a scene in a request to the server. The input is a target and, after a line "---", the body of a POST.
- * The result is a valid scene. */
+ * The request must be refused, or give a valid scene. */
 #include "fuzz.h"
 
 #include "server/asset/store.h"

@@ -1,4 +1,4 @@
-/* Fuzz target: a request for rays, as JSON or an NPY array. A few rays are traced too, in closed form, which needs
+/* Fuzz target: a request for rays, as JSON or an NPY array. A few rays are also traced, by the closed form, which needs
  * no device. */
 #include "fuzz.h"
 
@@ -41,7 +41,7 @@ static void follow(const struct kd_rays_request *request)
         check_end(&params, &ends[i], crossings + i * params.orders);
 }
 
-/* A list read from JSON equals the one from an NPY array. */
+/* A list read from JSON must equal the list read from an NPY array. */
 static void check_array(const struct kd_rays_request *request)
 {
     const struct kd_npy array = {

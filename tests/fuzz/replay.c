@@ -1,6 +1,6 @@
-/* Runs a target on every file of some folders, in the order of their names, twice: kd_fuzz_replay TARGET FOLDER...
- * Prints their number. Fails if there are none, or if more memory is allocated after the second run of a file than
- * after the first. */
+/* Runs a target twice on each file of some folders, in the order of the files' names: kd_fuzz_replay TARGET FOLDER...
+ * Prints the number of files. Fails if there are no files, or if more memory is allocated after the second run of a
+ * file than after the first. */
 #include "fuzz.h"
 
 #include "../held.h"
@@ -27,7 +27,7 @@ static unsigned run_file(int (*run)(const uint8_t *, size_t), const char *path)
     for (size_t n; (n = fread(part, 1, sizeof part, file)) > 0;)
         CHECK(!kd_buffer_append(&bytes, part, n), "out of memory");
     fclose(file);
-    fprintf(stderr, "%s\n", path); /* printed now, to name the input if the process ends here */
+    fprintf(stderr, "%s\n", path); /* printed before the run, because the process may end there */
     run(bytes.data, bytes.size);
     const size_t before = kd_held();
     run(bytes.data, bytes.size);

@@ -7,8 +7,8 @@ run.py BUILD LIMIT SEED JOBS RESULT TARGET...  LIMIT: libFuzzer's option, -max_t
 run.py --replay BUILD                          runs each input that has failed once more: exit code 1 if one still
     fails, or if there is none
 
-An input that takes longer than 25 s, or a gigabyte and a half of memory, is a failure too. Exit code 1: a target has
-failed; its output and how to reproduce it are printed.
+An input that takes longer than 25 s, or more than 1.5 GB of memory, is a failure too. Exit code 1: a target has failed;
+its output and how to reproduce it are printed.
 """
 
 import collections
@@ -44,8 +44,8 @@ def sanitized():
 
 
 def replay(build):
-    """Exit code: 1 if an input in BUILD/crash still fails. Also 1 if there is no input, because the run then failed for
-    another reason."""
+    """Exit code: 1 if an input in BUILD/crash still fails. Also 1 if there is no such input, because then the run
+    failed for another reason."""
     paths = sorted(path for path in (build / "crash").glob("*-*") if path.suffix != ".log")
     found = not paths
     if not paths:
@@ -111,14 +111,15 @@ class Target:
 
 
 def limit_of(name, limit):
-    """The limit of a target. With -runs=N, a target whose inputs decompress to megabytes each gets a tenth of them."""
+    """libFuzzer's limit for a target. Some targets have inputs that decompress to megabytes; with -runs=N these targets
+    get N/10 runs."""
     if name != "assets" or not limit.startswith("-runs="):
         return limit
     return f"-runs={max(1, int(limit.removeprefix('-runs=')) // 10)}"
 
 
 def longest_of(name):
-    """The maximum length of an input in bytes: some targets test only large documents."""
+    """The maximum length of an input in bytes. It is larger for targets that test only large documents."""
     return {
         "access": 4096,
         "http": 2048,

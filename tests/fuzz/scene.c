@@ -1,5 +1,5 @@
-/* Fuzz target: a scene as JSON over the default one, and over the preset "smooth". A refused document leaves the
- * scene unchanged; an accepted one reads back the same after writing. */
+/* Fuzz target: a scene as JSON, applied over the default scene and over the preset "smooth". A refused document must
+ * leave the scene unchanged. An accepted one must read back the same after writing. */
 #include "fuzz.h"
 
 static void read_over(const struct kd_scene *before, const struct kd_fuzz_text *text)

@@ -36,7 +36,7 @@ static FILE *open_file(const char *folder, const char *name)
     return file;
 }
 
-/* A seed of these bytes, which follow a text. */
+/* A seed that consists of a text and these bytes after it. */
 static void put(const char *target, const char *name, const char *before, const void *data, size_t size)
 {
     FILE *file = open_file(target, name);
@@ -49,7 +49,7 @@ static void put_text(const char *target, const char *name, const char *text) { p
 static void word(FILE *dict, const char *text, size_t n)
 {
     if (!n)
-        return; /* libFuzzer rejects empty words */
+        return; /* empty words are left out, because libFuzzer rejects them */
     fputc('"', dict);
     for (size_t i = 0; i < n; i++)
         if (text[i] == '"' || text[i] == '\\' || text[i] < ' ' || text[i] > '~')
@@ -287,7 +287,8 @@ static void add_array(struct kd_zip *zip, struct kd_buffer *records, unsigned nu
     kd_buffer_finish(&bytes);
 }
 
-/* The smallest grid of matter, or series of three, as a file and as records of the target. */
+/* The smallest grid of matter, or the smallest series of three grids, as an NPZ file and as records of the target
+ * `assets`. */
 static void write_grid(bool series)
 {
     static const char header[] =
@@ -325,7 +326,7 @@ static void write_grid(bool series)
     kd_zip_destroy(zip);
     put("assets", series ? "series.npz" : "grid.npz", "", file.data, file.size);
     put("assets", series ? "series" : "grid", "grid", records.data, records.size);
-    for (uint8_t way = 1; way < 8 && !series; way++) { /* values of `ways` in assets.c: each for the array r */
+    for (uint8_t way = 1; way < 8 && !series; way++) { /* a value of `ways` in assets.c, applied to the array r */
         const size_t at = (size_t)(3 + sizeof header - 1);
         char name[16];
         records.data[at] = (uint8_t)(1 + 14 * way);

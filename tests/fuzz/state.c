@@ -1,4 +1,4 @@
-/* Fuzz target: files that kerrd keeps between runs, selected by the first byte: the state of a film; a table of
+/* Fuzz target: files that kerrd keeps between runs. The first byte selects the kind: the state of a film; a table of
  * accuracy; the record of a job, a line "---" and its request; and the timeline of a session's path. */
 #include "fuzz.h"
 

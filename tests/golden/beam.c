@@ -1,6 +1,6 @@
-/* Tests the diameter of the ring in pictures of M87* and Sgr A* through a beam of 20 microarcseconds. It is compared
- * with the diameter in the picture without a beam, convolved here in double precision, and with the measured
- * diameter. */
+/* Tests the diameter of the ring in pictures of M87* and Sgr A* through a beam of 20 microarcseconds. The diameter is
+ * compared with that in the picture without a beam, after this test has convolved it in double precision. It is also
+ * compared with the observed diameter. */
 #include "studio.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@
 enum { W = 320, H = 180 };
 static double unblurred[H][W], between[H][W], wanted[H][W], found[H][W];
 
-/* A pixel's width in microarcseconds (IAU 2015 B3, IAU 2015 B2). */
+/* Width of a pixel in microarcseconds (constants: IAU 2015 B3, IAU 2015 B2). */
 static double pixel_uas(const struct kd_scene *scene)
 {
     const struct kd_spacetime *s = &scene->spacetime;
@@ -52,7 +52,7 @@ static void convolve(double sigma)
                 wanted[y][x] += weight[abs(k - y)] * between[k][x];
 }
 
-/* Cubic interpolation by rows and columns (Catmull and Rom 1974). */
+/* Cubic interpolation, first along rows and then along columns (Catmull and Rom 1974). */
 static double at(double p[H][W], double x, double y)
 {
     const int i = (int)floor(x), j = (int)floor(y);
@@ -70,7 +70,7 @@ static double at(double p[H][W], double x, double y)
 struct ring { double diameter, scatter; };
 
 /* Measures the ring about a centre (EHT Collaboration 2019, ApJL 875, L4, section 9). Its diameter is twice the mean,
- * over directions, of the radius of largest brightness. Also gives the scatter of this radius. */
+ * over directions, of the radius of largest brightness. scatter: standard deviation of this radius. */
 static struct ring about(double p[H][W], double x0, double y0)
 {
     enum { DIRECTIONS = 90 };
@@ -89,7 +89,7 @@ static struct ring about(double p[H][W], double x0, double y0)
     return (struct ring) { 2 * sum, sqrt(fmax(square - sum * sum, 0)) };
 }
 
-/* Ring about the centre for which the radius scatters least. */
+/* Ring about the centre for which the radius of the ring scatters least. */
 static struct ring ring_of(double p[H][W])
 {
     double x = 0.5 * W, y = 0.5 * H;
@@ -104,8 +104,8 @@ static struct ring ring_of(double p[H][W])
     return best;
 }
 
-/* The picture is measured in 16 bits of linear light, which the style's false colours also show. uas, error: the
- * measured diameter. */
+/* Measures the picture in 16 bits of linear light, and also in the style's false colours. uas, error: the observed
+ * diameter and its error. */
 static void the_ring_of(const char *preset, double uas, double error)
 {
     static const char *const look = "{\"style\":{\"name\":\"raw\",\"exposure\":%d,\"beam_uas\":%g},\"image\":{"
@@ -150,8 +150,8 @@ static void the_ring_of_m87(void **state)
     the_ring_of("m87", 42, 3); /* EHT Collaboration 2019, ApJL 875, L1 */
 }
 
-/* The picture in the style's false colours gives the same result: brightness corresponds to the lightness L* of its
- * colours (CIE 1976), where 100 is white. */
+/* The picture in false colours gives the same diameter. There, brightness is the lightness L* of the colour (CIE 1976;
+ * white: 100). */
 static void the_style_shows_it_by_lightness(void **state)
 {
     (void)state;

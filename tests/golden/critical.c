@@ -1,5 +1,5 @@
-/* Compares pixels at the critical curve, which get more rays than others, with pictures that have 8 x 8 rays in every
- * pixel. */
+/* Compares pixels at the critical curve, which get additional rays, with pixels of pictures that have 8 x 8 rays in
+ * each pixel. */
 #include "studio.h"
 
 #include "render/view/critical_pixels.h"
@@ -24,10 +24,10 @@ static struct kd_frame shot(const struct kd_scene *base, int samples, int critic
     return studio_render(&scene);
 }
 
-/* largest errors: in pixels at the curve, and elsewhere in other pixels */
+/* largest errors: of pixels at the curve, and of all other pixels */
 struct distance { double rms, mean, elsewhere; };
 
-/* Compares linear light with another picture's. */
+/* Compares the linear light of a picture with that of another. */
 static struct distance distance(const struct kd_frame *a, const struct kd_frame *b,
                                 const struct kd_critical_pixels *list)
 {
@@ -66,8 +66,8 @@ static struct kd_scene view(const char *json, double exposure)
     "\"camera\":{\"r\":25,\"inclination_deg\":75,\"fov_deg\":60,\"yaw_deg\":4,\"pitch_deg\":-3,\"roll_deg\":20}"
 #define FAST "\"spacetime\":{\"spin\":0.998}"
 
-/* Tests each way of making a lens map. Along a rim the rays of a pixel have many distances from the curve. The pixel's
- * error therefore falls as 1/n with their number n, instead of 1/sqrt(n). */
+/* Tests each way of making a lens map. Where the curve is the rim of light, the rays of a pixel have many different
+ * distances from it. The pixel's error is therefore proportional to 1/n for n rays, instead of 1/sqrt(n). */
 static void against_many_rays(void **state)
 {
     (void)state;
@@ -113,8 +113,7 @@ static void against_many_rays(void **state)
     }
 }
 
-/* When the additional rays are switched off, they cost nothing: no rays are traced, and the picture is the same to the
- * byte. */
+/* When the additional rays are switched off, none is traced, and the picture is the same to the byte. */
 static void off(void **state)
 {
     (void)state;

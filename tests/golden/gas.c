@@ -17,8 +17,8 @@
 
 #include <cmocka.h>
 
-/* ds^2/dt^2 of a circle at this angular velocity: g_tt + 2 Omega g_tphi + Omega^2 g_phiphi in the plane. A circular
- * geodesic has the Omega for which its derivative in r vanishes. */
+/* ds^2/dt^2 of a circle at this angular velocity, in the plane: g_tt + 2 Omega g_tphi + Omega^2 g_phiphi. For a
+ * circular geodesic, the derivative of this by r is 0, which gives Omega. */
 static double line(double a, double r, double omega)
 {
     return -(1 - 2 / r) - 4 * a / r * omega + (r * r + a * a + 2 * a * a / r) * omega * omega;
@@ -44,8 +44,8 @@ static double cosine(const struct ks_photon *p, const struct ks_path *path)
 
 #define DEPTH 3.0
 
-/* The ratio to the picture of an opaque disk is the fraction that a crossing absorbs: 1 - exp(-depth F/F_max/cos). 16
- * bits resolve the dimmest compared pixels to 1e-3. */
+/* The picture is divided by that of an opaque disk. The ratio is the fraction that a crossing absorbs: 1 - exp(-depth
+ * F/F_max/cos). The dimmest pixels that are compared have a resolution of 1e-3 in 16 bits. */
 static void emission_angle(void **state)
 {
     (void)state;
@@ -98,7 +98,7 @@ static void emission_angle(void **state)
     assert_true(least < 0.15 && most > 0.9);
 }
 
-/* Total light of all pixels. */
+/* Sum of the light of all pixels. */
 static double sum_of(const struct kd_scene *scene)
 {
     struct kd_frame f = studio_render(scene);
@@ -113,8 +113,8 @@ static double sum_of(const struct kd_scene *scene)
 }
 
 /* Averaged over seeds, an opaque turbulent disk has the light of the smooth one: turbulence redistributes light without
- * adding or removing any. This holds for each number of octaves. Each seed deviates by some percent, and the mean by
- * the error that follows from the scatter of the seeds. */
+ * adding or removing any. This holds for each number of octaves. Each seed deviates by some percent. The mean may
+ * deviate by its standard error, which follows from the scatter of the seeds. */
 static void flux_is_kept(void **state)
 {
     (void)state;
@@ -149,8 +149,8 @@ static bool same_pixels(const struct kd_scene *a, const struct kd_scene *b)
     return same;
 }
 
-/* A scene gives the same picture whatever was rendered before. Another seed or time gives another picture. When
- * turbulence is off, seed and time have no effect. */
+/* A scene gives the same picture, whatever was rendered before it. Another seed or time gives another picture, except
+ * when turbulence is off. */
 static void one_scene_one_picture(void **state)
 {
     (void)state;
@@ -173,8 +173,8 @@ static void one_scene_one_picture(void **state)
     assert_true(same_pixels(&other, &other));
 }
 
-/* Brightness relative to the smooth disk, minus 1: a map of the pattern with mean 0 over seeds. Its side is not a
- * power of any integer. */
+/* Brightness divided by that of the smooth disk, minus 1. This is a map of the pattern whose mean over seeds is 0. The
+ * map's side is not a power of any integer. */
 enum { SIDE = 60, BANDS = 6 };
 struct map { double at[SIDE][SIDE]; };
 
@@ -195,7 +195,7 @@ static struct map pattern(struct kd_scene scene)
     return out;
 }
 
-/* |Fourier transform|^2, rows first. */
+/* |Fourier transform|^2. Rows are transformed first, then columns. */
 static void power_of(const struct map *m, double out[SIDE][SIDE])
 {
     static double c[SIDE], s[SIDE], re[SIDE][SIDE], im[SIDE][SIDE];
@@ -220,8 +220,8 @@ static void power_of(const struct map *m, double out[SIDE][SIDE])
         }
 }
 
-/* The band of a wave number, 0 to BANDS - 1. Waves along the axes of the picture, where a lattice would show, have a
- * band of their own. */
+/* Index of the band of a wave number, 0 to BANDS - 1. Waves along the picture's axes have their own band, because a
+ * lattice would appear there. */
 static int band_of(int l, int k)
 {
     int y = l > SIDE / 2 ? SIDE - l : l, x = k > SIDE / 2 ? SIDE - k : k;
@@ -240,9 +240,9 @@ static struct kd_scene from_above(void)
         "\"image\":{\"width\":60,\"height\":60,\"samples\":2,\"bit_depth\":16}}");
 }
 
-/* Two hundred seeds are independent patterns: each wave of their mean has a two-hundredth of their power. A common
- * ring, seam or lattice would remain. Over n waves the ratio scatters by sqrt(1/n). In a real map each wave occurs
- * twice, and neighbours are correlated over some 4. */
+/* The patterns of two hundred seeds are independent. The power of each wave in their mean is therefore a two-hundredth
+ * of the power in one pattern. A ring, seam or lattice that all patterns share would remain. The ratio of powers over n
+ * waves scatters by sqrt(1/n). In a real map each wave occurs twice, and some 4 neighbouring waves are correlated. */
 static void nothing_in_common(void **state)
 {
     (void)state;
@@ -284,13 +284,14 @@ static void nothing_in_common(void **state)
         printf("waves of band %d: %.3f of the power that independence leaves, 1 within %.2f\n", band, ratio, allowed);
         assert_true(fabs(ratio - 1) < allowed);
     }
-    for (int k = 0; k < SIDE / 2; k++) /* at each radius: the mean divided by its own scatter */
+    for (int k = 0; k < SIDE / 2; k++) /* at each radius: the mean divided by its standard error */
         if (scatter[k] > 0 && !(fabs(profile[k]) < 4.5 * sqrt(scatter[k] / SEEDS)))
             fail_msg("at radius %d the mean is off by %g, its scatter is %g", k, profile[k], sqrt(scatter[k] / SEEDS));
 }
 
 /* Two measures are constant in time within the scatter of patterns: the power of the pattern's waves in bands, and the
- * pattern's change from pixel to pixel along a radius. Winding up of the pattern would increase the second one. */
+ * pattern's change from pixel to pixel along a radius. If shear wound up the pattern, the change from pixel to pixel
+ * would grow. */
 static void nothing_winds_up(void **state)
 {
     (void)state;
@@ -323,8 +324,9 @@ static void nothing_winds_up(void **state)
         }
 }
 
-/* Almost edge-on, the gas varies as much from seed to seed with one ray a pixel as with 64: unresolved structure has
- * faded to its mean. Without this fading the gas would vary by more than half as much again. */
+/* Almost edge-on, the gas varies from seed to seed as much with one ray a pixel as with 64, because unresolved
+ * structure is faded to its mean. Without this fading the variation with one ray would be more than half as large
+ * again. */
 static void one_ray_varies_as_many(void **state)
 {
     (void)state;
@@ -335,7 +337,7 @@ static void one_ray_varies_as_many(void **state)
         "\"tone_map\":\"srgb\",\"dither\":false},\"disk\":{\"gas\":{\"amplitude\":0.8}},\"image\":"
         "{\"width\":64,\"height\":36,\"bit_depth\":16,\"critical_factor\":1}}");
     double variance[2] = { 0 };
-    for (int v = 0; v < 4; v++) { /* a tenth of the picture: beside the hole, and above it */
+    for (int v = 0; v < 4; v++) { /* two regions, each a tenth of the picture: beside the hole, and above it */
         int k = v % 2;
         static double sum[WIDTH * HEIGHT], square[WIDTH * HEIGHT];
         memset(sum, 0, sizeof sum);

@@ -1,5 +1,5 @@
-/* Tests of slow light of gas: each pixel shows the turbulence at the time at which its light was emitted. Delays are
- * from Kerr-Schild geodesics. */
+/* Tests of slow light of gas: each pixel shows the turbulence at the time at which the pixel's light was emitted.
+ * Kerr-Schild geodesics give the delays. */
 #include "photon.h"
 #include "studio.h"
 
@@ -28,7 +28,8 @@ static struct kd_scene view(double spin, double inclination_deg, double r)
     return studio_scene(NULL, json);
 }
 
-/* The disk is opaque: a pixel shows its first crossing. 16 bits resolve the dimmest compared pixels to 1e-3. */
+/* The disk is opaque, so that a pixel shows its first crossing. The dimmest pixels that are compared have a resolution
+ * of 1e-3 in 16 bits. */
 static void pixels_show_when_their_light_left(void **state)
 {
     (void)state;

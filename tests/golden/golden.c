@@ -1,15 +1,15 @@
 /* Compares small pictures with the committed ones.
  *
  *     golden DIR            compare
- *     golden --quick DIR    without the pictures whose kernels SwiftShader compiles for half a minute each
- *     golden --long DIR     only these
+ *     golden --quick DIR    leaves out pictures whose kernels take SwiftShader half a minute to compile
+ *     golden --long DIR     only the pictures that --quick leaves out
  *     golden --update DIR   write them anew
  *
  * A name after DIR selects that picture.
  *
- * A reference file has a fixed exposure in its scene. Automatic exposure is quantised to an eighth of a stop: on
- * another device one pixel at the edge of a bin may change the exposure, and with it every pixel. Therefore the
- * automatic exposure is compared separately, and the pixels are compared at the exposure of the reference. */
+ * A reference file has a fixed exposure in its scene. Automatic exposure is quantised to an eighth of a stop. On
+ * another device, one pixel at the edge of a bin may change the exposure, and thereby every pixel. Pixels are therefore
+ * compared at the exposure of the reference, and the automatic exposure separately. */
 #include "studio.h"
 
 #include "image/png.h"
@@ -22,13 +22,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* 16 rays a pixel: if one ray falls on the other side of an edge, the pixel changes by a sixteenth. */
+/* 16 rays a pixel: if one ray falls on the other side of an edge, the pixel changes by only a sixteenth. */
 #define SIZE "\"image\":{\"width\":160,\"height\":90,\"samples\":4}"
 
 static const struct shot {
     const char *name, *preset, *json;
-    const char *playground; /* NULL, or JSON of a playground that is shown */
-    double after;           /* time after the playground's beginning */
+    const char *playground; /* JSON of the playground that the picture shows, or NULL */
+    double after;           /* time since the beginning of the playground */
 } shots[] = {
     { "default", "gas", "{" SIZE "}" },
     { "smooth", "smooth", "{" SIZE "}" },
@@ -38,7 +38,8 @@ static const struct shot {
       "{\"spacetime\":{\"spin\":0.7,\"charge\":0.6},\"camera\":{\"r\":30,\"observer\":\"infall\"},\"sky\":{\"model\":"
       "\"grid\"}," SIZE "}" },
     { "gargantua", "gargantua", "{" SIZE "}" },
-    { "m87", "m87", "{\"image\":{\"width\":400,\"height\":225}}" }, /* large enough for the scales that are drawn */
+    /* large enough for the scales that kerrd draws in the picture */
+    { "m87", "m87", "{\"image\":{\"width\":400,\"height\":225}}" },
     { "sgra", "sgra", "{\"image\":{\"width\":400,\"height\":225}}" },
     { "luminet1979", "luminet1979", "{" SIZE "}" },
     { "edge-on", "edge-on", "{" SIZE "}" },
@@ -116,8 +117,8 @@ static const struct shot {
 };
 #define SHOTS (sizeof shots / sizeof *shots)
 
-/* Each sky for each observer. The observer's motion aberrates and shifts the picture; an infalling observer has
- * coordinates of its own. */
+/* Each kind of sky for each kind of observer. The observer's motion aberrates the sky and shifts its colours. An
+ * infalling observer is computed in other coordinates. */
 #define SKY(name, model, fields) { name, "{\"model\":\"" model "\"," fields "}" }
 static const struct {
     const char *name, *json;
@@ -185,15 +186,15 @@ static struct kd_frame render(const struct shot *shot, const struct kd_scene *sc
     return frame;
 }
 
-/* Last bits of sqrt, log2 and sin differ between devices, which changes crossing radii by some 1e-6. With rays
- * displaced by 1e-5 the grid, which has only sharp lines, is at 50 dB and every other picture above 57. With a
- * brightness error of 4 % or a camera error of a tenth of a pixel the pictures are at 32 to 45. */
+/* Last bits of sqrt, log2 and sin differ between devices, which changes crossing radii by some 1e-6. If rays are
+ * displaced by 1e-5, the PSNR of the grid, which has only sharp lines, is 50 dB, and that of every other picture is
+ * above 57 dB. A brightness error of 4 %, or a camera error of a tenth of a pixel, gives 32 to 45 dB. */
 #define PSNR_MIN 45.0
-/* If one ray of sixteen gets another colour, a pixel changes by up to 24 steps of 255, and at the black edge of a
- * bright ring by more. One pixel in 200 may do so. */
+/* If one ray of sixteen gets another colour, its pixel changes by up to 24 steps of 255, and at the black edge of a
+ * bright ring by more. One pixel in 200 may change by more. */
 #define FAR (24.0 / 255)
 #define FAR_SHARE 0.005
-#define EXPOSURE_STEP 0.126 /* one bin of the histogram */
+#define EXPOSURE_STEP 0.126 /* width of one bin of the histogram */
 
 static enum kd_status read_file(const char *path, struct kd_buffer *out)
 {
@@ -208,7 +209,7 @@ static enum kd_status read_file(const char *path, struct kd_buffer *out)
     return status;
 }
 
-/* The reference as a frame, with the exposure that is fixed in its scene. */
+/* Renders the reference's scene, whose exposure is fixed. */
 static enum kd_status read_reference(const char *path, struct kd_frame *out, struct kd_error *error)
 {
     struct kd_buffer file = { 0 };

@@ -1,5 +1,5 @@
-/* Tests that a disk of particles equals the smooth disk on average. Rings of the picture, seen from the pole, are
- * compared for each order. */
+/* Tests that a disk of particles equals the smooth disk on average. The pictures are seen from the pole. Their rings
+ * are compared for each image order. */
 #include "studio.h"
 
 #include <math.h>
@@ -13,7 +13,7 @@
 #define FIELD 32.0
 #define PIXELS 480
 
-/* Linear light between two distances from the middle of the picture, in M. */
+/* Sum of linear light between two distances from the middle of the picture, in M. */
 static double ring(const struct kd_frame *f, double from, double to)
 {
     double sum = 0;
@@ -37,10 +37,10 @@ static struct kd_frame shoot(const char *model, int seed, double epicycles, doub
 }
 
 /* The disk from 8 to 14 M appears directly at 9 to 15 M, and by light that goes round the back of the hole at 5.2 to
- * 6.5 M. A ring that shows the fraction s of 300 000 particles has a Poisson error of 1/sqrt(300 000 s): for the
- * quarters of the direct image 0.4 %, for order 1, where the whole disk is seen, 0.2 %. The bound is three of these.
- * (Order 1 is eight pixels wide, and sixteen rays a pixel are enough to see all particles. For order 2 sixteen are too
- * few.) */
+ * 6.5 M. A ring with the fraction s of 300 000 particles has a Poisson error of 1/sqrt(300 000 s). This is 0.4 % for
+ * the quarters of the direct image, and 0.2 % for order 1, whose ring shows the whole disk. The bound is three times
+ * this error. (Order 1 is eight pixels wide, and sixteen rays a pixel are enough to see all particles. For order 2
+ * sixteen are too few.) */
 static void the_mean_is_the_smooth_disk(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Makes the photon that a pixel with one ray sees, for the Kerr-Schild oracle, through a plane camera or a static
- * observer's pinhole camera. */
+/* The photon that a pixel with one ray receives, for the Kerr-Schild oracle. Cameras: the plane camera, and the pinhole
+ * camera of a static observer. */
 #ifndef KD_TESTS_GOLDEN_PHOTON_H
 #define KD_TESTS_GOLDEN_PHOTON_H
 

@@ -1,5 +1,5 @@
-/* Tests of the appearance of the gas that falls from the ISCO: its density, redshift and delay. For comparison, rays
- * are computed by the closed form in double precision, redshifts by contraction with the metric, and densities from the
+/* Tests of the appearance of the gas that falls from the ISCO: its density, redshift and delay. The expected rays are
+ * computed by the closed form in double precision, redshifts by contraction with the metric, and densities from the
  * flow of particles. */
 #include "studio.h"
 
@@ -66,9 +66,9 @@ static struct kd_frame shot(struct kd_scene *scene, bool doppler, bool redshift)
     "\"spacetime\":{\"spin\":0.3}," \
     "\"camera\":{\"r\":3.2,\"observer\":\"zamo\",\"inclination_deg\":75,\"fov_deg\":120,\"yaw_deg\":180}"
 
-/* Compares a pixel with and without the factors of g: brightness goes as g^4, whatever the gas's state. Seen from far
- * away most light left the gas outwards; an observer inside also sees light moving inwards. With 16 bits the fourth
- * root of a luminance of 0.01 is known to 1e-4. */
+/* Compares a pixel with and without the factors of g. Brightness is proportional to g^4, whatever the gas's state. Seen
+ * from far away, most light left the gas outwards. An observer inside also sees light that moves inwards. The fourth
+ * root of a luminance of 0.01 in 16 bits has an accuracy of 1e-4. */
 static void redshift_of_light(void **state)
 {
     (void)state;
@@ -89,7 +89,8 @@ static void redshift_of_light(void **state)
         { "from among it", AMONG_IT, "" },
         { "from among it, listed", AMONG_IT, ",\"precision\":\"f64\"" },
     };
-    int judged[2][3] = { { 0 } }; /* first index: light moving inwards, outwards; second: 1/u^t, g, g u^t */
+    /* first index: light that moves inwards; light that moves outwards. second index: 1/u^t; g; g u^t */
+    int judged[2][3] = { { 0 } };
     double worst[3] = { 0 };
     for (size_t v = 0; v < sizeof views / sizeof *views; v++) {
         char json[1024];
@@ -117,7 +118,7 @@ static void redshift_of_light(void **state)
                                          studio_luminance(&moved, x, y) };
                 if (!meets_the_plunge(&scene, &ray) || base < 0.01)
                     continue;
-                double r = ray.path.crossing[0].r; /* every picture contains the near observer's own redshift */
+                double r = ray.path.crossing[0].r; /* the redshift of the near observer is included in every picture */
                 int sense = ray.path.crossing[0].sense;
                 double ut = kd_plunge_velocity(&plunge, r).ut,
                        g = redshift_of_plunge(&gas, r, ray.lambda, ray.eta, sense);
@@ -148,10 +149,10 @@ static void redshift_of_light(void **state)
             assert_true(judged[sense][k] > 500);
 }
 
-/* Face-on and without redshift, the optical depth of thin gas, ring by ring, is that of the flow. This is the rate of
- * particles through a circle of 2 pi r at u^r, divided by the number of particles per area of the disk at its edge. The
- * error is the Poisson error of 10 000 parcels for each seed. Depths are below 0.05, since clumpy gas shines less than
- * even gas, by half the depth. */
+/* Face-on and without redshift, the optical depth of thin gas in each ring equals that of the flow. The flow's depth is
+ * the rate of particles through a circle, divided by 2 pi r u^r, and by the number of particles per area at the disk's
+ * edge. The error is the Poisson error of 10 000 parcels for each seed. Depths are below 0.05, because clumpy gas emits
+ * less than even gas, by half the depth. */
 static void surface_density(void **state)
 {
     (void)state;
@@ -171,12 +172,12 @@ static void surface_density(void **state)
         struct kd_frame frame = studio_render(&scene);
         const struct kd_plunging p = kd_plunging_of(&scene);
         double isco = p.curve.isco, n = 1e7, step = 1e-4;
-        /* (1 - plunging) n particles are on circles; their number per radius at the ISCO, from the distribution of
-         * radii */
+        /* (1 - plunging) n particles are on circular orbits; this is their number per radius at the ISCO, from the
+         * distribution of radii */
         double circling =
             (1 - 0.001) * n * step / (kd_particle_radius(&scene, 0.02 + step) - kd_particle_radius(&scene, 0.02));
         double r_there = kd_particle_radius(&scene, 0.02 + step / 2);
-        circling *= pow(isco / r_there, 1 - scene.disk.density_index); /* dN/dr goes as r^(1 - p) */
+        circling *= pow(isco / r_there, 1 - scene.disk.density_index); /* dN/dr is proportional to r^(1 - p) */
         double edge = circling / (2 * M_PI * isco * kd_kerr_ut(kd_hole(0.5), isco));
         for (uint32_t y = 0; y < PIXELS; y++)
             for (uint32_t x = 0; x < PIXELS; x++) {
@@ -200,9 +201,9 @@ static void surface_density(void **state)
     }
 }
 
-/* Slow light: a pixel of the stream equals the pixel of a picture without slow light at the emission time, for far and
- * near observers. The two differ in the last steps, because parcels at other places between the nodes of the grid are
- * blurred differently. */
+/* Slow light: a pixel of the stream equals that of a picture without slow light at the emission time. This is tested
+ * for far and near observers. The last steps of brightness differ, because parcels at other positions between the
+ * grid's nodes are blurred differently. */
 static void delay_of_light(void **state)
 {
     (void)state;

@@ -8,12 +8,13 @@
 
 #include <cmocka.h>
 
-/* With these settings linear light can be recovered from the pixels: no film curve, no dither, no clipping (g^4 stays
- * below 16), 16 bits. */
+/* With these settings linear light can be recovered from the pixels: no tone curve, no dither, 16 bits, and no
+ * clipping, because g^4 stays below 16. */
 #define LINEAR "\"style\":{\"exposure\":-4,\"tone_map\":\"srgb\",\"dither\":false}"
 #define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_factor\":1}"
 
-/* Largest difference between a pixel of `a` and the one of `b` at the same place, or mirrored, in 1/255. */
+/* Largest difference between a pixel of `a` and the pixel of `b` at the same position, or at the mirrored position, in
+ * 1/255. */
 enum { FLIP_X = 1, FLIP_Y = 2 };
 static double difference(const struct kd_frame *a, const struct kd_frame *b, int flip)
 {
@@ -57,8 +58,9 @@ static void the_approaching_side_is_left(void **state)
     }
 }
 
-/* Each of these pairs has the same rays in another order, up to the last bits. A step of 8 bits is 256 steps of the
- * 16-bit values compared here. The disk fades at its edges, and nothing else in the picture is sharp. */
+/* The two pictures of each pair have the same rays in another order, equal up to the last bits. The 16-bit values are
+ * compared to one step of 8 bits, which is 256 steps. The disk fades at its edges, so that nothing in the picture is
+ * sharp. */
 static void symmetries(void **state)
 {
     (void)state;
@@ -94,14 +96,13 @@ static void symmetries(void **state)
         double d = difference(&a, &b, pairs[i].flip);
         if (!(d <= 1))
             fail_msg("%s: off by %g/255", pairs[i].what, d);
-        assert_true(light_between(&a, 0, a.width) > 1); /* checks that the picture is not black, by its total light */
+        assert_true(light_between(&a, 0, a.width) > 1); /* the total light shows that the picture is not black */
         kd_frame_finish(&a);
         kd_frame_finish(&b);
     }
 }
 
-/* A camera that is turned clockwise by a quarter turn has its right-hand side below: a pixel on the right shows what
- * was below. */
+/* If the camera is turned clockwise by a quarter turn, a pixel on the right shows what was below before. */
 static void a_quarter_turn(void **state)
 {
     (void)state;
@@ -120,8 +121,7 @@ static void a_quarter_turn(void **state)
     }
 }
 
-/* When the symmetry is broken the pictures differ. This shows that the pairs above are not equal merely because they
- * are blank. */
+/* Pictures without the symmetry differ. The pairs above are therefore not equal merely because they are blank. */
 static void asymmetries(void **state)
 {
     (void)state;
@@ -132,8 +132,8 @@ static void asymmetries(void **state)
     kd_frame_finish(&a);
 }
 
-/* The rays of 2 x 2 samples are the pixels of a picture twice as large. Their average in linear light is the same up to
- * the rounding to 16 bits; a step of 16 bits is at most 4e-5 in linear light. */
+/* The rays of 2 x 2 samples are the pixels of a picture twice as large. The average of these pixels in linear light
+ * equals the pixel, up to the rounding to 16 bits. A step of 16 bits is at most 4e-5 in linear light. */
 static void samples_are_averages(void **state)
 {
     (void)state;
@@ -158,7 +158,7 @@ static void samples_are_averages(void **state)
     }
 }
 
-/* A stop is a factor of two in linear light. 16 bits resolve 1e-3 of anything above 0.004. */
+/* A stop is a factor of two in linear light. The resolution of 16 bits is 1e-3 of any value above 0.004. */
 static void a_stop_is_a_factor_of_two(void **state)
 {
     (void)state;
@@ -203,7 +203,7 @@ static void the_same_bytes(void **state)
     }
 }
 
-/* Area, centre and extent of the bright part, in pixels. */
+/* Area, centre and extent, in pixels, of the bright part of a picture. */
 struct shape { double area, x, y, xx, yy; };
 static struct shape shape_of(const struct kd_frame *f)
 {
@@ -224,8 +224,8 @@ static struct shape shape_of(const struct kd_frame *f)
     return s;
 }
 
-/* From r = 1000 a disk of 20 M has a perspective of 2 %, and light is bent by another 0.2 %. The tolerance of the shape
- * is therefore 3 %. Half a picture height is 0.0115 rad there. */
+/* At r = 1000 M a disk of 20 M has 2 % of perspective, and 0.2 % of light bending. The tolerance of the shape is
+ * therefore 3 %. Half of the picture's height is 0.0115 rad there. */
 static void far_away_is_infinity(void **state)
 {
     (void)state;
@@ -252,8 +252,8 @@ static void far_away_is_infinity(void **state)
     }
 }
 
-/* Fully transparent gas leaves the sky of a scene without a disk. Rays are followed from another crossing on, and the
- * grid's lines are sharp, so one pixel in 200 may differ. */
+/* Fully transparent gas gives the sky of a scene without a disk. The computation of the rays continues from another
+ * crossing, and the grid's lines are sharp. One pixel in 200 may therefore differ. */
 static void a_transparent_disk(void **state)
 {
     (void)state;
@@ -272,7 +272,8 @@ static void a_transparent_disk(void **state)
             change[1] += fabs(l - studio_light(&thick, x, y, 0));
         }
     assert_in_range(off, 0, 48);
-    /* With a hundredth of the opacity the change is about a hundredth, and more where light passes several times. */
+    /* A hundredth of the opacity changes the picture by about a hundredth, and by more where light passes several
+     * times. */
     assert_true(change[0] > 0.008 * change[1] && change[0] < 0.03 * change[1]);
     kd_frame_finish(&none);
     kd_frame_finish(&clear);

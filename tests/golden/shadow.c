@@ -1,4 +1,4 @@
-/* Tests of the shadow, compared with its outline in closed form, and of the blackness inside. */
+/* Tests that the shadow has the outline of the closed form, and is black inside. */
 #include "studio.h"
 
 #include <math.h>
@@ -10,9 +10,9 @@
 
 #define SIZE(w, h) "\"image\":{\"width\":" #w ",\"height\":" #h ",\"bit_depth\":16,\"critical_factor\":1}"
 
-/* Outline of the shadow for an observer at infinity: (alpha, beta) of the spherical photon orbits (Bardeen 1973), which
- * is independent of the code under test. Only the upper half, beta >= 0, from left to right; for a = 0 it is a
- * circle. */
+/* Outline of the shadow for an observer at infinity, as (alpha, beta) of the spherical photon orbits (Bardeen 1973). It
+ * does not use the code under test. Only the upper half, beta >= 0, is computed, from left to right. For a = 0 the
+ * outline is a circle. */
 #define OUTLINE 400
 static int outline(double a, double inclination, double alpha[OUTLINE], double beta[OUTLINE])
 {
@@ -23,7 +23,7 @@ static int outline(double a, double inclination, double alpha[OUTLINE], double b
         if (a == 0) {
             al = -sqrt(27) * cos(M_PI * i / (OUTLINE - 1));
             be2 = 27 - al * al;
-        } else { /* r between the two equatorial photon orbits */
+        } else { /* radius between those of the two equatorial photon orbits */
             double low = 2 + 2 * cos(2.0 / 3 * acos(-fabs(a))), high = 2 + 2 * cos(2.0 / 3 * acos(fabs(a)));
             double r = 0.5 * (low + high) - 0.5 * (high - low) * cos(M_PI * i / (OUTLINE - 1));
             double xi = (r * r * (3 - r) - a * a * (r + 1)) / (a * (r - 1));
@@ -37,7 +37,7 @@ static int outline(double a, double inclination, double alpha[OUTLINE], double b
     return n;
 }
 
-/* Half height of the outline at this alpha, -1 outside it. */
+/* Half height of the outline at this alpha; -1 if alpha is outside the outline. */
 static double half_height(const double *alpha, const double *beta, int n, double at)
 {
     for (int i = 0; i + 1 < n; i++) {
@@ -48,8 +48,8 @@ static double half_height(const double *alpha, const double *beta, int n, double
     return -1;
 }
 
-/* Every ray inside the outline is black; every ray outside sees the sky, which is nowhere black. A margin of 0.05 M is
- * left out; the errors of the polygon and of single precision are some 1e-4. */
+/* Every ray inside the outline is black; every ray outside sees the sky, which is nowhere black. Pixels within 0.05 M
+ * of the outline are not tested. The errors of the polygon and of single precision are about 1e-4 M. */
 static void the_shadow_has_bardeens_outline(void **state)
 {
     (void)state;
@@ -74,13 +74,13 @@ static void the_shadow_has_bardeens_outline(void **state)
                 if ((be < low && !black) || (be > high + margin && black))
                     fail_msg("a = %g, i = %g: (%g, %g) is %s", a, i, al, be, black ? "black" : "not black");
             }
-        assert_in_range(inside, 4000, 6000); /* the shadow's area is 80 to 85 M^2, a pixel 1/64 */
+        assert_in_range(inside, 4000, 6000); /* the shadow's area is 80 to 85 M^2, and a pixel's 1/64 M^2 */
         kd_frame_finish(&f);
     }
 }
 
-/* Synge 1966: an observer at rest at r sees the hole with the angular radius sin(angle) = sqrt(27 (1 - 2/r))/r, more
- * than a right angle inside r = 3. The camera looking away (yaw 180) sees the rest of the sky. */
+/* Synge 1966: an observer at rest at r sees the hole with an angular radius given by sin(angle) = sqrt(27 (1 - 2/r))/r.
+ * Inside r = 3 this is more than a right angle. The camera looking away (yaw 180) sees the rest of the sky. */
 static void the_shadow_has_synges_angle(void **state)
 {
     (void)state;
@@ -93,7 +93,7 @@ static void the_shadow_has_synges_angle(void **state)
         { 3.5, 160, 0, "static" }, { 2.5, 150, 180, "static" }, { 2.1, 120, 180, "zamo" },
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        /* angle from the direction of the hole, or, inside r = 3, from the opposite direction */
+        /* angle from the direction to the hole; inside r = 3, from the opposite direction */
         double r = cases[k].r, edge = asin(sqrt(27 * (1 - 2 / r)) / r);
         bool away = cases[k].yaw;
         int seen[2] = { 0 };
@@ -116,8 +116,8 @@ static void the_shadow_has_synges_angle(void **state)
     }
 }
 
-/* Face-on without spin: the direct image of radius r is at about b = r + 1, that of the ISCO at 7; a ray within 5.2
- * falls in after one crossing. Neither the film curve nor the dither may raise black. */
+/* Face-on and without spin, the direct image of radius r is at about b = r + 1, and that of the ISCO at 7. A ray within
+ * b = 5.2 falls in after one crossing. Tone curve and dither must leave black at 0. */
 static void the_hole_in_the_disk_is_black(void **state)
 {
     (void)state;

@@ -63,7 +63,8 @@ static const struct kd_assets assets = { NULL, take, give_back, "STUDIO_SKY", NU
 
 int studio_open(void)
 {
-    static struct kd_vk_instance keeper; /* keeps the driver loaded, so that a leak checker can name it */
+    /* keeps the driver loaded, so that a leak checker can report the driver's name */
+    static struct kd_vk_instance keeper;
     struct kd_vk_info *infos;
     struct kd_error error = { 0 };
     size_t n;

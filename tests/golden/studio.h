@@ -13,7 +13,7 @@
 int studio_open(void);
 void studio_close(void);
 
-/* True if kernels can compute in double precision; otherwise prints that `what` is skipped. */
+/* True if kernels can compute in double precision. Otherwise prints that the test of `what` is skipped. */
 bool studio_has_float64(const char *what);
 
 /* A picture of the sky, for sky.image. It shows longitude as colour, a grid every 30 degrees, and discs of 12 degrees:
@@ -28,7 +28,8 @@ struct kd_frame studio_render(const struct kd_scene *scene);
 /* Renders the scene of a document, formatted as by printf, over the preset "smooth". */
 struct kd_frame studio_shoot(const char *json, ...) __attribute__((format(printf, 1, 2)));
 
-/* One sample, c = 0, 1, 2: as a fraction of full scale, and as linear light (the inverse of the sRGB curve). */
+/* One sample of the colour channel c = 0, 1, 2: as a fraction of full scale, and as linear light (the inverse of the
+ * sRGB curve). */
 double studio_value(const struct kd_frame *frame, uint32_t x, uint32_t y, int c);
 double studio_light(const struct kd_frame *frame, uint32_t x, uint32_t y, int c);
 /* Luminance of a pixel by the weights of linear sRGB; -1 if a channel may be clipped. */

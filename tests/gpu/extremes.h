@@ -1,5 +1,5 @@
-/* Shared by the files of the suite of extremes: the table of results, the measure of an error, and the parts of the
- * suite. One thread. */
+/* Shared by the files of the suite of extremes: the table of results, the measure of errors, and the declarations of
+ * the parts. One thread. */
 #ifndef KD_TEST_EXTREMES_H
 #define KD_TEST_EXTREMES_H
 
@@ -9,29 +9,29 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Result of a case for one engine. Errors are divided by 1 + the condition number: relative for r, in radians for phi;
- * NaN: not compared. */
+/* Result of a case for one engine. Errors are divided by 1 + the condition number. Errors of r are relative, those of
+ * phi are in radians. NaN: not compared. */
 struct extreme_row {
     char what[48];
-    const char *engine;         /* such as "mino-rkn6 f32" or "lens map 16" */
+    const char *engine;         /* name of the engine, such as "mino-rkn6 f32" or "lens map 16" */
     size_t rays;                /* number of rays or pixels */
-    double median, most, worst; /* errors of r: the median, the 99th percentile, the largest */
-    double phi;                 /* largest error of phi among crossings beyond 1.6 times the horizon's radius */
-    double bound, phi_bound;    /* the largest allowed `worst` and `phi` */
-    size_t unsure;              /* rays that the answer itself marks as inaccurate */
-    double unsure_most;         /* maximum fraction of such rays */
-    size_t loose;               /* rays whose error exceeds their stated error */
-    /* rays with a number that is not finite, or with a wrong fate or crossing, that the answer does not mark */
+    double median, most, worst; /* errors of r: the median; the 99th percentile; the largest */
+    double phi;                 /* largest error of phi, for crossings beyond 1.6 times the horizon's radius */
+    double bound, phi_bound;    /* largest allowed values of `worst` and `phi` */
+    size_t unsure;              /* number of rays that the answer itself marks as inaccurate */
+    double unsure_most;         /* largest allowed fraction of `unsure` rays */
+    size_t loose;               /* number of rays whose error exceeds their stated error */
+    /* number of rays that are wrong but not marked: a number is not finite, or a fate or crossing is wrong */
     size_t broken;
 };
 
 /* Prints a row, and a heading before the first row. A row fails if `broken` is not 0, a worst error exceeds its bound,
  * more rays than `limit` are unsure, or the errors of more than one ray in a hundred exceed their stated errors. */
 void extreme_row(const struct extreme_row *row);
-/* Number of rows so far, and of those that failed. */
+/* Number of rows so far; number of failed rows so far. */
 size_t extreme_rows(size_t *broken);
 
-/* Sorts the errors, and fills in median, most and worst; NaN if n is 0. */
+/* Sorts the errors. Fills in `median`, `most` and `worst`, with NaN if n is 0. */
 void extreme_spread(double *errors, size_t n, struct extreme_row *row);
 
 /* Condition numbers of the crossings of `path`, measured on the closed form. Each is the sum of |d ln r/d ln x| or |d
@@ -50,11 +50,12 @@ double extreme_x(size_t k);
 double extreme_y(size_t k);
 
 void extreme_closed(void);                           /* the closed form */
-void extreme_rays(struct kd_renderer *renderer);     /* listed rays in f32 and f64 */
-void extreme_lenses(struct kd_renderer *renderer);   /* the lens maps of pictures */
-void extreme_pictures(struct kd_renderer *renderer); /* whole pictures, JSON to pixels */
+void extreme_rays(struct kd_renderer *renderer);     /* part: lists of rays, in f32 and f64 */
+void extreme_lenses(struct kd_renderer *renderer);   /* part: the lens maps of pictures */
+void extreme_pictures(struct kd_renderer *renderer); /* part: whole pictures, from JSON to pixels */
 
-/* Accurate next to 90 and 180 degrees, where the difference of the angles is exact in double. */
+/* Cosine of an angle in degrees. It is accurate next to 90 and 180 degrees, because the difference from these angles is
+ * exact in double precision. */
 static inline double extreme_cos_deg(double i) { return sin((90 - i) * (M_PI / 180)); }
 static inline double extreme_sin_deg(double i) { return sin((i > 90 ? 180 - i : i) * (M_PI / 180)); }
 

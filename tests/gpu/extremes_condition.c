@@ -27,7 +27,7 @@ void extreme_condition(const struct kd_null_ray *ray, const struct kd_null_path 
         r[n] = phi[n] = 0;
     for (int k = 0; k < EXTREME_INPUTS; k++) {
         double w = weight ? weight[k] : 1;
-        /* a smaller difference would be below the rounding, also for a spin */
+        /* a smaller difference would be lost in rounding, also for the spin */
         struct kd_null_path near = moved(ray, k, -step);
         for (int n = 0; n < path->crossings; n++) {
             const struct kd_null_crossing *x = &path->crossing[n], *y = &near.crossing[n];

@@ -1,5 +1,6 @@
 /* Tests of lens maps of pictures at the extremes, for cameras at infinity, and at rest in a locally non-rotating frame
- * next to the horizon. Every plane must be finite. Radii, azimuths and fates are compared with the closed form.
+ * next to the horizon. All values of the lens map must be finite. Radii, azimuths and fates are compared with the
+ * closed form.
  *
  * A picture's ray has labels of single precision. The labels of a finite camera are sums such as E = e_t + e_phi m_phi,
  * which lose digits where the terms cancel. Rays that change their kind when all inputs move by a few roundings are
@@ -25,8 +26,8 @@ struct kernel {
     double bound, phi_bound;
 };
 
-/* Bounds as in docs/accuracy.md. The closed form starts its series at an eighth of the Mino time, and therefore loses
- * one digit at order 7. */
+/* Bounds as in docs/accuracy.md. At order 7 the closed form loses one digit, because it starts its series at an eighth
+ * of the Mino time. */
 static const struct kernel kernels[] = {
     { "lens_closed", { .quantities = KD_LENS_W }, 0, 5e-6, INFINITY },
     { "lens_closed", { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, 0, 5e-6, 2e-6 },
@@ -56,8 +57,8 @@ static struct kd_scene scene_of(const struct camera *v, int steps)
     return scene;
 }
 
-/* The ray of a pixel, computed by the kernel's own arithmetic; and the error of its labels in units of one rounding.
- * False for E <= 0, which the closed form does not support. */
+/* The ray of a pixel, computed in the kernel's own arithmetic, and the error of its labels in units of one rounding.
+ * Returns false for E <= 0, which the closed form does not support. */
 static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int pixel, struct kd_null_ray *ray,
                    double *weight)
 {
@@ -77,7 +78,7 @@ static bool ray_of(const struct camera *v, const struct kd_camera_block *c, int 
         return true;
     float kz = c->c0z + x * c->cxz + y * c->cyz, n = 1 / sqrtf(kx * kx + ky * ky + kz * kz);
     double m_phi = -kz * n, energy = c->e_t + c->e_phi * m_phi,
-           l = c->l_t + c->l_phi * m_phi; /* L of an observer at rest */
+           l = c->l_t + c->l_phi * m_phi; /* angular momentum L of an observer at rest */
     ray->alpha = -l / energy;
     ray->beta = -c->p_theta * ky * n / energy;
     ray->outward = kx > 0;
@@ -113,7 +114,7 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
         double w = 1 / p.crossing[n].r;
         least = fmin(least, fmin(p.crossing[n].sense > 0 ? 1 : w, 1 / kd_hole(v->spin)->outer - w));
     }
-    /* The labels and the motion are computed from a pixel with some twenty roundings. */
+    /* A pixel's labels and motion are computed with some twenty roundings. */
     bool steady = p.status == KD_NULL_OK && least > 1e-6 && extreme_steady(ray, &p, 20 * FLT_EPSILON, weight);
     extreme_condition(ray, &p, 1e-9, weight, gain, phi_gain);
     if (!steady || (p.crossings && gain[p.crossings - 1] > 1e5)) {
@@ -133,8 +134,8 @@ static void judge(const struct camera *v, const struct kd_plan *plan, const floa
     }
 }
 
-/* Within a thousandth of M of the shadow's edge all rays are unsure. Close to the horizon of an extremal hole all rays
- * from infinity have L = 2E within 1e-4, so that the labels lose half of their digits. */
+/* Rays within 1e-3 M of the shadow's edge are all unsure. Close to the horizon of an extremal hole, all rays from
+ * infinity have L = 2E to 1e-4, so that the labels lose half of their digits. */
 static double unsure_most(const struct camera *v)
 {
     return v->field < 1e-4 && isinf(v->r) ? 1 : fabs(v->spin) > 0.999 && v->r < 1.001 ? 0.5 : 0.1;

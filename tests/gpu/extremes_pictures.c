@@ -13,7 +13,7 @@
 struct picture {
     const char *what, *json;
     bool lit;         /* at least one pixel must shine */
-    uint64_t binding; /* maximum bytes of a buffer, to force many bands; 0: the device's */
+    uint64_t binding; /* largest size of a buffer in bytes, which forces many bands; 0: the device's own */
 };
 
 #define SMALL "\"image\":{\"width\":48,\"height\":27}"
@@ -119,8 +119,8 @@ static const struct picture pictures[] = {
       "deg\":90,"
       "\"fov_deg\":179},\"sky\":{\"model\":\"grid\"}," SMALL "}",
       true, 0 },
-    /* With a = 0 and r = L^(2/3) = 2.4957 M, the divisor in g of a circular orbit, E (r^(3/2) + a) - L, vanishes in
-     * single precision in some thirty pixels. */
+    /* For a = 0 and r = L^(2/3) = 2.4957 M, the divisor in g of a circular orbit, E (r^(3/2) + a) - L, is 0 in single
+     * precision in some thirty pixels. */
     { "inside the photon orbit, E = Omega L",
       "{\"spacetime\":{\"spin\":0},\"camera\":{\"inclination_deg\":80,\"centre_alpha\":-4,\"centre_beta\":2.2892487,"
       "\"field_m\":5e-5},"
@@ -131,7 +131,7 @@ static const struct picture pictures[] = {
       false, 0 },
 };
 
-/* Reads the first floats of a device buffer. */
+/* Reads the first n floats of a device buffer. */
 static enum kd_status read_back(struct kd_vk *vk, struct kd_vk_buffer *from, uint64_t bytes, float *to,
                                 struct kd_error *error)
 {
@@ -149,7 +149,7 @@ static enum kd_status read_back(struct kd_vk *vk, struct kd_vk_buffer *from, uin
     return status;
 }
 
-/* Number of pixels whose radiance is negative or not a number; *lit: some are bright. */
+/* Number of pixels whose radiance is negative or not a number. *lit: true if some pixels are bright. */
 static size_t wrong_light(struct kd_renderer *renderer, const struct kd_plan *plan, bool *lit, struct kd_error *error)
 {
     size_t wrong = 0;

@@ -1,6 +1,6 @@
 /* Tests of listed rays at the extremes, by the engine in Mino time in both precisions. They are compared with the
  * closed form and with their own stated errors. A result may be wrong only if the engine marks the ray as undecided or
- * states a large enough error. From a finite radius every second ray starts outwards. */
+ * states a large enough error. For observers at a finite radius, every second ray starts outwards. */
 #include "extremes.h"
 
 #include "physics/spacetime/kerr.h"
@@ -17,7 +17,7 @@ enum { ORDERS = 8, RAYS = 192 };
 
 struct view {
     double spin, inclination, r;
-    double critical; /* > 0: rays at this relative distance from the edge of the shadow */
+    double critical; /* above 0: rays are placed at this relative distance from the edge of the shadow */
     double charge;
 };
 
@@ -107,7 +107,7 @@ static void make(const struct view *v, struct list *list)
 
 static bool all_finite(const struct kd_ray_end *e, const struct kd_ray_crossing *c)
 {
-    bool told = e->n_crossings || e->fate == KD_RAY_ESCAPED; /* a ray without numbers needs no stated error */
+    bool told = e->n_crossings || e->fate == KD_RAY_ESCAPED; /* a ray without results need not state an error */
     bool ok = (isnan(e->error) ? !told : isfinite(e->error) && e->error >= 0) &&
               (e->fate != KD_RAY_ESCAPED || (isfinite(e->theta) && isfinite(e->phi)));
     for (uint32_t n = 0; n < e->n_crossings; n++)
@@ -120,7 +120,8 @@ struct tally {
     size_t n;
 };
 
-/* Compares those crossings of one ray that the answer states to be accurate. fault: error of the reference itself. */
+/* Compares those crossings of a ray that the answer states to be accurate. fault: error of the expected values
+ * themselves. */
 static void judge_crossings(const struct view *v, const struct kd_null_path *p, const struct kd_ray_end *e,
                             const struct kd_ray_crossing *c, const double *gain, const double *phi_gain,
                             struct tally *t)
@@ -130,7 +131,7 @@ static void judge_crossings(const struct view *v, const struct kd_null_path *p, 
         double r = fmax(fabs(c[n].r / x->r - 1) - x->error_r, 0) / (1 + gain[n]);
         double phi = fmax(turn(c[n].phi - x->phi) - x->error_phi, 0) / (1 + phi_gain[n]);
         t->r[t->n++] = r;
-        bool thrown = p->turned && p->fate == KD_NULL_CAPTURED; /* excluded for the reason in docs/accuracy.md */
+        bool thrown = p->turned && p->fate == KD_NULL_CAPTURED; /* excluded; docs/accuracy.md gives the reason */
         if (x->r > 1.6 * kd_hole_charged(v->spin, v->charge).outer && !thrown)
             t->phi = fmax(t->phi, phi);
     }
@@ -189,8 +190,8 @@ static void trace(struct kd_renderer *renderer, const struct view *v, const char
                                .phi_bound = wide ? 1e-9 : 2e-6,
                                .unsure_most = 0.05 };
     struct kd_error error = { 0 };
-    /* The bound is larger next to the horizon, where half a turn leads far out or back in with the usual number of
-     * steps. */
+    /* The bound is larger next to the horizon. There half a turn in latitude leads far out or back in, in the usual
+     * number of steps. */
     if (v->r < 1.1 * kd_hole_charged(v->spin, v->charge).outer) {
         row.bound = wide ? 2e-8 : 1e-4;
         row.unsure_most = 0.1;

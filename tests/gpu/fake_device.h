@@ -1,5 +1,6 @@
 /* Simulates a device with properties that no driver here has: lower limits, incoherent memory, a lost device. After
- * `fake_device_on`, its functions replace those of the real driver in the layer's table. One thread. */
+ * `fake_device_on`, the functions of the simulated device replace the real driver's in the function table of src/vk.
+ * One thread. */
 #ifndef KD_TEST_FAKE_DEVICE_H
 #define KD_TEST_FAKE_DEVICE_H
 
@@ -7,14 +8,16 @@
 
 #include "vk/functions.h"
 
-/* 0: the driver's own value */
+/* members below: 0 means the driver's own value */
 struct fake_device {
-    uint32_t groups;                    /* workgroups of a dispatch along x and y */
+    uint32_t groups;                    /* largest number of workgroups of a dispatch along x and y */
     uint64_t binding, allocation, heap; /* bytes */
-    uint64_t budget;                    /* budget of each heap; adds VK_EXT_memory_budget to the device */
-    uint32_t texels, uniform;           /* maximum texels and bytes of a binding */
-    bool incoherent; /* no memory is coherent: the host sees a copy, which only flushes and invalidations update */
-    int lost_at;     /* number, from 1, of the submission that loses the device */
+    /* budget of each heap in bytes; if set, the device also has VK_EXT_memory_budget */
+    uint64_t budget;
+    uint32_t texels, uniform; /* largest number of texels, and of bytes, of a binding */
+    /* true: no memory is coherent; the host sees a copy, which only flushes and invalidations update */
+    bool incoherent;
+    int lost_at; /* number, from 1, of the submission at which the device is lost */
 };
 
 static struct fake_device fake;
@@ -22,7 +25,7 @@ static struct kd_vk_functions fake_real;
 static int fake_submissions;
 static unsigned fake_flushes, fake_invalidations;
 
-/* The host's copy of a block, which is filled with garbage at first. */
+/* The host's copy of a block. It is first filled with garbage. */
 static struct fake_memory {
     VkDeviceMemory memory;
     VkDeviceSize size;
@@ -102,7 +105,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Extensions(VkPhysicalDevice device, c
     return result;
 }
 
-/* Requests for the simulated extension are not passed to the driver. */
+/* Removes the simulated extension from a request, because the driver may not have it. */
 static VKAPI_ATTR VkResult VKAPI_CALL fake_CreateDevice(VkPhysicalDevice device, const VkDeviceCreateInfo *info,
                                                         const VkAllocationCallbacks *allocator, VkDevice *out)
 {
@@ -154,7 +157,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Map(VkDevice device, VkDeviceMemory m
     return result;
 }
 
-/* Checks that a range consists of whole atoms, of the largest size that Vulkan allows, inside its block. */
+/* Checks that a range is inside its block and consists of whole atoms, of the largest size that Vulkan allows. */
 static struct fake_memory *fake_range(const VkMappedMemoryRange *range)
 {
     struct fake_memory *m = fake_find(range->memory);
@@ -199,7 +202,7 @@ static VKAPI_ATTR VkResult VKAPI_CALL fake_Submit(VkQueue queue, uint32_t n, con
         fn->name = (by); \
     }
 
-/* Called when the instance's functions are loaded, and again when the device's are. */
+/* Called when the functions of the instance are loaded, and again when those of the device are. */
 static void fake_plant(struct kd_vk_functions *fn)
 {
     FAKE_REPLACE(GetPhysicalDeviceProperties, fake_Properties)
@@ -220,7 +223,7 @@ static void fake_plant(struct kd_vk_functions *fn)
     FAKE_REPLACE(InvalidateMappedMemoryRanges, fake_Invalidate)
 }
 
-/* Devices opened from now on have these properties. All must be closed before the next call. */
+/* Devices opened from now on have these properties. All these devices must be closed before the next call. */
 static inline void fake_device_on(const struct fake_device *device)
 {
     fake = *device;

@@ -1,5 +1,5 @@
-// Sets y to y * scale plus the element i of each kind of binding. TABLE is packed tightly, which only the standard
-// layout permits.
+// Sets y to y * scale plus element i of each kind of binding. The elements of TABLE are packed without gaps; a uniform
+// block may have them only in the standard layout.
 #version 450
 #extension GL_EXT_samplerless_texture_functions : require
 #extension GL_EXT_scalar_block_layout : require

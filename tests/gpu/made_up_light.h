@@ -7,10 +7,11 @@
 #include "render/frame/job.h"
 
 enum { MOST = 640 * 360 };
-static float light[3 * MOST]; /* linear sRGB, of as many pixels as the plan has */
+static float light[3 * MOST]; /* light in linear sRGB, for each pixel of the plan */
 static uint16_t pixels[3 * MOST], others[3 * MOST];
 
-/* Shows the light as pixels of 16 bits, with its first `lit` rows complete; returns the exposure applied. */
+/* Shows the light as pixels of 16 bits. lit: number of rows, from the top, whose light is complete. Returns the
+ * exposure that was used. */
 static inline double show_light(const struct kd_scene *scene, const struct kd_plan *plan, uint32_t lit, uint16_t *out)
 {
     struct kd_vk *vk = renderer->vk;

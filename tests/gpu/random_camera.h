@@ -1,4 +1,4 @@
-/* Random cameras: every observer, every spin, all radii, motions and projections. */
+/* Random cameras with all kinds of observers, spins, radii, motions and projections. */
 #ifndef KD_TEST_RANDOM_CAMERA_H
 #define KD_TEST_RANDOM_CAMERA_H
 
@@ -53,7 +53,7 @@ static void random_camera(struct kd_random *random, int side, struct kd_scene *s
     c->inclination_deg = below(random, 3) ? between(random, 0, 180) : angles[below(random, 5)];
     s->image.width = s->image.height = side;
     s->image.critical_factor = 1;
-    s->accuracy.orders = below(random, 2) ? 1 : 3; /* only two values, so that few kernels have to be compiled */
+    s->accuracy.orders = below(random, 2) ? 1 : 3; /* one of two values, so that few kernels have to be compiled */
     s->sky.model = KD_SKY_GRID;
     if (!below(random, 8)) {
         c->r = INFINITY;
@@ -74,8 +74,8 @@ static void random_camera(struct kd_random *random, int side, struct kd_scene *s
     }
 }
 
-/* Makes a random camera with a spin close to 1 and a radius close to the horizon, where image orders have small
- * islands. An infalling observer is sometimes within the horizon. */
+/* Makes a random camera for a spin close to 1, at a radius close to the horizon. There image orders have small islands.
+ * An infalling observer is sometimes within the horizon. */
 static void random_camera_near_horizon(struct kd_random *random, int side, struct kd_scene *s)
 {
     struct kd_camera *c = &s->camera;

@@ -1,5 +1,5 @@
-/* Shared by the tests of src/render: one renderer under the validation layer. At the end the layer must have reported
- * no error. */
+/* Shared by the tests of src/render: one renderer with Vulkan's validation layer, which must have reported no error at
+ * the end. */
 #ifndef KD_TEST_RENDER_SUPPORT_H
 #define KD_TEST_RENDER_SUPPORT_H
 
@@ -13,7 +13,7 @@ static struct kd_renderer *renderer;
 /* provider of the scenes' assets, which a test sets before it opens the renderer */
 static const struct kd_assets *renderer_assets;
 
-/* 0 if there is a renderer, otherwise the exit status, skipped or failed. */
+/* Opens the renderer. Returns 0, or the exit status for a skipped or failed test. */
 static inline int open_renderer(void)
 {
     int skip = skip_without_device();
@@ -23,14 +23,14 @@ static inline int open_renderer(void)
     const char *device = getenv("KERRD_TEST_DEVICE");
     struct kd_renderer_params params = {
         .device = device ? device : "auto", .validate = true, .assets = renderer_assets, .passing = true
-    }; /* the costs learned in a test are not stored for other programs */
+    }; /* learned costs are not stored, so that other programs do not use those of a test */
     if (!kd_renderer_create(&params, &renderer, &error))
         return 0;
     fprintf(stderr, "%s\n", error.message);
     return 1;
 }
 
-/* True if kernels can compute in double precision on this device; otherwise prints which case is skipped. */
+/* True if kernels can compute in double precision on this device; otherwise prints the name of the skipped case. */
 static inline bool has_float64(const char *what)
 {
     struct kd_capacity capacity;
@@ -40,7 +40,7 @@ static inline bool has_float64(const char *what)
     return capacity.float64;
 }
 
-/* The frame of a scene, by a plan for this device. */
+/* Renders a frame of the scene, by a plan for this device. */
 static inline struct kd_frame rendered(const struct kd_scene *scene)
 {
     struct kd_capacity c;
@@ -53,7 +53,7 @@ static inline struct kd_frame rendered(const struct kd_scene *scene)
     return frame;
 }
 
-/* Time that a pass of a frame took, ms; NAN: it did not run. */
+/* Time of a pass of a frame in ms; NAN if the pass did not run. */
 static inline double timing_of(const struct kd_frame *frame, const char *pass)
 {
     for (size_t i = 0; i < frame->n_timings; i++)
@@ -64,7 +64,7 @@ static inline double timing_of(const struct kd_frame *frame, const char *pass)
 
 static inline bool ran(const struct kd_frame *frame, const char *pass) { return !isnan(timing_of(frame, pass)); }
 
-/* Linear light of an sRGB value in [0, 1] (IEC 61966-2-1); of a sample of 16 bits. */
+/* Linear light of an sRGB value in [0, 1] (IEC 61966-2-1), and of a sample of 16 bits. */
 static inline double decode(double v) { return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4); }
 static inline double shown(const uint16_t *picture, size_t i) { return decode(picture[i] / 65535.0); }
 

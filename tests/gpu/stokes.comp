@@ -1,5 +1,5 @@
-// Passes light through a length of matter by shaders/light/stokes.glsl. Input: 10 numbers of the matter. Output: 8
-// numbers, for the transmitted light from behind and for the light of the matter itself.
+// Computes the light behind a length of matter by shaders/light/stokes.glsl. Input: 10 numbers of the matter. Output: 8
+// numbers, 4 for light that enters from behind and 4 for the matter's own light.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #define real float

@@ -32,7 +32,7 @@
             fail_msg("%s: %s: %s", #call, kd_status_name(got), error.message); \
     } while (0)
 
-/* Asserts this status, and a message that contains `part`. */
+/* Asserts that the status is this one, and that the message contains `part`. */
 #define FAILS(status_, part, call) \
     do { \
         struct kd_error error = { 0 }; \
@@ -51,7 +51,7 @@ static inline void keep_drivers_loaded(void)
         kd_vk_instance_init(&keeper, false, NULL);
 }
 
-/* Returns 0 if there is a device; otherwise prints why there is none and returns 77. */
+/* Returns 0 if there is a device. Otherwise prints the reason and returns 77. */
 static inline int skip_without_device(void)
 {
     keep_drivers_loaded();
@@ -109,8 +109,8 @@ static inline void mix(struct kd_vk *vk, const struct kd_vk_pipeline *pipeline, 
                       &error));
 }
 
-/* Bindings of kinds.comp: a uniform block, texels of one float, texels of four, storage, texels of one word, texels of
- * two. */
+/* The bindings of kinds.comp: a uniform block; texels of 1 float; texels of 4 floats; storage; texels of 1 word; texels
+ * of 2 words. */
 struct kinds_block {
     uint32_t n;
     float scale, table[6];

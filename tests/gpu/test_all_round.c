@@ -1,6 +1,5 @@
-/* Tests that pictures of all directions have no edges. The light of a star is the same everywhere, also on the seam
- * between left and right and at the poles, and so is the glare of a lens. The hole is so far away that space is
- * flat. */
+/* Tests that panoramas have no visible edges. The light of a star is the same everywhere, also on the seam between left
+ * and right and at the poles. This holds for the glare of a lens too. The hole is so far away that space is flat. */
 #include "render/sky/frame.h"
 #include "render/sky/star.h"
 #include "render/view/camera.h"
@@ -51,7 +50,7 @@ static bool put(struct kd_scene *scene, double x, double y)
     return true;
 }
 
-/* Total light of a picture: radiance times the solid angle of each pixel, over the star's flux. */
+/* Total light of a picture: the sum of radiance times solid angle over all pixels, divided by the star's flux. */
 static double light_of(const struct kd_scene *scene, bool bright)
 {
     struct kd_needs needs = kd_needs_of(scene);
@@ -74,9 +73,10 @@ static double light_of(const struct kd_scene *scene, bool bright)
     return sum * pixel / kd_star_flux(kd_catalogue_star(0).magnitude);
 }
 
-/* The star is put on the seam, at the poles, and in the rows of pixels beside them that it can reach by turning the
- * sky. Pixels are 2.8 degrees wide. Next to a pole a map of second order does not represent the whole turn. When only
- * bright images are drawn, positions of images in two tiles of 25 degrees differ at their border by up to 0.2 rays. */
+/* The sky is turned so that the star is on the seam, at the poles, and in the rows of pixels beside the poles that the
+ * turn can reach. Pixels are 2.8 degrees wide. Next to a pole a second-order map does not represent a whole turn. If
+ * only bright images are drawn, the positions of images in two adjacent tiles of 25 degrees differ by up to 0.2 rays at
+ * the border. */
 static void a_star_anywhere(void **state)
 {
     (void)state;

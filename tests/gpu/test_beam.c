@@ -1,5 +1,5 @@
-/* Tests of a telescope's beam, and of brightness in false colour: synthetic light goes through the passes beam, expose,
- * bloom and post. The oracle sums a Gaussian over all pixels of the picture in double precision. */
+/* Tests of a telescope's beam, and of brightness in false colours. Synthetic light goes through the passes beam,
+ * expose, bloom and post. The oracle sums a Gaussian over all pixels of the picture in double precision. */
 #include "made_up_light.h"
 
 #include "image/colour_map.h"
@@ -26,8 +26,8 @@ static struct kd_scene scene_of(const struct look *look)
     scene.style.dither = false;
     scene.style.bloom = look->bloom;
     scene.style.palette = look->heat ? KD_PALETTE_HEAT : KD_PALETTE_COLOUR;
-    /* M of a solar mass is 1476.6250385 m, and a parsec is 3.0856775814913673e16 m. At a thousandth of a parsec 100 M
-     * are 987 uas wide. */
+    /* GM/c^2 of a solar mass is 1476.6250385 m, and a parsec is 3.0856775814913673e16 m. At a distance of 1e-3 pc, 100
+     * M are 987 uas wide. */
     scene.spacetime.mass_msun = 1;
     scene.spacetime.distance_pc = 1e-3;
     scene.camera.field_m = 100;
@@ -36,7 +36,7 @@ static struct kd_scene scene_of(const struct look *look)
     return scene;
 }
 
-/* Shows the light as pixels of 16 bits; returns the exposure applied. */
+/* Shows the light as pixels of 16 bits. Returns the exposure that was used. */
 static double show(const struct look *look, uint16_t *out)
 {
     struct kd_scene scene = scene_of(look);
@@ -53,7 +53,7 @@ static double show(const struct look *look, uint16_t *out)
     return show_light(&scene, &plan, look->lit ? (uint32_t)look->lit : plan.picture.height, out);
 }
 
-/* Points, thin rings and a ramp up to the edges, which are difficult for a coarse grid. */
+/* Points, thin rings, and a ramp that reaches the edges. A coarse grid represents such light worst. */
 static void make_light(int width, int height)
 {
     static const double rings[][4] = { { 0.4, 0.5, 0.23, 1 }, { 0.41, 0.52, 0.31, 0.4 }, { 0.97, 0.1, 0.2, 0.7 } };
@@ -70,7 +70,7 @@ static void make_light(int width, int height)
     }
 }
 
-/* The Gaussian's weights at the centres of n pixels, about one of them; normalised over all integers. */
+/* Weights of a Gaussian about one of n pixels, at the centres of all n. They are normalised over all integers. */
 static void weights_of(double *out, int n, int about, double sigma)
 {
     double sum = 0;
@@ -150,7 +150,7 @@ static void a_point_stays_where_it_is(void **state)
     }
 }
 
-/* The bytes depend neither on the positions of bands and slices nor on whether cells are texels or storage. */
+/* The bytes do not depend on where bands and slices end, or on whether cells are read as texels or as storage. */
 static void bands_and_readers(void **state)
 {
     (void)state;
@@ -170,15 +170,15 @@ static void bands_and_readers(void **state)
             assert_memory_equal(pixels, others, bytes);
         }
         look.rows = 0;
-        info->max_texels = 4608; /* the device binds only as many texels as the tables need */
+        info->max_texels = 4608; /* the device binds just as many texels as the tables need */
         show(&look, others);
         info->max_texels = texels;
         assert_memory_equal(pixels, others, bytes);
     }
 }
 
-/* The unfinished part of a picture is dark. Finished rows look as they would in a picture whose other rows are dark.
- * The beam does not change the light itself, so that the next preview is correct. */
+/* The unfinished part of a picture is dark. Finished rows look as they would if all other rows were dark. The beam does
+ * not change the stored light, so the next preview is correct too. */
 static void what_is_not_lit_is_dark(void **state)
 {
     (void)state;
@@ -213,8 +213,8 @@ static void no_numbers_are_no_light(void **state)
     }
 }
 
-/* "auto" makes the brightest place white, to within the eighth of a stop that the histogram resolves. No pixel is
- * clipped. */
+/* With exposure "auto" the brightest place becomes white, to the histogram's resolution of an eighth of a stop. No
+ * pixel is clipped. */
 static void exposure_is_of_what_the_beam_sees(void **state)
 {
     (void)state;
@@ -231,8 +231,9 @@ static void exposure_is_of_what_the_beam_sees(void **state)
     }
 }
 
-/* Each brightness has its colour of the map, also after a tone curve and for coloured light, whose luminance counts. A
- * table of 1024 entries is linear between them. Beyond white and below black the colours at the ends apply. */
+/* Each brightness has its colour of the colour map, also after a tone curve. Coloured light is shown by its luminance.
+ * The map is linear between the 1024 entries of its table. Above white and below black, the colours at the ends of the
+ * map are used. */
 static void brightness_has_the_colour_of_the_map(void **state)
 {
     (void)state;
@@ -259,7 +260,7 @@ static void brightness_has_the_colour_of_the_map(void **state)
     assert_true(worst < 2e-3);
 }
 
-/* Without a beam there is no cost: no bytes and no pass. A map in false colour has no beam. */
+/* A picture without a beam needs neither memory nor a pass for it. A map in false colour has no beam. */
 static void none_is_nothing(void **state)
 {
     (void)state;

@@ -1,12 +1,12 @@
-/* Tests of the glare of a lens: synthetic light goes through the passes bloom and post. The oracle sums Gaussians of
- * the stated widths, mirrored at the edges, in double precision. */
+/* Tests of the glare of a lens. Synthetic light goes through the passes bloom and post. The oracle sums Gaussians of
+ * the stated widths in double precision, mirrored at the edges. */
 #include "made_up_light.h"
 
 #include <math.h>
 
 static bool all_round; /* true if the pictures show all directions */
 
-/* Shows the light as pixels of 16 bits, proportional to it. rows: the number of rows in a band; 0: all. */
+/* Shows the light as pixels of 16 bits that are proportional to it. rows: number of rows in a band; 0: all rows. */
 static void show(int width, int height, double bloom, int rows, uint16_t *out)
 {
     struct kd_scene scene;
@@ -53,8 +53,9 @@ static void make_light(int width, int height)
     }
 }
 
-/* Spread light leaves its place and arrives elsewhere. The sum of each channel is conserved, also at the picture's
- * edges, and for sizes that are not a multiple of a grid's cell. Pixels are rounded to 16 bits, 1e-5 on average. */
+/* Spread light leaves its pixel and arrives in others. The sum of each channel is conserved, also at the picture's
+ * edges, and for sizes that are not a multiple of a grid cell. Rounding to 16 bits causes an error of 1e-5 on average.
+ * */
 static void energy(void **state)
 {
     (void)state;
@@ -77,15 +78,15 @@ static void energy(void **state)
             if (fabs(after / before - 1) > 2e-4)
                 fail_msg("%d x %d, channel %d: %.9g became %.9g", width, height, c, before, after);
         }
-        assert_true(moved > 2e-4 || height < 10); /* the light must contain some that is spread */
+        assert_true(moved > 2e-4 || height < 10); /* checks that some light is spread */
     }
 }
 
-/* The part of the light that is spread, as in docs/physics: luminance y above 0.6 of white, with a knee from 0.2 to 1.
- */
+/* The part of the light that is spread, as in docs/physics: luminance y above 0.6 of white. The threshold is smooth,
+ * with a knee from y = 0.2 to 1. */
 static double taken(double y) { return y <= 0.2 ? 0 : y >= 1 ? y - 0.6 : (y - 0.2) * (y - 0.2) / 1.6; }
 
-/* One dimension of a Gaussian over n pixels, for light at `from`; light beyond the edges is mirrored. */
+/* A Gaussian in one dimension over n pixels, about the pixel `from`. Light beyond the edges is mirrored. */
 static double gauss(double from, double at, int n, double sigma)
 {
     double sum = 0;
@@ -124,8 +125,8 @@ static void convolve(const double *in, double *out, int width, int height, doubl
         }
 }
 
-/* Tests white light on black. The splines of each width approximate a Gaussian of the same variance, within 4 % of the
- * largest spread brightness. */
+/* Tests white light on black. For each width, the splines approximate a Gaussian of the same variance. The error is
+ * below 4 % of the largest spread brightness. */
 static void widths(void **state)
 {
     (void)state;
@@ -190,8 +191,9 @@ static void a_point(void **state)
     }
 }
 
-/* The light of a point is centred on it. Its centroid is displaced by at most half a pixel if the pass sums two pixels
- * first, and by at most one and a half if it sums four. The widest Gaussian is reflected at the edge of the picture. */
+/* The light of a point is centred on it. Its centroid is displaced by at most 0.5 pixels if the pass first sums pairs
+ * of pixels, and by at most 1.5 if it sums groups of four. The widest Gaussian is reflected at the edge of the picture.
+ * */
 static void a_point_stays(void **state)
 {
     (void)state;
@@ -208,7 +210,7 @@ static void a_point_stays(void **state)
                 light[3 * (py * w + px) + c] = 60;
             show(w, h, 1, 0, pixels);
             for (int i = 0; i < w * h; i++) {
-                /* the point itself is clipped, so its mirror image nearby is taken */
+                /* takes the mirror image nearby, because the point itself is clipped */
                 const double v = i == py * w + px ? 0 : shown(pixels, 3 * i);
                 sum += v;
                 x += v * (i % w - px);
@@ -219,7 +221,7 @@ static void a_point_stays(void **state)
         }
 }
 
-/* The bytes depend neither on the positions of bands nor on whether cells are texels or storage. */
+/* The bytes do not depend on where bands end, or on whether cells are read as texels or as storage. */
 static void bands_and_readers(void **state)
 {
     (void)state;
@@ -244,7 +246,7 @@ static void bands_and_readers(void **state)
     }
 }
 
-/* Light that is not bright is unchanged. NaN and infinity do not affect other pixels. */
+/* Light below the threshold is unchanged. NaN and infinity do not affect other pixels. */
 static void others_unharmed(void **state)
 {
     (void)state;
@@ -254,7 +256,7 @@ static void others_unharmed(void **state)
     light[3 * AT] = NAN;
     light[3 * (AT + 900) + 1] = INFINITY;
     show(W, H, 1, 0, others);
-    /* tolerance: the array `others` does not contain the spread light of these two places */
+    /* tolerance: `others` lacks the light that these two places spread */
     for (int i = 0; i < 3 * W * H; i++)
         assert_true(i / 3 == AT || i / 3 == AT + 900 || abs(pixels[i] - others[i]) <= 40);
     make_light(W, H);
@@ -265,7 +267,8 @@ static void others_unharmed(void **state)
     assert_memory_equal(pixels, others, 6 * W * H);
 }
 
-/* A picture of half the size looks the same: its pixels are the means of four of the large one, to 1 % of white. */
+/* A picture of half the size looks the same: each pixel is the mean of four pixels of the large picture, to 1 % of
+ * white. */
 static void any_size(void **state)
 {
     (void)state;
@@ -288,7 +291,8 @@ static void any_size(void **state)
     assert_true(worst < 0.02);
 }
 
-/* In a picture of all directions light spreads across the seam: the picture shifted by half a turn is the same. */
+/* In a panorama light spreads across the seam between left and right. A picture shifted by half a turn therefore gives
+ * the same pixels, shifted. */
 static void over_the_seam(void **state)
 {
     (void)state;
@@ -314,7 +318,7 @@ static void over_the_seam(void **state)
             memcpy(others, pixels, sizeof pixels);
             show(w, h, 1, 0, out);
             for (int i = 0; i < 3 * w * h && !half;
-                 i++) /* for comparison: the same picture without light across the seam */
+                 i++) /* for comparison: the same picture without light across the seam, in `others` */
                 differ = abs(pixels[i] - others[i]) > differ ? abs(pixels[i] - others[i]) : differ;
         }
         all_round = false;
@@ -328,8 +332,8 @@ static void over_the_seam(void **state)
     }
 }
 
-/* In pictures of all directions no spread light is lost, whatever the bands are, and whether cells are read as texels
- * or not. */
+/* In panoramas no spread light is lost. This holds for any bands, and for cells that are read as texels or as storage.
+ * */
 static void all_round_too(void **state)
 {
     all_round = true;

@@ -1,6 +1,6 @@
 /* Tests of bodies along rays. Their images are compared with the Kerr-Schild oracle, which does not use Mino time. The
- * oracle measures the distance at which a ray passes a place along a wave front. Also tested: their light, mutual
- * hiding of bodies, disk and hole, and extreme numbers. */
+ * oracle measures, along a wave front, the distance at which a ray passes a position. Other tests: the bodies' light;
+ * bodies, disk and hole that hide one another; extreme numbers. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -22,7 +22,7 @@ static struct kd_scene scene_of(const char *json)
     return scene;
 }
 
-/* The photon of a place of the picture, in pixels from its upper left corner. */
+/* The photon of a point of the picture. x, y: pixels from the upper left corner. */
 static struct ks_photon photon_of(const struct kd_scene *scene, double px, double py)
 {
     const double theta = scene->camera.inclination_deg * M_PI / 180;
@@ -37,7 +37,7 @@ static struct ks_photon photon_of(const struct kd_scene *scene, double px, doubl
                                   scene->camera.observer == KD_OBSERVER_ZAMO, k);
 }
 
-/* The first encounter of the ray with the scene's first body; b exceeds the body's radius if there is none. */
+/* The ray's first encounter with the scene's first body. If there is none, b exceeds the body's radius. */
 static struct ks_near first_of(const struct kd_scene *scene, double px, double py)
 {
     const struct kd_body *b = &scene->bodies.at[0];
@@ -57,8 +57,8 @@ static const float *intensity(const struct kd_frame *frame)
     return layer->data;
 }
 
-/* Images of order 0 and 1, and of higher orders, from infinity and from nearby. At least the given number of pixels
- * must show one. */
+/* Images of order 0, 1 and higher, seen from infinity and from nearby. At least the given number of pixels must show an
+ * image. */
 static const struct view {
     const char *json;
     int lit;
@@ -102,8 +102,8 @@ static const struct view {
       12 },
 };
 
-/* For a pixel about which picture and oracle disagree: the distance in pixels of the image's edge from its expected
- * place, from the slope of b. */
+/* For a pixel on which picture and oracle disagree: distance in pixels of the image's edge from its expected position,
+ * computed from the slope of b. */
 static double off_by(const struct kd_scene *scene, int x, int y)
 {
     const double radius = scene->bodies.at[0].radius;
@@ -138,7 +138,7 @@ static void test_places(void **state)
     }
 }
 
-/* The metric at the scene's first body: -g_tt, g_tphi, g_phiphi, which are sufficient for motion along phi. */
+/* Metric at the scene's first body: -g_tt, g_tphi and g_phiphi. Motion along phi needs no other components. */
 struct metric { double tt, tp, pp; };
 
 static struct metric metric_of(const struct kd_scene *scene)
@@ -150,8 +150,8 @@ static struct metric metric_of(const struct kd_scene *scene)
                              (r * r + a * a + a * a * mass * s2 / sigma) * s2 };
 }
 
-/* 1/g of matter that moves with the angular velocity Omega, or with a velocity along phi relative to zero angular
- * momentum. */
+/* 1/g of matter that moves along phi, with the angular velocity Omega or with a velocity relative to an observer of
+ * zero angular momentum. */
 static double shift_of(const struct kd_scene *scene, const struct ks_photon *p)
 {
     const struct kd_body *b = &scene->bodies.at[0];
@@ -182,7 +182,7 @@ static void test_light(void **state)
         "{\"motion\":\"velocity\",\"velocity_phi\":-0.7,\"limb_darkening\":0,\"brightness\":3}",
     };
     const size_t n = sizeof motions / sizeof *motions;
-    for (size_t view = 0; view < 2 * n; view++) { /* views of the second half are about a charged hole */
+    for (size_t view = 0; view < 2 * n; view++) { /* in the second half of the views the hole is charged */
         const size_t k = view % n;
         char json[512];
         snprintf(json, sizeof json,
@@ -213,7 +213,7 @@ static void test_light(void **state)
     }
 }
 
-/* The camera sees either a body or an opaque disk: the one that is nearer along the ray, that is, whose light left
+/* The camera sees either a body or an opaque disk, whichever is nearer along the ray. The nearer one's light left
  * later. */
 static void test_order(void **state)
 {
@@ -262,7 +262,7 @@ static void test_order(void **state)
     }
 }
 
-/* Each of many bodies has the same image as it has alone. */
+/* Each body of a scene with many bodies has the same image as alone. */
 static void test_tree(void **state)
 {
     (void)state;
@@ -364,7 +364,7 @@ static void test_layers(void **state)
     struct kd_frame frame = rendered(&scene);
     int lit = 0;
     for (int i = 0; i < PIXELS; i++) {
-        if (!(intensity(&frame)[i] > 0) || layer_at(&frame, "r", i) <= 10) /* dark, or the disk */
+        if (!(intensity(&frame)[i] > 0) || layer_at(&frame, "r", i) <= 10) /* the pixel is dark, or shows the disk */
             continue;
         const struct ks_photon photon = photon_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5);
         const double x = first_of(&scene, i % WIDTH + 0.5, i / WIDTH + 0.5).b / 2;

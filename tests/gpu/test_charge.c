@@ -1,6 +1,6 @@
-/* Tests the errors of every engine about charged holes, by the Kerr-Schild oracle. They are compared with the errors of
- * the same engine about uncharged holes whose horizons are equally far apart. With --markdown it prints the table of
- * docs/accuracy.md. */
+/* Tests the errors of every engine for charged holes, by the Kerr-Schild oracle. They are compared with the same
+ * engine's errors for uncharged holes with the same distance between the horizons. With --markdown it prints the table
+ * of docs/accuracy.md. */
 #include "kerr_schild.h"
 #include "base/random.h"
 #include "render/rays/rays.h"
@@ -12,12 +12,12 @@
 
 enum { HOLES = 20, RAYS = 25, ORDERS = 3, MOST = HOLES * RAYS * ORDERS };
 
-/* Two uncharged or charged holes of a set have the same horizons if sqrt(a^2 + q^2) is the same, as in the first two.
- */
+/* Sets of holes. Holes with the same sqrt(a^2 + q^2) have the same horizons; the first two sets differ only in that the
+ * second has charge. */
 static const struct set {
     const char *name;
     bool charged;
-    double decades[2]; /* range of 1 - a^2 - q^2, as powers of ten */
+    double decades[2]; /* smallest and largest exponent of 1 - a^2 - q^2 as a power of ten */
 } sets[] = {
     { "Q = 0, a² to 0.99", false, { 0, -2 } },
     { "a² + Q² to 0.99", true, { 0, -2 } },
@@ -35,7 +35,7 @@ static double between(struct kd_random *random, double low, double high)
     return low + (high - low) * kd_random(random);
 }
 
-/* The list has numbers that both precisions represent exactly. */
+/* The numbers in the list are exact in single and in double precision. */
 static void prepare(void)
 {
     for (int s = 0; s < SETS; s++) {
@@ -59,8 +59,8 @@ static void prepare(void)
     }
 }
 
-/* Errors over 1 + the condition number for the labels. differ: rays with another fate or number of crossings. loose:
- * rays whose error exceeds the stated one. */
+/* Errors over 1 + the condition number for the labels. differ: number of rays with another fate or number of crossings
+ * than the oracle's. loose: number of rays whose error exceeds the stated error. */
 struct errors {
     double r[MOST], phi[MOST];
     size_t n, n_phi, rays, differ, loose;
@@ -75,7 +75,7 @@ static void judge(const struct view *v, const struct kd_ray_crossing *crossings,
     for (int k = 0; k < RAYS; k++) {
         const struct ks_path *p = &v->paths[k], *q = &v->beside[k];
         if (p->crossings != q->crossings || p->fate != q->fate || p->fate == KS_UNDECIDED)
-            continue; /* skipped, because the oracle's ray changes its kind when it is moved by a millionth */
+            continue; /* skipped, because a shift by a millionth changes the kind of the oracle's ray */
         const int wanted = p->crossings < ORDERS ? p->crossings : ORDERS;
         double worst = 0, gain = 0;
         e->rays++;
@@ -93,7 +93,8 @@ static void judge(const struct view *v, const struct kd_ray_crossing *crossings,
             if (p->r[n] > far)
                 e->phi[e->n_phi++] = turn_of(c->phi - p->phi[n]) / (1 + turn_of(q->phi[n] - p->phi[n]) / 1e-6);
         }
-        e->loose += worst > ends[k].error + 1e-10 * (1 + gain) * (1 + worst); /* allows for the oracle's own error */
+        /* adds the oracle's own error to the stated error */
+        e->loose += worst > ends[k].error + 1e-10 * (1 + gain) * (1 + worst);
     }
 }
 
@@ -126,8 +127,8 @@ static void measure(int set, enum kd_engine engine, enum kd_precision precision,
     qsort(e->phi, e->n_phi, sizeof *e->phi, by_size);
 }
 
-/* Bounds of the worst errors of r and phi, and of the number of rays that differ, for each set: some three times the
- * measured values. The first bound contains the oracle's own error. */
+/* For each set, bounds of the worst errors of r and phi, and of the number of rays that differ. They are about three
+ * times the measured values. The first bound includes the oracle's own error. */
 static const struct row {
     enum kd_engine engine;
     enum kd_precision precision;
@@ -162,8 +163,8 @@ static void tell(const struct row *row, int set, const struct errors *e)
                       e->r[e->n / 2], e->r[e->n - 1], e->phi[e->n_phi / 2], e->phi[e->n_phi - 1], e->differ, e->loose);
 }
 
-/* A charge costs no digits: the median error is at most 1.5 times that without charge, and the worst is within its
- * bound. The stated error is a bound for 99 rays in a hundred. */
+/* A charge costs no accuracy: the median error is at most 1.5 times that without charge, and the worst error is within
+ * its bound. For 99 rays in a hundred the error is below the stated error. */
 static void test_engines(void **state)
 {
     static struct errors e;

@@ -1,5 +1,6 @@
-/* Tests that two paths of the transfer kernel give the same light for the same rays. Pixels of one ray are processed in
- * columns, which skip crossings that no emitter reaches. Pixels of several rays visit each crossing. */
+/* Tests that two paths of the transfer kernel give the same light for the same rays. For pixels of one ray, the kernel
+ * processes columns, and skips crossings that no emitter reaches. For pixels of several rays, it visits each crossing.
+ * */
 #include "render/device/device_internal.h"
 #include "render/render.h"
 
@@ -7,7 +8,7 @@
 
 #include <math.h>
 
-/* Compares pixels of 2 x 2 rays with those of one ray of a picture twice as wide and high. */
+/* Compares a picture with 2 x 2 rays a pixel with a picture twice as wide and high with one ray a pixel. */
 static void assert_same_light(struct kd_scene scene)
 {
     const int w = 96, h = 61; /* the last column of pixels has two rows */
@@ -59,8 +60,8 @@ static void test_disk(void **state)
         scene_of("{\"disk\":{\"inner\":12,\"outer\":15,\"taper\":0},\"camera\":{\"r\":20,\"inclination_deg\":60}}"));
 }
 
-/* The crossings of a column are bits of one word: eight rows of three orders, six rows of five, or four rows of eight.
- */
+/* The bits of one word stand for the crossings of a column: eight rows of three image orders, six rows of five, or four
+ * rows of eight. */
 static void test_many_orders(void **state)
 {
     (void)state;
@@ -105,7 +106,7 @@ static void assert_same_readers(struct kd_scene scene)
         struct kd_frame between = rendered(&other);
         kd_frame_finish(&between);
     }
-    /* the device binds enough texels for the emitters' tables, but fewer than the lens map has */
+    /* the device can bind the texels of the emitters' tables, but not those of the lens map */
     info->max_texels = 1u << 17;
     assert_false(kd_kernels_map_as_texels(renderer->vk));
     struct kd_frame of_storage = rendered(&scene);
@@ -117,8 +118,8 @@ static void assert_same_readers(struct kd_scene scene)
 }
 
 /* Footprints and light are the same to the byte whether the lens map and the emitters' buffers are read as texels or as
- * storage. This is tested on the grid and on pixels at the critical curve, for crossings, the sky, stars with other
- * light and alone, and particles. */
+ * storage. This is tested for pixels of the grid and pixels at the critical curve, and for crossings, the sky, stars
+ * (alone, and with other light), and particles. */
 static void test_readers(void **state)
 {
     (void)state;

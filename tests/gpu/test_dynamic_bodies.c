@@ -1,5 +1,5 @@
 /* Tests of a playground in pictures. Images of its bodies and their order are compared with the Kerr-Schild oracle. A
- * body looks the same as a body of a scene, in front of and behind the disk and the hole. Also tested: the light of
+ * body looks the same as a body of a scene, in front of and behind the disk and the hole. Other tests: the light of
  * debris, and invalid sets of bodies. */
 #include "render_support.h"
 
@@ -12,7 +12,7 @@
 
 enum { WIDTH = 24, HEIGHT = 18, PIXELS = WIDTH * HEIGHT, MOST = 8, MANY = 4096, FINE = 64 };
 #define RADIUS 0.15
-#define LEAST_K 3000.0 /* bodies are identified by their temperatures: each is 2 K hotter than the one before */
+#define LEAST_K 3000.0 /* bodies are recognised by their temperatures, which increase by 2 K from body to body */
 
 static struct kd_scene scene_of(const char *json)
 {
@@ -40,7 +40,7 @@ static double chance(void)
     return (seed >> 8) * 0x1p-24;
 }
 
-/* Bodies all round the hole, from 7.5 to 20 M. */
+/* Bodies in all directions round the hole, at 7.5 to 20 M. */
 static struct kd_playground *many(double spin)
 {
     struct kd_playground_params params = kd_playground_defaults();
@@ -56,7 +56,7 @@ static struct kd_playground *many(double spin)
                                            .temperature_k = LEAST_K + 2 * i,
                                            .x = { r * s * cos(phi), r * s * sin(phi), r * u },
                                            .v = { -0.3 * sin(phi), 0.3 * cos(phi), 0 } };
-        /* a motion at the edge between two kinds gives an error, and another motion is drawn */
+        /* for a motion at the edge between two kinds, the function returns an error; another motion is then drawn */
         struct kd_error none;
         i += !kd_playground_add(p, &body, NULL, &none);
     }
@@ -71,7 +71,7 @@ static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, d
     const int n = ks_passes(ks_from_infinity(scene->spacetime.spin, cos(theta), alpha, beta), b->r, b->u, b->phi,
                             within, MOST, at);
     double least = INFINITY;
-    for (int i = 0; i < n; i++) /* the first body that the ray meets, or otherwise the nearest */
+    for (int i = 0; i < n; i++) /* the first body that the ray meets; if it meets none, the nearest body */
         if (least > RADIUS && at[i].b < least) {
             least = at[i].b;
             *delay = at[i].delay;
@@ -79,7 +79,7 @@ static double pass(const struct kd_scene *scene, const struct kd_seen_body *b, d
     return least;
 }
 
-/* The centre of an image near a place. Returns the image's width, or 0 if none is found. */
+/* Finds the centre of an image near a point. Returns the image's width, or 0 if there is no image. */
 static double image_near(const struct kd_scene *scene, const struct kd_seen_body *b, double at[2], double step)
 {
     double delay, least = pass(scene, b, at[0], at[1], 8, &delay);
@@ -174,7 +174,7 @@ static void test_places(void **state)
         const double ahead = s * x[0] + c * x[2], across[2] = { x[1], s * x[2] - c * x[0] },
                      impact = hypot(across[0], across[1]);
         double at[2] = { across[0], across[1] }, size;
-        if (ahead < 0 || impact > 6) { /* skipped, because light that passes the hole closely is bent too much */
+        if (ahead < 0 || impact > 6) { /* skipped, because light that passes close to the hole is bent too much */
             const double more = impact < 8 && ahead < 0 ? sqrt(impact * impact + 4 * -ahead) : impact + 1;
             at[0] *= more / fmax(impact, 0.1);
             at[1] *= more / fmax(impact, 0.1);
@@ -205,8 +205,8 @@ static struct kd_dynamic_bodies *one(const struct kd_seen_body *body, size_t n)
     return dynamic;
 }
 
-/* A body of a playground has the same pixels, to the bit, as a body of a scene, and hides the same objects. Bodies of
- * scenes are tested by test_bodies.c. */
+/* A body of a playground has the same pixels, to the bit, as a body of a scene, and hides the same objects.
+ * test_bodies.c tests bodies of scenes. */
 static void test_as_a_scene_has_it(void **state)
 {
     (void)state;
@@ -294,8 +294,8 @@ static void test_dark(void **state)
     kd_frame_finish(&bare);
 }
 
-/* 1/g of matter moving with (v_r, v_phi) relative to the observer of zero angular momentum, from the photon's own
- * components, in the equatorial plane. */
+/* 1/g of matter in the equatorial plane that moves with (v_r, v_phi) relative to the observer of zero angular momentum.
+ * Computed from the photon's components. */
 static double shift_of(double a, double q, double r, const struct ks_photon *p, double p_z, bool falls,
                        const double v[2])
 {
@@ -373,7 +373,7 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
 {
     const double inner = kd_disk_inner(scene), outer = scene->disk.outer,
                  radius = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
-    static double heat[FINE]; /* the heat of this scene's disk, computed once for all bodies */
+    static double heat[FINE]; /* flux at each radius of this scene's disk, computed once for all bodies */
     double sum = 0;
     for (int i = 0; i < FINE; i++)
         for (int k = 0; k < FINE; k++) {
@@ -383,7 +383,7 @@ static double falls_on(const struct kd_scene *scene, const double at[3], const d
             const double d[3] = { r * cos(phi) - at[0], r * sin(phi) - at[1], -at[2] },
                          d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], length = sqrt(d2);
             const double cosine = (normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]) / length,
-                         /* the speed of a circular orbit in Schwarzschild's metric, relative to an observer at rest */
+                         /* speed of a circular orbit in the Schwarzschild metric, relative to an observer at rest */
                 v = 1 / sqrt(r - 2);
             const double towards = v * (sin(phi) * d[0] - cos(phi) * d[1]) / length,
                          g = sqrt((1 - 2 / r) / (1 - 2 / radius)) * sqrt(1 - v * v) / (1 - towards);
@@ -418,8 +418,8 @@ static void test_lit_moving(void **state)
                          t = kd_disk_heat(&scene, at);
             const double d[3] = { at * cos(phi) - r * s, at * sin(phi), -r * u },
                          length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), gas = 1 / sqrt(at - 2);
-            /* The photon flies along -d. For the gas its energy is gamma (1 + v.d); for the body it has the boosted
-             * components. */
+            /* The photon moves along -d. Its energy in the gas's frame is gamma (1 + v.d). Its components in the body's
+             * frame are the boosted ones. */
             const double k4[4] = { 1, -(s * d[0] + u * d[2]) / length, -(u * d[0] - s * d[2]) / length,
                                    -d[1] / length };
             const double emitted = (1 + gas * (-sin(phi) * d[0] + cos(phi) * d[1]) / length) / sqrt(1 - gas * gas);
@@ -473,7 +473,8 @@ static void test_lit(void **state)
                                                                          .temperature_k = 5000,
                                                                          .albedo = 0.5 },
                                                 1);
-        /* Light is bent only weakly. In this wide picture a first estimate of the image's place is therefore enough. */
+        /* In this wide picture light is bent only weakly. A first estimate of the image's position is therefore
+         * accurate enough. */
         double image[2] = { at[1], sin(i) * at[2] - cos(i) * at[0] };
         const double ahead = sin(i) * at[0] + cos(i) * at[2], impact = hypot(image[0], image[1]),
                      more = ahead < 0 ? 4 * -ahead / impact / impact : 0;
@@ -500,7 +501,7 @@ static void test_lit(void **state)
     }
 }
 
-/* Every case gives finite pixels. */
+/* Extreme bodies give finite pixels. */
 static void test_adversarial(void **state)
 {
     (void)state;
@@ -532,7 +533,7 @@ static void test_adversarial(void **state)
     }
 }
 
-/* A scene without bodies of a playground has no cost for them: its plan has no emitter for them. */
+/* A scene without bodies of a playground has no emitter for them in its plan, and therefore no cost. */
 static void test_off(void **state)
 {
     (void)state;

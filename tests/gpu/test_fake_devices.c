@@ -25,8 +25,8 @@ static enum kd_status open(struct kd_renderer **out, struct kd_error *error)
     return kd_renderer_create(&params, out, error);
 }
 
-/* 0: a map of radii, bands and exposure; 1: a sky and a camera nearby; 2: particles, hot spots and the measured light
- */
+/* kind of scene. 0: map of radii, bands and exposure. 1: sky, and a camera nearby. 2: particles, hot spots, and light
+ * that is measured. */
 static struct kd_scene scene_of(int k)
 {
     struct kd_scene scene;
@@ -87,7 +87,7 @@ static void same(const struct answers *a, const struct answers *b)
         assert_true(x->light.measured == y->light.measured);
         if (x->light.measured)
             assert_true(fabs(x->light.all.flux / y->light.all.flux - 1) <
-                        1e-6); /* tolerance: the light is summed in another order than on the real device */
+                        1e-6); /* tolerance: this device sums the light in another order than the real one */
     }
     assert_memory_equal(a->crossings, b->crossings, sizeof a->crossings);
     assert_memory_equal(a->ends, b->ends, sizeof a->ends);
@@ -115,7 +115,7 @@ static void answer_as(const struct fake_device *device)
     forget(&answers);
 }
 
-/* The device has fewer workgroups than a picture has blocks of pixels, although everything fits in one binding. */
+/* The device allows fewer workgroups than a picture has blocks of pixels, while everything fits in one binding. */
 static void test_groups(void **state)
 {
     (void)state;
@@ -123,7 +123,8 @@ static void test_groups(void **state)
     answer_as(&(struct fake_device) { .groups = 40 });
 }
 
-/* Allocations are smaller than a binding. The last picture then has two bands, with slices of half a band. */
+/* The device allows only allocations smaller than a binding. The last picture then has two bands, with slices of half a
+ * band. */
 static void test_allocation(void **state)
 {
     (void)state;
@@ -136,7 +137,7 @@ static void test_binding(void **state)
     answer_as(&(struct fake_device) { .binding = 700000 });
 }
 
-/* The device has fewer texels than a band, so kernels read storage. */
+/* The device binds fewer texels than a band has, so that kernels read storage. */
 static void test_texels(void **state)
 {
     (void)state;
@@ -151,12 +152,13 @@ static void test_incoherent(void **state)
     answer_as(&(struct fake_device) { .incoherent = true });
 }
 
-/* A lost device is abandoned together with all memory that the driver has for it; this is not counted as a leak. */
+/* A lost device is abandoned, together with all memory that the driver has allocated for it. This memory does not count
+ * as leaked. */
 void __lsan_disable(void) __attribute__((weak));
 void __lsan_enable(void) __attribute__((weak));
 
-/* For every operation and every n, the n-th submission loses the device. The operation must end with an error that says
- * so, without a crash. */
+/* For each operation and each n, the device is lost at the n-th submission. The operation must end with an error that
+ * says so, without a crash. */
 static void test_lost(void **state)
 {
     (void)state;
@@ -196,7 +198,7 @@ static void test_heap(void **state)
     fake_device_off();
 }
 
-/* Only the part of a large heap that other programs leave free counts as available. */
+/* Of a large heap, only the part that other programs leave free counts as available. */
 static void test_budget(void **state)
 {
     (void)state;
@@ -245,10 +247,11 @@ static void test_large_pictures(void **state)
             assert_int_equal(status, KD_OK);
             uint64_t pixels = (uint64_t)plan.picture.width * plan.picture.band_rows,
                      at_curve = plan.lens.critical_part * plan.lens.critical;
-            assert_true((pixels + 3) / 4 <= 65535ull * 64);                          /* post */
-            assert_true((uint64_t)plan.picture.band_rows * plan.lens.side <= 65535); /* rows of the trace pass */
+            assert_true((pixels + 3) / 4 <= 65535ull * 64); /* post */
+            /* workgroups of the trace pass along y, one for each row of rays */
+            assert_true((uint64_t)plan.picture.band_rows * plan.lens.side <= 65535);
             assert_true((uint64_t)plan.picture.width * plan.lens.side <= 65535ull * 64);
-            assert_true((at_curve + 63) / 64 <= 65535); /* the trace pass at the critical curve */
+            assert_true((at_curve + 63) / 64 <= 65535); /* workgroups of the trace pass at the critical curve */
             assert_true(4ull * plan.lens.planes * pixels * plan.lens.side * plan.lens.side + 16 <= UINT32_MAX);
             assert_true(kd_plan_pixel_bytes(&plan.light) * pixels <= UINT32_MAX);
             assert_true((uint64_t)plan.picture.bands * plan.picture.band_rows >= plan.picture.height);

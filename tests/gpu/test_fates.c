@@ -23,15 +23,16 @@ enum { SIDE = 24, RAYS = SIDE * SIDE, MOST_ORDERS = 3 };
 static unsigned cameras = 40, first;
 static uint64_t seed = 36;
 
-/* Expected fates and orders of a picture; -1: undetermined. */
+/* Expected fates and image orders of a picture; -1: undetermined. */
 struct truth {
     double alpha_beta[2 * RAYS];
     bool outward[RAYS];
     int fate[RAYS], orders[RAYS];
 };
 
-/* R(w) = E^2 + A w^2 + 2 K w^3 - D w^4 has no zero between an observer within the horizon and infinity. The photon
- * came from outside if E + a (aE - L) w^2 is positive at the horizon (docs/physics/observers.md). */
+/* Fate for an observer within the horizon. The photon came from infinity if R(w) = E^2 + A w^2 + 2 K w^3 - D w^4 has no
+ * zero between the observer and infinity, and if E + a (aE - L) w^2 is positive at the horizon
+ * (docs/physics/observers.md). */
 static int fate_within(const struct kd_camera_exact *c, const struct kd_camera_label *label)
 {
     enum { PLACES = 4000 };
@@ -101,7 +102,7 @@ static void tell(const struct kd_scene *s, unsigned number, const char *what, ui
 
 /* The captured part of the sky of an equirectangular picture is the area inside the critical curve. The tolerance is
  * two pixels times the curve's length, plus the undecided pixels. An observer at 0.999999 c next to a horizon has many
- * of these: labels that are divided by E cannot represent their rays even in double precision. */
+ * undecided pixels, because labels divided by E cannot represent their rays, even in double precision. */
 static void judge_share(const struct kd_scene *scene, unsigned number, const float *fate, struct tally *t)
 {
     const struct kd_camera *c = &scene->camera;
@@ -115,13 +116,13 @@ static void judge_share(const struct kd_scene *scene, unsigned number, const flo
         return;
     const double pixel = 2 * M_PI / SIDE;
     double captured = 0, undecided = 0;
-    for (int i = 0; i < RAYS; i++) { /* the picture's height is half a turn */
+    for (int i = 0; i < RAYS; i++) { /* the picture's height corresponds to half a turn */
         const double up = M_PI / SIDE * (i / SIDE + 0.5) - M_PI / 2;
         const double size = pixel * 2 * sin(M_PI / (2 * SIDE)) * cos(up);
         captured += fate[i] == KD_FATE_CAPTURED ? size : 0;
         undecided += fate[i] == KD_FATE_UNDECIDED ? size : 0;
     }
-    /* the curve is at most as long as the circumference of the circle of that area, plus the asymmetry */
+    /* the curve's length is at most the circumference of the circle with that area, plus a term for the asymmetry */
     const double length = 2 * M_PI * fmin(1, sin(fmin(m.mean_radius, M_PI / 2))) + 4 * m.asymmetry;
     t->shares++;
     if (fabs(captured - m.area) > 2 * pixel * length + pixel * pixel + undecided) {
@@ -190,8 +191,10 @@ static const struct once_random {
     uint64_t seed;
     unsigned number;
 } once_random[] = {
-    { random_camera, 7, 998 }, /* steps near an extremal hole missed the second crossing of a circling ray */
-    { random_camera_near_horizon, 91, 4891 }, /* steps moved a crossing at r = 1.016 M inside the horizon */
+    /* near an extremal hole, steps missed the second crossing of a ray that circles the hole */
+    { random_camera, 7, 998 },
+    /* a step moved a crossing from r = 1.016 M to the inside of the horizon */
+    { random_camera_near_horizon, 91, 4891 },
 };
 
 static void judge_one(make_camera *make, uint64_t from, unsigned number, struct tally *t)

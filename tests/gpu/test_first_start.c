@@ -1,6 +1,6 @@
-/* Tests that a device is tested when kerrd first uses it, and not again. A start with another driver, with another
- * kerrd, or after the file was damaged counts as a first use. A device that computes wrongly causes a warning, and is
- * tested again at each start. */
+/* Tests that kerrd tests a device at its first use only. A start counts as a first use if the driver or kerrd has
+ * another version, or if the file was damaged. A device that computes wrongly causes a warning, and is tested again at
+ * each start. */
 #include "render_support.h"
 
 #include "render/selftest/first_start.h"
@@ -80,11 +80,11 @@ static void test_not_this_one(void **state)
         if (k == 0)
             other[strlen(other) / 2] = 0;
         else if (k == 1)
-            other[version - text + 6] = '9'; /* the record of another version */
+            other[version - text + 6] = '9'; /* a record by another version */
         else if (k == 2)
             snprintf(other, sizeof other, "[1, 2]");
         else
-            memcpy(strstr(other, "\"of\": \"") + 7, "ffffffff", 8); /* the record of another device */
+            memcpy(strstr(other, "\"of\": \"") + 7, "ffffffff", 8); /* a record of another device */
         write_all(path, other);
         r = start(false);
         assert_int_equal(kd_renderer_verdict(r)->result, KD_UNTESTED);

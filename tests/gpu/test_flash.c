@@ -1,7 +1,7 @@
 /* Tests of the echo of a flash. Its light is compared with sums over rays of the Kerr-Schild oracle, both from the lamp
  * to the disk and from the disk to the observer. It is also compared with the impulse response of physics/disk/echo.h,
- * whose rays, table and sums are not those of a picture. Far from the hole the ring is where a parabolic mirror would
- * show it. */
+ * which uses other rays, a table and other sums than a picture. Far from the hole the ring is where a parabolic mirror
+ * would focus it. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -34,7 +34,7 @@ static struct kd_scene flash_scene(double spin, double charge, double inclinatio
     return scene;
 }
 
-/* The light of a picture that is not shown. */
+/* The linear light of a picture, without showing it. */
 static struct kd_light light(const struct kd_scene *scene)
 {
     struct kd_capacity c;
@@ -61,7 +61,7 @@ static double off(double got, double want, double scale, double bound, const cha
 }
 
 /* -1/(u^t)^2 of a circular motion in the plane, from the metric g_tt = -(1 - f), g_tphi = -a f, g_phiphi = r^2 + a^2 +
- * a^2 f with f = (2r - q^2)/r^2; and the angular velocity at which the radial force vanishes, by differences. */
+ * a^2 f with f = (2r - q^2)/r^2; and the angular velocity for which the radial force is 0, found by differences. */
 static double line(const struct kd_spacetime *hole, double r, double omega)
 {
     const double a = hole->spin, f = (2 * r - hole->charge * hole->charge) / (r * r);
@@ -80,7 +80,7 @@ static double orbit_omega(const struct kd_spacetime *hole, double r)
 }
 
 /* Light of the lamp on the disk by rays of the oracle, in steps of x = ln tan(delta/2), where delta is the angle from
- * the direction to the hole. A ray that arrives at the lamp and is traced back has the same radii and times as a ray
+ * the direction to the hole. A ray that arrives at the lamp, traced backwards, has the same radii and times as a ray
  * that leaves the lamp.
  */
 enum { RAYS = 801 };
@@ -88,7 +88,7 @@ struct lit {
     int n;
     double r[RAYS], time[RAYS], light[RAYS], largest;
 };
-static const double AXIS = 1e-5; /* polar angle of the lamp; it is not 0, so that the lamp has an azimuth */
+static const double AXIS = 1e-5; /* polar angle of the lamp; above 0, so that the lamp has an azimuth */
 
 static double between(const struct lit *lit, const double *values, double r)
 {
@@ -127,7 +127,7 @@ static void light_up(struct lit *lit, const struct kd_scene *scene, double isco)
             lit->largest = fmax(lit->largest, lit->light[k]);
 }
 
-/* Light of a crossing in the plane. */
+/* Light of the crossing of the ray with the plane. */
 static double crossing_light(const struct kd_scene *scene, const struct lit *lit, const struct ks_photon *p,
                              const struct ks_path *path, int k)
 {
@@ -203,7 +203,7 @@ static void test_oracle(void **state)
     printf("against the oracle: flux within %.2g\n", worst);
 }
 
-/* The photons of the echo over time are its impulse response, convolved with the flash. */
+/* The number of the echo's photons over time equals the impulse response convolved with the flash. */
 #ifndef SIDE
 #define SIDE 600
 #endif
@@ -239,7 +239,8 @@ static void test_impulse_response(void **state)
         struct kd_echo echo;
         const double edges[] = { 1e-3, 4 }, first = -20, step = 0.05, sharp = 1 / scene.flash.duration;
         OK(kd_echo_impulse(&image, &params, edges, 1, first, step, TIMES, share, &echo, &error));
-        /* All photons, divided by the largest illumination, from the line's sum, which is in units of epsilon. */
+        /* Number of all photons divided by the largest illumination, from the sum for the line, which is in units of
+         * epsilon. */
         const struct kd_line_params line_params = { .inner = image.isco,
                                                     .outer = scene.disk.outer,
                                                     .emissivity = KD_LINE_LAMPPOST,
@@ -274,10 +275,11 @@ static void test_impulse_response(void **state)
     }
 }
 
-/* In flat space light travels from the lamp at z = h over a place x to an observer in the direction n in the time |x -
- * h| - n x. The ring is therefore a section of a paraboloid. The hole adds to first order 2 ln((r_1 + r_2 + d)/(r_1 +
- * r_2 - d)) in isotropic coordinates, r - 1 (I. I. Shapiro 1964), and for the second way 2 ln(2/(r + n x)) after r_o +
- * 2 ln r_o is taken off. The ring is seen at b of A. M. Beloborodov 2002, ApJ 566, L85. */
+/* In flat space, light from the lamp at z = h that is scattered at x reaches an observer in the direction n after the
+ * time |x - h| - n x. The ring is therefore a section of a paraboloid. To first order, the hole delays light on the way
+ * to x by 2 ln((r_1 + r_2 + d)/(r_1 + r_2 - d)) (I. I. Shapiro 1964), with isotropic radii r - 1. On the way to the
+ * observer the delay is 2 ln(2/(r + n x)), after r_o + 2 ln r_o is subtracted. The ring appears at the impact parameter
+ * b of A. M. Beloborodov 2002, ApJ 566, L85. */
 static void test_far_out(void **state)
 {
     (void)state;
@@ -303,8 +305,8 @@ static void test_far_out(void **state)
     printf("far out the ring is within %.2g of its radius\n", worst);
 }
 
-/* A flash that repeats shows the same picture at each period, and between them what a single flash shows. Without slow
- * light the ring is round. Nothing is visible before the flash. */
+/* A repeating flash gives the same picture at each period, and between the periods the picture of a single flash.
+ * Without slow light the ring is round. Nothing is visible before the first flash. */
 static void test_course(void **state)
 {
     (void)state;
@@ -324,7 +326,8 @@ static void test_course(void **state)
     off(light(&scene).flux, 3 * single, single, 1e-5, "brightness");
 }
 
-/* Lens maps do not change with time; without a flash there is no delay in them. An opaque disk hides the echo below. */
+/* Lens maps do not change with time. Without a flash a lens map has no delays. An opaque disk hides the echo below it.
+ * */
 static void test_plans(void **state)
 {
     (void)state;

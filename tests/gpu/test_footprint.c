@@ -1,6 +1,6 @@
-/* Tests of footprints of the lens map. They are compared with finite differences of the Kerr-Schild oracle, which
- * traces rays a thousandth of a step apart in double precision (tests/oracle). The two share no formula: here the
- * singular value comes from the angle that maximises it. */
+/* Tests of footprints of the lens map. Expected values are finite differences of the Kerr-Schild oracle (tests/oracle),
+ * for rays a thousandth of a step apart, in double precision. Kernel and test share no formula: the test finds the
+ * singular value by a search for the angle that maximises it. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/device/device_internal.h"
@@ -16,15 +16,15 @@
 #define WIDTH 160
 #define HEIGHT 90
 #define ORDERS 3
-/* Step of the oracle's differences, in steps of the camera. Their truncation error is its square, and their rounding
- * error 1e-12 divided by it. */
+/* Step of the finite differences, in steps of the camera. The truncation error is the square of the step. The rounding
+ * error is 1e-12 divided by the step. */
 #define NUDGE 1e-3
 
 struct view {
     const char *name;
-    double a, inclination, r; /* r: INFINITY, or a pinhole camera at r */
+    double a, inclination, r; /* INFINITY, or the radius r of a pinhole camera */
     double field;             /* M, or degrees */
-    int steps;                /* 0: the plan chooses the closed form */
+    int steps;                /* 0: the closed form, chosen by the plan */
     bool listed;
     bool ring;
 };
@@ -91,7 +91,7 @@ static const float *plane(const struct kd_plan *plan, const float *planes, uint3
     return planes + (kd_lens_plane(plan->lens.quantities, plan->lens.orders, quantity) + n) * plan->lens.rays;
 }
 
-/* The photon at (x, y), in steps from the upper left ray. */
+/* The photon at (x, y). x, y: steps from the upper left ray. */
 static struct ks_photon photon(const struct view *v, const struct kd_scene *scene, double x, double y)
 {
     double theta = v->inclination * M_PI / 180, step = v->field / WIDTH;
@@ -114,7 +114,7 @@ struct spot {
     bool there;
 };
 
-/* End of a ray, in M from the middle or as a direction. */
+/* End of a ray: its crossing in M from the middle, or its direction on the sky. */
 static struct spot spot_of(const struct ks_path *p, int n)
 {
     if (n < ORDERS)
@@ -123,7 +123,7 @@ static struct spot spot_of(const struct ks_path *p, int n)
     return (struct spot) { s * cos(p->sky_phi), s * sin(p->sky_phi), p->u, p->fate == KS_ESCAPED };
 }
 
-/* The change from ray to ray along (dx, dy), in M or radians; NAN if undefined. */
+/* Derivative of the end along (dx, dy), in M or radians per step of the camera; NAN if it is undefined. */
 struct change { double x, y, z; };
 static struct change change_of(const struct ks_path *p, const struct ks_path *q, double r, int n)
 {
@@ -151,7 +151,7 @@ static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene,
         double r = n < ORDERS && n < at[0].crossings ? at[0].r[n] : NAN;
         const struct change i = change_of(&at[1], &at[2], r, n), j = change_of(&at[3], &at[4], r, n);
         out.of[n] = 0;
-        for (int k = 0; k < 720; k++) { /* the longest image of a unit vector */
+        for (int k = 0; k < 720; k++) { /* length of the longest image of a unit vector */
             double c = cos(k * M_PI / 720), s = sin(k * M_PI / 720);
             out.of[n] = fmax(out.of[n],
                              sqrt(pow(c * i.x + s * j.x, 2) + pow(c * i.y + s * j.y, 2) + pow(c * i.z + s * j.z, 2)));
@@ -165,8 +165,9 @@ static struct sizes sizes_at(const struct view *v, const struct kd_scene *scene,
     return out;
 }
 
-/* Smallest and largest size here and at the four neighbours; NAN if one of them is missing. A difference over a step is
- * the derivative somewhere on the step, so a footprint lies between these two sizes. */
+/* Smallest and largest footprint of this pixel and its four neighbours; NAN if one of them has none. The kernel's
+ * finite difference over a step equals the derivative somewhere on the step. Its footprint is therefore between these
+ * two values. */
 struct range { struct sizes own, least, most; };
 
 static struct range range_at(const struct view *v, const struct kd_scene *scene, double x, double y, double way)
@@ -190,7 +191,7 @@ struct tally {
     double errors[WIDTH * HEIGHT], shapes[WIDTH * HEIGHT];
 };
 
-/* noise: the error of the map's own arithmetic, relative to the size. */
+/* noise: error of the map's own arithmetic, relative to the footprint's size. */
 static void judge(struct tally *t, const struct range *range, int n, double got, double slack, double noise)
 {
     double own = range->own.of[n], least = range->least.of[n], most = range->most.of[n];
@@ -201,15 +202,15 @@ static void judge(struct tally *t, const struct range *range, int n, double got,
         return;
     }
     t->errors[t->n++] = fabs(got / own - 1);
-    /* `least` and `most` are samples between which the long axis turns, and the kernel includes the second difference.
-     * Both effects are of second order in the step, which the slack allows for. */
+    /* The long axis turns between the samples `least` and `most`, and the kernel includes the second difference. These
+     * effects are of second order in the step. The slack allows for them. */
     if (got < least * (1 - slack - noise) || got > most * (1 + slack + noise)) {
         t->outside++;
         print_message("  order %d: %.6g, the oracle's %.6g between %.6g and %.6g\n", n, got, own, least, most);
     }
 }
 
-/* Compares the shape with the numbers that shaders/shared/lens.h packs into one. */
+/* Compares the shape with the numbers that shaders/shared/lens.h packs into one word. */
 static void judge_shape(struct tally *t, const struct sizes *own, int n, float packed)
 {
     long bits = lround(((double)packed - 1) * 8388608);
@@ -272,7 +273,7 @@ static void test_grid(void **state)
     }
 }
 
-/* The cached map from which a picture was made. */
+/* The cached lens map that a picture used. */
 static const struct kd_lens_map *kept(const struct kd_plan *plan)
 {
     for (int i = 0; i < KD_LENS_MAPS_KEPT; i++)
@@ -296,7 +297,7 @@ static float *read_buffer(struct kd_vk_buffer *buffer)
     return out;
 }
 
-/* A picture is traced and lit a few rows at a time. Its footprints equal those of a map traced at once. */
+/* A picture is traced and lit in slices of a few rows. Its footprints equal those of a map that is traced at once. */
 static void test_slices(void **state)
 {
     (void)state;
@@ -307,7 +308,7 @@ static void test_slices(void **state)
     for (int i = 0; i < 3; i++) {
         struct kd_frame frame;
         plan.cost.trace_ns = 40e6 / (rows[i] * WIDTH); /* sets the number of rows a slice */
-        plan.lens.key[0] = (char)('a' + i);            /* this map is not in the cache */
+        plan.lens.key[0] = (char)('a' + i);            /* this map is not in the cache, so it is traced */
         OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &error));
         assert_false(frame.lens_reused);
         float *planes = read_buffer(kept(&plan)->bands.buffers[0]);
@@ -318,8 +319,8 @@ static void test_slices(void **state)
     test_free(whole);
 }
 
-/* Bands end where a buffer does. At the ends of a band, footprints use rays on one side only, by a formula of the same
- * order. */
+/* A band ends where a buffer ends. At the ends of a band, footprints use rays on one side only, by a formula of the
+ * same order of accuracy. */
 static void test_bands(void **state)
 {
     (void)state;
@@ -343,13 +344,13 @@ static void test_bands(void **state)
     qsort(t.errors, (size_t)t.n, sizeof *t.errors, by_value);
     print_message("beside the ends of bands: %d crossings, median %.1e, 90 %% %.1e, 99 %% %.1e, worst %.1e\n", t.n,
                   t.errors[t.n / 2], t.errors[t.n * 9 / 10], t.errors[t.n * 99 / 100], t.errors[t.n - 1]);
-    /* Fading by footprint would show a line where a footprint is wrong by a tenth. */
+    /* Fading depends on the footprint. It would show a line where a footprint is wrong by a tenth. */
     assert_true(t.n > 1000 && t.errors[t.n / 2] < 0.01 && t.errors[t.n * 9 / 10] < 0.04);
     test_free(a);
     test_free(b);
 }
 
-/* Rays of pixels on the critical curve. */
+/* Footprints of the rays of pixels on the critical curve. */
 static void test_listed_pixels(void **state)
 {
     (void)state;
@@ -388,7 +389,7 @@ static void test_listed_pixels(void **state)
         }
         report(v->name, t);
         for (int n = 0; n <= ORDERS;
-             /* skipped: of the four rays of a pixel, those without neighbours determine the footprint in one direction
+             /* skipped: a pixel has four rays, and those without neighbours determine the footprint in one direction
               * only */
              n++)
             assert_true(10 * t[n].outside <= (factors[i] == 2 ? t[n].n : 0));
@@ -399,7 +400,7 @@ static void test_listed_pixels(void **state)
     }
 }
 
-/* A scene that needs no footprints has no plane and no pass for them. */
+/* The lens map of a scene that needs no footprints has no memory for them, and no pass computes them. */
 static void test_plan(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests that a frame runs exactly the passes of its plan, under their names, and that their times become the estimates
- * of the next plan. */
+/* Tests that a frame runs exactly the passes of its plan, under the names in the plan. The passes' times become the
+ * estimates of the next plan. */
 #include "render_support.h"
 
 #include "render/device/device_internal.h"
@@ -39,7 +39,8 @@ static bool planned(const struct kd_plan *plan, const char *name)
     for (size_t i = 0; i < plan->cost.n_passes; i++)
         if (!strcmp(plan->cost.passes[i].name, name))
             return true;
-    /* "rays": the device's part of a "trace" by listed rays. "kernels": time to compile missing kernels */
+    /* not in the plan: "rays", the device's part of a "trace" of listed rays; "kernels", the time to compile missing
+     * kernels */
     return !strcmp(name, "kernels") || !strcmp(name, "upload") || !strcmp(name, "fill") || !strcmp(name, "rays") ||
            !strcmp(name, "total");
 }
@@ -66,9 +67,9 @@ static void test_names(void **state)
     }
 }
 
-/* After fifteen frames a wrong estimate has moved to the true cost of its pass. An estimate that the frames do not
- * measure stays. The time of a frame includes time in which other processes had the cores, but the learned cost does
- * not. */
+/* After fifteen frames a wrong estimate has become the true cost of its pass. An estimate that the frames do not
+ * measure is unchanged. The time of a frame includes the time in which other processes used the cores, but the learned
+ * cost does not. */
 static void test_learned(void **state)
 {
     (void)state;
@@ -83,7 +84,7 @@ static void test_learned(void **state)
     for (int k = 0; k < 15; k++) {
         renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
             renderer->store.maps[3].key[0] = 0;
-        renderer->frames = 0; /* 0, because the estimates of early frames are updated at every frame */
+        renderer->frames = 0; /* a new renderer, because there each frame updates the estimates */
         frame = drawn(scene, &plan);
         for (size_t i = 0; i < plan.cost.n_passes; i++) {
             learns[plan.cost.passes[i].figure] = true;
@@ -101,8 +102,8 @@ static void test_learned(void **state)
                 learns[KD_NS_PARTICLE] && !learns[KD_NS_RAY_RADIUS]);
 }
 
-/* Stars and diffuse light take several times as long as a disk's light: they have estimates of their own and do not
- * change the disks'. */
+/* Stars and diffuse light take several times as long as the light of a disk. They have their own estimates, and do not
+ * change those of disks. */
 static void test_stars_are_learned(void **state)
 {
     (void)state;
@@ -112,7 +113,7 @@ static void test_stars_are_learned(void **state)
     for (int k = 0; k < 10; k++) {
         renderer->store.maps[0].key[0] = renderer->store.maps[1].key[0] = renderer->store.maps[2].key[0] =
             renderer->store.maps[3].key[0] = 0;
-        renderer->frames = 0; /* 0, because the estimates of early frames are updated at every frame */
+        renderer->frames = 0; /* a new renderer, because there each frame updates the estimates */
         struct kd_frame frame = drawn("{\"image\": {\"width\": 192, \"height\": 108}, \"disk\": {\"model\": \"none\"}, "
                                       "\"sky\": {\"model\": \"stars\"}}",
                                       &plan);
@@ -143,7 +144,7 @@ static void test_refining_is_learned(void **state)
     double took = 0, others = 0;
     renderer->capacity.ns[KD_NS_RAY_REFINED] = 1;
     for (int k = 0; k < 10; k++) {
-        renderer->frames = 0; /* 0, because the estimates of early frames are updated at every frame */
+        renderer->frames = 0; /* a new renderer, because there each frame updates the estimates */
         struct kd_frame frame = drawn(scene, &plan);
         if (k >= 5)
             took += timing_of(&frame, "refine") / 5;
@@ -154,7 +155,7 @@ static void test_refining_is_learned(void **state)
     kd_frame_finish(&frame);
     const double estimate = estimated(&plan, "refine");
     print_message("refining took %.1f ms of %.1f, and is estimated at %.1f\n", took, others, estimate);
-    /* The estimate excludes the time in which other processes had the cores. With eight busy threads on two cores the
+    /* The estimate excludes the time in which other processes used the cores. With eight busy threads on two cores, the
      * estimate is a fifth of the measured time. */
     assert_true(estimate > took / 50 && estimate < 2 * took);
 }
@@ -174,7 +175,7 @@ static void test_classes_are_learned(void **state)
     double least = INFINITY, most = 0;
     for (int k = 0; k < 3; k++)
         for (int other = 0; other < 2; other++) {
-            renderer->frames = k == 0; /* all but the first update the estimates, since it compiles kernels */
+            renderer->frames = k == 0; /* all frames except the first, which compiles kernels, update the estimates */
             struct kd_frame frame = drawn(other ? other_volume : volume, &plan);
             const double took = timing_of(&frame, "march") * 1e6 / (double)(64 * 64);
             if (!other && k > 0)
@@ -187,8 +188,8 @@ static void test_classes_are_learned(void **state)
     kd_frame_finish(&frame);
     const double known = kd_cost_known(&learned, plan.cost.class, KD_PASS_MARCH);
     print_message("a ray took %.0f to %.0f ns, and is known to take %.0f\n", least, most, known);
-    /* The two measured frames may differ several times, if other processes had the cores during one of them. Their time
-     * is excluded from the estimate. */
+    /* The times of the two measured frames may differ by a factor of several, if other processes used the cores during
+     * one of them. The estimate excludes that time. */
     assert_true(known > least / 100 && known < 1.01 * most);
     assert_true(fabs(estimated(&plan, "march") - known * 1e-6 * (double)kd_plan_rays(&plan.lens)) < 1e-6 * known);
 }

@@ -1,6 +1,7 @@
-/* Tests of the light of jets. It is compared with integrals along paths of the Kerr-Schild oracle, which does not use
- * Mino time, with the energy in the matter's frame from the Boyer-Lindquist metric. Far from the hole it is compared
- * with integrals along straight lines, and the ratio of jet and counterjet with special relativity. */
+/* Tests of the light of jets. Near the hole it is compared with integrals along paths of the Kerr-Schild oracle, which
+ * does not use Mino time; the energy in the matter's frame is computed from the Boyer-Lindquist metric. Far from the
+ * hole it is compared with integrals along straight lines. The ratio of jet and counterjet is compared with special
+ * relativity. */
 #include "render_support.h"
 
 #include "kerr_schild.h"
@@ -36,7 +37,7 @@ static double ramp(double x)
     return x * x * (3 - 2 * x);
 }
 
-/* Emission per length in its own frame, at r and a polar angle whose cosine is u. */
+/* Emission per length in the matter's frame, at r and at a polar angle with the cosine u. */
 static double emitted(const struct kd_jets *j, double r, double u)
 {
     const double x = sqrt((1 - u) * (1 + u)) / fabs(u) / tan(j->opening_deg * M_PI / 180);
@@ -47,7 +48,7 @@ static double emitted(const struct kd_jets *j, double r, double u)
            ramp((j->outer - r) / (0.3 * j->outer));
 }
 
-/* Integrates light along a straight line to an observer at the scene's inclination. A place is alpha e_right + beta
+/* Integrates light along a straight line to an observer at the scene's inclination. A position is alpha e_right + beta
  * e_up + l n, and D = 1/(Gamma (1 - beta_v cos)). */
 static double straight(const struct kd_scene *scene, double alpha, double beta)
 {
@@ -78,7 +79,7 @@ static void test_far_away(void **state)
         "\"lorentz\":1.3,\"opening_deg\":15,\"sheath\":0,\"spectral_index\":-0.5}}",
         "{\"camera\":{\"inclination_deg\":80,\"field_m\":300000}," FAR_AWAY
         "\"lorentz\":3,\"opening_deg\":10,\"counterjet\":false}}",
-        /* the jet moves towards the observer: g is up to 200, computed from a difference of 1/20000 */
+        /* the jet moves towards the observer; g is up to 200, computed from a difference of 1/20000 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY "\"lorentz\":100,\"opening_deg\":8}}",
         /* g^12 is 2^70 */
         "{\"camera\":{\"inclination_deg\":0.1,\"field_m\":40000}," FAR_AWAY
@@ -110,8 +111,8 @@ static void test_far_away(void **state)
     printf("far away, %d rays: worst %.2g\n", lit, worst);
 }
 
-/* A narrow jet and its counterjet, at opposite places: ((1 + v cos i)/(1 - v cos i))^(2 + alpha) (Blandford & Konigl
- * 1979, ApJ 232, 34). */
+/* Ratio of a narrow jet to its counterjet at opposite positions: ((1 + v cos i)/(1 - v cos i))^(2 + alpha) (Blandford &
+ * Konigl 1979, ApJ 232, 34). */
 static void test_ratio(void **state)
 {
     static const double lorentz[] = { 1.1, 2, 6 }, inclination[] = { 20, 60, 85 }, index[] = { 0, 0.7, 2 };
@@ -126,7 +127,7 @@ static void test_ratio(void **state)
         struct kd_frame frame = rendered(&scene);
         const double v = sqrt(1 - 1 / (lorentz[n] * lorentz[n])), c = cos(inclination[n] * M_PI / 180),
                      want = pow((1 + v * c) / (1 - v * c), 2 + index[n]);
-        for (int y = 0; y < 2; y++) { /* two places at 2.2e5 and 1.9e5 M, which are away from the ends of the jets */
+        for (int y = 0; y < 2; y++) { /* two positions at 2.2e5 and 1.9e5 M, far from the ends of the jets */
             const double near = (double)intensity(&frame)[y * WIDTH + WIDTH / 2],
                          away = (double)intensity(&frame)[(HEIGHT - 1 - y) * WIDTH + WIDTH / 2];
             if (!(fabs(near / away / want - 1) < 1e-2))
@@ -138,8 +139,8 @@ static void test_ratio(void **state)
 }
 
 /* Emission in the matter's frame, by the metric. p_r follows from R(r) and the photon's constants, and -k.U = Gamma (e
- * - v k_r) with the components for the observer of zero angular momentum. way: 1 where light moves outwards, -1 where
- * it moves inwards. */
+ * - v k_r) with the components for the observer of zero angular momentum. way: 1 if the light moves outwards, -1 if it
+ * moves inwards. */
 static void shine(void *user, const struct ks_photon *p, double r, double u, double way, double out[2])
 {
     const struct kd_scene *scene = user;
@@ -159,7 +160,7 @@ static void shine(void *user, const struct ks_photon *p, double r, double u, dou
     out[1] = 0;
 }
 
-/* On the rays that are compared from afar, light moves outwards above the plane and inwards below it. */
+/* On the rays that are compared for a far observer, light moves outwards above the plane and inwards below it. */
 static void jet(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     shine(user, p, r, u, u > 0 ? 1 : -1, out);
@@ -192,7 +193,7 @@ static void test_near_the_hole(void **state)
             for (int x = WIDTH / 2 - 1; x <= WIDTH / 2 + 1; x++) {
                 const double alpha = 2.0 * (x - 0.5 * (WIDTH - 1)), beta = -2.0 * (y - 0.5 * (HEIGHT - 1)),
                              got = (double)intensity(&frame)[y * WIDTH + x];
-                if (fabs(beta) < 7.5) /* there a jet is visible on both sides of the rays' turning points */
+                if (fabs(beta) < 7.5) /* at this position a jet is visible on both sides of the rays' turning points */
                     continue;
                 const struct ks_light want =
                     ks_along(ks_from_infinity_charged(views[n].spin, views[n].charge,
@@ -219,13 +220,13 @@ static void jet_below(void *user, const struct ks_photon *p, double r, double u,
     shine(user, p, r, u, 1, out);
 }
 
-/* Jets from next to the horizon, on rays that fall in. No ray turns, at any latitude. There the charge's term in -k.U
- * across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to be tested. Light proportional to g^10 changes by
- * large factors within a step of the march, most of all where a ray crosses the axis. There the march's error is 7.5e-3
- * with the profile "balanced" and 3e-4 with "high". */
+/* Jets that begin next to the horizon, on rays that fall in. These rays have no turning point at any latitude. Next to
+ * the horizon, the charge's term in -k.U across the jet, a^2 L^2 (Sigma + 2r - q^2)/A, is large enough to be tested.
+ * Light proportional to g^10 changes by large factors within a step of the march, most of all where a ray crosses the
+ * axis. There the march's error is 7.5e-3 with the profile "balanced" and 3e-4 with "high". */
 static void test_beside_the_horizon(void **state)
 {
-    /* rows of spin, charge, i */
+    /* each row: spin, charge, inclination */
     static const double views[][3] = { { 0.9, 0, 70 }, { 0.7, 0.7, 70 }, { -0.8, 0.59, 60 } };
     double worst = 0;
     int lit = 0;
@@ -265,7 +266,7 @@ static void test_beside_the_horizon(void **state)
     assert_true(lit > 20);
 }
 
-/* Twice the brightness gives twice the light. Without jets there is no ray marching. */
+/* Twice the brightness parameter gives twice the light. A scene without jets needs no ray marching. */
 static void test_scaling(void **state)
 {
     struct kd_scene scene = scene_of("{\"camera\":{\"field_m\":60},\"jets\":{\"brightness\":0.1}}"), twice = scene;

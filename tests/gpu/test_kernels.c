@@ -1,5 +1,5 @@
-/* Tests that kernels are recorded first and then compiled together on several threads, and that a frame uses exactly
- * those that it recorded. */
+/* Tests that kernels are first recorded and then compiled together on several threads. A frame uses exactly the kernels
+ * that it recorded. */
 #include "render_support.h"
 
 #include "render/device/device_internal.h"
@@ -8,7 +8,7 @@
 #include "scene/dynamic_bodies.h"
 #include "vk/device.h"
 
-/* The scene of test_pieces in test_march_rays.c. */
+/* The same scene as in test_pieces of test_march_rays.c. */
 static const char TALL[] =
     "{\"accuracy\":{\"profile\":\"reference\"},\"style\":{\"exposure\":0,\"bloom\":0},\"disk\":{\"height\":0.3,"
     "\"emission_opacity\":10,\"gas\":{\"amplitude\":0.8}},\"image\":{\"width\":96,\"height\":72,\"samples\":1,"
@@ -20,7 +20,7 @@ static uint32_t made(void) { return renderer->vk->n_pipelines; }
 
 static const struct kd_vk_pipeline *post(bool film, bool wide)
 {
-    /* any address, to show that the function sets the pointer */
+    /* any address; the test checks that the function overwrites it */
     const struct kd_vk_pipeline *out = (const struct kd_vk_pipeline *)renderer;
     OK(kd_kernels_get(&renderer->kernels, renderer->vk, KD_KERNEL_POST, (uint32_t[]) { film, wide }, 2, &out, &error));
     return out;
@@ -52,7 +52,7 @@ static void noted_kernels_are_made_once(void **state)
     assert_int_equal(made(), before + 3);
 }
 
-/* If more kernels are requested than can be recorded, the others are compiled at first use. */
+/* If more kernels are requested than can be recorded, the remaining ones are compiled at their first use. */
 static void what_cannot_be_made_is_told_later(void **state)
 {
     (void)state;
@@ -72,8 +72,8 @@ static void what_cannot_be_made_is_told_later(void **state)
     assert_non_null(strstr(why.message, "broken"));
 }
 
-/* Each kernel that the first frame of a scene compiles in advance is used in this frame: after its compilation it
- * appears in the order of use. */
+/* The first frame of a scene uses each kernel that it compiles in advance: after its compilation, the kernel appears in
+ * the order of use. */
 static void a_frame_notes_what_it_needs(void **state)
 {
     (void)state;
@@ -202,8 +202,8 @@ static void compiled(struct kd_compilation *c)
     kd_compilation_end(c);
 }
 
-/* The pictures that determine a density are also rehearsed on a device that computes nothing, so that their kernels are
- * compiled. */
+/* Pictures that determine a density are also rehearsed on a device that computes nothing, in order to compile their
+ * kernels. */
 static void a_density_is_rehearsed(void **state)
 {
     (void)state;
@@ -230,7 +230,7 @@ static bool has_kernel(const char *name)
     return false;
 }
 
-/* The explanation of a pixel with its steps needs two kernels of lists of rays. */
+/* The explanation of a pixel with its steps needs two kernels for lists of rays. */
 static void steps_of_a_pixel(void **state)
 {
     (void)state;
@@ -261,7 +261,7 @@ static bool lacks(void *user, struct kd_compilation *c, bool background)
     return !lack.gives_up;
 }
 
-/* If the driver stops rays early, one more kernel is needed. Any thread may compile it, and only one does. */
+/* If the driver stops rays early, one more kernel is needed. It is compiled by exactly one thread, which may be any. */
 static void a_kernel_that_nobody_foresaw(void **state)
 {
     (void)state;
@@ -288,7 +288,7 @@ static void a_kernel_that_nobody_foresaw(void **state)
         assert_int_equal(lack.times, 1);
         assert_int_equal(lack.background_renders, i == 1);
     }
-    /* requested again, now that the kernel is compiled */
+    /* requested again after the kernel was compiled */
     OK(kd_render(renderer, &scene, &plan, NULL, NULL, &frames[2], &error));
     assert_int_equal(lack.times, 1);
     for (int i = 0; i < 3; i++) {

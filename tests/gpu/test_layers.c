@@ -1,6 +1,6 @@
-/* Tests of layers. They are compared with the Kerr-Schild oracle, which shares no equation with the kernels. The oracle
- * integrates the photon's momentum in Cartesian coordinates; g and the angle to the disk's normal follow from the
- * metric in the plane alone. Layers of light are compared with the picture's own linear light.
+/* Tests of layers. They are compared with the Kerr-Schild oracle, which shares no equation with the kernels and
+ * integrates the photon's momentum in Cartesian coordinates. Expected values of g and of the angle to the disk's normal
+ * follow from the metric in the plane. Layers of light are compared with the picture's own linear light.
  *
  * The tolerance of a number is some roundings of a float, times the sensitivity of the number to the ray. This
  * sensitivity is measured on the oracle. */
@@ -42,7 +42,7 @@ static struct kd_scene scene_of(double spin, double inclination, double r, const
     return scene;
 }
 
-/* The plan of a picture in the format NPY, which takes any layers. */
+/* The plan of a picture in the format NPY, which may have any layers. */
 static struct kd_plan plan_of(struct kd_scene *scene, uint64_t most_bytes)
 {
     struct kd_capacity c;
@@ -84,8 +84,8 @@ static struct ks_path path_of(const struct kd_scene *scene, int pixel, double sc
     return ks_trace(photon, crossings);
 }
 
-/* -(ds/dt)^2 on a circle in the plane, and the Omega at which its radial derivative vanishes: g_tt = -(1 - 2/r),
- * g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r. */
+/* -(ds/dt)^2 of a circle in the plane, with g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r; and the
+ * Omega for which its radial derivative is 0. */
 static double line(double a, double r, double omega)
 {
     return (1 - 2 / r) + 4 * a / r * omega - (r * r + a * a + 2 * a * a / r) * omega * omega;
@@ -123,8 +123,8 @@ static double apart(int kind, double x, double y)
     return kind == PHI ? fabs(remainder(x - y, 2 * M_PI)) : fabs(x - y);
 }
 
-/* True if a crossing is on the disk. *near: whether it is so close to an edge that single precision may place it on
- * either side. */
+/* True if a crossing is on the disk. *near: true if the crossing is so close to an edge that single precision may place
+ * it on either side. */
 static bool on_disk(const struct kd_scene *scene, const struct ks_path *path, int n, bool *near)
 {
     double in = kd_kerr_isco(kd_scene_hole(scene)), out = scene->disk.outer, r = path->r[n];
@@ -162,7 +162,7 @@ static void judge(const struct kd_scene *scene, const struct kd_frame *frame, co
                 if (i == DELAY && !delay)
                     continue;
                 double gain = apart(i, moved[i], want[i]) / 1e-6, scale = i == R || i == DELAY ? 1 + fabs(want[i]) : 1;
-                /* the sensitivity of an angle is the slope of the arc cosine */
+                /* the sensitivity of an angle to its cosine is the slope of the arc cosine */
                 double steep = i == ANGLE ? 1 / fmax(sin(want[i]), 1e-3) : 1;
                 worst[i] = fmax(worst[i], apart(i, values[i][n][k], want[i]) / (scale * steep + gain));
             }
@@ -180,7 +180,7 @@ static void judge(const struct kd_scene *scene, const struct kd_frame *frame, co
     print_message("\n");
     assert_true(compared > PIXELS / 4);
     for (int i = 0; i < KINDS; i++)
-        /* bounds: for g and angles ten times the observed error; for delays, the steps of the profile */
+        /* bounds: ten times the observed error for g and angles; for delays, the error of the profile's steps */
         assert_true(worst[i] < (i == DELAY ? 2e-5 : 4e-6));
 }
 
@@ -275,7 +275,8 @@ static void test_light(void **state)
     }
 }
 
-/* A black body is seen with (g T)^4, with T from the flux at its radius. An opaque crossing has infinite depth. */
+/* A black body appears with the brightness (g T)^4, where T follows from the flux at its radius. An opaque crossing has
+ * infinite optical depth. */
 static void test_temperature(void **state)
 {
     (void)state;
@@ -314,8 +315,9 @@ static double product(double a, double r, double x_t, double x_phi, double y_t, 
            delta;
 }
 
-/* Layers of gas that falls from the ISCO: place, temperature and g. g follows from the gas's four-velocity, which has
- * the E and L of the ISCO. The radial components follow from u.u = -1 for the gas and p.p = 0 for the light. */
+/* Layers of gas that falls from the ISCO: position, temperature and g. The expected g follows from the gas's
+ * four-velocity, which has the E and L of the ISCO. The radial components follow from u.u = -1 for the gas and p.p = 0
+ * for the light. */
 static void test_plunge(void **state)
 {
     (void)state;
@@ -342,7 +344,7 @@ static void test_plunge(void **state)
         double want = -1 / (rest + u_r * (path.falls[0] ? -p_r : p_r));
         inside++;
         assert_true(fabs(t[k] - 0.7 * scene.disk.peak_temperature_k) < 0.01);
-        if (!(fabs(g[k] - want) < 1e-4 * want)) /* near the horizon g is a small difference */
+        if (!(fabs(g[k] - want) < 1e-4 * want)) /* larger tolerance near the horizon, where g is a small difference */
             fail_msg("at r %g g is %.9g instead of %.9g", x, g[k], want);
     }
     assert_true(inside > 50);
@@ -355,7 +357,7 @@ static void test_bands(void **state)
     (void)state;
     struct kd_scene scene = scene_of(0.9, 75, INFINITY, "rgb,phi,intensity_1,footprint,fate");
     struct kd_frame whole = frame_of(&scene), again = frame_of(&scene), parts;
-    scene.camera.azimuth_deg = 131; /* another picture with the same map */
+    scene.camera.azimuth_deg = 131; /* another picture that uses the same map */
     struct kd_frame other = frame_of(&scene);
     scene.camera.azimuth_deg = 130;
     const struct kd_plan plan = plan_of(&scene, 7200);
@@ -377,7 +379,7 @@ static void test_bands(void **state)
     kd_frame_finish(&other);
 }
 
-/* Marks all rays as given up in the cached map of a plan. */
+/* Marks all rays in a plan's cached map as given up. */
 static void give_up(const struct kd_plan *plan)
 {
     const float undecided = KD_FATE_UNDECIDED;
@@ -420,9 +422,9 @@ static void assert_same_picture(const char *json, const char *layers)
     kd_store_empty(&renderer->store); /* removes the modified maps */
 }
 
-/* The picture is the same bit for bit whatever layers are requested with it, even if they need more of the lens map.
- * This holds also for rays that were given up in a scene without sky. The layer `delay` is left out, because its rays
- * are followed differently. */
+/* The requested layers do not change the picture, bit for bit, even if they need more of the lens map. This also holds
+ * for rays that were given up, in a scene without sky. The layer `delay` is not tested, because it changes the steps of
+ * its rays. */
 static void test_picture_beside(void **state)
 {
     (void)state;
@@ -439,7 +441,8 @@ static void test_picture_beside(void **state)
     }
 }
 
-/* In a picture of a single layer each pixel has the colour of its number, in 8 bits as in 16. No pixel is black. */
+/* In a picture of a single layer, each pixel has the colour that the colour map gives its number, in 8 and in 16 bits.
+ * No pixel is black. */
 static void test_false_colour(void **state)
 {
     (void)state;
@@ -470,7 +473,7 @@ static void test_false_colour(void **state)
     }
 }
 
-/* One end of the scale may be set beyond all numbers, so that all of them have the colour of the near end. */
+/* One end of the scale may be set so that all numbers are beyond it. All pixels then have the colour of that end. */
 static void test_ends_beyond(void **state)
 {
     (void)state;
@@ -497,9 +500,8 @@ static const float *numbers_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* If 32 bits cannot distinguish neighbouring rays, these rays have no footprint, rather than one of size 0. Other rays
- * have a footprint.
- */
+/* Neighbouring rays that 32 bits cannot distinguish have no footprint, instead of one of size 0. All other rays have a
+ * footprint. */
 static void test_tiny_fields(void **state)
 {
     (void)state;
@@ -530,7 +532,7 @@ static void test_tiny_fields(void **state)
     }
 }
 
-/* At one frequency a place is seen as B_nu(g T) f^-4, where T follows from the flux at its radius, times the hardening
+/* At one frequency the brightness is B_nu(g T) f^-4. T follows from the flux at the radius, times the hardening factor
  * f. Tested from the Rayleigh-Jeans limit to the highest frequency that is accepted. */
 static void test_one_frequency(void **state)
 {
@@ -558,7 +560,7 @@ static void test_one_frequency(void **state)
                 const double kelvin =
                     f * peak * pow(kd_disk_flux_page_thorne(kd_hole(0.9), r[k]) / largest, 0.25) * g[k];
                 const double x = H * nu / (K * kelvin), i = 2 * H * nu * (nu / C) * (nu / C) / expm1(x) / pow(f, 4);
-                const double bound = 2e-5 + 2e-4 * x; /* the table of T is good to 2e-4 */
+                const double bound = 2e-5 + 2e-4 * x; /* tolerance: the table of T has an error of 2e-4 */
                 /* skipped, because the value is near the smallest or largest float */
                 if (i * 1e23 < 1e-30 || i * C * C / (2 * K * nu * nu) < 1e-30)
                     continue;
@@ -593,7 +595,7 @@ static void test_too_bright(void **state)
             const struct kd_plan plan = plan_of(&scene, 0);
             const enum kd_status status = kd_render(renderer, &scene, &plan, NULL, NULL, &frame, &why);
             const bool too_bright =
-                e == 2 && k < 2; /* only the first two layers overflow; light in the others is clipped at 1e30 */
+                e == 2 && k < 2; /* light overflows in the first two layers only; in the others it is clipped at 1e30 */
             if (too_bright != (status == KD_EINVAL) || (status && !too_bright))
                 fail_msg("%s of %g: status %d", layers[k], emissions[e], (int)status);
             if (too_bright) {

@@ -1,6 +1,6 @@
-/* Tests of lens maps from listed rays in double precision, compared with lens maps by kernels in single precision. The
- * two compute the ray of a pixel differently, and there are three methods of tracing a ray. Also tests rays whose
- * tracing was given up. */
+/* Tests of lens maps from listed rays in double precision, compared with lens maps by kernels in single precision.
+ * Lists and kernels compute the ray of a pixel differently, and a ray is traced by one of three methods. Also tests
+ * rays whose tracing was given up. */
 #include "render_support.h"
 
 #include "physics/spacetime/kerr.h"
@@ -35,8 +35,8 @@ static double quantile(double *values, int n, double q)
     return values[(int)(q * (n - 1))];
 }
 
-/* Counts rays whose fate or number of crossings differs, and gives the median errors of r, phi and the angle on the sky
- * for all other rays. */
+/* Counts rays whose fate or number of crossings differs. For all other rays, gives the median errors of r, phi and the
+ * angle on the sky. */
 static void compare(const char *what, const struct lens *a, const struct lens *b, double bound, int stray)
 {
     uint64_t n = a->plan.lens.rays;
@@ -103,10 +103,10 @@ static void test_engines_agree(void **state)
     (void)state;
     static const struct {
         int engine, precision;
-        /* bound of the medians. Single precision is used on one side or on both, and the start of the Kerr-Schild
-         * engine in single precision costs more. */
+        /* bound of the medians. At least one of the maps is in single precision. The start of the Kerr-Schild engine in
+         * single precision has a larger error. */
         double bound;
-        int stray; /* largest number of rays of 1440 that may differ, all at the rim of the shadow */
+        int stray; /* largest number of the 1440 rays that may differ, all of them at the rim of the shadow */
     } engines[] = {
         { KD_ENGINE_CLOSED, KD_PRECISION_F64, 5e-7, 3 },    { KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 5e-7, 3 },
         { KD_ENGINE_MINO_RKN4, KD_PRECISION_F32, 5e-6, 3 }, { KD_ENGINE_MINO_RKN4, KD_PRECISION_F64, 5e-7, 3 },
@@ -139,14 +139,15 @@ static void test_engines_agree(void **state)
     }
 }
 
-/* A map made in slices of a few rows, supersampled and in bands, equals the whole one. */
+/* A map that is made in slices of a few rows, supersampled and in bands, equals a map that is made at once. */
 static void test_slices(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of(0);
     scene.image.samples = 2;
     bool wide = has_float64("slices in f64, in f32 instead");
-    scene.accuracy.engine = (wide ? KD_ENGINE_MINO_RKN6 : KD_ENGINE_KS_RK4) + 1; /* listed rays in both cases */
+    /* both maps are made from listed rays */
+    scene.accuracy.engine = (wide ? KD_ENGINE_MINO_RKN6 : KD_ENGINE_KS_RK4) + 1;
     scene.accuracy.precision = (wide ? KD_PRECISION_F64 : KD_PRECISION_F32) + 1;
     struct lens whole = trace(&scene), cut = { .planes = NULL };
     struct kd_capacity capacity;
@@ -155,7 +156,7 @@ static void test_slices(void **state)
     OK(kd_plan_make_for(&scene, &(struct kd_needs) { .quantities = KD_LENS_W | KD_LENS_PHI | KD_LENS_SKY }, &capacity,
                         &cut.plan, &error));
     assert_true(cut.plan.picture.bands > 5);
-    cut.plan.cost.trace_ns = 1e7; /* the device is taken to be so slow that a slice is a part of a row */
+    cut.plan.cost.trace_ns = 1e7; /* a device so slow that a slice is a part of a row */
     cut.planes = test_malloc(sizeof(float) * cut.plan.lens.planes * cut.plan.lens.rays);
     OK(kd_render_lens(renderer, &scene, &cut.plan, cut.planes, NULL, &error));
     assert_memory_equal(whole.planes, cut.planes, sizeof(float) * whole.plan.lens.planes * whole.plan.lens.rays);
@@ -163,9 +164,9 @@ static void test_slices(void **state)
     test_free(cut.planes);
 }
 
-/* Tests the errors of crossing radii that the profiles promise. The median and the largest error are taken by
- * comparison with the closed form, over the bulk set of rays from the ISCO to 1000 M. The accuracy table states larger
- * errors for the rows that the profiles use, because it covers all sets. */
+/* Tests that crossing radii have the accuracy that the profiles promise. Median and largest error are differences from
+ * the closed form, over the bulk set of rays, from the ISCO to 1000 M. The rows of the accuracy table have larger
+ * errors, because the table covers all sets. */
 static void test_profiles(void **state)
 {
     (void)state;
@@ -261,7 +262,7 @@ static void test_given_up(void **state)
     int sky = 0;
     for (size_t i = 0; i < 40; i++)
         sky += magenta((unsigned char *)kd_frame_pixels(&frame) + 3 * (40 * 20 + i));
-    assert_true(sky > 0); /* tests that some rays see the sky in front of which there is no disk */
+    assert_true(sky > 0); /* some rays must see the sky without a disk in front of it */
     kd_frame_finish(&frame);
     memset(map->key, 0, sizeof map->key); /* changes the key, so that other tests do not find this map */
 }
@@ -274,7 +275,7 @@ static void test_refused(void **state)
     struct kd_capacity capacity;
     struct kd_plan plan;
     kd_renderer_capacity(renderer, &capacity);
-    /* the built-in table, because with a table of this device another engine might be the fastest */
+    /* the built-in table, because a table of this device might choose another engine */
     capacity.accuracy = kd_accuracy_built_in();
     capacity.accuracy_measured = false;
     scene.accuracy.tolerance = 1e-15;
@@ -330,7 +331,7 @@ static void test_noise_is_named(void **state)
         double spin, radius;
         bool noise;
     } cases[] = {
-        /* radius: in units of the horizon's */
+        /* radius in units of the horizon's radius */
         { 0.999999, 1.0001, true }, { 0.999999999, 1.001, true }, { 0.999999, 1.3, false }, { 0.9, 1.05, false },
         { 0, 1.4, false },
     };

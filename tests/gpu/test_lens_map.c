@@ -2,7 +2,7 @@
  * double precision by another method (tests/oracle).
  *
  * The tolerance of a crossing is some roundings of a float times the amplification d ln r/d ln b, which is measured on
- * the oracle. It reaches hundreds near the critical curve. */
+ * the oracle. The amplification is several hundred near the critical curve. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "render/render.h"
@@ -17,10 +17,10 @@
 
 struct view {
     const char *name;
-    double a, inclination, r; /* r: INFINITY, or a pinhole camera there */
+    double a, inclination, r; /* INFINITY, or the radius r of a pinhole camera */
     bool zamo;
-    double field; /* M, or degrees for a pinhole */
-    bool away;    /* a pinhole camera that looks outwards */
+    double field; /* width of the picture in M; in degrees for a pinhole camera */
+    bool away;    /* true: the pinhole camera looks outwards */
     double q;     /* charge */
 };
 
@@ -42,7 +42,7 @@ static struct ks_photon photon(const struct view *v, double x, double y, double 
     return ks_from_camera_charged(v->a, v->q, v->r, theta, v->zamo, k);
 }
 
-/* The oracle's path of a pixel of a GRID x GRID picture, and that of a ray a millionth further out. */
+/* The oracle's path for a pixel of a GRID x GRID picture, and its path for a ray that is a millionth further out. */
 static struct sample sample(const struct view *v, int i, int j)
 {
     double x = (2 * i + 1.0) / GRID - 1, y = 1 - (2 * j + 1.0) / GRID;
@@ -56,14 +56,14 @@ struct lens {
     float *planes;
 };
 
-/* True if the plan chooses the closed form: outside the photon orbits. */
+/* True if the plan chooses the closed form, which it does for observers outside the photon orbits. */
 static bool has_closed_form(const struct view *v)
 {
     const struct kd_hole hole = kd_hole_charged(v->a, v->q);
     return v->r > 1.05 * kd_kerr_outermost_photon_orbit(&hole);
 }
 
-/* steps: number of steps of a half period; 0: the plan's choice. */
+/* steps: number of steps for half a period; 0: the plan's choice. */
 static struct lens trace(const struct view *v, const struct kd_needs *needs, int orders, int steps)
 {
     struct kd_scene scene;
@@ -101,8 +101,8 @@ static double median(struct tally *t)
     return t->count ? t->errors[t->count / 2] : 0;
 }
 
-/* True if a ray must not be compared: its number of crossings changes when it is moved by 3e-6, or it grazes the inner
- * limit of the crossings that are kept. */
+/* True if a ray is not compared: a shift of 3e-6 changes its number of crossings, or a crossing is at the inner limit
+ * of those that are kept. */
 static bool undecided(const struct sample *s, int n, double inner)
 {
     if ((s->path.crossings > n) != (s->beside.crossings > n))
@@ -183,8 +183,9 @@ enum { VIEWS = sizeof views / sizeof *views };
 
 static struct sample samples[VIEWS][GRID * GRID];
 
-/* For each order: the median and the worst error, divided by 1 + the amplification. Float arithmetic alone (6e-8 an
- * operation, tens of them) gives some 3e-7; the bounds leave a factor for other devices' square roots and divisions. */
+/* For each order: the median and the worst error, divided by 1 + the amplification. Rounding of floats alone gives some
+ * 3e-7, from tens of operations with 6e-8 each. The bounds are larger, because square roots and divisions of other
+ * devices are less accurate. */
 static void check(const struct view *v, const struct lens *lens, const struct sample *s, double worst_r,
                   double worst_phi)
 {
@@ -278,7 +279,7 @@ static void test_sky_closed(void **state)
     check_sky(0);
 }
 
-/* A row of rays in the equatorial plane, Q = 0: no crossing, and the direction stays in the plane. */
+/* A row of rays in the equatorial plane, with Q = 0. They have no crossing, and their directions stay in the plane. */
 static void test_in_plane(void **state)
 {
     (void)state;
@@ -316,8 +317,8 @@ static void test_in_plane(void **state)
     assert_true(escaped > GRID / 2 && escaped < GRID);
 }
 
-/* The project's bound for the first crossing holds without allowance for amplification: at most 1e-5, with a median of
- * 1e-6. */
+/* The error of the first crossing meets the project's bound without division by the amplification: at most 1e-5, with a
+ * median of 1e-6. */
 static void test_promise(void **state)
 {
     (void)state;
@@ -336,8 +337,9 @@ static void test_promise(void **state)
     }
 }
 
-/* The edge of a Schwarzschild shadow: the captured pixels of 1024^2 fill a disk of radius 3 sqrt(3) M. The area
- * averages over the 2 pi R/pixel = 2900 pixels of the rim, so that 0.1 % is ten times the statistical error. */
+/* The edge of a Schwarzschild shadow: the captured pixels of 1024^2 fill a disk of radius 3 sqrt(3) M. The area is a
+ * mean over the 2900 = 2 pi R/pixel pixels of the rim. The tolerance of 0.1 % is therefore ten times the statistical
+ * error. */
 static void test_shadow(void **state)
 {
     (void)state;

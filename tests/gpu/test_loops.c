@@ -1,6 +1,6 @@
-/* Tests of Stokes Q and U of light curves. They are compared with the light of each ray by the Kerr-Schild oracles,
- * which share no equation with the kernels; with the loops of a face-on spot in closed form; and with the layers of the
- * same picture. */
+/* Tests of Stokes Q and U of light curves. They are compared with three references: the light of each ray by the
+ * Kerr-Schild oracles, which share no equation with the kernels; the loops of a face-on spot in closed form; and the
+ * layers of the same picture. */
 #include "kerr_schild.h"
 #include "kerr_schild_transport.h"
 #include "render/output/curve.h"
@@ -63,8 +63,8 @@ static void near(double got, double want, double scale, double bound, const char
                  bound);
 }
 
-/* Omega of the circular orbit: g_tt = -(1 - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r in the plane; the
- * radial force from their derivatives in r vanishes. */
+/* Omega of the circular orbit in the plane, for which the radial force is 0: from the radial derivatives of g_tt = -(1
+ * - 2/r), g_tphi = -2a/r, g_phiphi = r^2 + a^2 + 2a^2/r. */
 static double orbit_omega(double a, double r)
 {
     const double tt = -2 / (r * r), tphi = 2 * a / (r * r), phiphi = 2 * r - 2 * a * a / (r * r);
@@ -88,9 +88,9 @@ static struct ks_screen screen_of(const struct kd_scene *scene, double x, double
     return ks_screen_near(&at, &frame, look, top);
 }
 
-/* I, Q and U of the spot. At each place its gas moves on the circular orbit through that place. Its light, I_nu ~
- * nu^-index, arrives multiplied by g^(3 + index), where g is the inverse of the member `g`. 3/4 of the light is
- * polarised. */
+/* I, Q and U of the spot. At each point the gas moves on the circular orbit through that point. The emitted light I_nu
+ * ~ nu^-index is multiplied by g^(3 + index), where g is the inverse of the member `g`. The degree of polarisation is
+ * 3/4. */
 static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, enum ks_field field, double isco,
                          double out[3])
 {
@@ -123,8 +123,8 @@ static void oracle_light(const struct kd_scene *scene, struct oracle_ray *rays, 
     }
 }
 
-/* Places all round the orbit, both image orders, from infinity and nearby; a wrong sign of the field, of Q or of U
- * would be an error of 100 %. */
+/* The spot is at several points of the orbit, in both image orders, from infinity and from nearby. A wrong sign of the
+ * field, of Q or of U would be an error of 100 %. */
 static void test_oracle(void **state)
 {
     (void)state;
@@ -202,7 +202,7 @@ static void test_loops(void **state)
             const double want = out + (vertical ? atan2(sqrt(1 - sine * sine), v * sine) : 0), evpa = kd_light_evpa(&s);
             off = fmax(off, fabs(remainder(evpa - want, M_PI)));
             assert_true(kd_light_fraction(&s) < 0.75 &&
-                        /* the fraction is smaller than at a single place, because it is a mean over the spot */
+                        /* the degree is smaller than at a single point, because it is a mean over the spot */
                         kd_light_fraction(&s) > 0.74);
             turned += k ? remainder(atan2(s.u, s.q) - angle, 2 * M_PI) : 0;
             went += k ? remainder(out - place, 2 * M_PI) : 0;
@@ -213,7 +213,7 @@ static void test_loops(void **state)
                "the closed form\n",
                vertical ? "vertical" : "toroidal", turned / (2 * M_PI), went / (2 * M_PI), off / RADIAN);
         assert_true(fabs(turned / went - 2) < 1e-3 && fabs(fabs(went) - 2 * M_PI) < 1e-3);
-        assert_true(off < 0.3 * RADIAN); /* tolerance: the error is of order size^2/r^2 */
+        assert_true(off < 0.3 * RADIAN); /* tolerance: the closed form has an error of order size^2/r^2 */
     }
 }
 
@@ -277,7 +277,7 @@ static void test_layers(void **state)
     }
 }
 
-/* A missing crossing is stored as 1/r = 0, where a spot at azimuth 0 would give NaN. */
+/* A missing crossing is stored as 1/r = 0. There a spot at azimuth 0 would give NaN. */
 static void test_no_crossing(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* Tests of light along rays through volumes. It is compared with closed forms and with integrals of emission and
- * absorption. Both use paths of the Kerr-Schild oracle, which uses neither Mino time nor a Nystroem method. Also tests
- * the order of volumes and crossings of the plane, and self-consistency. */
+ * absorption, along paths of the Kerr-Schild oracle. The oracle uses neither Mino time nor a Nystroem method. Other
+ * tests: the order of volumes and crossings along a ray, and self-consistency. */
 #include "render/device/store.h"
 #include "render_support.h"
 
@@ -42,8 +42,8 @@ static struct ks_photon photon_of(const struct kd_scene *scene, int i)
                : ks_from_camera_charged(a, q, scene->camera.r, theta, false, k);
 }
 
-/* The medium of a uniform shell, for the oracle. Its frequency shift is that of observers of zero angular momentum, by
- * the metric. */
+/* The matter of a uniform shell, for the oracle. Frequencies are those for observers of zero angular momentum, by the
+ * metric. */
 static void shell(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     const struct kd_scene *scene = user;
@@ -79,7 +79,7 @@ static const struct view {
     { 0.9, 80, INFINITY, "{\"volume\":{\"outer\":11,\"opacity\":0.3,\"emissivity\":1}}" },
     { -0.7, 25, INFINITY, "{\"volume\":{\"inner\":7,\"outer\":10,\"opacity\":0}}" },
     { 0.95, 88, 30, "{\"volume\":{\"outer\":9,\"opacity\":2,\"emissivity\":3}}" },
-    { 0.5, 40, 7, "{\"volume\":{\"outer\":15,\"opacity\":0.01}}" }, /* here the cameras are within the volume */
+    { 0.5, 40, 7, "{\"volume\":{\"outer\":15,\"opacity\":0.01}}" }, /* in these cases the camera is within the volume */
     { 0.3, 40, INFINITY, "{\"volume\":{\"inner\":3,\"outer\":30000,\"opacity\":0,\"emissivity\":1e-4}}" },
     { 0.3, 70, INFINITY,
       "{\"volume\":{\"inner\":18000,\"outer\":30000,\"opacity\":2e-5,\"emissivity\":2e-5},\"camera\":{\"field_m\":"
@@ -96,7 +96,7 @@ static void at_most(double off, double allowed, const char *what, size_t view, i
         fail_msg("%s, view %zu, pixel %d: off by %.2g, allowed %.2g", what, view, pixel, off, allowed);
 }
 
-/* Uniform matter gives j/alpha (1 - exp(-alpha length)), or j length. */
+/* The light of uniform matter is j/alpha (1 - exp(-alpha length)), or j length without absorption. */
 static void test_closed_form(void **state)
 {
     (void)state;
@@ -146,7 +146,8 @@ static void test_shift(void **state)
     printf("with its shift: worst %.2g\n", worst);
 }
 
-/* A shell beyond the disk dims it only by the part in front of it: the disk is opaque. */
+/* Of a shell that encloses a part of the disk, only the part in front of the disk dims it, because the disk is opaque.
+ * */
 static void test_order(void **state)
 {
     (void)state;
@@ -225,10 +226,10 @@ static struct thin_errors thin_limit(struct kd_scene scene, double height)
     return e;
 }
 
-/* A thick disk of almost no height equals the thin one, with opacity by depth, a chosen opacity, and its taper. At the
- * inner edge of a disk seen nearly edge-on, where the flux falls steeply to zero, the difference is of the order of the
- * height, because the ray meets the gas a little further in. The difference is proportional to the height, and its
- * extrapolation to height 0 vanishes. */
+/* A thick disk of almost no height equals the thin disk. This is tested for opacity from the optical depth, for a
+ * chosen opacity, and for the taper. At the inner edge of a disk seen nearly edge-on, where the flux falls steeply to
+ * zero, the difference is of the order of the height, because the ray meets the gas a little further in. The difference
+ * is proportional to the height, and its extrapolation to height 0 vanishes. */
 static void test_thin_limit(void **state)
 {
     (void)state;
@@ -256,7 +257,7 @@ static void test_thin_limit(void **state)
 
 enum { COLUMNS = 128, ROWS = 32 };
 
-/* Mean light of a row, over the columns whose rays ended regularly in both frames. */
+/* Mean light of a row, over the columns in which the rays of both frames ended regularly. */
 static double row_of(const struct kd_frame *frame, const struct kd_frame *other, int y, int *left_out)
 {
     double sum = 0;
@@ -268,8 +269,8 @@ static double row_of(const struct kd_frame *frame, const struct kd_frame *other,
     return sum / COLUMNS;
 }
 
-/* Seen edge-on there are no bands. The vertical profile agrees, row by row, with that of a march with 16 times as many
- * steps. Differences are relative to the row's own light. */
+/* An edge-on disk shows no bands. Its vertical profile agrees, row by row, with that of a march with 16 times as many
+ * steps. Differences are relative to the light of the row. */
 static void test_no_bands(void **state)
 {
     (void)state;
@@ -296,14 +297,14 @@ static void test_no_bands(void **state)
         printf("%s: %d rows, worst %.2g of their own light; %d rays left out\n", stirred ? "stirred" : "smooth",
                compared, worst, left_out / 2);
         assert_true(compared == ROWS && worst < 0.005 &&
-                    /* the march is so long that lavapipe stops it on 832 of 4096 rays */
+                    /* tolerance: the march is so long that lavapipe stops it on 832 of the 4096 rays */
                     left_out / 2 < ROWS * COLUMNS / 4);
         kd_frame_finish(&plain);
         kd_frame_finish(&fine);
     }
 }
 
-/* A ray that stays in the plane, where cos theta is exactly 0, has the light of its neighbours. */
+/* A ray in the plane has cos theta = 0 exactly. It has the same light as neighbouring rays. */
 static void test_in_the_plane(void **state)
 {
     (void)state;
@@ -320,7 +321,7 @@ static void test_in_the_plane(void **state)
     kd_frame_finish(&frame);
 }
 
-/* Without a volume there is no march pass. With one the march pass replaces the transfer pass. */
+/* A frame without a volume has no march pass. With a volume the march pass replaces the transfer pass. */
 static void test_plan(void **state)
 {
     (void)state;
@@ -423,7 +424,8 @@ static void test_order_of_pictures(void **state)
 {
     (void)state;
     struct kd_frame first = picture_of(90, KD_VOLUME_UNIFORM);
-    for (int32_t k = 0; k <= KD_LENS_MAPS_KEPT; k++) { /* renders enough pictures to evict the map of the first one */
+    /* renders so many pictures that the map of the first one is evicted */
+    for (int32_t k = 0; k <= KD_LENS_MAPS_KEPT; k++) {
         struct kd_frame other = picture_of(40 + k, KD_VOLUME_UNIFORM);
         kd_frame_finish(&other);
     }

@@ -144,7 +144,7 @@ static const float *layer(const struct kd_frame *frame, const char *name)
     "{\"time\":5000,\"camera\":{\"field_m\":20,\"fov_deg\":45},\"disk\":{\"outer\":16,\"slow_light\":true,\"gas\":{" \
     "\"amplitude\":0.8,\"octaves\":2,\"scale\":1}}}"
 
-/* Delays of the crossings that pixels show: by the lens map of the thin disk or, for a near observer, by the oracle. */
+/* Delays of the crossings that pixels show: from the thin disk's lens map, or from the oracle for a near observer. */
 static void thin_delays(struct kd_scene scene, double out[PIXELS])
 {
     for (int i = 0; i < PIXELS && isfinite(scene.camera.r); i++)
@@ -159,8 +159,8 @@ static void thin_delays(struct kd_scene scene, double out[PIXELS])
     kd_frame_finish(&frame);
 }
 
-/* Opaque gas of almost no height shows the place where the ray first crosses the plane, as it looks in a picture of the
- * emission time. */
+/* If the gas is opaque and has almost no height, a pixel shows the point where its ray first crosses the plane. The
+ * point looks as in a picture of the emission time. */
 static void test_thin(void **state)
 {
     (void)state;
@@ -198,8 +198,8 @@ static void test_thin(void **state)
     }
 }
 
-/* Seen along the axis, all light of a circle was emitted at one time. The circle therefore equals the same circle of a
- * picture at that earlier time. */
+/* Seen along the axis, all light of a circle was emitted at the same time. The circle therefore looks the same as in a
+ * picture of that time. */
 static void test_face_on(void **state)
 {
     (void)state;

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { WIDTH = 192, HEIGHT = 108, PIXELS = WIDTH * HEIGHT }; /* the size of the largest picture */
+enum { WIDTH = 192, HEIGHT = 108, PIXELS = WIDTH * HEIGHT }; /* size of the largest picture */
 
 static struct kd_scene scene_of(const char *preset, const char *json)
 {
@@ -59,7 +59,8 @@ static struct errors compare(const struct kd_frame *a, const struct kd_frame *b)
     }
     print_message("%d of %d rays left out\n", left_out, pixels);
     assert_true(n > pixels / 20 &&
-                /* the march through turbulence is so long that lavapipe stops it on 252 of 20 736 rays */
+                /* tolerance: the march through turbulence is so long that lavapipe stops it on 252 of the 20 736 rays
+                 * */
                 left_out < pixels / 40);
     qsort(off, (size_t)n, sizeof *off, by_value);
     return (struct errors) { off[n * 8 / 10], off[n * 9 / 10], off[n * 96 / 100], off[n - 1] };
@@ -75,9 +76,8 @@ static const struct {
     { "jet", "{\"disk\":{\"model\":\"none\"}}" },
 };
 
-/* A frame states the error that nine tenths of a sample of a hundred rays do not exceed. Within two standard deviations
- * of the sample this is between the 80 % and 96 % quantiles of all pixels. Doubling the steps leaves at most half of
- * the error. */
+/* A frame states the 90th percentile of the errors of a hundred sampled rays. Within two standard deviations, this lies
+ * between the 80th and 96th percentiles of all pixels. With twice as many steps the error is at most half. */
 static void test_said(void **state)
 {
     (void)state;
@@ -97,7 +97,7 @@ static void test_said(void **state)
     }
 }
 
-/* A medium for the oracle that measures the length of a ray's path through a shell. */
+/* A medium that makes the oracle measure the length of a ray's path through a shell. */
 static void path(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     (void)user, (void)p, (void)r, (void)u;
@@ -162,8 +162,8 @@ static void test_profiles(void **state)
     kd_frame_finish(&fine);
 }
 
-/* Each profile meets its target in turbulence as well, and states at least the true error. Profiles that take minutes
- * are left out. */
+/* Each profile also meets its target in turbulence, and the error that it states is not below the true error. Profiles
+ * that take minutes are not tested. */
 static void test_stirred(void **state)
 {
     (void)state;
@@ -184,8 +184,8 @@ static void test_stirred(void **state)
     kd_frame_finish(&fine);
 }
 
-/* Rays closer together resolve more octaves of the noise, so the march takes shorter steps. A picture of usual size
- * then meets the target of "balanced". */
+/* With closer rays the noise has more octaves, so that the march takes shorter steps. A picture of usual size then
+ * meets the target of "balanced". */
 static void test_close_rays(void **state)
 {
     (void)state;
@@ -211,8 +211,8 @@ static void test_close_rays(void **state)
     kd_frame_finish(&frame);
 }
 
-/* The sketch of a changing view is marked as a sketch. It states its measured error, and is as accurate as stated. The
- * sketch leaves out fine octaves and does not change the lens map. */
+/* While a view changes, its frames are sketches, and are marked as such. A sketch states its measured error, which is
+ * the true one. It leaves out fine octaves, and does not change the lens map. */
 static void test_sketch(void **state)
 {
     (void)state;
@@ -250,7 +250,7 @@ static void test_sketch(void **state)
     kd_frame_finish(&all);
 }
 
-/* A tolerance that 32 bits cannot meet is refused with a message that names one that they can. */
+/* A tolerance that 32 bits cannot meet is refused. The message names a tolerance that they can meet. */
 static void test_refused(void **state)
 {
     (void)state;

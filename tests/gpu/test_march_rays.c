@@ -9,7 +9,7 @@
 
 enum { WIDTH = 12, HEIGHT = 4, SIDE = 4 };
 
-/* Turbulent gas, fine and seen nearly edge-on: some hundred steps a ray, of 22 loop passes each. */
+/* Turbulent, fine gas, seen nearly edge-on. A ray takes some hundred steps, of 22 passes of a loop each. */
 static struct kd_frame picture(int width, int height, const char *samples, const char *critical)
 {
     struct kd_scene scene;
@@ -44,7 +44,7 @@ static double mean_of_rays(const float *single, int x, int y)
 
 static double off(double is, double want) { return fabs(is / want - 1); }
 
-/* Tests sixteen rays in each pixel, and as many rays as each pixel needs. */
+/* Tests pictures with sixteen rays in each pixel, and pictures with as many rays as each pixel needs. */
 static void test_mean(void **state)
 {
     (void)state;
@@ -69,9 +69,9 @@ static void test_mean(void **state)
         kd_frame_finish(all[i]);
 }
 
-/* Rays along a turbulent disk of 5e5 M, some hundred M of which are visible. They take few steps in the dark, so that
- * lavapipe, which ends loops after 65 535 passes of eight rays, ends none of them. With all streaks 18 rays were given
- * up, and 5 places of the layer had no light. */
+/* Rays along a turbulent disk of 5e5 M, some hundred M of which are visible. Rays take only few steps in the dark.
+ * lavapipe stops loops of eight rays after 65 535 passes, but stops none of these. With steps for all streaks, 18 rays
+ * were given up, and 5 pixels of the layer had no light. */
 static void test_wide(void **state)
 {
     (void)state;
@@ -95,8 +95,8 @@ static void test_wide(void **state)
     kd_frame_finish(&frame);
 }
 
-/* With an extremal hole and an observer who falls near it, a ray that grazes the horizon still has light, through every
- * kind of gas that fills space. */
+/* A ray that grazes the horizon has light. This is tested for an extremal hole and an observer who falls near it, with
+ * each kind of gas that fills space. */
 static void test_extremal(void **state)
 {
     (void)state;
@@ -149,7 +149,7 @@ static struct kd_scene tall(int width, int samples, int left, int top, int colum
     return scene;
 }
 
-/* The light of one ray that is followed alone, divided by the light of its pixel. */
+/* The light of one ray that is traced alone, divided by the light of its pixel. */
 static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
 {
     struct kd_capacity c;
@@ -171,8 +171,8 @@ static double beside_alone(const struct kd_scene *scene, uint32_t x, uint32_t y)
 }
 
 /* lavapipe stops the loops of eight such rays together, but not the loop of a single ray. Stopped rays are continued in
- * pieces. They then have the same light as when they are followed alone, also within their pixel. Without this, 16 rays
- * of the tile were given up. */
+ * pieces. Their light is then the same as for rays that are traced alone, also within their pixel. Without this, 16
+ * rays of the tile were given up. */
 static void test_pieces(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* Tests of matter on a grid. The light of each ray is compared with the integral of emission and absorption along the
- * Kerr-Schild oracle's path. For this the test has its own interpolation, velocities and fields from the metric's
- * components, and emissivities in CGS. Also tests numbers beyond single precision. */
+ * Kerr-Schild oracle's path. The integral uses the test's own interpolation, velocities and fields from the metric's
+ * components, and emissivities in CGS. Other tests: numbers beyond single precision. */
 #include "image/npy.h"
 #include "image/zip.h"
 #include "render/emit/matter_grid.h"
@@ -25,12 +25,12 @@ struct numbers {
     double a, q, r[2];
     bool ingoing, packed;
     double phi;
-    /* bend[0] is for the first row of radii, bend[1] for the last: theta = y + bend sin 2y, with y evenly spaced from
-     * pole to pole; 0: theta is evenly spaced */
+    /* theta = y + bend sin 2y, with y evenly spaced from pole to pole; bend[0]: for the first row of radii; bend[1]:
+     * for the last row; 0: even theta */
     double bend[2];
     uint32_t frames; /* 0: the file has no times */
     double time[2];
-    bool late;          /* the frames are slices of constant Kerr-Schild time */
+    bool late;          /* true: the frames are slices of constant Kerr-Schild time */
     double *of[ARRAYS]; /* allocated once, by make_room */
 };
 
@@ -73,7 +73,7 @@ static void add_line(struct kd_zip *zip, const char *name, const double *at, siz
         &(struct kd_npy) { .fields = { { "", KD_NPY_F8, 0 } }, .n_fields = 1, .shape = { n }, .n_dimensions = 1 }, at);
 }
 
-/* theta of a node. */
+/* Polar angle theta of a node. */
 static double theta_of(const struct numbers *g, double row, double column)
 {
     const double y = (column + 0.5) * M_PI / g->columns,
@@ -96,7 +96,7 @@ static void add_angles(struct kd_zip *zip, const struct numbers *g)
         theta);
 }
 
-/* A count that a thread waits for. */
+/* A counter; a thread waits for its value. */
 struct event {
     pthread_mutex_t lock;
     pthread_cond_t changed;
@@ -186,7 +186,7 @@ static void make_room(struct numbers *g)
         assert_non_null(g->of[k] = calloc(numbers_of(g), sizeof(double)));
 }
 
-/* Each node has different numbers, about a flow that falls in and rotates. */
+/* Each node has different values, which vary about a flow that falls in and rotates. */
 static void fill(struct numbers *g, uint32_t seed, double rough)
 {
     make_room(g);
@@ -208,7 +208,7 @@ static void fill(struct numbers *g, uint32_t seed, double rough)
     }
 }
 
-/* The column at theta in a row, interpolated linearly between the angles of the nodes. */
+/* The fractional column index at theta in a row, by linear interpolation between the nodes' angles. */
 static double column_of(const struct numbers *g, double row, double theta)
 {
     double column = 0;
@@ -218,8 +218,8 @@ static double column_of(const struct numbers *g, double row, double theta)
     return fmin(fmax(column + (theta - below) / (theta_of(g, row, column + 1) - below), 0), g->columns - 1.0);
 }
 
-/* Interpolation over the eight nodes about a place, in a frame. Components are converted to those for a length of M:
- * theta's times r, phi's over r sin^2 theta. */
+/* Interpolation over the eight nodes about a place, in a frame. Components are converted to unit lengths of M: the
+ * theta component is multiplied by r, the phi component is divided by r sin^2 theta. */
 static double between(const struct numbers *g, uint32_t frame, int which, double r, double theta, double phi)
 {
     const double x = log(r / g->r[0]) / log(g->r[1] / g->r[0]) * (g->rows - 1), under = fmin(floor(x), g->rows - 2.0),
@@ -249,7 +249,7 @@ static double later(const struct numbers *g, double r)
     return ((2 * out - q2) * log((r - out) / 2) - (2 * in - q2) * log((r - in) / 2)) / (2 * root);
 }
 
-/* A ring whose density has one lump that goes round with the angular velocity of the orbit at 8 M. */
+/* A ring whose density has one lump. The lump moves with the angular velocity of the orbit at 8 M. */
 static void ring(const struct numbers *g, double r, double theta, double phi, double time, double at[ARRAYS])
 {
     const double turn = phi - time / (pow(8, 1.5) + g->a), x = log(r / 8) / 0.4, u = cos(theta) / 0.4, s = sin(theta);
@@ -285,11 +285,11 @@ static void fill_ring(struct numbers *g)
 struct view {
     const struct kd_scene *scene;
     const struct numbers *g;
-    bool closed; /* compared with the ring itself, not with its nodes */
+    bool closed; /* compared with the formula of the ring, not with its values at the nodes */
 };
 
-/* The time on the grid's clock, as a fractional index of a frame. By definition it is the scene's time, or with slow
- * light the time when the light left. */
+/* The time on the grid's clock, as a fractional index of a frame. This is the scene's time or, with slow light, the
+ * time of emission. */
 static double frame_of(const struct view *view, const struct ks_photon *p, double r)
 {
     const struct numbers *g = view->g;
@@ -319,7 +319,7 @@ static double product(const double g[5], const double x[4], const double y[4])
            g[4] * (x[0] * y[3] + x[3] * y[0]);
 }
 
-/* u^t is the root of u.u = -1, u^phi follows from u_phi; b^t from b.u = 0. */
+/* u^t is the root of u.u = -1, u^phi follows from u_phi, and b^t from b.u = 0. */
 static void medium(void *user, const struct ks_photon *p, double r, double u, double out[2])
 {
     const struct view *view = user;
@@ -363,7 +363,7 @@ static void medium(void *user, const struct ks_photon *p, double r, double u, do
     out[1] = cm * seen * j * expm1(H * nu / (heat * ME * C * C)) * C * C / (2 * H * nu * nu * nu);
 }
 
-/* The brightness temperature of pixel i of a square picture. */
+/* Brightness temperature of pixel i of a square picture. */
 static double kelvin_by_oracle(struct view *view, int side, int i)
 {
     const struct kd_scene *scene = view->scene;
@@ -443,8 +443,8 @@ static void test_rays(void **state)
     compare(&ingoing, "{" HIGH ",\"camera\":{\"inclination_deg\":50,\"azimuth_deg\":-70}}", 2e-3);
 }
 
-/* Rays through series whose frames have nothing in common, in fast and in slow light, whole and packed, on slices of
- * either time. Some light is older than the first frame, or younger than the last. */
+/* Rays through series of unrelated frames. Tested with fast and slow light, with the grid whole and packed, and on
+ * slices of Kerr-Schild or Boyer-Lindquist time. Some light is older than the first frame or younger than the last. */
 static void test_series(void **state)
 {
     (void)state;
@@ -482,8 +482,8 @@ static void test_series(void **state)
     compare(&round, "{" HIGH ",\"time\":112,\"camera\":{\"azimuth_deg\":30},\"volume\":{\"slow_light\":true}}", 2e-3);
 }
 
-/* Before the first frame and after the last, a series is a grid of that frame alone, which ignores slow light. Slow
- * light divides rays into other stretches. */
+/* Before the first frame and after the last, a series is a grid of that frame alone, which ignores slow light. The
+ * differences are due to slow light, which divides rays into other steps. */
 static void test_ends(void **state)
 {
     (void)state;
@@ -517,7 +517,7 @@ static void test_ends(void **state)
         }
 }
 
-/* The ring with its lump in slow light is compared with the closed form at the time when light left each place. The
+/* In slow light, the ring with its lump is compared with the formula at the time when the light left each point. The
  * picture without slow light differs. */
 static void test_moving(void **state)
 {
@@ -557,7 +557,7 @@ static void test_moving(void **state)
     }
 }
 
-/* For extreme numbers, light is a number and at least 0, polarised or not. */
+/* For extreme numbers, light is finite and not negative, with and without polarisation. */
 static void test_adversarial(void **state)
 {
     (void)state;
@@ -584,8 +584,8 @@ static void test_adversarial(void **state)
     for (size_t i = 0; i < 4 * sizeof extremes / sizeof *extremes; i++) {
         const int of = extremes[i / 4].of, last = of == 5 ? 8 : of == 2 ? 5 : of + 1;
         static struct numbers g = { .rows = 6, .columns = 5, .layers = 4, .a = 0.9 };
-        g.r[0] = 1, g.r[1] = 30;         /* here the first rows lie inside the horizon */
-        g.q = i % 3 ? 0 : 0.43588989435; /* horizons 4e-6 M apart */
+        g.r[0] = 1, g.r[1] = 30;         /* in this case the first rows lie inside the horizon */
+        g.q = i % 3 ? 0 : 0.43588989435; /* in this case the horizons are 4e-6 M apart */
         fill(&g, 7, 0.4);
         for (int k = of; k < last; k++)
             for (uint32_t n = 0; n < g.rows * g.columns * g.layers; n++)

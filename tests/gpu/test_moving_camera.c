@@ -1,7 +1,7 @@
 /* Tests a camera with an arbitrary velocity, for which every leg of the tetrad has all components. The lens map by both
  * kernels, and the labels of a pixel, are compared with the Kerr-Schild oracle. The oracle applies aberration to the
- * directions of the picture, and follows them from a frame of zero angular momentum. No real kind of observer moves
- * like this; the test replaces one of them. */
+ * directions of the picture, and follows them from a frame of zero angular momentum. No observer of a scene moves like
+ * this, so the test replaces the motion of one. */
 #include "kerr_schild.h"
 #include "physics/spacetime/kerr.h"
 #include "physics/spacetime/observer.h"
@@ -90,8 +90,8 @@ static void labels(const struct kd_scene *scene)
     }
 }
 
-/* Errors are divided by the crossing's amplification, as in test_lens_map.c. A ray whose number of crossings changes
- * when it is moved is unsure. */
+/* Errors are divided by the crossing's amplification, as in test_lens_map.c. A ray is unsure if a small shift changes
+ * its number of crossings. */
 static void map(const struct kd_scene *scene, enum kd_lens_path path, const char *engine)
 {
     static float planes[4 * RAYS];
@@ -125,7 +125,7 @@ static void map(const struct kd_scene *scene, enum kd_lens_path path, const char
     assert_true(wrong == 0 && n > 30); /* few crossings are required, because a near camera that looks past the hole
                                           sees little of the plane */
     assert_true(errors[n / 2] < 2e-7 &&
-                errors[n - 1] < 1e-5); /* the bound is some roundings of a float, which grow near turning points */
+                errors[n - 1] < 1e-5); /* bound: some roundings of a float, which are amplified near turning points */
 }
 
 static void moving(void **state)

@@ -12,7 +12,7 @@
 
 enum { GRID = 12, RAYS = GRID * GRID, FACES = 6, ORDERS = 2 };
 #define RADIAN (M_PI / 180)
-#define HORIZON 1.4358898943540673 /* of a = 0.9 */
+#define HORIZON 1.4358898943540673 /* radius of a horizon of a = 0.9 */
 #define FALL .fall_from = INFINITY, .fall_energy = INFINITY
 
 static const struct seer {
@@ -20,7 +20,9 @@ static const struct seer {
     double spin, inclination, r;
     struct kd_observer_motion motion;
     double
-        energy; /* energy of bodies in free fall and on circular orbits, from Bardeen, Press & Teukolsky or by hand */
+        /* energies of bodies in free fall and on circular orbits, from Bardeen, Press & Teukolsky or computed by hand
+         * */
+        energy;
     double momentum;
 } seers[] = {
     { "zamo", 0.9, 60, 4, { .observer = KD_OBSERVER_ZAMO }, 0, 0 },
@@ -119,7 +121,7 @@ static struct ks_frame frame_of(const struct seer *seer)
 
 static double step_of(int i) { return (2 * i + 1.0) / GRID - 1; }
 
-/* The direction (k_r, k_theta, k_phi) that a pixel of a face shows. */
+/* The direction (k_r, k_theta, k_phi) of a pixel on one face of the cube. */
 static void direction(int face, double x, double y, double k[3])
 {
     double n = 1 / sqrt(1 + x * x + y * y);
@@ -137,8 +139,8 @@ static void photon(const struct seer *seer, int face, double x, double y, double
     ks_seen(&f, k, p);
 }
 
-/* The kernels' starting values for each pixel of the whole sky, in the kernels' arithmetic: E (the redshift), L,
- * p_theta and p^r, relative to the size of the tetrad's legs. */
+/* The kernels' starting values for each pixel of the whole sky: E (the redshift), L, p_theta and p^r, in the kernels'
+ * arithmetic. Errors are relative to the size of the tetrad's legs. */
 static double constants(const struct seer *seer)
 {
     const struct ks_place at = place_of(seer);
@@ -173,8 +175,8 @@ static double constants(const struct seer *seer)
     return worst;
 }
 
-/* In double precision, the direction in which an observer sees a photon with given constants, by contraction with the
- * oracle's legs. */
+/* The direction in which an observer sees a photon with given constants, in double precision, by contraction with the
+ * oracle's tetrad. */
 static double aberration(const struct seer *seer)
 {
     const struct ks_place at = place_of(seer);
@@ -213,7 +215,7 @@ struct judged {
     size_t n, wrong, sky;
 };
 
-/* Boyer-Lindquist minus ingoing azimuth at a place: the integral of a/Delta from r to infinity. */
+/* Boyer-Lindquist azimuth minus ingoing azimuth at a point: the integral of a/Delta from r to infinity. */
 static double twist(const struct seer *seer)
 {
     double a = seer->spin, root = sqrt((1 - a) * (1 + a));
@@ -224,8 +226,8 @@ static double twist(const struct seer *seer)
 
 static double turn(double x) { return remainder(x, 2 * M_PI); }
 
-/* Errors over the map's amplification. A ray whose end or number of crossings changes when it is moved slightly is
- * unsure. */
+/* Errors divided by the map's amplification. A ray is unsure if a small shift changes its end or number of crossings.
+ * */
 static void judge(const struct seer *seer, int face, int k, const float *planes, struct judged *o)
 {
     const struct ks_place at = place_of(seer);
@@ -290,16 +292,16 @@ static void maps(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* Angular radius of the dark disk for rain in Schwarzschild: b = r sin/(1 - cos sqrt(2/r)) = sqrt(27), a quadratic
- * equation for the tangent of half the angle. One root is for light moving inwards at the photon orbits, the other for
- * light moving outwards. */
+/* Angular radius of the dark disk that an observer falling from rest at infinity ("rain") sees in Schwarzschild's
+ * metric: b = r sin/(1 - cos sqrt(2/r)) = sqrt(27), a quadratic equation for the tangent of half the angle. One root is
+ * for light moving inwards at the photon orbits, the other for light moving outwards. */
 static double dark_angle(double r)
 {
     double q = sqrt(54 / r), middle = atan2(r, q), half = acos(fmin(1, sqrt(27) / hypot(r, q)));
     return r < 3 ? middle + half : middle - half;
 }
 
-/* The edge of the dark disk along a row of pixels a few microradians apart. */
+/* Position of the dark disk's edge in a row of pixels that are a few microradians apart. */
 static void dark_disk(void **state)
 {
     (void)state;
@@ -337,7 +339,8 @@ static void dark_disk(void **state)
     assert_int_equal(bad, 0);
 }
 
-/* The whole sky that rain sees at a radius: for each ray its fate, and cos(theta) and azimuth of its end. */
+/* The whole sky that a falling observer ("rain") sees at a radius. For each ray: its fate, and cos(theta) and azimuth
+ * of its end. */
 static void look_around(double spin, double inclination, double r, float ends[FACES][3 * RAYS])
 {
     static float planes[(ORDERS + 3) * RAYS];
@@ -356,8 +359,8 @@ static void look_around(double spin, double inclination, double r, float ends[FA
     }
 }
 
-/* The view is continuous across the horizon, in all directions, also on the axis: no ray is given up or lost. Each ray
- * ends at the same place as from a millionth of the radius away. */
+/* The view changes continuously at the horizon, in all directions, also on the axis. No ray is given up or lost. Each
+ * ray ends where it ends for an observer a millionth of the radius away. */
 static void no_seam_at_the_horizon(void **state)
 {
     (void)state;
@@ -385,8 +388,8 @@ static void no_seam_at_the_horizon(void **state)
                                  moved = hypot(acos(end[0]) - acos(before[0]), s * turn(end[RAYS] - before[RAYS]));
                     turned += moved > 1e-4 + 100 * apart;
                 }
-            /* Some rays in a hundred are within 0.01 of the critical curve. These move by 100 times as much as
-             * others. */
+            /* Some rays in a hundred are within 0.01 of the critical curve. Their ends move 100 times as far as those
+             * of others. */
             if (turned > FACES * RAYS / 100 || (k && sky < FACES * RAYS / 3))
                 fail_msg("a = %g, inclination %g, r = %.7g: %zu of %zu rays end elsewhere than next to it", spins[i],
                          inclinations[i], r, turned, sky);

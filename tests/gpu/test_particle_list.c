@@ -1,6 +1,6 @@
-/* Tests of particles as numbers. Places are compared with the closed form in double precision; constants and the norm
- * with physics/orbit/timelike.h and the metric; rates with differences of places. Also tests parts of a list, and
- * refused requests. */
+/* Tests of particles as numbers. Positions are compared with the closed form in double precision, constants and the
+ * norm with physics/orbit/timelike.h and the metric, and rates with differences of positions. Other tests: parts of a
+ * list, and refused requests. */
 #include "render/output/particle_list.h"
 
 #include "physics/orbit/timelike.h"
@@ -57,7 +57,7 @@ static struct kd_particle_orbit orbit_of(const struct kd_scene *scene, const str
     return kd_particle_orbit(scene, grid->radii, kd_particle_guide(grid, 3 + 29 * (uint32_t)row));
 }
 
-/* Particles on circles: the azimuth after 1e4 M, and the place in space. */
+/* Particles on circular orbits: the azimuth after 1e4 M, and the position in space. */
 static void test_phase(void **state)
 {
     (void)state;
@@ -99,8 +99,8 @@ static struct constants constants_of(const double hole[2], const struct row *p)
     return (struct constants) { -ut * (gtt + gtp * p->dphi), ut * (gtp + gpp * p->dphi), norm };
 }
 
-/* The rates of falling particles are those of a body with the E and L of the ISCO, which the list states. Next to the
- * horizon the norm is almost 0, although both constants contribute to it in single precision. */
+/* Rates of falling particles are those of a body with the E and L of the ISCO, which the list states. Next to the
+ * horizon the norm is almost 0, while E and L contribute to it in single precision. */
 static void test_falling(void **state)
 {
     (void)state;
@@ -133,7 +133,7 @@ static void test_falling(void **state)
 }
 
 /* On the guiding orbit, computed by physics/orbit/timelike.c, the rates and constants belong to one orbit. With
- * epicycles they do to first order: the difference falls as the square of the epicycles. */
+ * epicycles this holds to first order: the difference is proportional to the square of the epicycles. */
 static void test_constants(void **state)
 {
     (void)state;
@@ -169,8 +169,8 @@ static void test_constants(void **state)
     }
 }
 
-/* Central differences over 2 M of the listed values: the third derivative of an epicycle, and single precision,
- * leave 2e-5 of the largest rates. */
+/* Central differences of the listed values over 2 M. The third derivative of an epicycle, and single precision, cause
+ * an error of 2e-5 of the largest rates. */
 static void test_rates(void **state)
 {
     (void)state;

@@ -24,7 +24,7 @@ static struct kd_scene particle_scene(double spin, double epicycles)
     return scene;
 }
 
-#define N 97 /* some particles of all radii */
+#define N 97 /* indices of some particles, at radii over the whole disk */
 
 static void places_at(struct kd_scene *scene, double time, struct kd_particle_place *out)
 {
@@ -44,9 +44,9 @@ static double radius(const struct kd_scene *scene, int i)
 
 static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
 
-/* Without epicycles a particle is at phi0 + t/(r^(3/2) + a), computed here with 64 bits of mantissa; r is one of the
- * radii of equal shares of the disk. The reported r has single precision, 1e-7, which would be 1e-4 rad after 1e4 M.
- * Therefore the radius is computed in double from the share, and the reported float must agree with it. */
+/* Without epicycles a particle is at phi0 + t/(r^(3/2) + a), computed here with 64 bits of mantissa; The radii r divide
+ * the disk into equal shares. The reported r has an error of 1e-7 (single precision), which would cause 1e-4 rad after
+ * 1e4 M. The test therefore computes r in double precision from the share, and checks the reported r against it. */
 static void test_phase(void **state)
 {
     (void)state;
@@ -75,7 +75,7 @@ static void test_phase(void **state)
     printf("orbital phase after 1e4 M: within %.2g rad\n", worst);
 }
 
-/* Mean time between upward zero crossings of samples `step` apart. */
+/* Mean time between upward zero crossings. samples: values, `step` apart in time. */
 struct period {
     double first, last, before;
     int zeros;
@@ -92,7 +92,7 @@ static void sample(struct period *p, int i, double step, double value)
 }
 static double period(const struct period *p) { return (p->last - p->first) / (p->zeros - 1); }
 
-/* The frequencies of small oscillations by another method, as those of a bound geodesic close to a circle
+/* Frequencies of small oscillations by another method: those of a bound geodesic close to a circle
  * (src/physics/orbit/orbit_bound.h, which shares nothing with epicyclic.c). */
 static struct kd_orbit_frequencies frequencies(const struct kd_hole *hole, double r)
 {
@@ -158,8 +158,8 @@ static double difference(const struct kd_frame *a, const struct kd_frame *b)
     return sum / (double)n;
 }
 
-/* Changes of time, seed, number and azimuth keep the lens map. The same scene gives the same picture, whatever was
- * rendered in between. */
+/* A change of time, seed, number or azimuth keeps the lens map. A scene always gives the same picture, whatever was
+ * rendered before it. */
 static void test_frames(void **state)
 {
     (void)state;
@@ -188,8 +188,8 @@ static void test_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* A near observer's slow light uses particles at another time than a list of the same scene. Neither uses the particles
- * of the other. */
+/* A near observer's slow light uses particles at another time than a list of the same scene. The picture does not use
+ * the particles of the list, nor the list those of the picture. */
 static void test_lists_between_frames(void **state)
 {
     (void)state;
@@ -213,8 +213,8 @@ static void test_lists_between_frames(void **state)
     kd_frame_finish(&again);
 }
 
-/* To an observer that co-rotates with a narrow ring, the ring does not move. To one that rotates the other way it
- * does. */
+/* A narrow ring does not move for an observer that co-rotates with it. It moves for an observer that rotates the other
+ * way. */
 static void test_turning(void **state)
 {
     (void)state;
@@ -268,7 +268,7 @@ static void test_edges(void **state)
         for (int x = 0; x < scene.image.width; x++) {
             const double b = pixel * hypot(x + 0.5 - middle, y + 0.5 - middle);
             const uint8_t *rgb = (uint8_t *)kd_frame_pixels(&frame) + 3 * (y * scene.image.width + x);
-            const bool light = rgb[0] + rgb[1] + rgb[2] > 12; /* a sum above 12 is more than dither */
+            const bool light = rgb[0] + rgb[1] + rgb[2] > 12; /* tolerance: dither changes the sum by at most 12 */
             lit += light && b > 14 && b < 18;
             outside += light && b > sqrt(18 * 18 + 2 * 18) + 1;
             within += light && b < sqrt(12 * 12 + 2 * 12) - 1;
@@ -279,10 +279,10 @@ static void test_edges(void **state)
 }
 
 /* Light with delay D shows the disk at t - D. A pixel of a picture with slow light therefore equals the pixel of a
- * picture without slow light at t - D, where D is the delay of its ray. This holds for an observer at infinity and a
- * near one, and about a charged hole. The pixels agree only approximately, because a grid that is rotated by a part of
- * a cell is blurred differently. About the charged hole the angular velocity without charge would be wrong by several
- * cells. */
+ * picture without slow light at t - D, where D is the delay of its ray. Tested for an observer at infinity, a near
+ * observer, and a charged hole. The pixels agree only approximately, because a grid that is rotated by a fraction of a
+ * cell is blurred differently. For the charged hole, the angular velocity of an uncharged hole would cause an error of
+ * several cells. */
 static void test_slow_light(void **state)
 {
     (void)state;

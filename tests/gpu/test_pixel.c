@@ -50,7 +50,7 @@ static void near(const char *what, double got, double want, double allowed)
         fail_msg("%s: %.9g, not %.9g: off by %.2g, allowed %.2g", what, got, want, fabs(got - want), allowed);
 }
 
-/* Adds the volume parts in front of the crossing of this order. */
+/* Adds the parts of the volume that are in front of the crossing of this order. */
 static void add_stretches(const struct kd_probed_ray *told, size_t *s, uint32_t order, double *through, double sum[3])
 {
     for (; *s < told->n_stretches && told->stretches[*s].order <= order; ++*s) {
@@ -106,9 +106,9 @@ static size_t judge_sum(const struct kd_frame *frame, uint32_t x, uint32_t y)
     return n;
 }
 
-/* Checks that all rays of the pixel together give its light, and that each ray has its emitters' light; a 0 would mean
- * that the data was lost between the kernel and the answer. Returns the number of rays whose light differs from that of
- * the first. */
+/* Checks that all rays of the pixel together give its light, and that each ray has light from its emitters. A ray with
+ * 0 would mean that data was lost between the kernel and the answer. Returns the number of rays whose light differs
+ * from that of the first. */
 static uint32_t judge_rays(const struct kd_frame *frame)
 {
     const struct kd_probed_pixel *told = frame->told;
@@ -155,7 +155,8 @@ static void judge_direction(const struct kd_scene *scene, const struct kd_explai
     assert_int_equal(end.n_crossings, x->end.n_crossings);
     for (uint32_t n = 0; n < end.n_crossings; n++) {
         const double bound =
-            (1e-11 + 1e3 * x->end.error) * fmax(x->crossings[n].r, 1); /* rounding of the direction is amplified */
+            /* tolerance: the rounding error of the direction is amplified */
+            (1e-11 + 1e3 * x->end.error) * fmax(x->crossings[n].r, 1);
         near("r of a direction", x->crossings[n].r, crossings[n].r, bound);
         near("phi of a direction", x->crossings[n].phi, crossings[n].phi + x->frame.twist, bound);
         near("delay of a direction", x->crossings[n].delay, crossings[n].delay, bound);
@@ -206,7 +207,8 @@ static void judge_crossings(const struct kd_scene *scene, const struct kd_plan *
         fail_msg("the path ends otherwise");
     if (!isnan(x.path.error))
         near("crossings of the path", x.path.error, 0,
-             fmin(1e-9 + 1e4 * x.end.error, 1e-3)); /* tolerance: both differences grow with the ray's amplification */
+             /* tolerance: these differences are proportional to the ray's amplification */
+             fmin(1e-9 + 1e4 * x.end.error, 1e-3));
     kd_explained_finish(&x);
 }
 
@@ -431,8 +433,8 @@ static void negative_energies(void **state)
     assert_true(compared > 0);
 }
 
-/* Pixels of many rays: by image.samples, at the critical curve, and chosen by "auto", traced or interpolated. The
- * mean over the explained rays is the layer of the pixel's light; the rays' labels are as far apart as in the
+/* Pixels of many rays: by image.samples, at the critical curve, and chosen by "auto", traced or interpolated. The mean
+ * light of the explained rays equals the layer of the pixel's light. The rays' labels are as far apart as in the
  * picture. */
 static void many_rays(void **state)
 {
@@ -496,9 +498,9 @@ static void many_rays(void **state)
     }
 }
 
-/* From within the horizon the explanation follows the ray by steps in double precision, as unit/physics_course.c tests.
- * It agrees with the picture's kernel in crossings with azimuths and frequencies, in the fate, and in the direction in
- * the sky. The light adds up. */
+/* For an observer within the horizon the explanation follows the ray by steps in double precision, which
+ * unit/physics_course.c tests. It agrees with the picture's kernel in crossings (azimuths and frequencies), fate, and
+ * direction on the sky. The sum of the light is that of the pixel. */
 static void from_within(void **state)
 {
     const struct {
@@ -587,7 +589,7 @@ static void places(void **state)
     assert_int_equal(plan.report.probe.y, 35);
 }
 
-/* The volume of that name in an explanation; NULL: none. */
+/* The volume of that name in an explanation, or NULL. */
 static const struct kd_probed_volume *volume_of(const struct kd_frame *frame, const char *name)
 {
     for (size_t i = 0; i < frame->told->middle.n_volumes; i++)
@@ -617,9 +619,9 @@ static void judge_volumes(const struct kd_probed_ray *told)
                 (told->steps > 0 && told->samples >= 3 * told->n_stretches && told->steps <= told->samples + 12 * 16));
 }
 
-/* Each of two overlapping volumes is explained with the depth that it has alone. If neither hides the other, it also
- * has the light of a picture without the other volume. The shell's edges lie within the jets' bounds. The march must
- * locate them within a step; otherwise the error would be 1 %. */
+/* Each of two overlapping volumes is explained with the depth that it has alone. If neither hides the other, each also
+ * has the light that it has in a picture without the other. The shell's edges are within the jets' bounds. The march
+ * must find the edges within a step, or the error would be 1 %. */
 static void volumes(void **state)
 {
     static const char *const names[] = { "volume", "jets" };
@@ -648,7 +650,7 @@ static void volumes(void **state)
                     near("its light", (double)v->light[c], (double)alone.told->radiance[c],
                          5e-4 * (double)alone.told->radiance[c]);
                 lit[k] += v->light[0] > 0;
-                /* light of places behind the shell's matter */
+                /* light of points behind the shell's matter */
                 dim += hides && k && v->light[0] < 0.9f * alone.told->middle.light[0];
                 kd_frame_finish(&alone);
             }
@@ -721,8 +723,8 @@ static bool until_done(void *user, double fraction)
     return true;
 }
 
-/* The kernels that are compiled ahead for a picture are all that the explanation of its pixels needs, both at the
- * critical curve and elsewhere. */
+/* The kernels that are compiled ahead for a picture suffice for the explanation of its pixels, at the critical curve
+ * and elsewhere. */
 static void kernels_ahead(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* Tests of matter at a radio frequency. Each ray's brightness temperature is compared with the integral of emission and
  * absorption along the Kerr-Schild oracle's path, with velocities from the metric's components and emissivities in CGS.
- * Also tests fluxes in Jy, and numbers beyond single precision. */
+ * Other tests: fluxes in Jy, and numbers beyond single precision. */
 #include "render_support.h"
 
 #include "cgs.h"
@@ -142,7 +142,8 @@ static void power_law(const struct kd_volume *v, double n, double turn, double s
              tgamma((3 * p + 22) / 12) * pow(x, -(p + 2) / 2);
 }
 
-/* Equations 35 to 44 of the same paper, with the hypergeometric function by Euler's integral in ln t. */
+/* Absorptivity by equations 35 to 44 of the same paper, with the hypergeometric function from Euler's integral in ln t.
+ * */
 static void kappa_law(double kappa, double n, double theta, double turn, double sine, double nu, double out[2])
 {
     const double w = theta * (kappa - 3) / kappa, wk = w * kappa, x = nu / (turn * wk * wk * sine), a = kappa - 1.0 / 3,
@@ -298,7 +299,7 @@ static void test_rays(void **state)
     }
 }
 
-/* Extreme numbers: light is a number, 0 or more, and no ray is given up. */
+/* For extreme numbers, light is finite and not negative, and no ray is given up. */
 static void test_adversarial(void **state)
 {
     (void)state;
@@ -327,8 +328,8 @@ static void test_adversarial(void **state)
     }
 }
 
-/* Optically thick matter shines as a black body of its redshifted temperature, whatever its density, up to depths
- * beyond single precision. */
+/* Optically thick matter has the light of a black body of its redshifted temperature. This holds for any density, up to
+ * optical depths beyond single precision. */
 static void test_deep(void **state)
 {
     (void)state;
@@ -348,8 +349,8 @@ static void test_deep(void **state)
                 fail_msg("density %s, pixel %d: %g K, %g K at the least of them", densities[i], p,
                          (double)kelvin_of(&frame)[p], first[p]);
         }
-        /* Matter at rest at 20 M, in the middle of the picture, is seen with T sqrt(1 - 2/r), apart from frame
-         * dragging. */
+        /* Matter at rest at 20 M, in the middle of the picture, appears with the temperature T sqrt(1 - 2/r), apart
+         * from frame dragging. */
         assert_true(fabs(first[PIXELS / 2] / (3e11 * sqrt(0.9)) - 1) < 0.01);
         kd_frame_finish(&frame);
     }
@@ -426,8 +427,8 @@ static void test_published(void **state)
 }
 
 /* With ipole's camera, which is at 1000 M and moves inwards at 2/r, kerrd reproduces ipole's fluxes. Differences are
- * 0.2 % from its constants and steps, and 0.05 % from one ray a pixel (docs/physics/volume.md). From infinity they are
- * up to 0.9 % too small. */
+ * 0.2 % from its constants and steps, and 0.05 % from one ray a pixel (docs/physics/volume.md). For an observer at
+ * infinity, fluxes are up to 0.9 % smaller. */
 static void test_the_camera_of_ipole(void **state)
 {
     (void)state;
@@ -453,8 +454,8 @@ static void test_the_camera_of_ipole(void **state)
     }
 }
 
-/* If nothing else shines, the picture has a flux and layers in physical units. Otherwise it has no flux, and such
- * layers are refused. */
+/* If there is no other light, the picture has a flux and layers in physical units. With other light it has no flux, and
+ * such layers are refused. */
 static void test_alone(void **state)
 {
     (void)state;
@@ -487,7 +488,8 @@ static double flux_of(const struct kd_scene *scene, double *scale)
     return jy;
 }
 
-/* A normalised density gives the requested flux and is reported: a scene with that density gives the same picture. */
+/* A normalised density gives the requested flux, and is reported. A scene with the reported density gives the same
+ * picture. */
 static void test_normalised(void **state)
 {
     (void)state;
@@ -516,8 +518,8 @@ static void test_normalised(void **state)
     }
 }
 
-/* All pictures of an integral use one density, which is determined once. Tested are sizes whose aspect ratio is rounded
- * differently to whole pixels, visibilities, and two frequencies. */
+/* All pictures of an integral use one density, which is determined once. This is tested for sizes whose aspect ratios
+ * differ after rounding to whole pixels, for visibilities, and for two frequencies. */
 static void test_normalised_once(void **state)
 {
     (void)state;
@@ -580,7 +582,8 @@ static void test_held(void **state)
     assert_true(fabs(exact / first - 1) > 0.01);
 }
 
-/* No density gives the flux if there is no matter, or if matter absorbs its own light. Both are errors. */
+/* No density can give the flux if there is no matter, or if the matter absorbs its own light. These cases are errors.
+ * */
 static void test_not_normalised(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
-/* Tests of particles that fall from the ISCO, as the device places them. They are compared with geodesics integrated
- * from the metric, at any time, and with the expected steady stream. When they are switched off they cost nothing. */
+/* Tests of particles that fall from the ISCO, as computed by the device. Their positions are compared with geodesics
+ * integrated from the metric, and at any time they must form a steady stream. When they are switched off, they cause no
+ * cost. */
 #include "render/plan/sample.h"
 #include "render/emit/particles.h"
 
@@ -65,8 +66,8 @@ static void integrate(const struct kd_hole *hole, double time, double *r, double
 
 static double angle(uint32_t turns) { return turns * (2 * M_PI / 4294967296.0); }
 
-/* A particle at (r, phi) continues along its geodesic, or starts again. This is tested at early, late and negative
- * times. The reported r has an error of 6e-8 (single precision) at both times. */
+/* A particle at (r, phi) either continues along its geodesic, or has started again. Tested at early, late and negative
+ * times. Each reported r has an error of 6e-8 (single precision). */
 static void test_geodesics(void **state)
 {
     (void)state;
@@ -139,7 +140,7 @@ static void test_stream(void **state)
         double mean = FALLING / BINS, sigma = sqrt(mean * (1 - 1.0 / BINS));
         for (int b = 0; b < BINS; b++)
             assert_true(fabs(phases[b] - mean) < 4 * sigma && fabs(turns[b] - mean) < 4 * sigma);
-        assert_true(same < 40); /* 13 equal values are expected by chance */
+        assert_true(same < 40); /* by chance, 13 equal values are expected */
     }
 }
 

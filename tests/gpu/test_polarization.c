@@ -97,7 +97,8 @@ static const float *layer(const struct kd_frame *frame, const char *name)
     return found->data;
 }
 
-/* The centre of a pixel. The oracle's observers at infinity have no roll, so its screen is rotated afterwards. */
+/* The photon of a pixel's centre. The oracle's observers at infinity have no roll, so this function rotates the screen.
+ * */
 static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
 {
     const double theta = scene->camera.inclination_deg * RADIAN, roll = scene->camera.roll_deg * RADIAN, c = cos(roll),
@@ -128,9 +129,9 @@ static struct ks_screen screen_of(const struct kd_scene *scene, int pixel)
     return ks_screen_near(&at, &frame, look, top);
 }
 
-/* Each place is tested at the order whose light is visible there. Each half turn round the hole amplifies
- * single-precision errors by some 20. The tolerance of order 1 is therefore ten times as large; its radius is compared
- * to check that both methods follow the same ray. */
+/* Each point is tested at the image order whose light is visible there. Half a turn round the hole amplifies
+ * single-precision errors by about 20. The tolerance for order 1 is therefore ten times as large. Its radius is
+ * compared as well, to check that the two methods follow the same ray. */
 static void judge(const struct view *view)
 {
     static const char *const names[] = { "evpa_0", "evpa_1" }, *const parts[] = { "polarization_fraction_0",
@@ -177,8 +178,8 @@ static void test_evpa(void **state)
         judge(&views[i]);
 }
 
-/* A pixel has the mean Q and U of its rays, from which its angle and fraction are computed. Orders add up to the total.
- * The march of a volume is consistent in the same way. */
+/* A pixel's Q and U are means over its rays. Its angle and degree follow from these means. Orders add up to the total.
+ * The same is tested for the march of a volume. */
 static void test_stokes(void **state)
 {
     (void)state;
@@ -366,8 +367,8 @@ static void test_returning(void **state)
     }
 }
 
-/* The optical depth of gas is derived from its flux. Reflection does not change the flux, so that the disk is equally
- * bright with any albedo. */
+/* The optical depth of gas is derived from its flux. Reflection does not change the flux, so the disk's brightness does
+ * not depend on the albedo. */
 static void test_depth_of_reflecting_gas(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of the post kernels alone: the sRGB curve at every level of 16 bits, compared with double precision; places and
- * packing; and the kernel that reads texels, compared with the one that reads storage. */
+/* Tests of the post kernels alone: the sRGB curve at every level of 16 bits, compared with double precision; positions
+ * and packing of the samples; and the kernel that reads texels, compared with the one that reads storage. */
 #include "render_support.h"
 
 #include "render/device/device_internal.h"
@@ -9,8 +9,8 @@
 
 /* Light of an encoded value (IEC 61966-2-1). */
 
-/* Passes radiance through a kernel; out has room for whole groups. Returns the number of pixels whose light is not a
- * number. */
+/* Passes radiance through a kernel; out: has room for whole groups of samples. Returns the number of pixels whose light
+ * is not a number. */
 static uint32_t post_by(bool texels, const uint32_t *constants, size_t n, const float *light, struct kd_post_push push,
                         void *out)
 {
@@ -46,8 +46,8 @@ static uint32_t post(bool texels, bool film, bool wide, const float *light, stru
 }
 
 /* Light 0.44 of a step from a level, on either side, is rounded to that level. The rounding threshold is 0.06 of a step
- * further. This distance is 9e-7 of the whole range, which is the tolerance of the curve. The rounding of the light and
- * of 65535 times the curve to floats uses a twentieth of it. */
+ * further. These 0.06 steps are 9e-7 of the whole range, and are the tolerance of the curve. A twentieth of the
+ * tolerance is used by rounding the light, and 65535 times the curve, to floats. */
 static void every_level(void **state)
 {
     (void)state;
@@ -75,9 +75,9 @@ static double noise(double x, double y)
     return outer - floor(outer) - 0.5;
 }
 
-/* In dithered grey, rows, columns and channels are at their places. This is tested for any width of the picture and
- * from any offset, also far beyond 2^24, where floats do not resolve offsets. The last pixel is followed by zeros up to
- * a whole group. */
+/* In dithered grey, each row, column and channel has its own noise at the right position. Tested for any width of the
+ * picture, and from any offset, also far beyond 2^24, where floats do not resolve offsets. After the last pixel, zeros
+ * fill a whole group. */
 static void places(void **state)
 {
     (void)state;
@@ -95,7 +95,8 @@ static void places(void **state)
     };
     static float light[3 * 65536];
     static uint16_t found[3 * (65536 + KD_GROUP_SIZE * KD_POST_PIXELS)];
-    const float level[3] = { 1000.5f, 30000.5f, 60000.5f }; /* dither rounds down or up at the threshold of the place */
+    /* dither rounds up or down at the noise threshold of the position */
+    const float level[3] = { 1000.5f, 30000.5f, 60000.5f };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         uint32_t n = cases[c].pixels, unsure = 0;
         for (uint32_t i = 0; i < 3 * n; i++)
@@ -107,8 +108,8 @@ static void places(void **state)
         for (uint32_t i = 0; i < 3 * n; i++) {
             uint32_t at = cases[c].first + i / 3;
             double d = 0.998 * noise(at % cases[c].width, at / cases[c].width), v = level[i % 3] + 0.5 + d;
-            /* Values that are ties within the errors of curve and noise may be rounded either way, and so may values
-             * whose noise wraps round. */
+            /* May be rounded either way: values that are ties within the errors of curve and noise, and values whose
+             * noise wraps round. */
             bool tie = fabs(v - round(v)) < 0.1 || fabs(d) > 0.45;
             unsure += tie;
             assert_true(tie ? abs(found[i] - (int)floor((double)level[i % 3] + 0.5)) <= 1 : found[i] == (int)floor(v));
@@ -119,7 +120,7 @@ static void places(void **state)
     }
 }
 
-/* Both readers give the same bytes. NaN and infinite light do not affect neighbouring pixels. */
+/* The two kernels give the same bytes. NaN and infinite light do not affect neighbouring pixels. */
 static void both_readers(void **state)
 {
     (void)state;
@@ -147,8 +148,8 @@ static void both_readers(void **state)
     }
 }
 
-/* The kernel counts pixels without valid light, not channels, at any of the four places of an invocation. Places beyond
- * the end do not count. */
+/* The kernel counts pixels (not channels) without valid light, at any of an invocation's four positions. Positions
+ * beyond the end do not count. */
 static void no_number(void **state)
 {
     (void)state;

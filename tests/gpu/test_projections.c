@@ -1,6 +1,6 @@
 /* Tests of pictures of all directions, and of half of them, from a finite radius. A pixel's direction is computed here
- * by successive rotations about the camera's axes, and the Kerr-Schild oracle gives the origin of its photon. Such
- * cameras look outwards too, which pinhole pictures seldom do. */
+ * by successive rotations about the camera's axes, and the Kerr-Schild oracle gives the origin of its photon. Unlike
+ * most pinhole pictures, these pictures also show outward directions. */
 #include "kerr_schild.h"
 #include "render/render.h"
 #include "render/view/camera.h"
@@ -36,7 +36,7 @@ static struct direction seen(const struct kd_scene *scene, double x, double y)
     return d;
 }
 
-/* The photon of a pixel, by roll, pitch and yaw. After a clockwise roll what was above is on the left. A camera that is
+/* The photon of a pixel, after roll, pitch and yaw. A clockwise roll moves what was above to the left. A camera that is
  * pitched up looks above the hole. */
 static struct ks_photon photon(const struct kd_scene *scene, double x, double y)
 {
@@ -85,8 +85,8 @@ static double apart(const struct ks_path *a, double u, double phi)
     return hypot(u - a->u, sqrt(fmax(0, 1 - a->u * a->u)) * remainder(phi - a->sky_phi, 2 * M_PI));
 }
 
-/* Errors of the directions of escape are divided by 1 + their sensitivity to the ray. Fates are the oracle's wherever a
- * neighbouring ray has the same fate. */
+/* Errors of escape directions are divided by 1 + their sensitivity to the ray. Fates equal the oracle's, except where a
+ * neighbouring ray has another fate. */
 static void map(const struct kd_scene *scene, enum kd_lens_path path)
 {
     static float planes[PLANES * RAYS];
@@ -140,9 +140,9 @@ static void wide(void **state)
     }
 }
 
-/* Rays that fly outwards, along the hole's axis more than round it, meet the plane late or never. Their Q is 0 or
- * nearly so, and the closed form of the polar motion, in an earlier version, gave a time for a crossing that does not
- * exist. At these sizes a row of pixels shows such rays. */
+/* Rays that move outwards, along the hole's axis more than round it, meet the plane late or never. Their Q is about 0.
+ * In an earlier version, the closed form of the polar motion gave a time for a crossing that does not exist. At these
+ * sizes a row of pixels shows such rays. */
 static void outwards(void **state)
 {
     (void)state;
@@ -159,8 +159,8 @@ static void outwards(void **state)
     }
 }
 
-/* The same for rays that start inwards, which fill an ellipse of the picture. All of their crossings must exist in the
- * independent closed form in double precision. In an earlier version one crossing of this picture did not. */
+/* The same test for rays that start inwards, which fill an ellipse of the picture. All their crossings must exist in
+ * the independent closed form in double precision. In an earlier version one did not. */
 static void inwards(void **state)
 {
     (void)state;

@@ -141,7 +141,7 @@ static void test_series(void **state)
     }
 }
 
-/* The largest error of the numbers for which the stated `error` is a bound. */
+/* The largest of the errors that the stated `error` must bound. */
 static double off_by(const struct series_path *p, const struct kd_ray_end *e, const struct kd_ray_crossing *c)
 {
     double off = 0;
@@ -233,7 +233,7 @@ static void test_double(void **state)
     check(KD_ENGINE_KS_TAO6, KD_PRECISION_F64, 64);
 }
 
-/* A ray has eight crossings, of which coarse steps (four for a half turn) find seven. The stated error of this ray must
+/* A ray has eight crossings. Coarse steps (four for half a turn) find seven of them. The stated error of this ray must
  * not be small. */
 static void test_few_steps_at_high_order(void **state)
 {
@@ -252,7 +252,7 @@ static void test_few_steps_at_high_order(void **state)
     assert_true(end.n_crossings == 8 || end.error >= 1);
 }
 
-/* Numbers of crossings whose errors exceed a tolerance, over all lists. silent: those of rays whose stated error is
+/* Numbers of crossings whose errors exceed a tolerance, over all lists. silent: number of those whose stated error is
  * within the tolerance. */
 struct held { size_t crossings, off, silent, again, beyond, rays; };
 
@@ -266,7 +266,7 @@ static void count(const struct list *l, double tolerance, const struct kd_ray_en
         t->rays++;
         t->again += e->again;
         t->beyond += said;
-        for (int n = 0; n < p->crossings; n++) { /* a missing crossing is an error */
+        for (int n = 0; n < p->crossings; n++) { /* a missing crossing counts as an error */
             bool off = n >= (int)e->n_crossings || fabsl(crossings[k * ORDERS + (size_t)n].r / p->r[n] - 1) > tolerance;
             t->crossings++;
             t->off += off;
@@ -297,8 +297,8 @@ static struct held hold(const struct kd_setting *by, double tolerance, bool agai
     return t;
 }
 
-/* Each ray at any place of the image meets a tolerance unless it is marked. Only a few rays are marked, next to the
- * critical curve, where even double precision is not enough. */
+/* Each ray, at any position of the image, meets the tolerance or is marked. Only a few rays are marked: rays next to
+ * the critical curve, for which even double precision does not suffice. */
 static void test_tolerance(void **state)
 {
     (void)state;
@@ -314,7 +314,8 @@ static void test_tolerance(void **state)
                       asked_accuracy.tolerance, kd_engine_name(by.engine), kd_precision_name(by.precision), by.steps,
                       once.crossings, once.off, 100.0 * (double)once.off / (double)once.crossings, held.off, held.again,
                       held.rays, held.beyond);
-        assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0); /* the test needs some marked rays */
+        /* some rays must be marked, or this tests nothing */
+        assert_true(by.engine == KD_ENGINE_CLOSED || held.again > 0);
         assert_true(10000 * held.silent <= held.crossings);
         assert_true(1000 * held.off <= held.crossings || k > 8);
         assert_true(10 * held.beyond <= held.rays ||

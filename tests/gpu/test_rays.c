@@ -23,7 +23,7 @@ enum { HOLES = sizeof holes / sizeof *holes };
 static struct ks_path paths[HOLES][RAYS], beside[HOLES][RAYS];
 static double lists[HOLES][2 * RAYS];
 
-/* Coordinates that are exact in both precisions, and off the axes of symmetry. */
+/* Coordinates off the axes of symmetry that are exact in single and double precision. */
 static void prepare(void)
 {
     for (int h = 0; h < HOLES; h++) {
@@ -46,8 +46,8 @@ struct tally {
     int rays, bounded, crossings;
 };
 
-/* Errors are divided by 1 + the amplification. Crossings near the horizon are left out, where Boyer-Lindquist phi and t
- * diverge. */
+/* Errors are divided by 1 + the amplification. Crossings near the horizon are not compared, because Boyer-Lindquist phi
+ * and t diverge there. */
 static void judge_crossing(const struct hole *o, const struct ks_path *p, const struct ks_path *q, int n,
                            const struct kd_ray_crossing *c, struct tally *t)
 {
@@ -67,7 +67,8 @@ static void judge(int h, const struct kd_ray_crossing *crossings, const struct k
     for (int k = 0; k < RAYS; k++) {
         const struct ks_path *p = &paths[h][k], *q = &beside[h][k];
         if (p->crossings != q->crossings || p->fate != q->fate || p->fate == KS_UNDECIDED)
-            continue; /* a millionth beside this ray the oracle's own ray has another fate or other crossings */
+            /* skipped: the oracle's ray has another fate or other crossings if it is shifted by a millionth */
+            continue;
         int wanted = p->crossings < ORDERS ? p->crossings : ORDERS;
         if ((int)ends[k].n_crossings != wanted)
             fail_msg("hole %d, ray %d: %u crossings, the oracle has %d", h, k, ends[k].n_crossings, wanted);
@@ -166,8 +167,9 @@ static double median_error(enum kd_engine engine, uint32_t steps, int order)
     return errors[n / 2];
 }
 
-/* Compares the stated error with the true one, by the closed form, where the steps are too coarse for the asymptotic
- * law. The stated error is a bound for 999 of 1000 rays, and at most a hundred times too large for half of them. */
+/* Compares the stated error with the true error, by the closed form, for steps that are too coarse for the asymptotic
+ * law. For 999 of 1000 rays the stated error is a bound, and for half of them it is at most a hundred times too large.
+ * */
 static void check_estimate(enum kd_engine engine, uint32_t steps)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
@@ -220,9 +222,9 @@ static void test_estimate(void **state)
     }
 }
 
-/* Each method converges with its order: twice the steps leave 1/2, 1/16 or 1/64 of the error, except for the coarsest
- * steps. The method in Mino time is compared at the second crossing, where the oracle's error of 1e-11 is not yet
- * visible. */
+/* Each method converges with its order: with twice as many steps the error is 1/2, 1/16 or 1/64, except for the
+ * coarsest steps. The method in Mino time is compared at the second crossing, where the oracle's error of 1e-11 does
+ * not matter yet. */
 static void test_orders(void **state)
 {
     (void)state;
@@ -304,8 +306,8 @@ static void test_starts(void **state)
     }
 }
 
-/* The stated errors of the Kerr-Schild engines, compared with the oracle. They are a bound for 999 of 1000 rays, and 1
- * if fate or crossings differ. The engines' azimuths count turns as those of the closed form do. */
+/* The stated errors of the Kerr-Schild engines, compared with the oracle. For 999 of 1000 rays they are bounds. They
+ * are 1 if the fate or crossings differ. Azimuths include whole turns, as in the closed form. */
 static void check_kerr_schild(enum kd_engine engine, enum kd_precision precision, int h)
 {
     static struct kd_ray_crossing crossings[RAYS * ORDERS], exact[RAYS * ORDERS];
@@ -396,8 +398,8 @@ static void test_submissions_are_short(void **state)
     assert_true(done > 0 && done < 0.1);
 }
 
-/* The maximum number of steps of each engine stays below llvmpipe's limit of 65535 rounds, beyond which the driver
- * stops a ray at an arbitrary place. */
+/* Each engine's maximum number of steps is below llvmpipe's limit of 65535 rounds of a loop. Beyond this limit the
+ * driver stops a ray at an arbitrary point. */
 static void test_most_steps(void **state)
 {
     (void)state;
@@ -439,9 +441,9 @@ static void test_most_steps(void **state)
     }
 }
 
-/* A ray whose distance from the plane underflows a float, on either side, has the correct crossing for each engine,
- * also on a device that flushes denormal numbers. beta = 1e-6 is close enough to the limit. If both labels are tiny,
- * only their ratio matters. */
+/* A ray whose distance from the plane underflows a float, on either side, has the correct crossing in each engine, also
+ * if the device flushes denormal numbers. beta = 1e-6 is close enough to that limit. If both labels are tiny, only
+ * their ratio matters. */
 static void test_tiny_labels(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests of one ray step by step: the recording kernel ends where the ordinary one does, its steps lie on the ray, and
- * the first integrals are constant along them. */
+/* Tests of one ray step by step. The recording kernel ends where the ordinary kernel does. The steps lie on the ray,
+ * and the first integrals are constant along them. */
 #include "render/rays/steps.h"
 
 #include "render_support.h"
@@ -50,8 +50,8 @@ static void check_step(const struct kd_rays_step *s, double bound)
     assert_true(!isnan(s->res_w) && !isnan(s->res_u) != !isnan(s->res_n) && !isnan(s->res_n) == !isnan(s->res_l));
 }
 
-/* Every crossing is recorded, half a period (params.steps steps) after the one before, with the same r, phi and delay
- * as in the answer without steps. */
+/* Every crossing is recorded, half a period (params.steps steps) after the previous one. It has the same r, phi and
+ * delay as in the answer without steps. */
 static void check_crossings(const struct kd_rays_steps *steps)
 {
     unsigned found = 0, taken = 0;
@@ -72,7 +72,7 @@ static void check_crossings(const struct kd_rays_steps *steps)
     assert_int_equal(found, steps->end.n_crossings);
 }
 
-/* The ray starts at the observer and ends at infinity or the horizon; Mino time increases, except where the kernel
+/* The ray starts at the observer, and ends at infinity or at the horizon. Mino time increases, except where the kernel
  * takes steps back. */
 static void check_ends(const struct ray *ray, const struct kd_rays_steps *steps)
 {
@@ -121,8 +121,8 @@ static void test_mino(void **state)
     }
 }
 
-/* The steps lie on the ray. A trace with twice as many steps has a step at each step of the coarser trace, at the same
- * place up to the coarser trace's error. */
+/* The steps lie on the ray: a trace with twice as many steps has the same points, up to the error of the coarser trace.
+ * */
 static void test_refined(void **state)
 {
     (void)state;
@@ -152,8 +152,8 @@ static void test_refined(void **state)
     }
 }
 
-/* w' is the rate of w in the recorded time. It is tested by the trapezoidal rule, from the step before, or from the
- * crossing if the kernel took steps back. */
+/* w' is the rate of w in the recorded time. It is integrated by the trapezoidal rule from the previous step, or from
+ * the crossing if the kernel took steps back. */
 static void test_time(void **state)
 {
     (void)state;

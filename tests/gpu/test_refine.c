@@ -64,13 +64,13 @@ static const char *const scenes[] = {
     "{\"disk\": {\"gas\": {\"amplitude\": 0.5}}}",
     "{\"camera\": {\"inclination_deg\": 85}, \"disk\": {\"gas\": {\"amplitude\": 0.8}, \"emission_opacity\": 10}}",
     "{\"sky\": {\"model\": \"grid\"}, \"disk\": {\"model\": \"none\"}}",
-    /* A picture with almost no edges: the remaining differences come from curvature and from the map's third
-     * differences. */
+    /* A picture with almost no edges. Its remaining differences are due to curvature, and to third differences of the
+     * map. */
     "{\"spacetime\": {\"spin\": 0.998}, \"camera\": {\"inclination_deg\": 85}}",
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
-/* Fraction of the pixels of a that equal neither those of b nor those of c, to 0.003 of white. */
+/* Fraction of the pixels of `a` that differ from those of `b` and from those of `c` by more than 0.003 of white. */
 static double neither(const struct kd_frame *a, const struct kd_frame *b, const struct kd_frame *c)
 {
     int n = 0;
@@ -85,8 +85,8 @@ static double neither(const struct kd_frame *a, const struct kd_frame *b, const 
     return (double)n / PIXELS;
 }
 
-/* A frame estimates its residual from some 200 pixels. The estimate is close to the residual of all pixels, although
- * most of a sum of squares comes from few of them. */
+/* A frame estimates its residual from some 200 pixels. The estimate is close to the residual over all pixels, although
+ * a few pixels contribute most of the sum of squares. */
 static void residual(const struct kd_frame *adaptive, const struct kd_frame *truth)
 {
     double left = sqrt(off(adaptive, truth)), said = adaptive->accuracy.pixel_error;
@@ -96,9 +96,9 @@ static void residual(const struct kd_frame *adaptive, const struct kd_frame *tru
 }
 
 /* The requirement: an adaptive picture has at most a quarter of the rays of the picture with 16 rays a pixel. The
- * errors of both are taken by comparison with the picture with 64 rays a pixel, and agree within 0.5 dB. Its pixels are
- * those of the picture with one ray or with 16, except for a few where an interpolated ray falls on the other side of
- * an edge. */
+ * errors of the two, relative to a picture with 64 rays a pixel, agree within 0.5 dB. Each pixel equals that of the
+ * picture with 1 or with 16 rays a pixel, except for a few, where an interpolated ray falls on the other side of an
+ * edge. */
 static void test_as_good(void **state)
 {
     (void)state;
@@ -126,7 +126,7 @@ static void test_as_good(void **state)
     }
 }
 
-/* A smaller target leaves a smaller error, and more pixels are chosen. */
+/* With a smaller target, more pixels are chosen and the error is smaller. */
 static void test_target(void **state)
 {
     (void)state;
@@ -150,8 +150,9 @@ static void test_target(void **state)
     kd_frame_finish(&truth);
 }
 
-/* The picture is the same with the cached lens map. In bands only rays at the edges of bands differ, because they are
- * traced. With listed rays, only pixels next to an edge differ. A preview and the flux contain all rays. */
+/* The picture is the same with the cached lens map. In bands, only rays at the edges of bands differ, because they are
+ * traced instead of interpolated. With listed rays, only pixels next to an edge differ. A preview, and the flux,
+ * contain all rays. */
 static void test_same(void **state)
 {
     (void)state;
@@ -178,7 +179,7 @@ static void test_same(void **state)
     kd_frame_finish(&bands);
 }
 
-/* Light of any strength is converted on the host as by post.comp, to half a step of 16 bits. */
+/* The host converts light of any strength as post.comp does, to half a step of 16 bits. */
 static void test_shown(void **state)
 {
     (void)state;
@@ -223,8 +224,8 @@ static struct kd_choice bent(const uint16_t *pixels, uint64_t most)
 
 static struct kd_pixel place(const struct kd_choice *c, size_t i) { return c->list.pixels[i]; }
 
-/* If a picture has no stronger curvature, pixels of faint curvature are chosen, until almost no sum of squares is left.
- * If it has an edge, they are not chosen. */
+/* Pixels of faint curvature are chosen only if the picture has no stronger curvature, until almost no sum of squares is
+ * left. In a picture with an edge they are not chosen. */
 static void test_faint(void **state)
 {
     (void)state;
@@ -236,8 +237,8 @@ static void test_faint(void **state)
         kinds[x] = kinds[(H - 1) * W + x] = 1;
     for (int y = 0; y < H; y++)
         kinds[y * W] = kinds[y * W + W - 1] = 1;
-    pixels[3 * (3 * W + 4)] += 400;  /* these curvatures are 800 and 400, less than the threshold of 1311 */
-    pixels[3 * (5 * W + 11)] += 100; /* these curvatures are 200 and 100; only the former exceeds the floor of 132 */
+    pixels[3 * (3 * W + 4)] += 400;  /* curvatures of 800 and 400, below the threshold of 1311 */
+    pixels[3 * (5 * W + 11)] += 100; /* curvatures of 200 and 100; only 200 exceeds the floor of 132 */
     struct kd_choice choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 9 + 1);
     kd_choice_finish(&choice);
@@ -277,7 +278,7 @@ static void test_choice(void **state)
     choice = bent(pixels, W * H);
     assert_int_equal(choice.list.n, 25 - 3);
     kd_choice_finish(&choice);
-    memcpy(before, pixels, sizeof before); /* only one of the two changed pixels changes by enough */
+    memcpy(before, pixels, sizeof before); /* only one of the two changed pixels has changed by enough */
     before[3 * (4 * W + 7) + 1] += 700;
     before[3 * (6 * W + 2) + 2] += 600;
     struct kd_pixel last[] = { { 7, 4 }, { 2, 6 } };

@@ -1,5 +1,5 @@
 /* Tests of frames on the device. Bands, slices and the cache must not change a picture, while a change of the scene's
- * fields must. Also tests limits and cancelling. */
+ * fields must. Other tests: limits, and cancelled frames. */
 #include "render/render.h"
 #include "render/view/critical_pixels.h"
 
@@ -79,7 +79,7 @@ static void test_reuse(void **state)
     }
 }
 
-/* The critical curve is computed once for a picture and its plan, and not again while the camera does not change. */
+/* The critical curve is computed once for a picture and its plan. It is not computed again until the camera changes. */
 static void test_the_curve_is_followed_once(void **state)
 {
     (void)state;
@@ -98,8 +98,8 @@ static void test_the_curve_is_followed_once(void **state)
     assert_int_equal(kd_critical_pixels_made() - before, 1);
 }
 
-/* A picture in many bands, cached or not, has the same bytes as in one band. Tested with supersampling, 16 bits, a sky
- * and an odd width. */
+/* A picture in many bands, with or without a cached map, has the same bytes as in one band. Tested with supersampling,
+ * 16 bits, a sky, and an odd width. */
 static void test_bands(void **state)
 {
     (void)state;
@@ -163,7 +163,7 @@ static void test_sizes(void **state)
     }
 }
 
-/* Every number of the lens map is finite, every radius outside the horizon, every fate decided. */
+/* Every number of the lens map is finite, every radius is outside the horizon, and every fate is decided. */
 static void check_lens(const struct kd_scene *scene)
 {
     struct kd_capacity c = capacity();
@@ -243,7 +243,7 @@ static void test_progress(void **state)
 }
 
 struct glances {
-    const struct kd_frame *want; /* NULL: the picture has an exposure of its own */
+    const struct kd_frame *want; /* exposure to set; NULL: the picture's own exposure */
     uint32_t rows[64], n;
 };
 
@@ -273,10 +273,11 @@ static void test_glances(void **state)
         struct kd_plan plan;
         /* a view of its own, so that this picture needs a new lens map */
         scene.camera.inclination_deg = 60 + k;
-        scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED; /* all rays traced, or a sampled map */
+        /* true: all rays are traced; false: the map is sampled */
+        scene.accuracy.profile = k ? KD_PROFILE_HIGH : KD_PROFILE_BALANCED;
         scene.image.bit_depth = k % 2 ? 16 : 8;
         scene.style.exposure = k < 3 ? 0 : INFINITY;
-        /* the last three have glare, and their previews have the glare of the finished part */
+        /* the last three pictures have glare; a preview has the glare of the finished part */
         scene.style.bloom = k < 3 ? 0 : 0.5;
         scene.image.critical_factor = 1;
         scene.accuracy.precision = k == 2 ? (int32_t)KD_PRECISION_F64 + 1 : KD_PRECISION_WORD_AUTO;
@@ -373,7 +374,7 @@ static bool let_others(void *user, double fraction)
 }
 
 /* Interleaved pictures, and the pictures that they interrupt, are the same as when rendered alone. Each has its own
- * times. */
+ * pass times. */
 static void test_asides(void **state)
 {
     (void)state;
@@ -387,7 +388,8 @@ static void test_asides(void **state)
     scene.accuracy.profile = KD_PROFILE_HIGH;
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .validate = true, .passing = true }, &o.r,
                           &error));
-    o.r->kernels.limit = KEPT; /* with this limit the interleaved pictures evict all kernels of the picture */
+    /* with this limit, kernels of the interleaved pictures evict all kernels of the interrupted one */
+    o.r->kernels.limit = KEPT;
     OK(kd_plan_make(&scene, &c, &plan, &error));
     plan.cost.trace_ns = 40e6 / 160 / 7; /* seven rows a slice */
     for (int i = 0; i < 2; i++) {
@@ -400,10 +402,11 @@ static void test_asides(void **state)
     assert_true(o.calls > 10 && !beside.lens_reused);
     assert_true(timing_of(&beside, "trace") > 0 && timing_of(&beside, "transfer") > 0 &&
                 timing_of(&beside, "total") > 0);
-    assert_true(isnan(timing_of(&beside, "particles"))); /* the particles on the device belonged to the other picture */
+    /* the particles on the device were those of the other picture */
+    assert_true(isnan(timing_of(&beside, "particles")));
 
     OK(kd_render(o.r, &scene, &plan, NULL, NULL, &alone, &error));
-    assert_true(alone.lens_reused); /* the lens map is found wherever it was traced */
+    assert_true(alone.lens_reused); /* the lens map is found in the cache, whichever store traced it */
     kd_frame_finish(&alone);
     struct kd_renderer *fresh;
     OK(kd_renderer_create(&(struct kd_renderer_params) { .device = "auto", .passing = true }, &fresh, &error));
@@ -414,7 +417,7 @@ static void test_asides(void **state)
         assert_same(&alone, &o.frames[i]);
     }
     OK(kd_render_in_background(fresh, &scene, &plan, NULL, NULL, NULL, &alone, &error));
-    assert_true(alone.lens_reused); /* a picture in the background finds a map from the foreground */
+    assert_true(alone.lens_reused); /* a picture in the background uses a map that was traced in the foreground */
     kd_frame_finish(&alone);
     kd_renderer_destroy(fresh);
     assert_int_equal(kd_renderer_validation_messages(o.r), 0);
@@ -458,8 +461,8 @@ static struct kd_frame rendered_by(struct kd_renderer *r, const struct kd_scene 
     return frame;
 }
 
-/* Idle memory is released. Later pictures do not change, and the latest view finds its lens map in the cache. If too
- * much memory remains that the program cannot account for, the device is reopened. */
+/* Idle memory is released. Later pictures are the same, and the latest view still finds its lens map in the cache. If
+ * the program cannot account for much of the remaining memory, the device is reopened. */
 static void test_rest(void **state)
 {
     (void)state;
@@ -481,8 +484,8 @@ static void test_rest(void **state)
     scene.camera.inclination_deg = 41;
     for (int often = 0; often < 2; often++) {
         struct kd_frame before = rendered_by(fresh, &scene), after;
-        /* Simulates that all memory of this process, and much more, was added since the renderer was opened, or that
-         * none was. */
+        /* Simulates that all memory of this process, and much more, was allocated after the renderer was opened, or
+         * that none was. */
         fresh->opened_bytes = fresh->started_bytes = often ? 0 : UINT64_MAX / 4;
         OK(kd_renderer_rest(fresh, &error));
         kd_renderer_cached(fresh, kept);
@@ -506,8 +509,8 @@ static void test_rest(void **state)
     kd_renderer_destroy(fresh);
 }
 
-/* A picture rendered in the background keeps resources for the next one, up to a bound. Those of the last picture are
- * kept completely. */
+/* A picture rendered in the background keeps resources for the next one, up to a limit. All resources of the last
+ * picture are kept. */
 static void test_what_idle_asides_keep_is_bounded(void **state)
 {
     (void)state;
@@ -550,13 +553,13 @@ static void test_what_is_resident_is_counted_when_asked(void **state)
     renderer->started_bytes = UINT64_MAX / 4; /* pretends that more memory was resident at the start, ... */
     kd_renderer_cached(renderer, kept);
     assert_int_equal(kept[KD_CACHE_OTHER], 0);
-    renderer->started_bytes = 0; /* ... and as if none had been */
+    renderer->started_bytes = 0; /* ... and then, that no memory was */
     kd_renderer_cached(renderer, kept);
     assert_true(kept[KD_CACHE_OTHER] > 1 << 20);
     renderer->started_bytes = started;
 }
 
-/* A defect of the program, here a buffer that is too small, is reported as such, and the store starts afresh. */
+/* A defect of the program, here a buffer that is too small, is reported as a defect, and the store is emptied. */
 static void test_a_defect_does_not_stay(void **state)
 {
     (void)state;
@@ -608,14 +611,14 @@ static void test_too_big(void **state)
     struct kd_plan plan;
     scene.image.width = scene.image.height = 32768;
     scene.image.samples = 8;
-    c.memory_bytes = 4ull << 30; /* a device may have this much */
+    c.memory_bytes = 4ull << 30; /* amount of memory that a device may have */
     FAILS(KD_ETOOBIG, "GiB", kd_plan_make(&scene, &c, &plan, &error));
     c.max_binding_bytes = 65536;
     FAILS(KD_ETOOBIG, "row", kd_plan_make(&scene, &c, &plan, &error));
 }
 
 /* The error that an answer reports is measured in double precision. It is small for accurate profiles and larger for a
- * draft. It is cached with the lens map, is the same for a camera at a finite radius, and is absent where it cannot be
+ * draft. It is cached with the lens map. Cameras at a finite radius have it too. It is absent where it cannot be
  * measured. */
 static void test_audit(void **state)
 {
@@ -632,8 +635,10 @@ static void test_audit(void **state)
     kd_frame_finish(&again);
 
     scene.camera.r = 15;
-    scene.accuracy.orders = 1;                /* near the critical curve rounding hides the error of the steps */
-    scene.accuracy.profile = KD_PROFILE_HIGH; /* the error of a sampled map would be its tolerance */
+    /* near the critical curve, rounding errors exceed the error of the steps */
+    scene.accuracy.orders = 1;
+    /* all rays are traced, because the error of a sampled map would be its tolerance */
+    scene.accuracy.profile = KD_PROFILE_HIGH;
     first = rendered(&scene);
     scene.accuracy.steps = 4;
     again = rendered(&scene);

@@ -24,7 +24,7 @@ static struct kd_scene scene_of(double spin, double inclination_deg)
     return scene;
 }
 
-/* Four rows of four decades and four columns of a quarter turn, computed by hand. */
+/* Four rows for four decades, and four columns for quarter turns. Expected values are computed by hand. */
 static void rows_and_columns(void **state)
 {
     (void)state;
@@ -42,7 +42,7 @@ static void rows_and_columns(void **state)
     }
 }
 
-/* Traces the lens map of a ring picture: planes of w of each crossing, and one of alpha. */
+/* Traces the lens map of a ring picture. Planes: w of each crossing, and alpha. */
 static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 {
     const struct kd_needs needs = { .quantities = KD_LENS_W };
@@ -59,8 +59,8 @@ static float *trace(const struct kd_scene *scene, struct kd_plan *plan)
 
 static const struct { double spin, inclination_deg; } views[] = { { 0, 60 }, { 0.9, 60 }, { -0.998, 30 } };
 
-/* Returns 1 if a pixel shows the plane nearer than `source` exactly when the edge predicts it. Pixels are not counted
- * if they are so close to the edge that alpha and beta cannot decide on which side they are. */
+/* Returns 1 if a pixel shows the plane within `source` exactly where the solved edge predicts it. Pixels are skipped if
+ * they are so close to the edge that alpha and beta cannot decide on which side they are. */
 static int check_column(const struct kd_ring *ring, const struct kd_critical_point *column, int n, double source,
                         const float *w, int *skipped)
 {
@@ -98,12 +98,12 @@ static void every_edge_is_where_it_belongs(void **state)
                                  x, n, sources[s], wrong);
                 }
         }
-        assert_true(skipped < 20); /* 20 of 460 800 pixels */
+        assert_true(skipped < 20); /* at most 20 of the 460 800 pixels */
         test_free(w);
     }
 }
 
-/* The row in which order n crosses r = 6. */
+/* The row of the picture in which order n crosses r = 6. */
 static int row_of(const float *w, int height)
 {
     int y = 0;
@@ -128,9 +128,10 @@ static void each_order_is_a_gamma_further_in(void **state)
             for (int n = 3; n + 1 < ORDERS; n++) {
                 double apart = row * (row_of(w + (n + 1) * plan.lens.rays + x, HEIGHT) -
                                       row_of(w + n * plan.lens.rays + x, HEIGHT));
-                if (!(fabs(apart - gamma) <
-                      1.05 * row +
-                          0.02)) /* rounding to rows is at most two half rows, and order 3 is not yet at the limit */
+                if (!(fabs(apart - gamma) < 1.05 * row +
+                                                /* tolerance: rounding to rows is at most two half rows, and order 3
+                                                 * differs from the limit of high orders */
+                                                0.02))
                     fail_msg("a = %g, column %u: orders %d and %d are e^-%.4f apart, not e^-%.4f", views[k].spin, x, n,
                              n + 1, apart, gamma);
                 sum += apart / gamma;
@@ -239,8 +240,8 @@ static void same_light(const struct shown *shown)
     kd_frame_finish(&frame);
 }
 
-/* Turbulence is compared at order 0 of a fine ring. Elsewhere a pixel of the ring picture covers many cells of the
- * turbulence and shows their mean. */
+/* Turbulence is compared at order 0 of a fine ring only. Elsewhere a pixel of the ring picture covers many cells of the
+ * turbulence, and shows their mean. */
 static void light_is_that_of_a_plane_picture(void **state)
 {
     (void)state;

@@ -49,7 +49,7 @@ static double expected(double spin, double t)
     return NAN;
 }
 
-/* A step of 16 bits is 3.5e-5 of linear light at most; the difference of three pictures rounds three times. */
+/* A step of 16 bits is at most 3.5e-5 of linear light. The difference of three pictures contains three roundings. */
 #define STEP 3.5e-5
 
 static void follow(const char *name, struct kd_scene scene)
@@ -81,7 +81,7 @@ static void follow(const char *name, struct kd_scene scene)
             sum += got * rest;
             squares += rest * rest;
         }
-        assert_true(squares > 1e-2); /* some light must ring */
+        assert_true(squares > 1e-2); /* some light must change by the ringing */
         worst = fmax(worst, fabs(sum / squares - gain));
         if (t < 0)
             assert_memory_equal(kd_frame_pixels(&rung), kd_frame_pixels(&still), 2 * samples(&still));
@@ -126,9 +126,8 @@ static void test_paths(void **state)
     follow("the ring projection", scene);
 }
 
-/* Particles and spots also change their brightness without ringing. The reference is therefore a picture of the same
- * time without ringdown.
- */
+/* The brightness of particles and spots changes even without ringing. The reference is therefore a picture of the same
+ * time without ringdown. */
 static void test_lumps(void **state)
 {
     (void)state;
@@ -164,8 +163,8 @@ static void test_lumps(void **state)
     }
 }
 
-/* sum: the light that ringing adds to a disk's, over all samples. off: the difference of this light from that of
- * another disk. */
+/* sum: light that ringing adds to a disk's light, over all samples. off: sum of the differences of this light from that
+ * of another disk. */
 struct change { double sum, off; };
 
 static struct kd_frame at_time(struct kd_scene scene, double t, double amplitude)
@@ -190,7 +189,7 @@ static struct change changed(const struct kd_scene *scene, double t, double *las
     return c;
 }
 
-/* A thick disk of almost no height rings where the thin one does and as strongly, with all its light multiplied by one
+/* A thick disk of almost no height rings at the same places as the thin disk, and as strongly; its light has one common
  * factor. The light of a disk of some height changes by the same factor. */
 static void test_thick(void **state)
 {
@@ -201,7 +200,7 @@ static void test_thick(void **state)
     scene.image.height = 32;
     double *last = calloc((size_t)scene.image.width * (size_t)scene.image.height * 3, sizeof *last);
     assert_non_null(last);
-    scene.accuracy.orders = 8; /* the same number of orders as the march contains */
+    scene.accuracy.orders = 8; /* as many orders as the march includes */
     const struct change flat = changed(&scene, 0, last, false);
     for (int high = 0; high < 2; high++) {
         scene.disk.height = high ? 0.1 : 5e-5;

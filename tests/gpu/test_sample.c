@@ -33,7 +33,7 @@ static struct map map_with(const struct kd_scene *scene, const struct kd_needs *
     struct map map;
     kd_renderer_capacity(renderer, &c);
     OK(kd_scene_validate(scene, &error));
-    OK(kd_plan_one(scene, needs, &c, &map.plan, &error)); /* plans a tile without its margin */
+    OK(kd_plan_one(scene, needs, &c, &map.plan, &error)); /* plans a tile without the margin round it */
     map.planes = test_calloc(map.plan.lens.planes * map.plan.lens.rays, sizeof *map.planes);
     OK(kd_render_lens(renderer, scene, &map.plan, map.planes, NULL, &error));
     return map;
@@ -63,8 +63,8 @@ static uint32_t crossings(const struct map *m, size_t i)
 
 struct tally {
     uint64_t rays, other_fate, other_order, other_side, same;
-    /* `between`, `followed`: errors of w divided by the condition, in the interpolated and in the traced map. `sky`:
-     * angles between the directions of both maps */
+    /* between, followed: errors of w over the condition, in the interpolated and in the traced map. sky: angles between
+     * the two maps' directions */
     double *between, *followed, *sky;
     size_t n, n_sky;
 };
@@ -130,7 +130,7 @@ static void follow(const struct kd_scene *scene)
     OK(kd_rays_closed(&params, &rays, KD_CLOSED_RADII, truth, ends, NULL, NULL, &error));
 }
 
-/* Compares the radii of both maps with the closed form. */
+/* Compares the radii of the interpolated and of the traced map with the closed form. */
 static void judge(const struct kd_scene *scene, const struct map *a, const struct map *b, struct tally *t)
 {
     if (scene->camera.r <= kd_scene_hole(scene)->outer)
@@ -140,7 +140,7 @@ static void judge(const struct kd_scene *scene, const struct map *a, const struc
         const uint32_t at = i * EVERY, n = crossings(b, at);
         for (uint32_t k = 0; k < n && k < ends[i].n_crossings; k++) {
             const double steep = condition(b, k, at % SIDE, at / SIDE), r = truth[i * ORDERS + k].r;
-            if (!(r < 1e3)) /* skipped, because further out there is no light */
+            if (!(r < 1e3)) /* skipped: there is no light further out */
                 continue;
             t->between[t->n] = fabs(plane(a, KD_LENS_W, k)[at] * r - 1) / steep;
             t->followed[t->n++] = fabs(plane(b, KD_LENS_W, k)[at] * r - 1) / steep;
@@ -168,7 +168,7 @@ static void rays_between_nodes_are_those_that_are_followed(void **state)
         struct kd_scene scene;
         const struct tally before = t;
         (i % 2 ? random_camera_near_horizon : random_camera)(&random, SIDE, &scene);
-        scene.accuracy.orders = 3; /* the same number of orders for all, so that they share a kernel */
+        scene.accuracy.orders = 3; /* one number of orders for all, so that they share a kernel */
         struct map a = map_of(&scene, quantities, false), b = map_of(&scene, quantities, true);
         compare(&a, &b, &t);
         judge(&scene, &a, &b, &t);
@@ -213,8 +213,8 @@ static struct kd_scene scene_of(double spin, double r)
     return scene;
 }
 
-/* A tile's map is a part of the whole picture's map, whatever its edges. The same holds for the map of a picture that
- * is made a few rows at a time. */
+/* A tile's map is a part of the whole picture's map, wherever the tile's edges are. This also holds for the map of a
+ * picture that is made a few rows at a time. */
 static void tiles_are_the_bytes_of_the_whole(void **state)
 {
     (void)state;
@@ -243,7 +243,8 @@ static void tiles_are_the_bytes_of_the_whole(void **state)
     test_free(whole.planes);
 }
 
-/* Footprints of smooth cells are those of the derivative; differences of neighbouring rays are of second order. */
+/* In smooth cells, footprints are those of the derivative. Their difference from those of neighbouring rays is of
+ * second order. */
 static void footprints_are_derivatives(void **state)
 {
     (void)state;
@@ -266,7 +267,7 @@ static void footprints_are_derivatives(void **state)
     test_free(b.planes);
 }
 
-/* Profiles that promise more accuracy trace every ray. So does a scene that names an engine. */
+/* Profiles that promise more accuracy trace every ray, and so does a scene that names an engine. */
 static void some_scenes_follow_every_ray(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Tests that the self-test passes here and detects a wrong number. A comparison that cannot fail would let every device
- * pass. */
+/* Tests that the self-test passes here and detects a wrong number. Every device would pass a comparison that cannot
+ * fail. */
 #include "render/selftest/selftest.h"
 
 #include "render_support.h"
@@ -68,7 +68,7 @@ static void test_everything_wrong(void **state)
     }
     for (size_t i = 0; i < wrong.n_deflections; i++)
         wrong.deflections[i].phi += 1e-3;
-    for (size_t i = 0; i < wrong.n_criticals; i++) /* makes two of the rays next to the edge change sides */
+    for (size_t i = 0; i < wrong.n_criticals; i++) /* moves two rays next to the edge to the other side */
         wrong.criticals[i].alpha *= 1 + 2e-5, wrong.criticals[i].beta *= 1 + 2e-5;
     for (size_t i = 0; i < wrong.n_bounds; i++)
         for (double *x = &wrong.bounds[i].energy; x <= &wrong.bounds[i].mino_proper; x++)

@@ -1,5 +1,5 @@
-/* Tests of sky.image: places of a panorama in the picture, their brightness, the order of covering, and missing
- * panoramas. The panorama is synthetic, with a mark at each of some bright stars. */
+/* Tests of sky.image: positions of a panorama's points in the picture, their brightness, the order in which emitters
+ * cover each other, and missing panoramas. The panorama is synthetic, with a mark at each of some bright stars. */
 #include "image/png.h"
 #include "render/output/png.h"
 #include "render/render.h"
@@ -13,7 +13,7 @@
 #define DEGREE (M_PI / 180)
 enum { WIDTH = 960, HEIGHT = 480, COLUMNS = 2048, ROWS = 1024, MARKS = 12 };
 
-/* Pictures that this test provides under invented hashes, which no code recomputes. */
+/* Pictures that this test provides under invented hashes. kerrd does not check these. */
 static struct keeper {
     struct {
         char hash[KD_ASSET_NAME];
@@ -155,8 +155,8 @@ static struct place centre(const struct kd_frame *frame, double x, double y, int
     return p;
 }
 
-/* Expected place in the picture, for an observer who sees the hole at galactic longitude 180, with longitudes growing
- * to the left. From 1e5 M, and more than 30 degrees from the hole, light is bent by less than 0.01 degrees. */
+/* Expected position in the picture. The observer sees the hole at galactic longitude 180, with longitudes growing to
+ * the left. From 1e5 M, and more than 30 degrees from the hole, light is bent by less than 0.01 degrees. */
 static struct place expected(double l, double b)
 {
     const double left = l - M_PI - 2 * M_PI * floor((l - M_PI) / (2 * M_PI) + 0.5);
@@ -187,7 +187,7 @@ static void marks_and_stars(void **state)
         alone = fmax(alone, hypot(across * (mark.x - want.x), mark.y - want.y));
     }
     printf("%zu marks: within %.3f pixels of their stars, within %.3f of their places\n", seen, together, alone);
-    assert_true(seen >= 9 && together < 0.1 && alone < 0.1); /* a pixel is 0.375 degrees */
+    assert_true(seen >= 9 && together < 0.1 && alone < 0.1); /* a pixel is 0.375 degrees wide */
     kd_frame_finish(&picture);
     kd_frame_finish(&points);
 }
@@ -216,8 +216,8 @@ static void white(void **state)
         const double luminance = 0.2126 * corner[0] + 0.7152 * corner[1] + 0.0722 * corner[2];
         printf("white from %g M: %.5f of %.5f, blue over red %.3f\n", radii[i], luminance / 1.5, pow(g, 4),
                corner[2] / corner[0]);
-        /* White tinted as 5600 K to g 5600 K: its luminance differs from the black body's by the difference of the
-         * two colours. */
+        /* A white sky of 5600 K appears with g 5600 K. Its luminance differs from that of the black body by the
+         * difference of the two colours. */
         assert_true(fabs(luminance / 1.5 / pow(g, 4) - 1) < bounds[i]);
         assert_true(i < 2 ? fabs(corner[2] / corner[0] - 1) < 0.01 : corner[2] / corner[0] > 1.05);
         assert_string_equal(frame.credit, "");
@@ -263,7 +263,8 @@ static void lifted_all_the_same(void **state)
 {
     (void)state;
     struct kd_scene scene = scene_of(KD_SKY_CATALOGUE, "");
-    assert_true(fabs(kd_scene_exposure_most(&scene) + 2) < 1e-15); /* from brightness 1 down to a quarter of white */
+    /* with brightness 1, exposed down to a quarter of white */
+    assert_true(fabs(kd_scene_exposure_most(&scene) + 2) < 1e-15);
     scene.style.palette = KD_PALETTE_HEAT;
     assert_true(isinf(kd_scene_exposure_most(&scene)));
     scene = scene_of(KD_SKY_GRID, "");
@@ -311,8 +312,8 @@ static void stars_over_pictures(void **state)
         }
 }
 
-/* A missing panorama, or a file that is no picture, is an error at the field, without further effect. A missing file is
- * read once it is there. More panoramas than the cache holds give the same pictures again. */
+/* A missing panorama, or a file that is not a picture, is an error at the field, and has no other effect. A file that
+ * was missing is read when it exists. The same pictures result again after more panoramas than the cache holds. */
 static void here_and_gone(void **state)
 {
     const char *image = *state;

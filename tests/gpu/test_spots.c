@@ -69,8 +69,8 @@ static void same_light(const struct kd_light *a, const struct kd_light *b, doubl
 }
 
 /* The circular orbit and g in the plane, from the metric g_tt = -(1 - f), g_tphi = -a f, g_phiphi = r^2 + a^2 + a^2 f
- * with f = (2r - q^2)/r^2. Omega is where the radial force vanishes, g_tt' + 2 Omega g_tphi' + Omega^2 g_phiphi' = 0,
- * by differences. */
+ * with f = (2r - q^2)/r^2. Omega is the root of the radial force, g_tt' + 2 Omega g_tphi' + Omega^2 g_phiphi' = 0, with
+ * derivatives by differences. */
 static double line(const struct kd_spacetime *hole, double r, double omega)
 {
     const double a = hole->spin, f = (2 * r - hole->charge * hole->charge) / (r * r);
@@ -95,8 +95,8 @@ static double orbit_omega(const struct kd_spacetime *hole, double r)
 
 struct oracle {
     int n;           /* number of rays */
-    double area;     /* area of each ray, if all areas are the same */
-    double (*at)[3]; /* for each ray: its solid angle weight, and its place in the picture's own measure */
+    double area;     /* area of each ray in the picture, if all areas are equal */
+    double (*at)[3]; /* for each ray: its weight by solid angle, and its position in the units of the picture */
     struct ks_photon *photons;
     struct ks_path *paths;
 };
@@ -136,8 +136,8 @@ static void oracle_finish(struct oracle *o)
     free(o->paths);
 }
 
-/* Light of a crossing. The gas has the motion of its own radius; the spot is a Gaussian in the plane with x = r
- * cos(phi), y = r sin(phi). */
+/* Light of a crossing. At each point the gas has the circular motion of that radius. The spot is a Gaussian in the
+ * plane with x = r cos(phi), y = r sin(phi). */
 static double crossing_light(const struct kd_scene *scene, const struct ks_photon *p, const struct ks_path *path, int k,
                              double isco)
 {
@@ -177,8 +177,8 @@ static struct kd_light oracle_light(const struct kd_scene *scene, const struct o
 }
 
 /* Compares the light at several phases with the oracle: with fast and slow light, for prograde and retrograde spots,
- * from infinity and nearby, also behind half transparent gas. In 32 bits a ray next to the critical curve may miss a
- * crossing, which the bound allows. The width is not a round number, and the spot crosses the edges of the picture. */
+ * from infinity and nearby, and behind half transparent gas. The bound allows that a ray next to the critical curve
+ * misses a crossing in 32 bits. The picture's width is not a round number, and the spot crosses the picture's edges. */
 static void test_oracle(void **state)
 {
     (void)state;
@@ -245,7 +245,8 @@ static void test_far_out(void **state)
             scene.spots.at[0].phase_deg = 90 * quarter;
             scene.camera.azimuth_deg = 10;
             double phi = (90 * quarter - 10) * M_PI / 180;
-            scene.camera.centre_alpha = round((r + 1) * sin(phi)); /* phi = 0 is nearest to the observer: beta < 0 */
+            /* at phi = 0 the spot is nearest to the observer: beta < 0 */
+            scene.camera.centre_alpha = round((r + 1) * sin(phi));
             scene.camera.centre_beta = round(-(r + 1) * cos(phi));
             struct kd_light_report got = light(&scene);
             double want = 3 * 2 * M_PI * 4 * pow(1 - 3 / r, 2.5) * (1 + 1 / r);
@@ -271,7 +272,8 @@ static double upward(struct kd_scene *scene, double from, double step)
     return NAN;
 }
 
-/* The centroid returns after 2 pi (r^(3/2) + a), whichever way the hole turns, and also after 1e8 M. */
+/* The centroid returns after the time 2 pi (r^(3/2) + a), for either sense of the hole's rotation, and also after 1e8
+ * M. */
 static void test_period(void **state)
 {
     (void)state;
@@ -360,8 +362,8 @@ static void test_parts(void **state)
     }
 }
 
-/* The maximum number of spots, at any places of the list: their light is the sum of the light of each. Spots of
- * brightness 0 between them have no effect. */
+/* Tests the maximum number of spots, in any order of the list: their light is the sum of the light of each. Spots of
+ * brightness 0 among them have no effect. */
 static void test_many(void **state)
 {
     (void)state;
@@ -391,8 +393,8 @@ static void test_many(void **state)
     off(all.spots.x, x / sum, 10, 1e-6, "their centroid");
 }
 
-/* The light depends on the difference of azimuths only, on either side of each seam. It does not depend on where the
- * picture is aimed. */
+/* The light depends only on the difference of azimuths, on both sides of azimuth 0 and 360. It does not depend on the
+ * direction of the camera. */
 static void test_seams(void **state)
 {
     (void)state;
@@ -455,7 +457,7 @@ static void test_resolution(void **state)
     same_light(&four.spots, &fine.spots, 1e-4, "four rays a pixel are as many pixels");
 }
 
-/* Moving a spot keeps the lens map; without spots the map is the same, and nothing is measured. */
+/* Moving a spot keeps the lens map. Without spots the map is the same, and no light is measured. */
 static void test_plans(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* Tests of the images of one star, Sirius: their places and light. They are compared with the Kerr-Schild oracle and,
- * for a hole without spin, with quadrature of the lens equation. The sky is rotated to put the star at a place. */
+ * for a hole without spin, with quadrature of the lens equation. The test rotates the sky to put the star at a given
+ * position. */
 #include "kerr_schild.h"
 #include "render/render.h"
 #include "render/sky/frame.h"
@@ -85,7 +86,7 @@ static double luminance(const struct kd_frame *frame, int x, int y)
     return 0.2126 * rgb[i] + 0.7152 * rgb[i + 1] + 0.0722 * rgb[i + 2];
 }
 
-/* The sum of the light about a place of the picture, and its centroid. */
+/* The sum and the centroid of the light about a point of the picture. */
 struct blob { double light, x, y; };
 static struct blob blob_at(const struct kd_frame *frame, double x, double y, int reach)
 {
@@ -104,7 +105,7 @@ static struct blob blob_at(const struct kd_frame *frame, double x, double y, int
 
 static double step = 2 * 0.83909963117728001177 / WIDTH; /* tan(40 degrees) */
 
-/* The origin of the ray at a place of the picture and its g, by the oracle. */
+/* Direction on the sky and g of the ray at a point of the picture, by the oracle. */
 static struct vec3 from(const struct kd_scene *scene, double x, double y, double *g)
 {
     double right = (x - 0.5 * (WIDTH - 1)) * step, up = (0.5 * (HEIGHT - 1) - y) * step,
@@ -118,7 +119,7 @@ static struct vec3 from(const struct kd_scene *scene, double x, double y, double
     return (struct vec3) { s * cos(path.sky_phi), s * sin(path.sky_phi), path.u };
 }
 
-/* The solid angle of the sky that a pixel maps to: central differences of the oracle's rays, extrapolated. */
+/* Solid angle on the sky that a pixel maps to, from extrapolated central differences of the oracle's rays. */
 static double patch(const struct kd_scene *scene, double x, double y, double step_)
 {
     double g, area[2];
@@ -132,7 +133,7 @@ static double patch(const struct kd_scene *scene, double x, double y, double ste
     return (4 * area[1] - area[0]) / 3;
 }
 
-/* Compares light and place of the star's image at a place of the picture with the oracle's. */
+/* Compares the light and the position of the star's image near a point of the picture with the oracle's. */
 static void compare(struct kd_scene *scene, double x, double y, double *worst_light, double *worst_place)
 {
     double g;
@@ -153,8 +154,8 @@ static void compare(struct kd_scene *scene, double x, double y, double *worst_li
     kd_frame_finish(&frame);
 }
 
-/* Compares images at several places of the picture. The last places are next to the critical curve of the primary
- * image, where the magnification diverges. */
+/* Compares images at several points of the picture. The last ones are next to the critical curve of the primary image,
+ * where the magnification diverges. */
 static void by_rays(double spin, double inclination, double *worst_light, double *worst_place)
 {
     struct kd_scene scene = scene_of(spin, inclination);
@@ -163,8 +164,9 @@ static void by_rays(double spin, double inclination, double *worst_light, double
         compare(&scene, 0.5 * (WIDTH - 1) + rho * cos(angle) / step, 0.5 * (HEIGHT - 1) - rho * sin(angle) / step,
                 worst_light, worst_place);
     }
-    /* The places lie where the picture's rays and the rim's rays share an image's light, and on either side of this
-     * zone. The second half uses a field of view in which the curve is so large that its rim is wide. */
+    /* At these points an image's light is shared by the picture's rays and the rim's rays, or the points are just
+     * inside or outside this zone. In the second half the field of view makes the curve so large that its rim is wide.
+     * */
     const double wide = step;
     for (int k = 0; k < 24; k++) {
         struct kd_rim rim;
@@ -194,9 +196,9 @@ static void images_by_the_oracle(void **state)
     }
 }
 
-/* Azimuth swept by a ray from the observer at R to infinity, by b: w = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2 w^3),
- * in to the turning point and out. With w = w_t sin^2 the zero of the root there cancels. Midpoint rule: the
- * integrands are smooth, and even at both ends. */
+/* Azimuth swept by a ray from the observer at R in to the turning point and out to infinity, as a function of b. With w
+ * = 1/r, dphi = dw / sqrt(1/b^2 - w^2 + 2 w^3). Substituting w = w_t sin^2 removes the zero of the root at the turning
+ * point. The midpoint rule is used, because the integrands are smooth, and even at both ends. */
 static double swept(double b)
 {
     double low = 0, high = 1.0 / 3, sum = 0;
@@ -217,7 +219,7 @@ static double swept(double b)
     return sum;
 }
 
-/* The angle from the hole of the ray that sweeps this azimuth. */
+/* Angle between the hole and the ray that sweeps this azimuth. */
 static double looking(double azimuth)
 {
     double low = asin(sqrt(27) * (1 + 1e-7) * sqrt(1 - 2 / RADIUS) / RADIUS), high = 1.2;
@@ -228,8 +230,8 @@ static double looking(double azimuth)
     return 0.5 * (low + high);
 }
 
-/* Puts the star beta behind the hole. The star's side is at the angle `turned` from the picture's horizontal plane. Its
- * images are on this side of the picture and on the opposite one. */
+/* Puts the star at the angle beta from the point behind the hole. turned: angle of the star's side from the picture's
+ * horizontal plane. The images are on this side of the picture and on the opposite side. */
 static bool behind_by(struct kd_scene *scene, double beta, double turned)
 {
     *scene = scene_of(0, 90);
@@ -241,8 +243,8 @@ static bool in_the_picture(const struct blob *b, int margin)
     return b->x > margin && b->y > margin && b->x < WIDTH - 1 - margin && b->y < HEIGHT - 1 - margin;
 }
 
-/* From the lens equation: place and light of the image on the star's side or on the opposite one, whose light goes
- * round the hole `rounds` more times. */
+/* Position and light of an image, from the lens equation: on the star's side or on the opposite side. rounds:
+ * additional turns of the light round the hole. */
 static struct blob by_the_lens_equation(double beta, double turned, int side, int rounds)
 {
     const double flux = kd_star_flux(kd_catalogue_star(0).magnitude), g = 1 / sqrt(1 - 2 / RADIUS),
@@ -254,8 +256,8 @@ static struct blob by_the_lens_equation(double beta, double turned, int side, in
                            0.5 * (WIDTH - 1) + off * cos(turned), 0.5 * (HEIGHT - 1) - off * sin(turned) };
 }
 
-/* Tests each image of a star behind the hole, and the sum of both, however close to the caustic. The star goes all
- * round the hole, so that it has every position relative to the grid of rays. */
+/* Tests each image of a star behind the hole, and the sum of both, however close to the caustic. The star is put at all
+ * angles round the hole, so that its positions relative to the grid of rays vary. */
 static void behind(const double *betas, size_t n, int rounds)
 {
     static const double turns[] = { 0, 0.3, 0.9, 2.1, 3.7, 5 };
@@ -298,7 +300,7 @@ static void behind_the_hole(void **state)
     behind(betas, sizeof betas / sizeof *betas, 0);
 }
 
-/* Images that go round the hole once more, next to the curve, for stars anywhere. */
+/* Images whose light goes round the hole once more, next to the curve, for stars in any direction. */
 static void round_the_hole(void **state)
 {
     (void)state;
@@ -306,8 +308,8 @@ static void round_the_hole(void **state)
     behind(betas, sizeof betas / sizeof *betas, 1);
 }
 
-/* A small picture of a place next to the curve. The place is at the distance rho from the middle of a plane
- * perpendicular to the inward direction, at `angle` from the right. */
+/* A small picture of a point next to the curve. rho: the point's distance from the middle of a plane perpendicular to
+ * the inward direction. angle: its direction from the right. */
 enum { CLOSE_WIDTH = 160, CLOSE_HEIGHT = 91 };
 #define CLOSE_FIELD 1.6
 struct close { double rho, angle; };
@@ -330,7 +332,7 @@ static struct vec3 towards(const struct close *c, double further)
     return (struct vec3) { (c->rho + further) * cos(c->angle), (c->rho + further) * sin(c->angle), 1 };
 }
 
-/* Distance at which rays begin to escape, by the oracle. */
+/* Distance from the middle at which rays begin to escape, by the oracle. */
 static double edge(const struct kd_scene *scene, double angle)
 {
     double low = 0, high = 0.5, g;
@@ -351,7 +353,8 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
                  near = edge(scene, behind);
     const double tx = far * cos(ahead) - near * cos(behind), ty = far * sin(ahead) - near * sin(behind),
                  length = hypot(tx, ty);
-    const bool fast = fabs(scene->spacetime.spin) > 0.9; /* about fast holes the sky changes faster along the picture */
+    /* for rapidly spinning holes the sky changes faster along the curve */
+    const bool fast = fabs(scene->spacetime.spin) > 0.9;
     const double outwards = (fast ? 0.003 : 0.01) * fmin(off, 0.1) * curve,
                  along_ = (fast ? 0.001 : 0.03) * sqrt(fmin(off, 0.1)) * curve;
     static const double weights[] = { 8.0 / 12, -1.0 / 12 };
@@ -371,8 +374,7 @@ static double patch_close(const struct kd_scene *scene, const struct close *c, d
             j = (struct vec3) { j.x + v * along.x, j.y + v * along.y, j.z + v * along.z };
         }
     const struct vec3 n = seen_by(scene, middle, &g);
-    /* The factor cos^3 converts areas of the plane to solid angles of view; the pixel is in the middle of its own
-     * picture. */
+    /* cos^3 converts areas of the plane to solid angles of view; here the pixel is in the middle of its own picture */
     /* components outwards and along the curve */
     const double square = fabs(cos(c->angle) * ty - sin(c->angle) * tx) / length;
     return fabs(dot(n, cross(i, j))) / square * pow(dot(middle, middle), 1.5) * pixel * pixel;
@@ -390,8 +392,8 @@ static void look_at(struct kd_scene *scene, const struct close *c, double field_
     scene->image.critical_factor = 1;
 }
 
-/* Places ever closer to the curve of a spinning hole show images of ever higher orders. Each image above the threshold
- * is tested. */
+/* Points ever closer to the curve of a spinning hole show images of ever higher orders. Tests each image above the
+ * threshold. */
 static void next_to_the_curve(void **state)
 {
     (void)state;
@@ -430,7 +432,7 @@ static void next_to_the_curve(void **state)
 }
 
 /* Fast holes, seen edge-on or not, on the approaching side. Each image is only some hundredths closer to the curve than
- * the one before. The picture is so small that the middle one is `AWAY` pixels from the curve. */
+ * the one before. The field of view is so small that the middle image is `AWAY` pixels from the curve. */
 #define AWAY 100
 static void next_to_the_curve_of_fast_holes(void **state)
 {
@@ -470,8 +472,8 @@ static void next_to_the_curve_of_fast_holes(void **state)
         }
         printf("spin %g, inclination %g: %d images, light within %.5f, places within %.4f pixels\n", holes[h].spin,
                holes[h].inclination, n, worst, off_most);
-        /* Most places are right within 0.002 pixels. An image next to a caustic at spin 0.9999, in pixels of 1e-5 rad,
-         * is off by 0.02. */
+        /* Most positions have errors below 0.002 pixels. An image next to a caustic, at spin 0.9999 and with pixels of
+         * 1e-5 rad, has an error of 0.02. */
         assert_true(n >= 4 && worst < 0.005 && off_most < 0.03);
     }
 }
@@ -503,7 +505,7 @@ static void whole_skies(void **state)
     kd_frame_finish(&bands);
 }
 
-/* Another picture, rendered whenever the background one yields the device. */
+/* Renders another picture whenever the background picture yields the device. */
 struct other {
     struct kd_scene scene;
     struct kd_plan plan;
@@ -530,8 +532,8 @@ static struct kd_plan plan_of(const struct kd_scene *scene, const struct kd_capa
     return plan;
 }
 
-/* A picture in bands is rendered in the background under one sky, while others are rendered under another. The light of
- * one sky is not used for the other: with the shared lens map, the other sky looks as it does with a map of its own. */
+/* A picture in bands is rendered in the background under one sky, while others are rendered under another. The cached
+ * light of one sky is not used for the other: pictures that share a lens map equal pictures with maps of their own. */
 static void another_sky_meanwhile(void **state)
 {
     (void)state;
@@ -543,7 +545,7 @@ static void another_sky_meanwhile(void **state)
     c.max_binding_bytes = 3 << 20;
     scene.sky.limit_mag = 8;
     scene.camera.fov_deg = 20;
-    scene.camera.yaw_deg = 40; /* the curve is out of view, and the number of its rays changes no pixel */
+    scene.camera.yaw_deg = 40; /* the curve is out of view, so that the number of rays at it changes no pixel */
     scene.image.critical_factor = 3;
     turned = scene;
     turned.camera.azimuth_deg = 40;
@@ -592,7 +594,7 @@ static void kept_and_made_anew(void **state)
         own = scene;
         own.image.critical_factor = 5 + (int)i;
         struct kd_frame first = seen(&base), again = seen(&scene), fresh = seen(&own);
-        /* the last change affects nothing on which a star depends */
+        /* no star depends on what the last change affects */
         bool idle = i + 1 == sizeof changes / sizeof *changes;
         assert_true(again.lens_reused && !fresh.lens_reused && was_run(&fresh, "stars"));
         assert_true(was_run(&again, "stars") == !idle);
@@ -604,8 +606,8 @@ static void kept_and_made_anew(void **state)
     }
 }
 
-/* With bright images only, those above half the threshold are present, with their light, at their places to a fifth of
- * a ray. Many others are absent, which the plan reports. The map has no footprints. */
+/* When only bright images are drawn, images above half the threshold have the right light, and the right position to a
+ * fifth of a ray. Many others are absent, which the plan reports. The map has no footprints. */
 static void bright_images(void **state)
 {
     (void)state;
@@ -630,14 +632,14 @@ static void bright_images(void **state)
     assert_true(was_run(&bright, "stars") && !bright.lens_reused && !was_run(&again, "stars") &&
                 again.lens_reused); /* checks that the two pictures do not share a lens map */
     assert_memory_equal(again.layers[1].data, all.layers[1].data, 12ull * WIDTH * HEIGHT);
-    /* radius of the curve, approximately */
+    /* approximate radius of the curve */
     const double radius = 0.5 * WIDTH * tan(asin(sqrt(27) / RADIUS)) / tan(0.5 * scene.camera.fov_deg * DEGREE);
-    int images = 0, faint = 0, lost = 0, off = 0; /* counts faint images within a pixel, too, whose light is missing */
+    int images = 0, faint = 0, lost = 0, off = 0; /* also counts faint images within a pixel, whose light is missing */
     for (int y = 4; y < HEIGHT - 4; y++)
         for (int x = 4; x < WIDTH - 4; x++) {
             const double l = luminance(&all, x, y);
             if (hypot(x - 0.5 * WIDTH, y - 0.5 * HEIGHT) < 1.5 * radius)
-                continue; /* images next to the curve are left out */
+                continue; /* skips images next to the curve */
             faint += l > 0.05 && l < 0.3 && luminance(&bright, x, y) == 0;
             bool top = l > 3;
             for (int k = 0; k < 9; k++)

@@ -1,5 +1,5 @@
-/* Tests of stereo pairs. Each half is the picture of that eye, byte for byte, and the hole's displacement is the
- * Euclidean parallax of two eyes. */
+/* Tests of stereo pairs. Each half equals the picture of its eye, byte for byte. The hole's displacement is the
+ * Euclidean parallax of the eyes. */
 #include "render_support.h"
 
 static struct kd_scene pair_from(double spin, double r, double distance)
@@ -75,13 +75,13 @@ static void test_by_hand(void **state)
         sum += off * off;
     }
     assert_true(sqrt(sum / (one.width * one.height * 3.)) <
-                0.5); /* half of one of 255 levels, because the cameras agree up to rounding */
+                0.5); /* tolerance: half of one of 255 levels, because the cameras agree only up to rounding */
     kd_frame_finish(&pair);
     kd_frame_finish(&one);
 }
 
-/* From far away the dark disk is displaced sideways by half of the distance of the eyes over the radius, in pixels of
- * the tangent plane. */
+/* For a distant observer, the dark disk is displaced sideways by half of the eyes' distance divided by the radius, in
+ * pixels of the tangent plane. */
 static void test_parallax(void **state)
 {
     (void)state;

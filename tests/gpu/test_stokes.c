@@ -1,7 +1,8 @@
 /* Tests of polarised light of a volume at a radio frequency: Stokes I, Q, U and V of rays. They are compared with an
- * integration that shares no step with the march. The ray and the vectors across it are transported in Kerr-Schild
- * coordinates by Runge-Kutta (tests/oracle/kerr_schild_transport.c). Coefficients are in CGS, with Bessel functions by
- * quadrature. The transfer equation is solved by Runge-Kutta with the 4 x 4 matrix at each place, from the far end. */
+ * integration that uses other methods than the march in each step. The ray and the vectors across it are transported in
+ * Kerr-Schild coordinates by Runge-Kutta (tests/oracle/kerr_schild_transport.c). Coefficients are in CGS, with Bessel
+ * functions by quadrature. The transfer equation is solved by Runge-Kutta with the 4 x 4 matrix at each place, from the
+ * far end. */
 #include "render_support.h"
 
 #include "kerr_schild_transport.h"
@@ -32,7 +33,7 @@ static const float *layer_of(const struct kd_frame *frame, const char *name)
     return layer->data;
 }
 
-/* The places of one ray, from the observer on. */
+/* The points of one ray, in order from the observer. */
 enum { PLACES = 120000 };
 struct place { double step, j[4], k[4][4]; };
 static struct ray {
@@ -76,7 +77,7 @@ static void flow_of(const struct kd_scene *scene, double a, double r, double g[4
         v[i] = size * turns[i];
 }
 
-/* Velocity of a torus at a place, and h - 1 there; most: the maximum of h - 1. */
+/* Velocity of a torus at a point, and h - 1 there. most: maximum of h - 1. */
 static double torus_at(const struct kd_volume *v, double a, double g[4][4], double flow[4], double *most)
 {
     double inner[4][4], mid[4][4], orbit[4], low[4];
@@ -110,7 +111,7 @@ static void take(void *user, const struct ks_carried *at)
         field[i] += along * flow[i];
     const double size = sqrt(ks_carried_product(at, field, field)), seen = -ks_carried_product(at, at->k, flow),
                  c = ks_carried_product(at, at->k, field) / (size * seen), s = sqrt(1 - c * c);
-    /* The component of the field perpendicular to the ray, in the matter's frame: its component along the light's
+    /* The component of the field perpendicular to the ray in the matter's frame. The component along the light's
      * direction is subtracted. */
     double across[4];
     for (int i = 0; i < 4; i++)
@@ -179,7 +180,7 @@ static void integrate(double s[4])
     }
 }
 
-#define INSIDE 2.5 /* a ray this close falls in; rays that return also see matter behind the hole */
+#define INSIDE 2.5 /* a ray this close falls in; only for such rays is all matter in front of the hole */
 
 /* In the picture's unit of brightness, 1e10 K. */
 static void wanted(const struct kd_scene *scene, int i, double s[4])
@@ -207,8 +208,8 @@ static const struct view {
       1e-3 },
     { "{\"spacetime\":{\"spin\":0.6},\"camera\":{\"inclination_deg\":40,\"field_m\":20},\"polarization\":{\"rotation\":"
       "\"dexter\"},\"volume\":{\"inner\":2.5,\"outer\":15,\"field\":\"vertical\",\"frequency_ghz\":100}}",
-      /* Faraday rotation is strong: the march has an error of 1.4e-3, or 1.3e-3 with the other fit, which differs by
-       * 5e-3 */
+      /* with strong Faraday rotation the march has an error of 1.4e-3, or 1.3e-3 with the other fit, from which this
+       * one differs by 5e-3 */
       2e-3 },
     { "{\"spacetime\":{\"spin\":0.3},\"camera\":{\"inclination_deg\":35,\"field_m\":22},\"volume\":{\"inner\":2.5,"
       "\"outer\":20,\"height\":0,\"field\":\"vertical\",\"flow\":\"rest\","
@@ -319,8 +320,8 @@ static void test_adversarial(void **state)
     }
 }
 
-/* Plasma so dense and cold that the polarisation rotates by up to 1e6 radians. The polarisation averages out, and I
- * equals that of unpolarised transfer, for any profile. */
+/* The plasma is so dense and cold that the polarisation rotates by up to 1e6 radians. The polarisation then averages
+ * out. For any profile, I equals that of unpolarised transfer. */
 static void test_mixed(void **state)
 {
     (void)state;
@@ -352,7 +353,7 @@ static void test_mixed(void **state)
         }
 }
 
-/* Effect of the choice of Faraday rotation's fit on a picture's sums, as in docs/physics/polarization.md. */
+/* Effect of the fit for Faraday rotation on a picture's sums, as in docs/physics/polarization.md. */
 static void test_spread_of_rotations(void **state)
 {
     (void)state;
@@ -458,7 +459,7 @@ static void test_kappa_fits(void **state)
                                             { got.a[1], want.a[1] },     { got.a[2], want.a[2] },
                                             { got.rho[0], want.rho[0] }, { got.rho[1], want.rho[1] } };
                 for (int i = 0; i < 8 && !(i == 6 && x > 200);
-                     i++) { /* far out conversion is negligible, and the fit is not meant for it */
+                     i++) { /* skipped far out: conversion is negligible there, and the fit is not meant for it */
                     const double off = fabs(both[i][0] / both[i][1] - 1);
                     worst[i] = fmax(worst[i], off);
                     if (!(off <= allowed[i]))

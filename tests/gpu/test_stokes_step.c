@@ -1,6 +1,6 @@
 /* Tests of a length of matter that emits, absorbs and rotates polarised light. It is compared with matrix exponentials
- * in 40 digits (tests/oracle/stokes_reference.py). Depths and Faraday depths go from 0 to 1e6; in one case both
- * characteristic lengths vanish. */
+ * in 40 digits (tests/oracle/stokes_reference.py). Optical and Faraday depths range from 0 to 1e6. In one case both
+ * characteristic lengths are 0. */
 #include "support.h"
 
 #include "stokes_reference.h"
@@ -68,7 +68,8 @@ static void test_cases(void **state)
     for (size_t i = 0; i < CASES; i++) {
         const struct stokes_reference *r = &stokes_references[i];
         const float *passes = out + OUT * i, *gives = passes + 4;
-        /* The absolute error of an angle of m radians is the last digit of m, however the angle is reduced. */
+        /* An angle of m radians has an absolute error of the last digit of m, by whatever method the angle is reduced.
+         * */
         const double turn = hypot(hypot(r->turns[0], r->turns[1]), r->turns[2]), allowed = 4e-6 + 1.2e-7 * turn;
         sound(passes, "light from behind", i);
         sound(gives, "its own light", i);
@@ -86,7 +87,7 @@ static void test_cases(void **state)
     printf("%d lengths, off by at most %.2g\n", CASES, worst);
 }
 
-/* For all numbers that a float can have, the light is a number and is polarised by at most 100 %. */
+/* For all values of floats, the light is finite, and is polarised by at most 100 %. */
 static void test_extremes(void **state)
 {
     enum { N = 4096 };

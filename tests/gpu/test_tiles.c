@@ -1,5 +1,5 @@
-/* Tests that a tile has the same bytes as this part of the whole picture, for each emitter and projection. The same is
- * tested for the strips of a picture that does not fit on the device in one piece. */
+/* Tests that a tile has the same bytes as the same part of the whole picture, for each emitter and projection. The same
+ * is tested for the strips of a picture that is too large for the device. */
 #include "render/output/format.h"
 
 #include "render_support.h"
@@ -96,7 +96,7 @@ static void test_tiles_of_pictures(void **state)
     }
 }
 
-/* A small tile searches only part of the rim of the shadow for stars. Its light equals that of the whole picture: where
+/* A small tile searches for stars only in a part of the shadow's rim. Its light equals that of the whole picture: where
  * the critical curve crosses the tile, beside the curve, and where the rays of the rim begin and end. */
 static void test_small_tiles_of_stars(void **state)
 {
@@ -147,7 +147,7 @@ static void test_tiles_of_numbers(void **state)
     compare("numbers", &scene, &kd_format_npy);
 }
 
-/* The memory is reduced until the picture does not fit on the device in one piece. */
+/* Reduces the memory until the picture does not fit on the device in one piece. */
 static void test_strips(void **state)
 {
     (void)state;

@@ -53,8 +53,8 @@ static void oversized(void **state)
     FAILS(KD_ENOMEM, "MiB", kd_vk_buffer_create(vk, UINT64_C(1) << 50, KD_VK_READBACK, "huge", &none, &error));
     assert_null(none);
     assert_int_equal(kd_vk_allocated(vk), 0);
-    /* A heap can be filled, reports that, and recovers. The test simulates a small heap, because the real one may be
-     * larger than a test should fill. */
+    /* When a heap is full, an error is reported. When buffers are destroyed, memory is available again. The test
+     * simulates a small heap, because the real one may be too large to fill. */
     VkPhysicalDeviceMemoryProperties *memory = &vk->heap.properties;
     VkMemoryHeap *heap = &memory->memoryHeaps[memory->memoryTypes[vk->heap.types[KD_VK_DEVICE]].heapIndex];
     uint64_t truth = heap->size, bytes = UINT64_C(8) << 20;
@@ -69,7 +69,7 @@ static void oversized(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* Buffers destroyed while the device may use them are freed later, and counted until then. */
+/* A buffer that is destroyed while the device may use it is freed later. Until then it counts as allocated. */
 static void destroyed_in_flight(void **state)
 {
     struct kd_vk *vk = *state;

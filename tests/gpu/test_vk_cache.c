@@ -1,4 +1,4 @@
-/* Tests of the pipeline cache on disk: written, read, damaged, and in places that cannot be written. */
+/* Tests of the pipeline cache on disk: written, read, damaged, and in folders that cannot be written. */
 #include "support.h"
 
 #include <dirent.h>
@@ -37,7 +37,7 @@ static void live(const char *dir, bool pipeline)
     kd_vk_destroy(vk);
 }
 
-/* Finds the only file in dir; returns its size. */
+/* Finds the only file in dir, and returns its size. */
 static size_t only_file(const char *dir, char path[600])
 {
     DIR *d = opendir(dir);
@@ -80,7 +80,7 @@ static void damaged(void **state)
     FILE *file = fopen(path, "rb");
     size_t size = fread(data, 1, sizeof data, file);
     fclose(file);
-    for (size_t at = 0; at < 64 && at < size; at += 3) { /* damages bytes of our header and of Vulkan's */
+    for (size_t at = 0; at < 64 && at < size; at += 3) { /* damages bytes of kerrd's header and of Vulkan's header */
         file = fopen(path, "wb");
         data[at] ^= 0x40;
         fwrite(data, 1, size, file);
@@ -100,7 +100,7 @@ static void damaged(void **state)
     assert_true(given > 0);
 }
 
-/* A part of the path is a file instead of a directory, so that not even the superuser can write there. */
+/* One component of the path is a file, so that not even the superuser can write there. */
 static void unwritable(void **state)
 {
     char path[600], file[300], below[310];

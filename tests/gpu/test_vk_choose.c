@@ -46,7 +46,7 @@ static void chosen(void **state)
     }
 }
 
-/* SwiftShader, which Chromium contains, and lavapipe both run on the CPU. */
+/* SwiftShader, which is part of Chromium, and lavapipe are both drivers for the CPU. */
 static void among_equals(void **state)
 {
     static const struct kd_vk_info equals[] = {
@@ -114,7 +114,7 @@ static void memory_types(void **state)
         { "cached but not coherent",
           { L, V | K, V | C },
           false,
-          { 0, 2, 1 } }, /* for reading back, cached memory is preferred although it needs an invalidation */
+          { 0, 2, 1 } }, /* for reading back, cached memory is preferred, although the host must invalidate it */
         { "nothing coherent", { L, V, V | K, L | V }, false, { 0, 1, 2 } },
         { "not local", { V | C }, false, { -1, 0, 0 } },
         { "not visible", { L }, false, { 0, -1, -1 } },

@@ -81,7 +81,7 @@ static void refused(void **state)
     assert_null(vk);
 }
 
-/* A device for pipelines only creates them, and refuses everything else. */
+/* A device for pipelines only can create pipelines, and refuses everything else. */
 static void for_pipelines_alone(void **state)
 {
     struct kd_vk *vk;
@@ -155,7 +155,7 @@ static void count(struct kd_vk_functions *fn)
     fn->DestroyDevice = fn->DestroyDevice ? destroy_device : NULL;
 }
 
-/* Opens and closes a device several times. Returns NULL if all went well. */
+/* Opens and closes a device several times. Returns NULL on success. */
 static void *open_and_close(void *user)
 {
     (void)user;
@@ -193,7 +193,7 @@ static void one_at_a_time(void **state)
     kd_vk_destroy(vk);
 }
 
-/* Without validation no object gets a name, because the loader would walk its list of devices for each one. */
+/* Without validation no object gets a name, because naming makes the loader walk its list of devices each time. */
 static void names_only_for_validation(void **state)
 {
     struct kd_vk *vk;

@@ -27,7 +27,7 @@ static void sizes(void **state)
     assert_int_equal(kd_vk_allocated(vk), 0);
 }
 
-/* The size of a dispatch is written by the device just before the dispatch. With size 0 nothing runs. */
+/* The device writes the size of a dispatch just before the dispatch. With size 0 nothing is executed. */
 static void sizes_of_a_buffer(void **state)
 {
     struct kd_vk *vk = *state;
@@ -62,7 +62,7 @@ static void sizes_of_a_buffer(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* Parts of buffers: offsets in bindings, copies and fills affect only the given range. */
+/* Tests parts of buffers: offsets in bindings, copies and fills affect only the given range. */
 static void ranges(void **state)
 {
     struct kd_vk *vk = *state;
@@ -135,7 +135,7 @@ static void refused(void **state)
     kd_vk_pipeline_destroy(vk, pipeline);
 }
 
-/* Tests a buffer that is larger than one binding. It is skipped if the memory is too small for such a buffer. */
+/* Tests a buffer that is larger than one binding. Skipped if the device's memory is too small for such a buffer. */
 static void wide_binding(void **state)
 {
     struct kd_vk *vk = *state;

@@ -1,4 +1,4 @@
-/* Tests with a driver that fails. Each call that can fail fails once. One device hangs. */
+/* Tests with a driver that fails. Each call that can fail fails once. In another test the device hangs. */
 #include "support.h"
 
 #include "base/log.h"
@@ -6,8 +6,8 @@
 #include <time.h>
 
 static struct kd_vk_functions real;
-static int countdown;     /* number of calls until one fails */
-static VkResult injected; /* the result of the failing call */
+static int countdown;     /* number of calls before the one that fails */
+static VkResult injected; /* result of the failing call */
 static const char *tripped;
 static int teardown_calls, layer_messages;
 
@@ -87,7 +87,7 @@ static void plant(struct kd_vk_functions *fn)
 #define REPLACE(name, parameters, arguments) \
     if (fn->name) \
         fn->name = faulty_##name;
-    if (fn->CmdFillBuffer) { /* the last step, when everything is loaded */
+    if (fn->CmdFillBuffer) { /* the third and last step, after which all functions are loaded */
         FAULTS(REPLACE)
     } else if (fn->CreateDevice) {
         fn->CreateDevice = faulty_CreateDevice;
@@ -109,7 +109,7 @@ static void plant_once(struct kd_vk_functions *fn)
     }
 }
 
-/* Uses a device for everything it can do, up to the first failure. */
+/* Uses all functions of a device, up to the first failure. */
 static enum kd_status life(struct kd_error *error)
 {
     enum { n = 64 };

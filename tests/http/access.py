@@ -109,7 +109,7 @@ class Access(daemon.Case):
 
 class Roles(Access):
     def assertRefused(self, answer):
-        """All refusals have the same answer, word for word, whatever the reason."""
+        """All refusals have exactly the same text, whatever the reason."""
         problem = self.assertProblem(answer, 401, "unauthorized")
         self.assertEqual(answer.header("WWW-Authenticate"), "Bearer")
         self.assertIsNone(answer.header("Set-Cookie"))
@@ -167,8 +167,7 @@ class Roles(Access):
             for path, body in QUESTIONS.items():
                 with self.subTest(path):
                     answer = self.ask("POST", path, body, own(token))
-                    # the asset and the lesson with these names do not exist, so they are refused only after access was
-                    # granted
+                    # the asset and the lesson do not exist, so that they are refused only after access was granted
                     absent = {"/v1/compare": 422, "/v1/observe": 422, f"/v1/lessons/{ID}/hands": 404}
                     self.assertEqual(answer.status, absent.get(path, 200), answer.body)
 
@@ -187,8 +186,8 @@ class Roles(Access):
                 )
 
     def test_the_table_has_no_other_change(self):
-        """Each operation of /openapi.json either only reads, or only computes an answer, or is among those that require
-        a role."""
+        """Each operation of /openapi.json belongs to one of three groups: it only reads, it only computes an answer, or
+        it requires a role."""
         seen = set()
         for path, operations in self.ask("GET", "/openapi.json", headers=own(VIEW)).json()["paths"].items():
             for method in operations.keys() - {"get"}:

@@ -1,4 +1,4 @@
-"""Tests that JSON answers of the service match openapi.json: every route except playgrounds, which
+"""Tests that JSON answers of the service match openapi.json: Every route is tested except playgrounds, which
 playground_schema.py tests."""
 
 import json
@@ -11,7 +11,7 @@ schemas = daemon.needed("schemas")
 IMAGE = {"width": 64, "height": 36}
 OBSERVED = pathlib.Path(__file__).resolve().parents[2] / "data/eht/m87-2017-04-05-lo.csv"
 STARS = "application/vnd.kerrd.stars+json"
-# Answers that are described by their media type or by documents of their own.
+# Answers that are described by their media type, or by other documents, instead of a schema.
 ELSEWHERE = {("get", "/openapi.json"), ("get", "/v1/jobs/{id}/result")}
 
 

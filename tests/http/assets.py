@@ -1,5 +1,5 @@
-"""Tests of assets: what is accepted, who may delete it, limits and shares, and what a restart finds. Pictures are made
-here with zlib alone."""
+"""Tests of assets: accepted files, deletion and its rights, limits and shares, and assets after a restart. The test
+makes pictures with zlib alone."""
 
 import concurrent.futures
 import hashlib
@@ -124,7 +124,7 @@ class LongDirectories(Case):
         return answer
 
     def cost(self, data, words):
-        """The processor time of the server for five such files at once. Meanwhile another client requests a picture."""
+        """Processor time of the server for five such files at once, while another client requests a picture."""
         before = self.daemon.processor_s()
         with concurrent.futures.ThreadPoolExecutor(5) as pool:
             puts = [pool.submit(self.put_when_there_is_room, data) for _ in range(5)]
@@ -137,10 +137,11 @@ class LongDirectories(Case):
 
     def test_they_cost_no_more_than_their_bytes(self):
         many = self.directory()
-        # work that a server does only once is not counted as cost
+        # work that a server does only once does not count as cost
         self.daemon.get("/v1/render?image.width=320&image.height=180")
         plain = self.cost(bytes(len(many)), "not a")  # this body is refused because of its first bytes
-        self.assertLess(self.cost(many, "at most 1024 members; it has 700000"), 2 * plain + 0.5)  # 0.5 s: 50 ticks
+        # 50 ticks of the clock, which are 0.5 s
+        self.assertLess(self.cost(many, "at most 1024 members; it has 700000"), 2 * plain + 0.5)
 
 
 class Assets(Case):
@@ -240,7 +241,7 @@ class Assets(Case):
             with self.subTest(words, data=data[:40]):
                 problem = self.assertProblem(self.put(data), 422, "invalid-asset")
                 self.assertIn(words, problem["detail"])
-        # the largest picture that deflate can hold in a few bytes, with more pixels than are accepted
+        # the largest picture that deflate can compress to a few bytes; it has more pixels than are accepted
         flat = png(30000, 9000, colour=0, pixels=bytes(9000 * 30000))
         self.assertIn("30000 x 9000", self.assertProblem(self.put(flat), 422, "invalid-asset")["detail"])
         for kind in (
@@ -357,7 +358,7 @@ class Assets(Case):
         )
         elsewhere = (
             data[:-18] + b"\1\0" + data[-16:]
-            # this directory claims to be on another disk; its members could only be found by reading and inflating the
+            # this directory states that it is on another disk; without it, members could only be found by inflating the
             # file from the start
         )
         self.assertIn(
@@ -391,8 +392,8 @@ class Assets(Case):
         self.assertProblem(self.put(png(), **{"Sec-Fetch-Site": "cross-site"}), 403, "cross-site")
 
     def test_many_at_once(self):
-        """A client that uploads the same bytes as others at the same time gets 201 for the first upload. Otherwise it
-        waits, or gets 200 because the bytes exist already."""
+        """A client that uploads the same bytes as others at the same time gets 201 for the first upload. For another
+        upload it waits, or gets 200 if the bytes exist already."""
         picture, answers = png(300, 300, seed=9), []
         threads = [threading.Thread(target=lambda: answers.append(self.put(picture))) for _ in range(6)]
         for thread in threads:
@@ -406,7 +407,7 @@ class Assets(Case):
         self.assertEqual(self.delete(asset).status, 204)
 
     def test_a_reader_keeps_what_is_deleted(self):
-        picture = png(1200, 1200, seed=3)  # 4 MB: more than the kernel buffers for a client that does not read
+        picture = png(1200, 1200, seed=3)  # 4 MB: larger than the kernel's buffer for a client that does not read
         asset = self.made(picture)
         with self.daemon.connect() as s:
             s.sendall(f"GET {self.at(asset)} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
@@ -435,7 +436,7 @@ class Limits(Case):
 
 
 class Shares(Case):
-    """A client can use its share of the space. The rest stays available to others."""
+    """A client can use its share of the space, but not more. The rest is available to others."""
 
     options = ("--assets", 4, "--client-share", 50)
 
@@ -511,8 +512,8 @@ class Sky(Case):
             self.assertEqual(server.stop(), 0)
 
     def test_an_asset_of_a_client_stays(self):
-        """A client has stored a file that is not a photograph of the sky before it is given as the operator's. The file
-        is refused and not removed."""
+        """A client stores a file that is not a photograph of the sky. Then the operator names this file as the sky. It
+        is refused, and not removed."""
         with tempfile.TemporaryDirectory() as state:
             server = daemon.Daemon("--drain-ms", 10, "--state", state)
             self.addCleanup(server.process.kill)
@@ -640,7 +641,7 @@ class State(Case):
         kept = [self.made(png(seed=i), server) for i in range(3)]
         self.assertProblem(self.put(png(seed=3), server=server), 429, "quota")
         self.assertEqual(server.stop(), 0)
-        server = self.start("--assets", 3, "--asset-keep-s", 1)  # this server does not know who owns the assets
+        server = self.start("--assets", 3, "--asset-keep-s", 1)  # no owner of the assets is known to this server
         self.assertProblem(self.put(png(seed=3), server=server), 507, "assets-full")
         threading.Event().wait(1.2)
         self.assertEqual(server.get(self.at(kept[0])).status, 200)
@@ -689,13 +690,13 @@ class State(Case):
 
 
 class Scenes(Case):
-    """Scenes that refer to an asset, by every way in which a request can give a scene."""
+    """Tests scenes that refer to an asset, in every kind of request that contains a scene."""
 
     def scene(self, image):
         return {"image": {"width": 32, "height": 18}, "sky": {"model": "image", "image": image}}
 
     def answers(self, image):
-        """Yields the answer to each kind of request, and the place of the field in the request."""
+        """Yields the answer to each kind of request, and the JSON pointer of the field in the request."""
         scene, at = self.scene(image), "/sky/image"
         yield self.daemon.get(f"/v1/render?image.width=32&image.height=18&sky.model=image&sky.image={image}"), at
         yield self.daemon.post("/v1/render", scene), at
@@ -722,7 +723,7 @@ class Scenes(Case):
         )
 
     def end(self, answer):
-        """Ends what was created, because few sessions and jobs are allowed."""
+        """Deletes the created resources, because few sessions and jobs are allowed."""
         if answer.status in (201, 202):
             self.daemon.request(
                 "DELETE", answer.location(), headers={"Authorization": f"Bearer {answer.json()['token']}"}

@@ -1,5 +1,5 @@
-"""Tests of two servers behind HAProxy, with the configuration of docs/examples: one server is killed, and no client
-notices; sessions stay on their server. balanced.py KERRD serve"""
+"""Tests of two servers behind HAProxy, with the configuration of docs/examples: when one server is killed, no client
+notices, and each session stays on its server. balanced.py KERRD serve"""
 
 import concurrent.futures
 import http.client

@@ -1,4 +1,5 @@
-"""Tests of a server below a base path: its answers there and outside, and that none of its links points outside."""
+"""Tests of a server below a base path: answers below and outside the base path. No link of an answer may point
+outside."""
 
 import re
 import subprocess
@@ -59,7 +60,7 @@ class Below(daemon.Case):
             self.assertTrue(path.startswith(BASE + "/"), link)
             self.assertIn(
                 self.daemon.get(path).status, (200, 404) if link == "v1/accuracy" else (200,), link
-            )  # a command of the build makes it
+            )  # this file is made by a command of the build
             files.add(path)
         todo, scripts = [path for path in files if path.endswith(".js")], set()
         while todo:  # the files that scripts import, and the addresses that scripts request
@@ -109,8 +110,8 @@ class Below(daemon.Case):
 
 
 class Health(unittest.TestCase):
-    """A health request is recognised by its first bytes. With the base path and without it, it is answered even when no
-    other request is."""
+    """A health request is recognised by its first bytes. It is answered with and without the base path, even when no
+    other request is answered."""
 
     def test_while_connections_are_at_their_limit(self):
         base = "/" + "long/" * 39 + "tail"  # 200 characters
@@ -142,7 +143,7 @@ class Health(unittest.TestCase):
 
 class Without(daemon.Case):
     def test_openapi_is_beside_what_it_describes(self):
-        """If a proxy removes the prefix, only relative addresses work."""
+        """If a proxy removes the prefix from requests, only relative addresses work."""
         self.assertEqual(self.daemon.get("/openapi.json").json()["servers"], [{"url": "."}])
 
     def test_where_there_is_no_path(self):

@@ -173,7 +173,7 @@ class Listed(Case):
             "true",
         )
         self.assertProblem(self.preflight("/no/such"), 404, "not-found")
-        # not a preflight: a browser does not ask for permission with this request
+        # not a preflight request: a browser does not ask for permission with it
         plain = self.ask("OPTIONS", "/v1/render", GOOD)
         self.assertEqual((plain.status, plain.header("Access-Control-Allow-Methods")), (204, None))
         self.assertProblem(self.preflight("/v1/render", Host="elsewhere.example"), 400, "bad-request")
@@ -216,7 +216,7 @@ class Tokens(access.Access):
         self.assertProblem(self.ask(GOOD, cookie), 401, "unauthorized")
         self.assertEqual(
             self.ask(GOOD, cookie | {"Sec-Fetch-Site": "same-origin"}).status, 200
-        )  # behind a proxy with this name the origin is the server's own
+        )  # behind a proxy with this name, the origin is the same as the server's
         self.assertEqual(self.ask(f"http://127.0.0.1:{self.daemon.port}", cookie).status, 200)
 
     def test_a_preflight_has_none(self):

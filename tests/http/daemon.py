@@ -1,4 +1,4 @@
-"""A server process under test and ways to talk to it, down to single bytes."""
+"""A server process under test, and functions that send requests to it, if necessary byte by byte."""
 
 import atexit
 import http.client
@@ -18,7 +18,7 @@ import unittest
 import urllib.parse
 
 COMMAND = []  # the command line of the server, taken from the test's own; set by main()
-HEADER_BYTES = 3000  # limit for any answer: proxies accept 4096 by default, including the lines that they add
+HEADER_BYTES = 3000  # maximum header of any answer: proxies accept 4096 bytes by default, including lines that they add
 SMALL = "image.width=64&image.height=36"
 # The headless shell has no window, and takes 40 % less processor time for the same page.
 CHROMIUM = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "chromium-browser"))), None)
@@ -41,7 +41,8 @@ class Answer:
         return json.loads(self.body)
 
     def location(self):
-        """The path of what was created, or of the redirection. Location is relative to the request's address."""
+        """The path in Location: of a created resource, or of a redirection. Location is relative to the request's
+        address."""
         return urllib.parse.urljoin(self.target, self.header("Location"))
 
 
@@ -50,8 +51,8 @@ class Daemon:
         self.process = subprocess.Popen(
             [*COMMAND, "--port", "0", *map(str, options)], stdout=subprocess.PIPE, stderr=stderr, env=env
         )
-        # A process that a failed test leaves behind would keep the pipe of our output open, and its reader would wait.
-        # Killing a process that has ended does nothing.
+        # Kills a process that a failed test has left. It would keep the pipe of this test's output open, and the pipe's
+        # reader would wait. Killing a process that has ended does nothing.
         atexit.register(self.process.kill)
         line = self.process.stdout.readline().decode()
         match = re.fullmatch(r"kerrd: listening on http://127\.0\.0\.1:(\d+)(\S*)/\n", line)
@@ -108,8 +109,7 @@ class Daemon:
         return {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines if line[0] != "#")}
 
     def reaches(self, gauge, least):
-        """Waits until the gauge of /metrics has at least this value, which shows that the server has received what was
-        sent."""
+        """Waits until the gauge of /metrics has at least this value. The server has then received the requests."""
         if not eventually(lambda: self.metrics()["kerrd_" + gauge] >= least):
             raise AssertionError(f"kerrd_{gauge} does not reach {least}")
 
@@ -152,7 +152,7 @@ def vanish(s):
 
 
 def needed(name):
-    """Imports a module; if it is not installed the test is skipped."""
+    """Imports a module. The test is skipped if the module is not installed."""
     try:
         return importlib.import_module(name)
     except ImportError as missing:
@@ -211,7 +211,7 @@ class Owned(Case):
     """Tests of resources that have an address on the server, belong to the holder of a token, and are deleted after
     the test."""
 
-    kind = made = None  # kind: such as '/v1/sessions'. made: the status of a successful creation
+    kind = made = None  # kind: path of the resources, such as '/v1/sessions'. made: status of a successful creation
 
     def setUp(self):
         self.opened = []

@@ -48,7 +48,7 @@ LEFT_OUT = {
 }
 if not (ROOT / "venv-ehtim/bin/python").exists():
     LEFT_OUT["venv-ehtim/bin/python "] = "ehtim is not installed; scripts/matrix ehtim runs it"
-# Commands that take minutes. They are started, which tests their arguments, and ended after some seconds.
+# Commands that take minutes. Each is started, which tests its arguments, and stopped after some seconds.
 BEGUN = {
     "kerrd table -o": "14 309 lines; tests/cli/table.py has small tables",
     "kerrd table -x index": "300 000 of them",
@@ -69,7 +69,7 @@ BEGUN_S = 3
 
 
 def blocks(text):
-    """Fenced ```sh blocks, and indented ones with a command in them."""
+    """Fenced ```sh blocks, and indented blocks that contain a command."""
     yield from FENCED.findall(text)
     for block in re.findall(r"(?:^    .*\n|^\n(?=    ))+", re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S), re.M):
         if re.search(r"^    " + COMMAND, block, re.M):
@@ -136,7 +136,7 @@ class Documents(unittest.TestCase):
             self.assertEqual(done.returncode, 0, f"{name}:\n{block}\n{done.stderr.decode()}\n{done.stdout[-2000:]}")
 
     def made(self, name, count, *files):
-        """The commands make these files."""
+        """These files are made by the documents' commands."""
         for file in files:
             pathlib.Path(self.folder.name, file).unlink(missing_ok=True)
         self.run_all(name, count)

@@ -1,4 +1,5 @@
-"""Tests of bad scenes, bodies, queries and negotiations: each gives a problem document, and the server continues."""
+"""Tests of bad scenes, bodies, queries and negotiations: each gets a problem document, and the server continues to
+run."""
 
 import json
 import tempfile
@@ -48,8 +49,8 @@ class Scenes(daemon.Case):
                 self.assertLess(self.daemon.post(target, b"\xef\xbb\xbf" + document.encode()).status, 300)
 
     def test_mistakes_of_who_writes_json_by_hand(self):
-        """Each error is reported with its line and column. This includes lists of rays, which have a parser of their
-        own."""
+        """An error in JSON is reported with its line and column. Lists of rays, which have a parser of their own, are
+        included."""
         for value, words in (
             (".5", ".5 is 0.5 in JSON"),
             ("NaN", "NaN, which JSON lacks"),

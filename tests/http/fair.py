@@ -2,8 +2,8 @@
 
 The bounds are multiples of the time of the same picture on the idle server, measured in the same run. Waiting for the
 other client's work would take much longer: its shortest work, the 4K picture, takes some thousand times as long as our
-picture. Therefore the test passes on a machine that is ten times slower or shared by many, and fails if one piece of
-work blocks the device.
+picture. The test therefore passes on a machine that is ten times slower or busy, and fails if one piece of work blocks
+the device.
 """
 
 import http.client
@@ -54,8 +54,8 @@ class Fair(unittest.TestCase):
         bound = lambda solo: max(2000, SLOWER * solo)
         beside = fairness.run_one(daemon.COMMAND[0], "all of these", 3)
         if max(beside["picture_ms"]) >= bound(statistics.median(alone["picture_ms"])):
-            # Measured a second time: work that blocks the device delays a picture both times, but other processes only
-            # now and then.
+            # Measured twice: work that blocks the device delays both pictures, while other processes delay a picture
+            # only now and then.
             beside = fairness.run_one(daemon.COMMAND[0], "all of these", 3)
         solo = statistics.median(alone["picture_ms"])
         print(
@@ -79,8 +79,9 @@ class Fair(unittest.TestCase):
 
 class Pixel(unittest.TestCase):
     def test_a_pixel_beside_a_long_picture_of_the_same_client(self):
-        """The pixel waits only for the slice that is being computed. It takes some 150 ms, six times its time alone, if
-        nothing else runs. The limit is 1.5 s or, on a slow machine, 30 times its time alone."""
+        """The pixel waits only for the slice that is being computed. On an otherwise idle machine this takes some 150
+        ms, six times as long as without another client. The limit is 1.5 s or, on a slow machine, 30 times its time
+        alone."""
         server = fairness.Server(daemon.COMMAND[0])
         self.addCleanup(server.stop)
         size, source = (640, 360), "127.0.0.1"

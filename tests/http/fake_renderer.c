@@ -2,10 +2,10 @@
  * the real ones.
  *
  * The scene's time selects the behaviour. t >= 0 takes t milliseconds, in slices of 10, and 30 times as long with
- * several rays a pixel. -1 loses the device, which can be reopened if its name is "mends". -1.5 loses it only the first
- * time. -2 runs out of memory; -3 fails. The exposure "auto" alternates between 1 stop and -1. Rays on the device cross
- * once, at 10 + |alpha| with the azimuth beta; with steps 8 there is no double precision, with steps 12 each takes a
- * millisecond.
+ * several rays a pixel. t = -1: the device is lost; it can be reopened if its name is "mends". -1.5: the device is lost
+ * only the first time. -2: out of memory. -3: another failure. The exposure "auto" alternates between 1 stop and -1.
+ * Rays on the device cross once, at 10 + |alpha| with the azimuth beta; with 8 steps there is no double precision; with
+ * 12 steps each ray takes a millisecond.
  *
  * The picture of a sky of seed 4711 is being decoded until another picture is rendered. Kernels of a sky of seed 4712,
  * and of rays with steps 20, are being compiled until then, but for a minute at most. For a sky of seed 4713, the lack
@@ -34,8 +34,8 @@ struct kd_renderer {
     char lens_key[65];
     bool measured, slow, held, gated, compiles, miscompiles, bright;
     struct kd_renderer_params params;
-    _Atomic bool read; /* the picture of the sky of seed 4711 has been decoded */
-    bool compiled;     /* the kernels of the other skies have been compiled */
+    _Atomic bool read; /* true after the picture of the sky of seed 4711 has been decoded */
+    bool compiled;     /* true after the kernels of the other skies have been compiled */
 };
 enum {
     UNREAD = 4711,
@@ -46,7 +46,7 @@ enum {
     MEANWHILE = 5,
     PATIENCE_MS = 60000
 };
-static _Atomic unsigned drawn; /* number of pictures that all renderers have rendered */
+static _Atomic unsigned drawn; /* number of pictures rendered, over all renderers */
 
 enum kd_status kd_renderer_create(const struct kd_renderer_params *params, struct kd_renderer **out,
                                   struct kd_error *error)
@@ -159,7 +159,7 @@ const char *kd_renderer_driver(const struct kd_renderer *renderer)
     return "a \"driver\" \\ of no device";
 }
 
-/* Each time the renderer becomes idle is reported as one more byte of kernels. */
+/* Each time that the renderer becomes idle adds one byte to the reported size of kernels. */
 static _Atomic unsigned rests, compilations;
 
 enum kd_status kd_renderer_rest(struct kd_renderer *renderer, struct kd_error *error)
@@ -189,7 +189,7 @@ uint64_t kd_renderer_held(const struct kd_renderer *renderer)
     return 12345678;
 }
 
-/* The folder that the environment names, as with real devices. */
+/* The folder of caches that the environment names, as for real devices. */
 char *kd_renderer_cache_file(const struct kd_renderer *renderer, const char *suffix)
 {
     const char *folder = getenv("XDG_CACHE_HOME");
@@ -246,7 +246,7 @@ struct kd_compilation *kd_compilation_of(struct kd_renderer *renderer, kd_kernel
     return ask(renderer, user) ? NULL : lacked(renderer);
 }
 
-/* KD_OK: a kernel must be compiled. */
+/* Returns KD_OK if a kernel must be compiled. */
 enum kd_status kd_rays_device_ask(struct kd_renderer *renderer, const struct kd_rays_params *params, bool told)
 {
     (void)renderer, (void)told;
@@ -330,8 +330,8 @@ static struct kd_probed_pixel *tell(const struct kd_plan *plan)
     return told;
 }
 
-/* Black linear light, and maps of constant brightness: 1, and 1/2 for image order 1. With three samples a side the maps
- * are black too. */
+/* Black linear light, and maps of constant brightness: 1 in all image orders together, and 1/2 in image order 1. With
+ * three samples a side the maps are black too. */
 static enum kd_status add_numbers(const struct kd_scene *scene, const struct kd_plan *plan, struct kd_frame *out,
                                   struct kd_error *error)
 {
@@ -461,7 +461,7 @@ enum kd_status kd_render_in_background(struct kd_renderer *renderer, const struc
     return draw(renderer, scene, plan, true, go_on, &aside, out, error);
 }
 
-/* Ignores the light of the other pictures. The result is black, like the picture itself. */
+/* Ignores the light of the other pictures of a blurred frame. The result is black, like each picture. */
 enum kd_status kd_render_mean(struct kd_renderer *renderer, const struct kd_scene *scene, const struct kd_plan *plan,
                               const struct kd_light_sum *others, bool aside, kd_progress_fn progress,
                               const struct kd_preview_hook *preview, void *user, struct kd_frame *out,

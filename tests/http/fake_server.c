@@ -80,7 +80,7 @@ static int set(struct kd_server_params *params, const char *hosts[2], const char
 
 int main(int argc, char **argv)
 {
-    /* one client may use the whole share, because most tests reach a limit from one address */
+    /* one client may use the whole limit, because most tests reach a limit from one address */
     struct kd_server_params params = { .client_share = 100 };
     struct kd_error error;
     const char *hosts[2] = { NULL, NULL }, *origins[2] = { NULL, NULL }, *embeds[2] = { NULL, NULL };

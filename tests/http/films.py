@@ -1,7 +1,7 @@
 """Tests of films of jobs, encoded by the program ffmpeg.
 
-Usually with the fake renderer and a fake ffmpeg that stores its input. With FFMPEG=real (suite `film`) the system's
-ffmpeg encodes the film, and ffprobe and ffmpeg read it.
+By default they use the fake renderer and a fake ffmpeg that stores its input. With FFMPEG=real (suite `film`) the
+system's ffmpeg encodes the film, and ffprobe and ffmpeg read it.
 """
 
 import base64
@@ -21,11 +21,12 @@ import daemon
 from job_case import SCENE, Case, scene_of
 
 REAL = os.environ.get("FFMPEG") == "real"
-# Stores its arguments, a line each, an empty line, and then its input. The last argument is the output file.
+# A fake ffmpeg. It stores its arguments, one on each line, then an empty line, then its input. The last argument is the
+# output file.
 KEEPS = 'import sys, pathlib\nout = open(sys.argv[-1], "wb")\nout.write("\\n".join(sys.argv[1:]).encode() + b"\\n\\n" + sys.stdin.buffer.read())\n'
 COUNTS = 'import os\nopen(os.environ["KERRD_TEST_RUNS"], "a").write("x")\n' + KEEPS
 FAILS = 'import sys\nsys.stdin.buffer.read(9)\nsys.exit("\\x1b[31m/secret/place: Unknown encoder libx264\\x07\\nsecond line")\n'
-# A program that fails while its child goes on running with the same standard error.
+# A fake ffmpeg that fails while its child process continues with the same standard error.
 LEAVES = (
     'import os, pathlib, subprocess, sys\nsys.stdin.buffer.read(9)\nchild = subprocess.Popen(["sleep", "600"], stdin=subprocess.DEVNULL)\n'
     'pathlib.Path(os.environ["KERRD_TEST_PID"]).write_text(str(child.pid))\nsys.exit("no luck")\n'
@@ -40,7 +41,7 @@ class Films(Case):
         self.addCleanup(shutil.rmtree, self.folder)
 
     def server_of(self, program, *options):
-        """A server whose ffmpeg is this program."""
+        """Starts a server whose ffmpeg is this program."""
         path = self.folder / "ffmpeg"
         if program:
             path.write_text("#!/usr/bin/env python3\n" + program)
@@ -56,8 +57,7 @@ class Films(Case):
         return server
 
     def film_of(self, program, document, query="?format=mp4", options=()):
-        """Starts a server of its own whose ffmpeg is this program; returns the job, and the answer to the request for
-        its film."""
+        """Starts a server whose ffmpeg is this program. Returns a job, and the answer to the request for its film."""
         server = self.server_of(program, *options)
         job = self.make(document, server=server)
         self.until(job, "done", server)
@@ -165,7 +165,7 @@ class Given(Films):
 
     def test_who_leaves_ends_it(self):
         server, client, number = self.hanging()
-        # the priority is set once the process runs
+        # the priority is set after the process has started
         self.assertTrue(daemon.eventually(lambda: os.getpriority(os.PRIO_PROCESS, number) == 10))
         self.assertEqual(len(os.listdir(f"/proc/{number}/fd")), 4, "it has no descriptor of the server")
         self.assertEqual(server.get("/healthz").status, 200)
@@ -281,8 +281,8 @@ class Kept(Films):
         self.ended(server)
 
     def test_a_kill_leaves_no_half_of_it(self):
-        """The server is killed while ffmpeg works. The test also puts a half copied film beside it, as left by a kill
-        while the output was copied."""
+        """The server is killed while ffmpeg works. The test also adds a half copied film, as left by a kill during the
+        copy of the output."""
         state = self.folder / "state"
         server, job, _ = self.film_of(HANGS, self.FRAMES, None, ("--state", state))
         client = server.connect()
@@ -333,8 +333,8 @@ class Read(Films):
         pass
 
     def test_as_it_is_read(self):
-        """The film as read back: 240 frames at 24 a second; odd sides; colours within the codec's error of the
-        pictures."""
+        """Checks the film as read back: 240 frames at 24 a second, odd sides, and colours within the codec's error of
+        the pictures."""
         scene = {
             "spacetime": {"spin": 0.7},
             "camera": {"inclination_deg": 75},

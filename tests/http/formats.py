@@ -1,4 +1,4 @@
-"""Tests of the format that Accept prefers, with a server whose table of formats has an additional one, "fake"."""
+"""Tests of the choice of a format by Accept. The server's table of formats has an additional format, "fake"."""
 
 import json
 

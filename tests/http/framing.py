@@ -8,7 +8,7 @@ import time
 import daemon
 
 SCENE = b"POST /v1/render HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
-MOST_S = 8  # the server's own limits are one or two seconds; a busy machine takes longer
+MOST_S = 8  # allowed seconds; the server's own limits are one or two seconds, but a busy machine takes longer
 POST = b"POST /v1/plan HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
 
 
@@ -238,8 +238,8 @@ class Sizes(daemon.Case):
                 pass
 
     def test_a_body_of_just_the_limit(self):
-        """A body of exactly the limit is accepted: of a scene, and of a job, whose limit is four times as large. POST
-        /v1/plan accepts the larger one too."""
+        """A body of exactly the limit is accepted: the limit of a scene, and the limit of a job, which is four times as
+        large. POST /v1/plan accepts the larger body too."""
         small = '{"image": {"width": 2, "height": 2}}'
         self.assertEqual(self.daemon.post("/v1/render", small + " " * ((1 << 20) - len(small))).status, 200)
         self.assertProblem(self.daemon.post("/v1/render", "{}" + " " * ((1 << 20) - 1)), 413, "body-too-large")

@@ -18,7 +18,8 @@ ALL = {
     "style": {"bloom": 0.3, "tone_map": "neutral"},
     "camera": {"r": 40, "projection": "equirectangular"},
 }
-# Each scene has everything that can be combined with the feature in its name. Together they have every emitter.
+# Each scene combines the feature in its name with everything that can be combined with it. The scenes together have
+# every emitter.
 RICHEST = {
     "gas": {
         **ALL,
@@ -57,7 +58,7 @@ RICHEST = {
 
 
 def torn():
-    """A playground of a star being torn apart, at rest, in the richest scene that accepts bodies."""
+    """A playground in which a star is torn apart, paused, in the richest scene that accepts bodies."""
     arguments = ("playground", "-p", "disruption", "--set", "debris_per_body=200", "--time", "3000", "-o", "-")
     made = subprocess.run([daemon.COMMAND[0], *arguments], capture_output=True, check=True)
     scene = {name: value for name, value in RICHEST["gas"].items() if name != "bodies"}
@@ -114,7 +115,7 @@ class Richest(unittest.TestCase):
             self.assertLessEqual(set(names), set(self.known))
 
     def test_the_longest_that_a_request_can_make_it(self):
-        """An answer repeats at most a bounded part of the request's own words; otherwise the request is refused."""
+        """An answer repeats only a bounded part of the request's words; a request with longer words is refused."""
         long = "x" * 6000
         for target in (
             "/?access=" + long,

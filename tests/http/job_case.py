@@ -16,7 +16,7 @@ def size(png):
 
 
 def text_of(png, name):
-    """An uncompressed text of a picture, by its name."""
+    """An uncompressed text in a PNG, by its keyword."""
     start = png.index(b"tEXt" + name.encode() + b"\0") + 5 + len(name)
     length = struct.unpack(">I", png[start - 9 - len(name) : start - 5 - len(name)])[0]
     return png[start : start + length - len(name) - 1].decode()

@@ -1,4 +1,5 @@
-"""Tests of jobs across servers: one server ends, normally or by a signal, and the next one uses the same folder."""
+"""Tests of jobs that outlive a server: one server ends, normally or by a signal, and the next server uses the same
+folder."""
 
 import io
 import json
@@ -63,7 +64,8 @@ class State(Case):
                 self.assertEqual(server.stop(), 0)
 
     def test_a_film_goes_on(self):
-        """Each frame of this film depends on the frames before. After a restart the film is the same as without one."""
+        """Each frame of this film depends on the frames before it. After a restart the film is the same as without a
+        restart."""
         film = {
             "playground": {"preset": "white-dwarf", "debris_per_body": 500},
             "every": 20,
@@ -135,8 +137,8 @@ class State(Case):
                 return {scene_of(z.read(n))["style"]["exposure"] for n in z.namelist()}
 
         self.assertEqual(found(job), {-1})
-        # these frames are from a version that gave each frame its own exposure, so the remaining frames also get their
-        # own
+        # these frames were made by a version that gave each frame its own exposure, so the remaining frames get their
+        # own too
         path = os.path.join(self.folder, "jobs", other["id"])
         self.assertEqual(server.stop(), 0)
         with open(os.path.join(path, "job.json"), encoding="utf-8") as file:

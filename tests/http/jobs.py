@@ -104,8 +104,9 @@ class Jobs(Case):
         )  # fields with words change in steps, too; the exposure 0 is the mean of the alternating 1 and -1
 
     def test_exposure(self):
-        """Frames between keyframes share one exposure: the median of nine, which their scenes and the job state. If the
-        job requests it, each frame has its own exposure. Frames of lists and axes have their own exposures unless
+        """Frames between keyframes share one exposure: the median over nine frames. The frames' scenes and the job
+        state it. If the job requests it, each frame has its own exposure. Frames of lists and axes have their own
+        exposures unless
         the job requests otherwise."""
         keys = {"scene": {"image": IMAGE}, "keyframes": [{"frame": 29, "scene": {"camera": {"azimuth_deg": 29}}}]}
         pair = [{"image": IMAGE}] * 2
@@ -225,8 +226,8 @@ class Jobs(Case):
         )
 
     def test_a_fall_by_proper_time(self):
-        """Rain in Schwarzschild: r^(3/2) decreases linearly. From 8 M it is 2^(3/2) after sqrt(2)/3 (8^(3/2) - 2^(3/2))
-        M."""
+        """Analytic fall of an observer from rest at infinity in Schwarzschild's metric: r^(3/2) decreases linearly.
+        From 8 M it is 2^(3/2) after sqrt(2)/3 (8^(3/2) - 2^(3/2)) M."""
         fall = {"image": IMAGE, "spacetime": {"spin": 0, "mass_msun": 4.3e6}, "camera": {"r": 8, "observer": "infall"}}
         job = self.make(
             {
@@ -264,8 +265,8 @@ class Jobs(Case):
         self.assertEqual([(round(c["r"], 9), c["azimuth_deg"]) for c in cameras], [(1000, 0), (100, 45), (10, 90)])
 
     def test_light_curve(self):
-        """The fake renderer's light at time t: flux t at (t/2, -t), of which t/4 is the spots' at (3, 1/4); at t = 0
-        there is none."""
+        """The fake renderer's light at time t has the flux t and the centroid (t/2, -t). A quarter of it is that of the
+        spots, with the centroid (3, 1/4). At t = 0 there is no light."""
         asked = {
             "scene": {"image": IMAGE, "time": 0},
             "keyframes": [{"frame": 4, "scene": {"time": 6}}],
@@ -398,7 +399,7 @@ class Jobs(Case):
         waiting = self.status(second)
         self.assertEqual((waiting["state"], waiting["place"], waiting["remaining_s"]), ("waiting", 1, None))
         self.assertEqual(self.delete(first).status, 204)
-        self.until(second, "done")  # the running job, which would take half a minute, was stopped
+        self.until(second, "done")  # the running job, which would take half a minute, has been stopped
 
     def test_delete(self):
         job, other = self.make({"scene": SLOW}), self.make({"scene": SLOW})
@@ -453,7 +454,7 @@ class Jobs(Case):
             time.sleep(0.2)
             begun = time.monotonic()
             self.until(self.make({"scenes": [{**SCENE, "time": 200}] * 2}), "done", timeout=600)
-            self.assertGreater(time.monotonic() - begun, 1)  # this job does not overtake the other jobs either
+            self.assertGreater(time.monotonic() - begun, 1)  # this job does not overtake the others
         finally:
             over.set()
             for t in threads:
@@ -692,7 +693,8 @@ class Jobs(Case):
                     + body
                 )
         self.assertTrue(daemon.eventually(lambda: self.daemon.open_files() <= files))
-        self.until(self.make({"scene": SCENE}), "done")  # this job does not wait, because no other job is before it
+        # this job does not wait, because no other job is in front of it
+        self.until(self.make({"scene": SCENE}), "done")
 
     def test_as_many_as_may(self):
         jobs = [self.make({"scene": SLOW}) for _ in range(4)]
@@ -727,7 +729,7 @@ class Quota(Case):
 
 
 class Gate:
-    """Stops every thread of a server at the moment when the thread begins to plan."""
+    """Stops each thread of a server at the moment when it begins to plan."""
 
     def __init__(self, test):
         folder = tempfile.mkdtemp()

@@ -1,4 +1,4 @@
-"""Tests of the program itself with a Vulkan device; skipped where there is none."""
+"""Tests of the program itself with a Vulkan device. Skipped if there is no device."""
 
 import array
 import concurrent.futures
@@ -85,8 +85,7 @@ class Limits(unittest.TestCase):
 class Stop(unittest.TestCase):
     def test_large_renders_that_are_accepted_end_with_the_server(self):
         """The server is stopped during eight pictures of some seconds each, and waits a second for them. Each request
-        gets an answer, and the server ends. Only the order of events is tested, so that a slow machine takes longer but
-        passes."""
+        gets an answer, and the server ends. Only the order of events is tested, because a slow machine takes longer."""
         large = "/v1/render?image.width=1920&image.height=1080&image.samples=4&accuracy.profile=high&time="
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-seconds", 1, stderr=log)
@@ -295,7 +294,7 @@ class Kerrd(unittest.TestCase):
         janskys = sum(struct.unpack(f"<{n * n}f", numbers[-4 * n * n :])) * (field / n * metres / parsecs) ** 2
         self.assertAlmostEqual(
             float(told["jy"]) / janskys, 1, delta=1e-3
-        )  # both pictures have more rays in the pixels of the critical curve
+        )  # the pictures of the server and of the command line have additional rays at the critical curve
         self.assertIsNone(self.daemon.get(TARGET).header("Kerrd-Flux"))
         # With this density, a picture like this one has exactly the requested flux.
         looked_for = (
@@ -399,7 +398,7 @@ class Kerrd(unittest.TestCase):
         return "f64" in self.daemon.get("/v1/device").json()["precision"]
 
     def device_rays(self):
-        """Rays that the device traces with its highest accuracy."""
+        """The end points of rays that the device traces with its highest accuracy."""
         return {"engine": "mino-rkn6", "precision": "f64" if self.has_float64() else "f32"}
 
     def interrupt(self):
@@ -430,7 +429,7 @@ class Kerrd(unittest.TestCase):
                     if between:
                         break
                 self.assertGreater(between, 0)
-                # The command line renders the film in one run, and writes the same files as jobs.
+                # The command line renders the film in one run. Its files equal those of jobs.
                 alone = subprocess.run(
                     [daemon.COMMAND[0], "render", "-", "-o", "-"],
                     input=json.dumps(scene).encode(),
@@ -480,7 +479,7 @@ class Kerrd(unittest.TestCase):
         session = self.open({"image": {"width": 96, "height": 64}, "motion": {"time_rate": 1}})
         at, number = f"/v1/sessions/{session['id']}/frame", 0
         for quality, least_db in ((30, 24), (75, 29), (95, 36)):
-            for _ in range(20):  # repeated until both files show the same frame
+            for _ in range(20):  # repeated until the JPEG and the PNG show the same frame
                 lossy = self.daemon.get(f"{at}?lossy={quality}&after={number}")
                 number = int(lossy.header("Kerrd-Frame"))
                 exact = self.daemon.get(f"{at}?after={number - 1}")
@@ -571,7 +570,7 @@ class Kerrd(unittest.TestCase):
         )
         self.assertIn("particles;dur=", answer.header("Server-Timing"))
         r, phi, latitude, x, y, z = all_of_them.values()
-        for i in range(0, 300000, 997):  # checks some elements, because the list was made in slices
+        for i in range(0, 300000, 997):  # compares some elements only; the list was made in several slices
             rho = math.sqrt(r[i] ** 2 + 0.36) * math.cos(latitude[i])
             self.assertLess(
                 math.dist(
@@ -605,10 +604,10 @@ class Kerrd(unittest.TestCase):
                 frames += 1
             self.assertEqual((places.result().status, len(places.result().body)), (200, 30000000))
         print(f"{frames} frames while 2 500 000 particles were listed, {1e3 * longest:.0f} ms for the slowest")
-        self.assertGreater(frames, 1)  # the first frame may have been made before the list was begun
+        self.assertGreater(frames, 1)  # skips a first frame that was rendered before the list was begun
 
     def idle_after(self):
-        """Seconds until the server has no work left from other requests."""
+        """Returns the seconds until the server has finished the work of other requests."""
         begun = time.monotonic()
         self.assertTrue(daemon.eventually(lambda: not self.daemon.metrics()["kerrd_renders_unfinished"], 600))
         return time.monotonic() - begun
@@ -616,7 +615,7 @@ class Kerrd(unittest.TestCase):
     def test_a_vanished_client_stops_its_list_of_particles(self):
         crowd = self.open({"disk": {"model": "particles", "particles": 4000000}, "image": {"width": 64, "height": 36}})
         target = f"/v1/sessions/{crowd['id']}/particles"
-        self.daemon.get(target + "?count=10")  # the first list needs work that later lists do not repeat
+        self.daemon.get(target + "?count=10")  # not counted: the first list needs work that later lists do not repeat
         whole = float(re.search(r"particles;dur=([\d.]+)", self.daemon.get(target).header("Server-Timing"))[1]) / 1000
         for _ in range(10):
             with self.daemon.connect() as s:
@@ -671,7 +670,8 @@ class Kerrd(unittest.TestCase):
             thread.join()
 
     def test_a_frame_of_a_drag_says_how_many_rays_it_has_at_the_critical_curve(self):
-        """A fast machine has the best quality, and a slower one less. tests/unit/governor.c tests the choice itself."""
+        """A fast machine uses the best quality, and a slower machine a lower one. tests/unit/governor.c tests the
+        choice itself."""
         small, frames = self.open({"image": {"width": 64, "height": 36}}), []
         self.assertTrue(self.drag(small, lambda *frame: frames.append(frame) or len(frames) == 4))
         for _, quality in frames:
@@ -785,8 +785,8 @@ class Kerrd(unittest.TestCase):
         self.assertGreater(judged, 20)
 
     def test_named_stars_are_as_bright_as_they_are_where_space_is_flat(self):
-        """From far away no star is magnified, and each star is listed once over all directions, also at the edges,
-        poles and seams of a projection."""
+        """In a view from far away no star is magnified. Over all directions each star is listed once, also at the
+        edges, poles and seams of a projection."""
         ask, sky = (
             "application/vnd.kerrd.stars+json",
             {"model": "catalogue", "limit_mag": 2.2, "orientation": "equatorial", "brightness": 1},
@@ -817,8 +817,8 @@ class Kerrd(unittest.TestCase):
                 self.assertEqual((len(told), len(set(told))), (65, 65), (camera, "named stars down to V = 2.2"))
 
     def test_named_stars_next_to_the_critical_curve_and_while_the_picture_turns(self):
-        """Images whose light went round the hole are listed where the picture shows them. A list states where each star
-        will be when the azimuth has changed."""
+        """Images whose light went round the hole are listed at the positions where the picture shows them. A list also
+        states each star's position after a change of the azimuth."""
         ask = "application/vnd.kerrd.stars+json"
         scene = lambda azimuth: {
             "camera": {"r": 30, "fov_deg": 40, "inclination_deg": 80, "azimuth_deg": azimuth},
@@ -903,8 +903,8 @@ class Kerrd(unittest.TestCase):
                     self.assertEqual(self.daemon.get(at + rest).status, 422, rest)
 
     def test_a_film_of_a_job_is_that_of_the_command_line(self):
-        """The ZIP file is the same to the byte: with one exposure, with motion blur computed while other jobs run, and
-        of a playground."""
+        """The ZIP file is the same to the byte in three cases: one exposure, motion blur computed while other jobs run,
+        and a film of a playground."""
         scene = {"image": {"width": 96, "height": 54}, "spots": [{"brightness": 3}]}
         for asked in (
             {
@@ -1078,7 +1078,8 @@ class Kerrd(unittest.TestCase):
             self.assertEqual(finished(server, whole, 20)["lens_maps_traced"], 10)
             self.assertTrue(daemon.eventually(lambda: server.get(whole).json()["state"] == "done"))
             files = {end: server.get(f"{whole}/result?format={end}").body for end in ("fits", "npz", "zip")}
-            # repeated until one sweep is killed while it runs, because a busy machine may finish it before the kill
+            # repeated until a sweep is killed while it runs, because a busy machine may finish the sweep before the
+            # kill
             for _ in range(8):
                 killed = "/v1/jobs/" + server.post("/v1/jobs", asked).json()["id"]
                 finished(server, killed, 7)
@@ -1117,7 +1118,7 @@ class Kerrd(unittest.TestCase):
                 time.sleep(0.3)
         self.assertLess(
             self.idle_after(), self.daemon.post("/v1/plan", scene).json()["estimate_ms"] / 1000
-        )  # less than the time of one of the three pictures
+        )  # limit: less than the time of one of the three pictures
         self.assertEqual(self.daemon.get(TARGET).status, 200)
 
 

@@ -31,8 +31,8 @@ def request(n):
 
 class Kills(state.Case):
     def pour(self, server, accepted, rest, stop):
-        """Requests jobs until the server is killed, always as many as it accepts. Jobs answered with 202 were
-        accepted."""
+        """Requests jobs until the server is killed, as many as the server accepts. A job is accepted if its answer is
+        202."""
         while not stop.is_set():
             try:
                 n = rest[-1]
@@ -59,7 +59,7 @@ class Kills(state.Case):
             stop.set()
             server.wait()
             thread.join()
-            rest[-1] += 1  # the server may know the job whose answer was lost
+            rest[-1] += 1  # the answer was lost, but the server may have the job
         server, plain = self.start("--jobs", 12), self.start("--jobs", 100, state=False)
         self.assertGreater(len(accepted), KILLS / 2)
         for n, job in sorted(accepted.items()):

@@ -1,4 +1,4 @@
-"""Tests of session frames in the format requested, of simultaneous patches, and of short answers. In the fake
+"""Tests of session frames in the requested format, of simultaneous patches, and of short answers. In the fake
 renderer's scenes, `time` is the duration of a frame in milliseconds."""
 
 import json
@@ -69,8 +69,8 @@ class Kinds(daemon.Owned):
         self.assertEqual((width, height), (64, 36))
 
         def gone(k):
-            """True if the frame's pixels have been freed, so that no other quality can be encoded. Otherwise each
-            attempt encodes a file of another quality; a frame keeps at most five."""
+            """True if the frame's pixels have been freed, so that the frame cannot be encoded in another quality.
+            Before that, each attempt encodes a file of another quality. A frame keeps at most five such files."""
             time.sleep(2**k)
             return self.get(session, f"last={k + 1}").header("Content-Type") == "image/png"
 
@@ -134,7 +134,7 @@ class Kinds(daemon.Owned):
             )
 
     def test_qualities_that_take_longer_than_a_frame(self):
-        """Each viewer gets frames in its format, however fast new ones follow."""
+        """Each viewer gets frames in its own format, however fast new frames follow."""
         session = self.make({**MOVING, "image": {"width": 1600, "height": 1200}, "time": 1})
         counts, over = [0, 0, 0], threading.Event()
 

@@ -89,7 +89,7 @@ class Lessons(daemon.Case):
         self.assertEqual(self.seen(one)["lang"], "abcdefgh-1-12345678")
 
     def test_who_may_take_a_copy(self):
-        """Without tokens everybody may take a copy. tests/web/lesson.py tests the roles."""
+        """Without access tokens anybody may take a copy. tests/web/lesson.py tests the roles."""
         one = self.begin()
         self.assertIs(self.hand(one).json()["copies"], True)
         self.assertNotIn("copies", self.seen(one))

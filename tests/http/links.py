@@ -24,7 +24,7 @@ def query(pairs):
 
 
 def signed(address, signer="website", key=KEY, ends=HOUR, budget_ms=None):
-    """The link of an address, made as docs/http.md tells a client to make it."""
+    """The signed link of an address, made by the steps that docs/http.md gives to clients."""
     path, _, rest = address.partition("?")
     pairs = urllib.parse.parse_qsl(rest, keep_blank_values=True)
     pairs += [("signer", signer), ("expires", str(int(time.time() + ends)))]
@@ -79,7 +79,7 @@ class Links(access.Access):
                 for ask in (self.works, lambda link: self.ask("HEAD", link)):
                     self.assertEqual(ask(signed(target)).status, 200)
                 self.assertProblem(self.ask("GET", target), 401, "unauthorized")
-        # an answer without access does not reveal that there is no such job
+        # an answer without access must not reveal whether the job exists
         self.assertProblem(self.ask("GET", signed(f"/v1/jobs/{access.ID}/result")), 404, "not-found")
 
     def test_it_opens_nothing_else(self):
@@ -135,7 +135,7 @@ class Links(access.Access):
         target = "/v1/render?preset=jet&image.width=64&image.height=36&style.annotations=shadow%20outline"
         link = signed("/v1/physics/kerr?spin=0.5&fields=a+b%2Cc")
         for one in (link.replace("a%20b", "a+b"), link.replace("spin", "%73pin"), link.replace("physics", "ph%79sics")):
-            # the signature is right, and the quantity refuses the parameter
+            # the signature is valid, but the quantity refuses the parameter
             self.assertProblem(self.ask("GET", one), 422)
         self.assertEqual(
             self.ask("GET", signed(target)).status, self.ask("GET", target, None, access.own(access.VIEW)).status
@@ -160,7 +160,7 @@ class Links(access.Access):
                 self.refused(target, words)
 
     def test_it_ends(self):
-        """Clocks may differ by a minute."""
+        """The clocks of signer and server may differ by a minute."""
         self.works(signed(RENDER, ends=-30))
         self.refused(signed(RENDER, ends=-90), "the link expired at 20")
         self.refused(signed(RENDER, ends=-int(time.time())), "the link expired at 1970-01-01T00:00:00Z")
@@ -189,7 +189,7 @@ class Links(access.Access):
         self.assertTrue(daemon.eventually(lambda: self.ask("GET", link).status == 403))
 
     def test_a_restart(self):
-        """With a state folder, a spent budget stays spent, even if the server is killed."""
+        """With a state folder, a spent budget remains spent, even after the server is killed."""
         link = signed(RENDER, budget_ms=1)
         with tempfile.TemporaryDirectory() as folder:
             for kept in (True, False):
@@ -214,7 +214,8 @@ class Links(access.Access):
             self.assertIn("link-budgets is not a file of link budgets; remove it", failed.stderr)
 
     def test_other_sites(self):
-        """A page of another site shows a picture by a link, and by no address without one."""
+        """A page of another site can show a picture by a signed link. The same address without a signature is
+        refused."""
         foreign = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "no-cors", "Sec-Fetch-Dest": "image"}
         answer = self.works(signed(RENDER), **foreign)
         self.assertEqual(answer.header("Cross-Origin-Resource-Policy"), "cross-origin")
@@ -236,7 +237,7 @@ class Links(access.Access):
                 self.assertTrue(age - 300 <= one <= age, said)
 
     def test_the_page_of_a_shared_scene(self):
-        """Everything that the page shows works for the visitor for whom the link was made."""
+        """All addresses in the page work for the visitor for whom the link was made."""
         page = self.works(signed(f"/s/{CODE}"))
         head = Head(page.body.decode()).found
         base = "http://localhost"
@@ -247,7 +248,7 @@ class Links(access.Access):
         self.assertNotIn("script", head)
 
     def test_no_token_counts_as_wrong(self):
-        """An invalid link does not lock out a client, and cannot be used to try tokens."""
+        """An invalid link does not lock out the client, and cannot be used to guess tokens."""
         for _ in range(50):
             self.refused(signed(RENDER, key=OTHER), "does not belong")
         self.assertEqual(self.ask("GET", "/v1/device", headers=access.own(access.VIEW)).status, 200)
@@ -273,7 +274,7 @@ class Shares(access.Access):
 
 
 class WithoutTheKey(access.Access):
-    """A server whose file no longer contains the key refuses all links made with it."""
+    """If the token file no longer contains a key, the server refuses all links made with that key."""
 
     @classmethod
     def lines(cls):

@@ -1,5 +1,5 @@
-"""Tests of load: a full queue, clients that disconnect, many clients at once, and that no resources remain
-afterwards."""
+"""Tests of load: a full queue, clients that disconnect, and many clients at once. Afterwards the server must hold no
+resources."""
 
 import concurrent.futures
 import json
@@ -40,7 +40,8 @@ class Queue(daemon.Case):
         self.assertIsNone(self.refused())
 
     def test_retry_after_is_the_estimated_backlog(self):
-        # The renderer's estimate is 1 us a ray: 1280 x 1280 x 4 rays take 6.6 s, and the waiting pictures 3.4 s each.
+        # The fake renderer's estimate is 1 us a ray. 1280 x 1280 pixels with 4 rays each take 6.6 s, and the waiting
+        # pictures 3.4 s each.
         held = []
         for side in (1280, 920, 920):
             held.append(self.daemon.connect())
@@ -82,12 +83,12 @@ class Plans(daemon.Case):
     options = ("--queue", 1)
 
     def test_what_is_too_large_is_refused_before_anything_is_listed(self):
-        def seconds():  # processor time of all threads
+        def seconds():  # processor time of the server, over all threads
             with open(f"/proc/{self.daemon.process.pid}/stat") as f:
                 return sum(map(int, f.read().rsplit(")", 1)[1].split()[11:13])) / os.sysconf("SC_CLK_TCK")
 
         before = seconds()
-        # listing the pixels at the critical curve would take 134 MB of marks and at least 0.1 s for each request
+        # listing the pixels at the critical curve would take 134 MB, and at least 0.1 s, for each request
         for _ in range(40):
             self.assertProblem(
                 self.daemon.post("/v1/plan", '{"image":{"width":32768,"height":32768}}'), 422, "too-large"

@@ -1,4 +1,4 @@
-"""Tests of the log as lines of JSON, and of the ids that connect a request, its answer and its line."""
+"""Tests of the log in JSON lines, and of the ids that a request, its answer and its log line share."""
 
 import datetime
 import json
@@ -16,7 +16,7 @@ MADE = re.compile(r"[0-9a-f]{32}")
 
 class Logs(unittest.TestCase):
     def lines(self, asks, *options):
-        """The lines that the server logs while `asks` sends requests to it."""
+        """The lines that the server logs while asks() sends requests."""
         with tempfile.TemporaryFile("w+") as log:
             server = daemon.Daemon("--drain-ms", 10, "--log", 2, "--log-format", "json", *options, stderr=log)
             self.addCleanup(server.process.kill)

@@ -1,5 +1,5 @@
-"""Measures the memory that a server holds, to find memory that a refusal has not freed. Any test of refusals may use
-this module.
+"""Measures the memory that a server holds, in order to detect memory that is not freed after a refusal. For use in
+tests of refusals:
 
 before = memory.held(server)
 for _ in range(200): refuse(server)
@@ -11,7 +11,7 @@ import re
 
 import daemon
 
-SLACK = 192 << 10  # bytes that may remain: pages of the heap that a thread touches for the first time
+SLACK = 192 << 10  # number of bytes that may remain, because a thread touches pages of the heap for the first time
 
 # Settings of malloc: blocks of 64 KiB and more are returned to the system at once, and all threads share one heap.
 # Otherwise the heap's own behaviour would hide a leak.
@@ -37,6 +37,5 @@ def held(server):
 
 
 def comes_back(server, before):
-    """True if the server's memory returns to its previous size, which happens once the server's last connection is
-    closed."""
+    """True if the server's memory returns to its previous size after the server's last connection is closed."""
     return daemon.eventually(lambda: held(server) - before <= SLACK, 10)

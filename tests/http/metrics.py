@@ -1,5 +1,5 @@
-"""Tests of GET /metrics: Prometheus's own parser accepts it, histograms are consistent, and there are no more series
-than routes."""
+"""Tests of GET /metrics: Prometheus's own parser accepts the answer, histograms are consistent, and the number of
+series is limited by the number of routes."""
 
 import re
 import shutil

@@ -124,7 +124,7 @@ class Once(Case):
             self.assertEqual(self.ask(path, STILL, "").status, 200)
 
     def test_many_at_once_make_one(self):
-        """Each request either is answered with the one resource, or is told to wait for it."""
+        """Each request is answered with the same resource, or with an order to wait for it."""
         for path, (status, body, _) in KINDS.items():
             with concurrent.futures.ThreadPoolExecutor(8) as pool:
                 answers = list(pool.map(lambda _, p=path, b=body: self.ask(p, b, '"many"'), range(8)))
@@ -136,7 +136,7 @@ class Once(Case):
                     self.assertEqual(answer.header("Retry-After"), "1")
 
     def test_one_that_is_under_way(self):
-        """Checking a job of many frames takes a while. Of two requests that are sent at once either may be the
+        """Checking a job of many frames takes a while. If two requests are sent at the same time, either may come
         first."""
         body = {"scenes": [{**SCENE, "time": k} for k in range(3000)]}
         answers = []

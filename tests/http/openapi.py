@@ -74,8 +74,8 @@ class OpenApi(daemon.Case):
     def test_nothing_is_left_open(self):
         """Each schema has a type. Each list states the type of its items. Each object lists its members and forbids
         others."""
-        # Exceptions: documents with a description of their own; members that clients give back unchanged; contents that
-        # depend on the type of a job's output.
+        # Exceptions: documents that have their own description; members that clients return unchanged; contents that
+        # depend on the kind of a job's output.
         free = {
             "get /openapi.json application/json",
             "get /v1/schema application/schema+json",
@@ -85,7 +85,7 @@ class OpenApi(daemon.Case):
         found = set()
         for at, schema in self.schemas():
             if set(schema) in ({"required"}, {"not"}):
-                continue  # this schema is one of several alternatives, or a negation
+                continue  # not checked: this schema is one of several alternatives, or a negation
             known = schema.keys() & {"type", "$ref", "anyOf", "oneOf", "allOf", "enum", "const"}
             if (
                 not known
@@ -129,8 +129,7 @@ class OpenApi(daemon.Case):
             self.assertEqual(self.daemon.get("/web/" + name.replace("/", "%2F")).status, 200, name)
 
     def test_what_the_schema_refuses_and_the_server_too(self):
-        """Each group of documents is refused by both the schema and the server, except the last group, which both
-        accept."""
+        """The schema and the server refuse every document of each group, except the last group, which they accept."""
         orbit, bound = {"case": "isco"}, {"p": 10, "e": 0.1}
         state = {"r": 10, "theta_deg": 90, "phi_deg": 0}
         constants = {"energy": 0.96, "angular_momentum": 4, "carter": 0}
@@ -592,7 +591,7 @@ class OpenApi(daemon.Case):
                 body = "{}" if method in ("post", "patch", "put") else None
                 with self.subTest(f"{method} {path}"):
                     answer = self.daemon.request(method.upper(), at + "?nosuch=1", body, owner)
-                    # lists of rays have no query parameters beside a document
+                    # excluded: lists of rays accept no query parameters beside a document
                     told = None if path == "/v1/rays" else "/nosuch"
                     self.assertEqual((answer.status, answer.json().get("pointer")), (422, told), answer.body)
                     operations += 1
@@ -603,7 +602,7 @@ class OpenApi(daemon.Case):
             self.assertEqual(self.daemon.request("PATCH", f"{at}?{query}", "{}", owner).status, 200, query)
 
     def said(self, method, target, line):
-        """The status of a request whose header has this additional line."""
+        """The status of the answer to a request with this additional header line."""
         hosted = "" if line.startswith("Host:") else "Host: localhost\r\n"
         with socket.create_connection(("127.0.0.1", self.daemon.port), timeout=600) as connection:
             connection.sendall(

@@ -1,5 +1,5 @@
-"""Tests of POST /v1/orbits: requests, refusals, formats of the answer, and that long integrations do not hold up
-others."""
+"""Tests of POST /v1/orbits: requests, refusals, formats of the answer, and long integrations, which must not delay
+other requests."""
 
 import csv
 import io
@@ -60,8 +60,8 @@ class Orbits(daemon.Case):
         self.assertEqual((answer.status, answer.json()["pointer"]), (422, "/steps"))
 
     def test_seen(self):
-        """The series is the same in every format. A circle seen along its axis is a circle. The end of a fall next to
-        the horizon has no image."""
+        """The series is the same in every format. An orbit that is a circle, seen along its axis, has a circle as
+        image. The end of a fall next to the horizon has no image."""
         circle = {
             "orbit": {"p": 10, "e": 0},
             "duration": {"periods": 1},
@@ -73,7 +73,7 @@ class Orbits(daemon.Case):
         self.assertEqual(list(rows[0])[-7:], ["alpha", "beta", "right", "up", "inwards", "delay", "off"])
         sizes = [math.hypot(row["alpha"], row["beta"]) for row in rows]
         self.assertLess(max(sizes) - min(sizes), 1e-5)
-        # the radius of the image is r + 1 M and a little more, because light is bent
+        # the image has the radius r + 1 M, and a little more, because light is bent
         self.assertTrue(10.5 < sizes[0] < 11.5, sizes[0])
         self.assertIsNone(rows[0]["right"])
         text = self.good(circle, Accept="text/csv").body.decode().splitlines()
@@ -163,7 +163,7 @@ class Orbits(daemon.Case):
         self.assertAlmostEqual(answer["constants"]["angular_momentum"], 8 / math.sqrt(8 - 3 - 0.25), delta=1e-14)
         self.assertLess(answer["result"]["drift"]["energy"], 1e-13)
         self.assertLess(answer["result"]["drift"]["binet_c"], 1e-12)
-        for row in answer["series"]["rows"]:  # the rows are those of every periastron
+        for row in answer["series"]["rows"]:  # the answer has one row for each periastron
             self.assertAlmostEqual(row[3], 8 / 1.5, delta=1e-9)
         mercury = strict(self.good({"orbit": {"case": "mercury"}, "samples": 0}).body)
         self.assertEqual(f"{mercury['advance']['periastron_arcsec_per_century']:.2f}", "42.98")
@@ -175,7 +175,8 @@ class Orbits(daemon.Case):
         self.assertEqual(fall["series"]["rows"][-1][2], None)  # t is infinite at the horizon
 
     def test_charge(self):
-        """Without spin E and L follow from E^2 = f (1 + L^2/r^2) at both turning points, f = 1 - 2/r + Q^2/r^2."""
+        """Without spin, E and L follow from E^2 = f (1 + L^2/r^2) at both turning points, with f = 1 - 2/r +
+        Q^2/r^2."""
         q, p, e = 0.7, 8, 0.5
         answer = strict(self.good({"charge": q, "orbit": {"p": p, "e": e}, "samples": 0}).body)
         near, far = (1 + e) / p, (1 - e) / p

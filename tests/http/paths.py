@@ -1,4 +1,4 @@
-"""Tests of paths along keyframes: splines, easing, angles, and the direction of a camera. Each is compared with
+"""Tests of paths along keyframes: splines, easing, angles, and the direction of a camera. The expected values are from
 independent formulas: the pyramid of Barry and Goldman, the metric, and the aberration of special relativity."""
 
 from math import asin, atan2, cos, degrees, hypot, isclose, radians, sin, sqrt
@@ -22,7 +22,7 @@ def pyramid(x, p, at):
 
 
 class Zamo:
-    """The frame of an observer of zero angular momentum, from the metric."""
+    """The frame (tetrad) of an observer of zero angular momentum, from the metric."""
 
     def __init__(self, a, r, inclination):
         self.a, self.r, self.u, self.s = a, r, cos(radians(inclination)), sin(radians(inclination))
@@ -42,8 +42,8 @@ class Zamo:
         return -sqrt(self.sigma / self.delta) / local, 0, -self.round * (self.a / self.delta - self.omega * t) / local
 
     def straight(self, theta, phi, r=None):
-        """The direction in flat space from the camera, at azimuth 0, to (theta, phi) at infinity, or at radius r if
-        given. Components along e_r, e_theta, e_phi."""
+        """In flat space: the direction from the camera, at azimuth 0, to (theta, phi) at infinity, or at radius r if it
+        is given. Components are along e_r, e_theta, e_phi."""
         to = [sin(radians(theta)) * cos(radians(phi)), sin(radians(theta)) * sin(radians(phi)), cos(radians(theta))]
         if r is not None:
             to = [r * c - self.r * d for c, d in zip(to, (self.s, 0, self.u))]
@@ -53,7 +53,7 @@ class Zamo:
 
 
 def aberrated(n, v):
-    """The direction in which an observer with velocity v sees light that comes from n."""
+    """The direction in which an observer with velocity v sees light from the direction n."""
     speed = sqrt(sum(c * c for c in v))
     if not speed:
         return n
@@ -153,8 +153,8 @@ class Paths(Case):
             self.assertEqual(found[2]["inclination_deg"], 40)
 
     def looks(self, camera, looks, keyframes=(), spin=0.9):
-        """Compares the directions that the job has written with those by the formulas, for four frames on the way
-        inwards with a turn of the camera."""
+        """Compares the directions that the job has written with those of the formulas, for four frames. The camera
+        moves inwards and turns."""
         keys = [{"frame": 3, "scene": {"camera": {"r": camera["r"] / 2, "azimuth_deg": 30}}, **dict(keyframes)}]
         return self.cameras({**camera, "yaw_deg": 77, "pitch_deg": -11}, keys, spin, look_at=looks)
 
@@ -214,7 +214,7 @@ class Paths(Case):
         self.assertLess(max(steps), 4 * max(steps[0], 0.2), steps)
 
     def test_it_turns_from_one_to_the_other(self):
-        """The direction turns from its own start by equal parts of the great circle between both."""
+        """The direction turns from its starting direction by equal parts of the great circle to the final direction."""
         keys = [{"frame": 4, "look_at": "hole"}, {"frame": 5, "look_at": "free"}]
         found = self.cameras(
             {"r": 30, "observer": "zamo", "inclination_deg": 90, "yaw_deg": 90, "pitch_deg": 30}, keys, 0

@@ -20,7 +20,7 @@ THIN = {"disk": {"model": "novikov-thorne"}, "volume": {"model": "none"}}
 
 
 def strict(body):
-    """Parsed by a reader that does not accept NaN or Infinity."""
+    """The answer is parsed by a reader that does not accept NaN or Infinity."""
 
     def refuse(word):
         raise AssertionError(f"{word} in the answer")
@@ -162,14 +162,14 @@ class Physics(daemon.Case):
         self.assertAlmostEqual(mode["quality_cubic"], 2.1 + 11.3 * 0.68**3, delta=1e-14)
         self.assertGreater(mode["quality_cubic_error"], 0.7)
         self.assertLess(abs(mode["fit_quality_error"]), 0.009)
-        # the real part over 2 pi and over 60 solar masses of 4.9255 us each
+        # real part divided by 2 pi and by 60 solar masses of 4.9255 us each
         self.assertAlmostEqual(mode["frequency_hz"], 0.52397510 / 2 / math.pi / (60 * 4.925490947e-6), delta=1e-5)
         self.assertAlmostEqual(
             mode["wave"], math.exp(10 * mode["omega_im"]) * math.cos(10 * mode["omega_re"]), delta=1e-14
         )
         start = time.monotonic()
         curve = self.values("qnm?spin=0:0.998:100")
-        self.assertLess(time.monotonic() - start, 30)  # 10 ms of work on an idle machine
+        self.assertLess(time.monotonic() - start, 30)  # 10 ms of processor time on an idle machine
         self.assertEqual(curve["quality"], sorted(curve["quality"]))
 
     def sound(self, target, **headers):
@@ -225,7 +225,7 @@ class Physics(daemon.Case):
                     self.assertAlmostEqual(samples[k], curve, delta=1.01)
 
     def test_a_ringdown_is_stretched(self):
-        """The pitch stays, and the file states the factor."""
+        """The pitch is unchanged, and the file states the factor."""
         for query, stretch in (("?mass_msun=60", 130), ("?mass_msun=4e6&shift_octaves=16", 100)):
             query += f"&stretch={stretch}&format=wav"
             answer = self.daemon.get("/v1/physics/qnm" + query)
@@ -408,9 +408,10 @@ class Physics(daemon.Case):
         self.assertRegex(answer.header("Server-Timing"), r"^queue;dur=[\d.]+, compute;dur=[\d.]+$")
 
 
-# Each of these takes more than ten seconds of one core. Some have many cheap points, others have expensive points.
+# Each of these requests takes more than ten seconds of one core. Some have many cheap points, and others have expensive
+# points.
 LONG = ("redshift?r=6:60:100000&phi_deg=0", "qnm?n=3&l=4&m=4&spin=0.9998:0.9999:30000", "scale?spin=0:0.999:100000")
-SHORT = "/v1/physics/qnm?spin=0:0.9:10"  # a request that takes some time
+SHORT = "/v1/physics/qnm?spin=0:0.9:10"  # a request that takes a noticeable time
 
 
 class Long(daemon.Case):
@@ -432,17 +433,18 @@ class Long(daemon.Case):
                 for short in ("/healthz", KERR + "?spin=0:0.9:10"):
                     self.assertEqual(self.daemon.get(short).status, 200)
                 s.setblocking(False)
-                # the other request is still in progress and takes seconds of a core
+                # the other request is still in progress, because it takes seconds of a core
                 with self.assertRaises(BlockingIOError):
                     s.recv(1)
         with contextlib.ExitStack() as streams:
             for target in LONG[:2]:
                 streams.enter_context(self.begin(target))
-            self.assertLess(self.seconds(SHORT), 60)  # the short request takes turns with the long ones
+            # the server alternates between the short request and the long ones
+            self.assertLess(self.seconds(SHORT), 60)
 
     def test_it_ends_with_its_client(self):
-        """A server that stops waits for the requests that it has accepted. That takes long, except for requests whose
-        client has disconnected."""
+        """A server that stops first completes the requests that it has accepted, except for those whose client has
+        disconnected. This can take long."""
         for target in LONG:
             with self.subTest(target):
                 other = daemon.Daemon("--drain-ms", 10)
@@ -512,7 +514,8 @@ class Limits(daemon.Case):
                 other.reaches("turns_unfinished", 1)
                 daemon.vanish(s)
                 self.assertTrue(daemon.eventually(lambda: other.metrics()["kerrd_turns_unfinished"] == 0))
-        # Each complete integral would take several seconds of a core (test_an_integral_may_take_so_long).
+        # Without interruption, each of these integrals would take several seconds of a core
+        # (test_an_integral_may_take_so_long).
         self.assertLess(other.processor_s(), 1.5 * len(ENDLESS))
         self.assertEqual(other.stop(), 0)
 
@@ -546,8 +549,8 @@ class Integrals(daemon.Case):
         )
 
     def test_echoes(self):
-        """The energies of an echo are those of the line. Its times follow a flash over a flat disk from high above, and
-        lags at low frequencies are the mean of its times, diluted by the continuum."""
+        """An echo has the energies of the line. Its times are those of a flash high above a flat disk. Lags at low
+        frequencies are the mean of the echo's times, diluted by the continuum."""
         lamp = {"spin": 0.9, "inclination_deg": 50, "emissivity": "lamppost", "height": 6, "outer": 100}
         echo = self.post("impulse", {**lamp, "bins": 20, "times": 50, "time_min": -20, "time_max": 380}).json()
         line = self.post("line", {**lamp, "bins": 20}).json()

@@ -25,7 +25,7 @@ static struct kd_accuracy_row *add(enum kd_engine engine, enum kd_precision prec
     for (int k = 0; k < KD_ACCURACY_SETS; k++) {
         struct kd_accuracy_entry *e = &row->sets[k];
         *e = (struct kd_accuracy_entry) { .rays_per_s = speed, .rays = 1000, .crossings = 1500 };
-        /* Only errors of radii are used, and no errors near the critical curve. */
+        /* Only errors of radii count. Errors near the critical curve do not. */
         for (int q = 0; q < KD_ACCURACY_QUANTITIES; q++)
             e->of[q] = k == KD_ACCURACY_NEAR_CRITICAL || q ? (struct kd_accuracy_errors) { 1, 1, 1 }
                                                            : (struct kd_accuracy_errors) { median, 4 * median, 1 };
@@ -51,8 +51,9 @@ static int made_up(void **state)
     add(KD_ENGINE_CLOSED, KD_PRECISION_F64, 0, 1e9, NAN);
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4, 4e6, 0.25e-5);
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 8, 2e6, 0.25e-6);
-    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 16, 1e6, 0.5e-6);   /* limited by rounding */
-    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8, 2.5e6, 0.25e-8); /* a device that is faster in double */
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 16, 1e6, 0.5e-6); /* limited by rounding */
+    /* a device that is faster in double than in single precision */
+    add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8, 2.5e6, 0.25e-8);
     add(KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16, 1e5, 0.25e-11);
     add(KD_ENGINE_KS_RK4, KD_PRECISION_F32, 64, 3e6, 0.25e-4);
     return 0;
@@ -74,7 +75,7 @@ static void the_cheapest_that_holds(void **state)
     (void)state;
     expect(0.5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
     expect(1e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F32, 4);
-    /* takes the fastest row below the tolerance, not the most accurate one */
+    /* chooses the fastest row below the tolerance, not the most accurate row */
     expect(0.99e-5, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
     expect(1e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 8);
     expect(0.99e-8, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
@@ -96,7 +97,7 @@ static void what_none_holds(void **state)
 {
     (void)state;
     refused(0.99e-11, "1.01e-11 at best (mino-rkn6 f64 with 16 steps)");
-    /* a tolerance that an error message suggests is accepted */
+    /* a tolerance that an error message suggests must be accepted */
     expect(1.01e-11, KD_ENGINE_MINO_RKN6, KD_PRECISION_F64, 16);
     table.n = 4; /* a device without double precision */
     refused(0.99e-6, "mino-rkn6 f32 with 8 steps");
@@ -104,7 +105,7 @@ static void what_none_holds(void **state)
     refused(-1e-6, "above 0");
     refused(NAN, "nan");
     refused(1, "below 1");
-    table.n = 1; /* the row of the closed form does not contain the errors of the closed form itself */
+    table.n = 1; /* the row of the closed form lacks the errors of the closed form itself */
     refused(0.5, "kerrd bench accuracy");
     table.n = 0;
     refused(0.5, "kerrd bench accuracy");
@@ -186,7 +187,7 @@ static void there_and_back(void **state)
     kd_buffer_finish(&text);
 }
 
-/* Every prefix of a document, and every damaged document, gives an error and never a table. */
+/* A document that is cut anywhere, or damaged, gives an error and never a table. */
 static void no_table(void **state)
 {
     (void)state;
@@ -262,8 +263,8 @@ static void markdown(void **state)
 }
 
 /* On the critical curve the radial potential R = (r^2 + a^2 - a l)^2 - Delta (eta + (l - a)^2) has a double root
- * outside the horizon; beside the curve it has none or two there (Bardeen 1973). Returns the minimum of R outside the
- * horizon, by search. */
+ * outside the horizon; beside the curve it has no root or two roots there (Bardeen 1973). Returns the minimum of R
+ * outside the horizon, by search. */
 static double least_potential(double a, double inclination_deg, const double *x)
 {
     double s = sin(inclination_deg * M_PI / 180), u2 = 1 - s * s;

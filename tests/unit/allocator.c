@@ -35,7 +35,7 @@ static void large_blocks_are_the_kernels_again(void **state)
 {
     (void)state;
     const size_t before = mapped();
-    free(block(16 * MIB)); /* after this, the C library would by default cache all smaller blocks */
+    free(block(16 * MIB)); /* after this, the C library would cache all smaller blocks by default */
     void *large = block(2 * MIB);
     assert_int_equal(mapped(), before + 1);
     free(large);

@@ -71,7 +71,7 @@ static void test_patient_work_leaves_a_half(void **state)
     assert_true(kd_allowance_may(&all, "b", true, NOW));
 }
 
-/* A client in debt is not forgotten when other clients come and go. */
+/* The debt of a client is kept while other clients come and go. */
 static void test_the_fullest_gives_way(void **state)
 {
     (void)state;

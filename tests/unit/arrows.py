@@ -2,7 +2,7 @@
 """Checks that includes point one way: base <- physics <- scene <- render -> vk, image; scene <- quantity; server and
 cli on top.
 
-arrows.py SRC exit 1 naming every forbidden #include in SRC, after checking that planted ones are found
+arrows.py SRC exit 1 naming every forbidden #include in SRC; the checks are first tested on planted errors
 """
 
 import collections
@@ -11,8 +11,8 @@ import re
 import sys
 import tempfile
 
-# The modules that each module may include besides itself. The server uses no Vulkan type, so it does not include vk. A
-# new module needs a row here.
+# The modules that each module may include besides itself. The server uses no Vulkan type, so it does not include vk.
+# Add a row here for a new module.
 MODULES = {
     "base": set(),
     "document": {"base"},
@@ -67,7 +67,7 @@ MODULES = {
         "job",
         "server",
     },
-    "main.c": {"base", "cli", "vk"},  # vk may restart the program
+    "main.c": {"base", "cli", "vk"},  # vk is included because it may restart the program
 }
 # Inside a large module, a folder may include those listed before it. Files of the module that are in no folder may
 # include all folders.
@@ -141,14 +141,14 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.M)
 
 
 def rank(module, parts):
-    """The position of a file or header among the folders of its module. A higher position may include more."""
+    """Position of a file or header among the folders of its module. A file may include files of lower positions."""
     order = FOLDERS[module]
     return len(order) if len(parts) < 3 else order.index(parts[1]) if parts[1] in order else -1
 
 
 def room_knows(module, mine, its):
-    """True if a file in the folder `mine` of a module may include a file in the folder `its`. None means that a file is
-    in no folder."""
+    """True if a file in the folder `mine` of a module may include a file in the folder `its`. None stands for a file
+    outside the folders."""
     rooms = ROOMS[module]
     return mine in rooms and its in rooms and (mine == its or its in rooms[mine])
 
@@ -190,7 +190,7 @@ def wrong(src):
 
 
 def circle(known):
-    """Files in a circle, where each includes the next and the last includes the first; [] if there is none."""
+    """A circle of includes: each file includes the next, and the last includes the first. [] if there is no circle."""
     done, way = set(), []
 
     def follow(file):

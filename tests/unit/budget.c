@@ -34,7 +34,7 @@ static struct kd_budget_entry *enter(struct bench *b, int i, int client)
     return &b->entries[i];
 }
 
-/* A frame that waits for others, uses the device for `ms`, and is followed by a pause. */
+/* A frame that waits for other clients and uses the device for `ms`; then a pause. */
 static void frame(struct bench *b, struct kd_budget_entry *e, double waits, double ms, double pause)
 {
     kd_budget_ask(e, b->now);
@@ -80,7 +80,7 @@ static void waiting_for_others_is_no_lack_of_eagerness(void **state)
         struct kd_budget_entry *e = enter(&b, 0, 0);
         assert_true(kd_budget_demand(e, b.now) == 0);
         frame(&b, e, waits, 20, 60);
-        assert_true(kd_budget_demand(e, b.now) == 0); /* a single frame does not determine a rate */
+        assert_true(kd_budget_demand(e, b.now) == 0); /* a rate needs more than one frame */
         frame(&b, e, waits, 20, 60);
         assert_true(fabs(kd_budget_demand(e, b.now) - 0.25) < 1e-9);
         kd_budget_ask(e, b.now);
@@ -103,7 +103,7 @@ static void a_single_pause_or_a_slow_frame_says_little(void **state)
     assert_true(kd_budget_demand(e, b.now) > 0.66);
     kd_budget_end(e, b.now, 100);
     assert_true(kd_budget_demand(e, b.now) < 0.81);
-    for (int k = 0; k < 9; k++) /* requests that are rare and regular are a small demand */
+    for (int k = 0; k < 9; k++) /* rare and regular requests are a small demand */
         frame(&b, e, 0, 20, 380);
     assert_true(fabs(kd_budget_demand(e, b.now) - 0.05) < 1e-9);
 }
@@ -118,7 +118,7 @@ static void frames_that_are_given_up_measure_nothing(void **state)
     kd_budget_ask(e, b.now);
     kd_budget_end(e, b.now + 5, 0);
     assert_true(fabs(kd_budget_demand(e, b.now + 10) - 0.5) < 1e-9);
-    assert_true(kd_budget_demand(e, b.now + 1e3) == 0); /* the entry has stopped waiting */
+    assert_true(kd_budget_demand(e, b.now + 1e3) == 0); /* from now on the entry does not wait */
 }
 
 /* Pauses between the hold time and 2 s belong to the same gesture. */
@@ -176,7 +176,8 @@ static void clients_come_before_their_sessions(void **state)
 }
 
 /* Computes the share by another algorithm. It gives out the time in small drops. Each drop goes to the demand that has
- * received least so far and is not yet met. Entry n has unlimited demand; what it has received is the answer. */
+ * received least so far and is not yet met. Entry n has unlimited demand. The time that it has received is the result.
+ * */
 static double pour(const double *sizes, int n, double whole)
 {
     static const double drop = 1e-4;

@@ -56,13 +56,14 @@ static void test_room_for_small_ones(void **state)
     assert_int_equal(take(b, "a", 5), FULL);
     kd_bytes_give(b, "b", 50);
     for (int i = 0; i < 4; i++)
-        assert_int_equal(take(b, "a", 5), TAKEN); /* 8 of these 20 bytes fit the client's share, and 12 exceed it */
+        /* of these 20 bytes, 8 fit into the client's share and 12 exceed it */
+        assert_int_equal(take(b, "a", 5), TAKEN);
     assert_int_equal(take(b, "a", 5), OVER_SHARE);
     kd_bytes_destroy(b);
 }
 
-/* A client that holds nothing may take any size that fits beside the others. If no client holds anything, any size is
- * allowed. */
+/* A client that holds no bytes may take any size that fits beside the bytes of others. If no client holds bytes, any
+ * size is allowed. */
 static void test_a_lone_one(void **state)
 {
     struct kd_bytes *b = make(true);

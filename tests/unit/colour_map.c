@@ -1,4 +1,5 @@
-/* Tests of colour maps by lightness and hue as displayed: sRGB decoded, XYZ by the standard's matrix, CIELAB. */
+/* Tests of colour maps by the lightness and hue of displayed colours: sRGB is decoded, converted to XYZ by the
+ * standard's matrix, and then to CIELAB. */
 #include "image/colour_map.h"
 
 #include <math.h>
@@ -37,7 +38,7 @@ static void assert_near(double value, double wanted, double within)
 
 enum { STEPS = 400 };
 
-/* Lightness rises by the same amount at each step; colours do not jump. */
+/* Lightness rises by the same amount at each step, and colours do not jump. */
 static void lightness_rises_at_a_constant_rate(void **state)
 {
     (void)state;
@@ -77,7 +78,7 @@ static void a_diverging_map_has_a_white_middle_and_equal_sides(void **state)
     }
 }
 
-/* Both ends are one colour, lightness is constant, and equal steps turn the hue equally. */
+/* The two ends have the same colour, lightness is constant, and equal steps change the hue equally. */
 static void a_cyclic_map_closes(void **state)
 {
     (void)state;
@@ -110,7 +111,7 @@ static void a_table_is_the_map(void **state)
         for (int i = -10; i <= 10 * STEPS; i++) {
             double x = i / (10.0 * STEPS - 10);
             struct kd_map_colour own = kd_colour_map_at((enum kd_colour_map)map, x), kept = kd_map_table_at(&table, x);
-            /* the bound is half an entry of the table where the map is steepest, from violet to blue */
+            /* bound: half an entry of the table, where the map is steepest, from violet to blue */
             assert_near(kept.r, own.r, 1.0 / 150);
             assert_near(kept.g, own.g, 1.0 / 150);
             assert_near(kept.b, own.b, 1.0 / 150);

@@ -1,5 +1,5 @@
-/* Tests of the deadlines of connections: a sweep shuts down a connection if its client is late, but not if only the
- * daemon is late. */
+/* Tests of the deadlines of connections: a sweep shuts down a connection whose client is late. It does not do so if
+ * only the daemon is late. */
 #include "server/http/connections.h"
 
 #include <setjmp.h>
@@ -64,8 +64,7 @@ static void test_a_silent_client_is_late(void **state)
     closed(&p);
 }
 
-/* Half a request line has arrived and stays unread. The client must not be able to keep a connection open in this
- * way. */
+/* Half a request line has arrived and stays unread. A client must not be able to keep a connection open by this. */
 static void test_half_a_line_is_late(void **state)
 {
     (void)state;

@@ -62,7 +62,8 @@ static void texts_of_any_length(void **state)
     kd_buffer_finish(&file);
 }
 
-/* By definition the ones' complement sum of all words of a unit is all ones, and that of its data is DATASUM. */
+/* By definition, the ones' complement sum of all words of a FITS unit is all ones, and the sum of the unit's data is
+ * DATASUM. */
 static void checksums(void **state)
 {
     (void)state;
@@ -157,8 +158,8 @@ static void zip_members(void **state)
     }
 }
 
-/* A file that is truncated anywhere, or has any byte changed, is refused or read. A sanitizer detects overruns, and
- * what is read equals what was written. */
+/* A file that is cut anywhere, or has any byte changed, is either refused or read. Values that are read equal those
+ * written. A sanitizer detects overruns. */
 static void damaged_zip(void **state)
 {
     (void)state;
@@ -195,8 +196,8 @@ static void damaged_zip(void **state)
     kd_buffer_finish(&file);
 }
 
-/* A directory of 700 000 entries is refused because of the count in either end record. Its entries, which would take
- * seconds, are not read. */
+/* A ZIP directory of 700 000 entries is refused because of the count, in either form of the end record. The entries are
+ * not read, because this would take seconds. */
 static void too_many_members(void **state)
 {
     (void)state;
@@ -215,7 +216,8 @@ static void too_many_members(void **state)
     for (int liar = 0; liar < 2; liar++) {
         struct kd_unzip zip;
         struct kd_error error;
-        const uint16_t said = liar ? 3 : 0xffff; /* if `liar`, the record states fewer entries than the directory has */
+        /* if `liar` is true, the record states fewer entries than the directory has */
+        const uint16_t said = liar ? 3 : 0xffff;
         const uint32_t bytes_said = liar ? (uint32_t)size : 0xffffffff;
         memcpy(end + 84, &said, 2);
         memcpy(end + 86, &said, 2);
@@ -280,8 +282,9 @@ static void exr_texts(void **state)
     OK(kd_exr_find_text(file.data + 6, file.size - 6, "kerrd:scene", &got, &error));
     assert_true(got.size == 13 && !memcmp(got.data, "{\"version\":1}", 13));
     assert_int_equal(kd_exr_find_text(file.data + 6, file.size - 6, "kerrd:none", &got, &error), KD_EINVAL);
-    for (size_t size = 0; size < 300; size += 7) { /* truncated within its header */
-        uint8_t *cut = malloc(size + 1);           /* exact size, so that a sanitizer detects an overrun */
+    for (size_t size = 0; size < 300; size += 7) { /* a file that is cut within its header */
+        /* allocated with exact size, so that a sanitizer detects an overrun */
+        uint8_t *cut = malloc(size + 1);
         memcpy(cut, file.data + 6, size);
         assert_int_equal(kd_exr_find_text(cut, size, "kerrd:scene", &got, &error), KD_EINVAL);
         assert_memory_equal(error.message, "EXR: ", 5);

@@ -1,5 +1,5 @@
 /* Tests the kernel's figure of time spent waiting for a core, which is subtracted from the measured costs of passes.
- * Two threads that never sleep share one core; each waits half of the time. */
+ * In the test two threads that never sleep share one core, so that each waits half of the time. */
 #include "base/cpu_pressure.h"
 
 #include <pthread.h>
@@ -15,7 +15,7 @@
 static void *spin(void *user)
 {
     struct timespec t = { 0 };
-    while (t.tv_nsec < 100000000 && !t.tv_sec) /* 0.1 s of its own processor time */
+    while (t.tv_nsec < 100000000 && !t.tv_sec) /* runs until it has used 0.1 s of processor time */
         clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     pthread_barrier_wait(user); /* a thread that has ended is no longer counted */
     pthread_barrier_wait(user);
@@ -57,7 +57,7 @@ static void shared_core(void **state)
 static void nothing_known(void **state)
 {
     (void)state;
-    /* the earlier totals are larger than the present ones, as when threads have ended since */
+    /* earlier totals that exceed the current ones, as after the end of some threads */
     struct kd_cpu_pressure future = { 1e30, 1e30 };
     assert_true(kd_cpu_pressure_share(&future) == 1);
 }

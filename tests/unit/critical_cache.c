@@ -22,7 +22,7 @@ static struct kd_scene scene_of(double spin, int32_t width)
     return scene;
 }
 
-/* Checks that the cached list equals a new one; returns how many lists were computed. */
+/* Checks that the cached list equals a new one. Returns the number of lists that were computed. */
 static uint64_t check(const struct kd_scene *scene)
 {
     struct kd_critical_pixels kept, fresh;
@@ -51,7 +51,7 @@ static void made_once(void **state)
     scene.image.samples = 3;
     scene.style.exposure = 1;
     assert_int_equal(check(&scene), 0);
-    scene.camera.field_m = 1e-6; /* no pixel is on the curve: an empty list is cached as well */
+    scene.camera.field_m = 1e-6; /* no pixel is on the curve; the empty list is cached too */
     assert_int_equal(check(&scene), 1);
     assert_int_equal(check(&scene), 0);
 }
@@ -96,7 +96,7 @@ static void the_oldest_goes(void **state)
     assert_int_equal(check(&second), 1);
 }
 
-/* Long lists evict the others: the cache is limited by bytes too. */
+/* Long lists evict others, because the cache is also limited in bytes. */
 static void long_lists_are_few(void **state)
 {
     (void)state;

@@ -28,7 +28,7 @@ static struct kd_scene scene_of(double spin, double r, double inclination)
     return scene;
 }
 
-/* Traces two by two rays in each pixel. A value is true if the ray falls into the hole. */
+/* Traces 2 x 2 rays in each pixel. A value is true if its ray falls into the hole. */
 static void fates(const struct kd_scene *scene, bool *captured)
 {
     const struct kd_scene fine = kd_critical_camera(scene, 2);
@@ -50,7 +50,7 @@ static void fates(const struct kd_scene *scene, bool *captured)
         }
 }
 
-/* True if the rays of the pixels up to `reach` from this one have both fates. */
+/* True if rays of both fates are among the rays of pixels up to `reach` away from this pixel. */
 static bool mixed(const bool *captured, int x, int y, int reach)
 {
     bool some[2] = { false, false };
@@ -77,8 +77,8 @@ static size_t judge(const struct kd_scene *scene, const char *what)
         assert_true(list.pixels[i].x < WIDTH && list.pixels[i].y < HEIGHT && (!i || at > before));
         listed[before = at] = true;
     }
-    /* Pixels next to the picture's edge are not compared. They may be listed because of a part of the curve outside the
-     * picture. */
+    /* Pixels next to the picture's edge are not compared. A part of the curve outside the picture may cause them to be
+     * listed. */
     const int far = (int)KD_CRITICAL_NEAR + 2;
     for (int y = 0; y < HEIGHT; y++)
         for (int x = 0; x < WIDTH; x++) {
@@ -116,7 +116,8 @@ static void from_infinity(void **state)
         }
 }
 
-/* Tests cameras that are yawed and rolled, one with the hole all round, and one that looks away from the hole. */
+/* Tests cameras that are yawed and rolled, a camera with the hole all round it, and a camera that looks away from the
+ * hole. */
 static void from_nearby(void **state)
 {
     (void)state;
@@ -183,7 +184,7 @@ static void sizes(void **state)
     assert_in_range(judge(&scene, "the edge"), HEIGHT * 4, HEIGHT * 6);
 }
 
-/* Bytes requested; the linker redirects calls of malloc and calloc here. */
+/* Number of bytes requested. The linker redirects calls of malloc and calloc to the functions below. */
 static size_t asked;
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t n, size_t size);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks that Delta is written once in C and once in GLSL, in hole.h and hole.glsl. The forms there keep their digits
-at the horizon.
+"""Checks that Delta is written once in C and once in GLSL, in hole.h and hole.glsl. The expressions in these files lose
+no digits at the horizon.
 
 delta.py ROOT     exit 1 naming each line of src/ and shaders/ that writes Delta in another place, after proving that it
                   finds such lines
@@ -11,7 +11,7 @@ import re
 import sys
 
 HOMES = {"src/physics/spacetime/hole.h", "shaders/ray/hole.glsl"}
-# Files with allowed lines that look like Delta: the number of these lines, and the reason.
+# Files with allowed lines that look like Delta. For each file: the number of these lines, and the reason.
 OTHERS = {"src/physics/waves/qnm.c": (1, "Leaver's coefficients: w is a frequency")}
 # r^2 - 2r + a^2 and 1 - 2w + a^2 w^2 in their usual forms, and their factors.
 R, W = r"(?:\w+(?:->|\.))?r", r"(?:\w+(?:->|\.))?w"

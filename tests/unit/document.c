@@ -232,7 +232,7 @@ static void ranges_are_read_and_refused(void **state)
                                leaf = { .name = "leaf", .kind = KD_KIND_WORD, .words = "none|green", .typed = "green" };
     static const struct {
         const struct kd_row *row;
-        const char *text, *message; /* message: NULL if the text is accepted */
+        const char *text, *message; /* message: expected error message; NULL if the text is accepted */
         struct kd_range range;
     } cases[] = {
         { &whole, "-2", NULL, { -2, -2, 1 } },
@@ -326,7 +326,7 @@ static void lists_and_objects_in_objects(void **state)
     static const struct {
         const char *text;
         bool patch;
-        const char *after; /* steps that are applied before this one */
+        const char *after; /* indices of steps that are applied before this one */
     } steps[] = {
         { "{}", false, TRAY("200", PLAIN, "\"apple\"", "") },
         { "{\"biscuits\":[{\"size_cm\":4},{\"kind\":\"rye\"}]}", false,
@@ -351,7 +351,7 @@ static void lists_and_objects_in_objects(void **state)
     for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
         assert_int_equal(read_tray(&tray, steps[i].text, steps[i].patch, &error), KD_OK);
         assert_tray(&tray, steps[i].after);
-        assert_false(signbit(tray.weight_g)); /* no -0: equal documents have equal bytes */
+        assert_false(signbit(tray.weight_g)); /* -0 becomes 0, so that equal documents have equal bytes */
     }
 }
 
@@ -420,7 +420,7 @@ static void lists_are_refused_where_they_are_wrong(void **state)
 static void typed_paths_lead_to_one_field(void **state)
 {
     static const struct {
-        const char *path, *text, *pointer, *message; /* message: NULL if the text is accepted */
+        const char *path, *text, *pointer, *message; /* message: expected error message; NULL if the text is accepted */
     } steps[] = {
         { "biscuits.0.size_cm", "3", NULL, NULL },
         { "on.cloth.red", "false", NULL, NULL },

@@ -50,7 +50,7 @@ def tree(root):
 
 
 def named(name, paths, tops):
-    """Whether a quoted text is the name of a file or folder; and, if so, whether that file or folder exists."""
+    """Two values: true if a quoted text is the name of a file or folder; and true if this file or folder exists."""
     if not re.fullmatch(r"[\w.*{},/-]+", name) or name.startswith("build/") or "DATE" in name or name.startswith("."):
         return True
     for each in braces(name):
@@ -87,7 +87,7 @@ def wrong(root):
 
 
 def untold(root):
-    """Modules of the page that its document does not name."""
+    """Modules of the page that docs/web.md does not name."""
     folder, document = root / "clients/web", root / "docs/web.md"
     told = set(re.findall(r"[\w-]+\.js", document.read_text(encoding="utf-8"))) if document.exists() else set()
     yield from (

@@ -34,7 +34,7 @@ static double redshift(double a, double q2, double r, double momentum)
     return r * sqrt(r * r - 3 * r + 2 * q2 + 2 * a * s) / (r * r + a * s - momentum * s);
 }
 
-/* Adds the light of one place, which represents `area` of the image plane. */
+/* Adds the light of one point, which represents `area` of the image plane. */
 static void follow(size_t k, double isco, double alpha, double beta, double area, double *light)
 {
     const struct ks_path path =
@@ -84,8 +84,8 @@ static void compare(size_t k, double allowed)
     assert_true(fabs(total / profile.total - 1) < 2 * allowed);
 }
 
-/* The error of a grid of rays falls faster than the size of its fields: in the first case 0.053 with 80 rays a side,
- * 0.013 with 200 and 0.006 with 400. 4 million rays must agree within half a percent. */
+/* The error of a grid of rays falls faster than the size of its fields: in the first case it is 0.053 for 80 rays a
+ * side, 0.013 for 200, and 0.006 for 400. 4 million rays must agree within half a percent. */
 static void test_lines(void **state)
 {
     (void)state;

@@ -26,11 +26,11 @@ static void all_are_there(void **state)
         assert_non_null(kd_emitters[i]->present);
         assert_true(kd_emitters[i]->n_sentences > 0); /* each has approximations */
         assert_true(!kd_emitters[i]->fill ||
-                    kd_emitters[i]->depends[0].size); /* without dependencies the numbers would be filled only once */
+                    kd_emitters[i]->depends[0].size); /* without dependencies, the numbers would be filled only once */
     }
 }
 
-/* No sentence is dropped without notice: a plan has room for all of them. */
+/* A plan has room for all sentences, so that none is dropped without notice. */
 static void sentences_have_room(void **state)
 {
     (void)state;
@@ -155,7 +155,8 @@ static const char GAS[] =
 static const char FLASH[] = "{\"flash\": {\"brightness\": 1, \"period\": 100}, \"disk\": {\"slow_light\": true, "
                             "\"atmosphere\": \"laor\"}, \"time\": 7, \"camera\": {\"r\": 40}}";
 
-/* Numbers depend only on the present scene, in any order of scenes and whatever was filled before. */
+/* Numbers depend only on the current scene. They do not depend on the order of scenes, or on numbers that were filled
+ * before. */
 static void numbers_follow_the_scene(void **state)
 {
     (void)state;
@@ -251,13 +252,13 @@ static void numbers_follow_each_field(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof volumes / sizeof *volumes; k++)
         assert_true(follow_each_field(volumes[k]) > 30);
-    assert_true(follow_each_field(BASE) > 40); /* the other fields are words, or are tied to a third field */
+    assert_true(follow_each_field(BASE) > 40); /* skipped: the other fields are words, or depend on a third field */
     assert_true(follow_each_field(GAS) > 40);
     assert_true(follow_each_field(STARS) > 40);
     assert_true(follow_each_field(FLASH) > 40);
 }
 
-/* Gas replaces the smooth disk, and features that are off are not evaluated. */
+/* Gas replaces the smooth disk. Features that are switched off are not evaluated. */
 static void gas_replaces_the_disk(void **state)
 {
     (void)state;
@@ -283,7 +284,7 @@ static void gas_replaces_the_disk(void **state)
     scene.disk.slow_light = true;
     assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_SHAPE | KD_LENS_DELAY);
     assert_true(!says(&scene, "gas: the gas is shown at one") && !kd_emit_slow_along(&scene));
-    scene.disk.height = 0.1; /* the march computes delays by itself */
+    scene.disk.height = 0.1; /* no delay plane, because the march computes delays itself */
     assert_int_equal(kd_emit_needs(&scene), KD_LENS_W | KD_LENS_PHI | KD_LENS_SHAPE);
     assert_true(!says(&scene, "gas: the gas is shown at one") && kd_emit_slow_along(&scene));
     scene.gas.amplitude = 0; /* nothing moves */
@@ -354,7 +355,8 @@ static void a_flash_is_off_by_default(void **state)
     assert_int_equal(kd_emit_needs(&scene), 0);
 }
 
-/* Light of one frequency is a variant. The picture has a flux only if nothing but the disk shines. */
+/* Light of one frequency is a variant of the disk. The picture has a flux only if there is no other light than the
+ * disk's. */
 static void a_frequency_is_a_variant(void **state)
 {
     (void)state;
@@ -448,7 +450,7 @@ static void what_shines_is_told(void **state)
     kd_buffer_finish(&json);
 }
 
-/* Stars have a pass of their own, and diffuse light has none. Without either the sky is black. */
+/* Stars have a pass of their own; diffuse light has none. Without stars and diffuse light the sky is black. */
 static void skies(void **state)
 {
     (void)state;
@@ -471,7 +473,8 @@ static void skies(void **state)
     scene.sky.milky_way = 0;
     scene.sky.model = KD_SKY_CATALOGUE;
     assert_true(says(&scene, "sky: the stars are those of the Hipparcos") && !says(&scene, "sky: the light between") &&
-                kd_emit_device_bytes(&scene) < bytes - 11000000); /* 2048 x 1024 words, and a third of that */
+                /* 2048 x 1024 words, and a third of that for smaller levels */
+                kd_emit_device_bytes(&scene) < bytes - 11000000);
     kd_emit_traits(&scene, traits);
     uint32_t bolometric = traits[KD_EMITTER_sky];
     scene.disk.band = KD_BAND_VISIBLE;
@@ -574,8 +577,8 @@ static bool alike(const struct kd_scene *scene, const struct kd_work *work)
     return kd_work_alike(&own, work);
 }
 
-/* kd_emit_work differs between scenes of different cost: with each emitter, with each variant, and with twice as many
- * elements of an emitter that has a pass or buffers of its own. Places, time and brightness do not change it. */
+/* kd_emit_work differs between scenes of different cost: for each emitter, for each variant, and for twice as many
+ * elements of an emitter that has its own pass or buffers. Positions, time and brightness do not change it. */
 static void work_follows_emitters(void **state)
 {
     (void)state;
@@ -644,8 +647,8 @@ static void work_follows_emitters(void **state)
         assert_true(kd_work_alike(&bodies[n], n ? &bodies[n - 1] : &work) == !n);
     }
 
-    /* debris, and the number of bodies of a playground: the cost of 4 equals that of 5, and differs from that of 100
-     * and from that of debris */
+    /* debris, and the number of bodies of a playground: 4 bodies have the same cost as 5, but another cost than 100
+     * bodies or debris */
     struct kd_dynamic_bodies *shown[4];
     struct kd_error error;
     for (int n = 0; n < 4; n++) {

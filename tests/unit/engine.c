@@ -32,7 +32,7 @@ static void refuse(struct kd_accuracy_request asked_accuracy, bool float64, cons
         fail_msg("\"%s\" is not in \"%s\"", part, error.message);
 }
 
-/* The words of a scene and the engines are two lists in the same order. */
+/* The scene's words for engines and the list of engines have the same order. */
 static void words_are_names(void **state)
 {
     (void)state;

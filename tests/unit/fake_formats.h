@@ -4,6 +4,6 @@
 #include "render/output/format.h"
 
 extern const struct kd_format fake_format;
-extern int fake_memories; /* number of memory blocks that the format has received and not yet been asked to free */
+extern int fake_memories; /* number of memory blocks that the format was given and that it has not yet freed */
 
 #endif

@@ -124,7 +124,7 @@ static void memory_of_an_encoder_is_counted(void **state)
                      kd_webp_bytes((uint32_t)scene.image.width, (uint32_t)scene.image.height));
 }
 
-/* Number of passes that are needed only for a picture. */
+/* Number of the plan's passes that are needed only for a picture. */
 static int shows(const struct kd_plan *plan)
 {
     int n = 0;

@@ -24,7 +24,8 @@ static void some_scene(struct kd_scene *scene)
     kd_scene_smooth(scene);
     scene->image.width = 1 + (int32_t)(uniform() * uniform() * 3000);
     scene->image.height = 1 + (int32_t)(uniform() * uniform() * 2000);
-    scene->image.samples = (int32_t)(uniform() * 9); /* 0: as many rays as each pixel needs */
+    /* rays along a side of a pixel; 0: as many rays as each pixel needs */
+    scene->image.samples = (int32_t)(uniform() * 9);
     scene->accuracy.orders = 1 + (int32_t)(uniform() * 8);
     scene->accuracy.profile = (int32_t)(uniform() * 5);
     scene->accuracy.steps = uniform() < 0.2 ? 8 : 0;
@@ -47,7 +48,7 @@ static void assert_same_scene(const struct kd_scene *a, const struct kd_scene *b
 
 static int rank(int samples) { return samples ? samples : 9; }
 
-/* Checks the order of qualities: a quality is reduced only when all those before it in the order are reduced. */
+/* Checks the order of qualities: a quality is reduced only after all qualities before it are reduced. */
 static void assert_order(const struct kd_quality *before, const struct kd_quality *after)
 {
     bool scale = after->scale < before->scale, samples = rank(after->samples) < rank(before->samples);
@@ -160,8 +161,8 @@ static void ladders_go_down_in_order_and_up_to_what_is_asked(void **state)
     assert_true(ladder.rungs[without].quality.sketch && ladder.rungs[without].quality.profile == KD_PROFILE_DRAFT);
 }
 
-/* If an adaptively sampled view is too slow, it has one ray a pixel while it moves, and all rays at rest. The scale is
- * not reduced for this. */
+/* If a view with adaptive sampling is too slow, it has one ray a pixel while it moves, and all rays at rest. The scale
+ * is not reduced instead. */
 static void adaptive_pictures_move_with_one_ray(void **state)
 {
     (void)state;
@@ -181,8 +182,8 @@ static void adaptive_pictures_move_with_one_ray(void **state)
 
 /* Steady machines */
 
-/* After half a minute nothing changes any more. The target is met if possible, and quality is not lower than
- * necessary. */
+/* After half a minute nothing changes any more. The target is met if the machine can meet it, and quality is not lower
+ * than necessary. */
 static void settles_on_a_steady_machine(void **state)
 {
     (void)state;
@@ -207,7 +208,7 @@ static void settles_on_a_steady_machine(void **state)
             assert_true(true_cost(&s, last_rung(&s), pattern == PLAY) > 1.1 * (may - fixed) + fixed);
             hopeless++;
         }
-        if (rung > 0) /* a rung at which a frame uses 80 % of the target is reached by climbing */
+        if (rung > 0) /* the governor climbs to a rung if a frame there takes at most 80 % of the target */
             assert_true(true_cost(&s, rung - 1, pattern == PLAY) - fixed > 0.8 * (may - fixed) ||
                         (pattern == PLAY && true_cost(&s, rung - 1, false) - fixed > 0.7 * s.governor.params.stall_ms));
     }
@@ -234,7 +235,7 @@ static void settles_when_told_only_totals(void **state)
     }
 }
 
-/* With a first estimate there are no slow frames at the beginning. */
+/* With an estimate before the first frame, no frame at the beginning is slow. */
 static void begins_where_it_is_told_to_expect(void **state)
 {
     (void)state;
@@ -248,10 +249,10 @@ static void begins_where_it_is_told_to_expect(void **state)
     assert_int_equal(s.governor.paces[0].rung, 0);
     run(&s, DRAG, 60e3);
     assert_int_equal(s.changes, 0);
-    /* this estimate is too late, because the cost has been measured */
+    /* has no effect, because the cost has been measured already */
     kd_governor_expect(&s.governor, &(struct kd_frame_cost) { .rays_ms = 1, .total_ms = 1 });
     assert_true(s.governor.paces[1].rung > 0);
-    /* For a larger picture the estimate scales with the smaller one's cost. */
+    /* The estimate for a larger picture is scaled from the cost of the smaller one. */
     s.asked.image.width *= 2;
     s.asked.image.height *= 2;
     s.truth.traced *= 4;
@@ -280,7 +281,7 @@ static void two_slow_frames_are_enough(void **state)
 
 /* Costs that do not depend on the size */
 
-/* Ten million particles take 220 ms: at no size of the picture does a frame take 33 ms. */
+/* Ten million particles take 220 ms, so that no size of the picture has frames of 33 ms. */
 static void what_cannot_be_mended_costs_no_resolution(void **state)
 {
     (void)state;
@@ -323,7 +324,7 @@ static void what_can_be_mended_is(void **state)
     }
 }
 
-/* Full size returns soon, however slow the first frames were. */
+/* Full size returns soon, however slow the first frames are. */
 static void recovers_from_a_slow_beginning(void **state)
 {
     (void)state;
@@ -337,7 +338,7 @@ static void recovers_from_a_slow_beginning(void **state)
         for (int i = 0; i < slow; i++)
             run(&s, DRAG, 1);
         s.load = 1;
-        run(&s, DRAG, 4500); /* the wait after a slow frame, and a few climbs */
+        run(&s, DRAG, 4500); /* time of the wait after a slow frame, and of a few climbs */
         assert_int_equal(rung_of(&s, DRAG), 0);
         run(&s, PLAY, 600); /* after this time the drag counts as over */
         assert_int_equal(rung_of(&s, PLAY), 0);
@@ -345,8 +346,8 @@ static void recovers_from_a_slow_beginning(void **state)
     }
 }
 
-/* Time advances for minutes; then the view is dragged; afterwards time advances at full size, however long ago the last
- * change was. */
+/* Time advances for minutes, and then the view is dragged. After the drag time advances at full size again, however
+ * long the time before was. */
 static void a_drag_is_soon_forgotten(void **state)
 {
     (void)state;
@@ -362,8 +363,8 @@ static void a_drag_is_soon_forgotten(void **state)
     }
 }
 
-/* After particles become a thousand times fewer, or a sky, a volume, turbulence or a body is removed, earlier
- * slowness no longer counts. */
+/* Earlier slow frames no longer count after the number of particles has fallen to a thousandth, or after a sky, a
+ * volume, turbulence or a body has been removed. */
 static void another_kind_of_scene_begins_anew(void **state)
 {
     (void)state;
@@ -400,7 +401,7 @@ static void drags_across_an_octave_go_on(void **state)
     s.asked.disk.model = KD_DISK_PARTICLES;
     s.asked.disk.particles = 141000;
     run(&s, DRAG, 2000);
-    for (int i = 0; i < 400; i++) { /* 100 000 to 199 000 */
+    for (int i = 0; i < 400; i++) { /* numbers of particles from 100 000 to 199 000 */
         const uint32_t before = s.governor.paces[1].count;
         s.asked.disk.particles = (uint32_t)(141000 * exp2(0.499 * sin(0.1 * i)));
         change(&s, true);
@@ -444,7 +445,7 @@ static void bodies_of_a_playground_count(void **state)
     assert_int_equal(s.governor.paces[1].count, 0);
 }
 
-/* A smooth disk that rings does not move: the picture keeps its size on any machine, and regains it. */
+/* A smooth disk that rings does not move. The picture keeps its size on any machine, and regains it after a drag. */
 static void what_only_rings_keeps_its_size(void **state)
 {
     (void)state;
@@ -456,7 +457,7 @@ static void what_only_rings_keeps_its_size(void **state)
             run(&s, before == 1 ? PLAY : DRAG, 5000);
         else
             change(&s, true);
-        s.now += before < 3 ? 3000 : 0; /* in the last round the change comes just before a drag ends */
+        s.now += before < 3 ? 3000 : 0; /* in the last round the scene changes just before a drag ends */
         while (before < 3 && frame(&s))
             s.now += 200;
         assert_true(s.last.final == (before < 3));
@@ -498,7 +499,7 @@ static void what_refinement_measured_is_believed(void **state)
     change(&s, true);
     frame(&s);
     assert_true(s.last.final);
-    /* a first estimate that is much too low is corrected, too */
+    /* a first estimate that is much too low is also corrected */
     begin(&s, kd_governor_params(), 640, 360, (struct truth) { .traced = 180, .reused = 6, .pixels = 4 });
     change(&s, true);
     /* Nothing was rendered while the camera moved. From one frame without a cached lens map the governor learns that
@@ -561,9 +562,9 @@ static void load_that_comes_and_goes_is_followed(void **state)
     }
 }
 
-/* Machines that provoke oscillation */
+/* Machines whose costs make a simple governor oscillate */
 
-/* A machine that is cheap until the governor climbs a rung, and expensive while it stays there. */
+/* A machine on which frames are fast until the governor climbs a rung, and slow while it stays there. */
 static struct kd_frame_cost slow_after_each_climb(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)scene, (void)reused;
@@ -602,7 +603,8 @@ static struct kd_frame_cost telegraph(const struct simulation *s, const struct k
                                     .total_ms = factor * c.total_ms };
 }
 
-/* Claims a fixed cost when the picture is small, and a cost proportional to its size when it is large. */
+/* A machine that reports only a fixed cost while the picture is small, and only a cost proportional to the size while
+ * it is large. */
 static struct kd_frame_cost liar(const struct simulation *s, const struct kd_scene *scene, bool reused)
 {
     (void)reused;
@@ -634,7 +636,7 @@ static void assert_settles(machine *adversary, struct truth truth, int hours)
     uint64_t vain = n + (uint64_t)ceil(log2(3600 / 3.0));
     assert_true(hour <= 2 * vain * n);
     run(&s, DRAG, (hours - 1) * 3600e3);
-    assert_true(s.changes - hour <= 8 * n); /* at most log2(10) more tries */
+    assert_true(s.changes - hour <= 8 * n); /* since the wait doubles, at most log2(10) more tries */
     assert_true(s.least_pause >= 1000);
     print_message("%llu changes in an hour, %llu in %d more\n", (unsigned long long)hour,
                   (unsigned long long)(s.changes - hour), hours - 1);
@@ -647,7 +649,7 @@ static void adversaries_are_outwaited(void **state)
     assert_settles(greedy, (struct truth) { 0 }, 10);
     for (int period = 1; period <= 40; period += period < 10 ? 1 : 10)
         assert_settles(by_count, (struct truth) { .spike = period }, 2);
-    for (double ms = 100; ms < 100e3; ms *= 3.3) /* load with a period of this length */
+    for (double ms = 100; ms < 100e3; ms *= 3.3) /* period of the load */
         assert_settles(telegraph, (struct truth) { .traced = 20, .reused = 3, .pixels = 3, .spike = ms }, 3);
     assert_settles(liar, (struct truth) { 0 }, 10);
     for (double ms = 100; ms < 100e3; ms *= 3.3)
@@ -719,8 +721,8 @@ static void the_end_of_a_drag_is_no_stall(void **state)
         assert_true(longest <= 1.1 * 500);
         uint32_t rung = s.governor.paces[0].rung;
         assert_true(full > 0.7 * 500 ? true_cost(&s, rung, false) <= 1.1 * 500 : s.last.final);
-        /* The rung is not lower than necessary, as far as the governor's information allows: on this machine orders and
-         * steps cost less than it assumes. */
+        /* The rung is as high as the governor can know: on this machine, orders and steps cost less than the governor
+         * assumes. */
         assert_true(rung == 0 || true_cost(&s, rung - 1, false) > 0.4 * 500);
     }
 }
@@ -761,7 +763,7 @@ static void lens_maps_that_are_never_kept(void **state)
         seen += s.last.scale != last;
     }
     print_message("hoped for %llu times more\n", (unsigned long long)seen);
-    assert_true(seen <= 4); /* down and up again; each retry is twice as rare as the one before */
+    assert_true(seen <= 4); /* down and up again; the time between retries doubles */
 }
 
 /* Rest */
@@ -796,7 +798,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         run(&s, i % 2 ? DRAG : PLAY, 5000 * uniform());
         change(&s, i % 3);
         double changed = s.now;
-        assert_true(frame(&s)); /* the frame is rendered at once, at the present rung */
+        assert_true(frame(&s)); /* the frame is rendered at once, at the current rung */
         const bool final = s.last.final, slow = s.now > changed + 150;
         struct kd_frame_decision turn = kd_governor_decide(&s.governor, s.now);
         if (!slow) { /* the quality shown is the quality in use */
@@ -805,7 +807,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
         }
         assert_true(final ? isinf(turn.wait_ms)
                           : fabs(turn.wait_ms - fmax(changed + 150 - s.now, 50)) <
-                                1e-9); /* after the wait for a slow frame the user has time for a change */
+                                1e-9); /* after the wait for a slow frame, there is time for a change by the user */
         refine_to_rest(&s, &frames);
         assert_true(final ? frames == 0 : frames >= 1 && frames <= KD_LADDER_STEPS);
         assert_true(s.last.final);
@@ -817,7 +819,7 @@ static void rest_refines_to_what_is_asked_and_then_costs_nothing(void **state)
     }
 }
 
-/* Compares member by member, since padding is undefined. */
+/* Compares member by member, because the content of padding is undefined. */
 static void assert_same_pace(const struct kd_pace *a, const struct kd_pace *b)
 {
     assert_true(a->rung == b->rung && a->ceiling == b->ceiling && a->count == b->count && a->climbed == b->climbed &&
@@ -857,8 +859,9 @@ static void a_change_breaks_into_refinement(void **state)
     int frames;
     frame(&s);
     refine_to_rest(&s, &frames);
-    assert_int_equal(frames, 5); /* 1, 2, 4 and 8 rays along a side, then a frame in double precision */
-    /* a frame of the old scene */
+    /* refinement in steps: 1, 2, 4 and 8 rays along a side of a pixel, then a frame in double precision */
+    assert_int_equal(frames, 5);
+    /* this frame shows the old scene */
     kd_governor_frame(&s.governor, s.now, &turn, &(struct kd_frame_cost) { .total_ms = 1 });
     assert_true(isinf(kd_governor_decide(&s.governor, s.now).wait_ms));
 }
@@ -919,7 +922,7 @@ static void a_drag_has_fewer_rays_at_the_curve(void **state)
     }
 }
 
-/* Neither frames of an earlier rung or ladder nor invalid times are counted. */
+/* Frames of an earlier rung or ladder do not count as measurements, and neither do invalid times. */
 static void what_measures_nothing_is_not_counted(void **state)
 {
     (void)state;
@@ -1009,7 +1012,7 @@ static void what_stays_at_any_size_is_learned(void **state)
 {
     (void)state;
     static const enum pattern patterns[] = { PLAY, DRAG };
-    static const double least[] = { 0.5, 0.375 }; /* of 640 x 360: 18 ms, or 24 with a new lens map */
+    static const double least[] = { 0.5, 0.375 }; /* ms of a frame of 640 x 360: 18, or 24 with a new lens map */
     for (int k = 0; k < 2; k++) {
         struct simulation s;
         begin(&s, kd_governor_params(), 640, 360, (struct truth) { 0 });
@@ -1028,8 +1031,8 @@ static void what_stays_at_any_size_is_learned(void **state)
     }
 }
 
-/* A starry view in a session that started on the lowest rung, because kernels were compiled during its first frame. It
- * has seen no other rung from which the fixed part could be inferred. */
+/* A starry view in a session that started on the lowest rung, because kernels were compiled during its first frame. The
+ * session has no frames of another rung, from which the fixed part could be inferred. */
 static void who_began_low_finds_out(void **state)
 {
     (void)state;
@@ -1073,7 +1076,7 @@ static struct kd_frame_cost replay(const struct simulation *s, const struct kd_s
                                     .total_ms = recorded[recorded_scene][!reused][i][frame].total };
 }
 
-/* Whatever the machine's times, no frame is narrower than the minimum; and a lowered minimum is used. */
+/* For any times of the machine, no frame is narrower than the minimum. A lowered minimum is used. */
 static void no_frame_is_less_than_the_least(void **state)
 {
     (void)state;
@@ -1090,7 +1093,7 @@ static void no_frame_is_less_than_the_least(void **state)
         const size_t k = i % 4;
         double seen = 1;
         kd_governor_least(&governor, least[k], INFINITY);
-        for (int frame = 0; frame < 60; frame++) { /* far over the target, at any size */
+        for (int frame = 0; frame < 60; frame++) { /* time far above the target at any size */
             kd_governor_changed(&governor, now, &scene, true);
             const struct kd_frame_decision turn = kd_governor_decide(&governor, now);
             assert_true(turn.quality.scale >= least[k]);
@@ -1145,7 +1148,7 @@ static void wide_frames_come_back_where_much_stays(void **state)
     kd_governor_least(&governor, 0.5, 100);
     double now = 0;
     assert_true(after_frames_of(&governor, &scene, &now, 20, 140, 300) == 0.5); /* 56 ms */
-    /* 111 ms; with a quarter of the width 59 ms */
+    /* 111 ms; 59 ms with a quarter of the width */
     assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 50) == 0.25);
     for (int i = 0; i < 300; i++)
         assert_true(after_frames_of(&governor, &scene, &now, 40, 280, 1) < 0.5);

@@ -17,7 +17,7 @@ NUMBERS_A_LINE = 4
 
 
 def costs(frame):
-    """Milliseconds of a frame: its constant part, its rays, its pixels, and all of it with its PNG."""
+    """Milliseconds of a frame: its fixed part, its rays, its pixels, and the total with its PNG."""
     fixed = sum(frame.get(k, 0) for k in ("audit", "particles"))
     rays = sum(frame.get(k, 0) for k in ("trace", "transfer"))
     pixels = sum(frame.get(k, 0) for k in ("expose", "post", "readback", "encode_1"))

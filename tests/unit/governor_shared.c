@@ -33,7 +33,7 @@ static double rate(const struct sharer *s, double ms) { return 1e3 * (double)s->
 
 static uint32_t rung(const struct sharer *s) { return s->sim.governor.paces[1].rung; }
 
-/* A session beside sessions at rest is served as if it were alone. */
+/* A session is served as if it were alone if all other sessions are at rest. */
 static void alone_is_as_it_was(void **state)
 {
     (void)state;
@@ -45,7 +45,7 @@ static void alone_is_as_it_was(void **state)
             open_device(&d, sharers, 3);
             d.alone = !told;
             join(&d, 0, "one", noisy(sky), 8, 0, INFINITY);
-            for (int i = 1; i < 3; i++) { /* the last frames of these sessions were long ago */
+            for (int i = 1; i < 3; i++) { /* these sessions requested their last frames long ago */
                 join(&d, i, i == 1 ? "one" : "another", sky, 8, -1, with_others ? -0.5 : -1);
                 d.sharers[i].due = with_others ? -1 : INFINITY;
             }
@@ -88,9 +88,9 @@ static void tell(const char *what, int n, const struct device *d, const struct s
                   (unsigned long long)sum->seen);
 }
 
-/* A session that does not know its share keeps a picture that takes 30 ms, and loses frames: with eight sessions each
- * gets 4 frames a second. If sessions know their shares, all have the same rate (at least 12 a second with eight
- * sessions), and quality is stable. */
+/* A session without knowledge of its share keeps a picture that takes 30 ms. With eight sessions, each then gets only 4
+ * frames a second. If sessions know their shares, all have the same rate (at least 12 a second with eight sessions),
+ * and quality is stable. */
 static void many_keep_moving(void **state)
 {
     (void)state;
@@ -113,7 +113,7 @@ static void many_keep_moving(void **state)
         }
 }
 
-/* All sessions also keep moving with noise of 15 % and with spikes. */
+/* All sessions keep moving, also with noise of 15 % and with spikes. */
 static void noise_divides_nobody(void **state)
 {
     (void)state;
@@ -153,7 +153,7 @@ static void parts_are_equal_on_any_machine(void **state)
         for (int i = 0; i < n; i++)
             assert_true(d.sharers[i].sim.governor.share >= 0.999 / n);
         if (rung(s) + 1 < s->sim.governor.ladder.n_rungs &&
-            sum.used > 0.9) { /* in other cases the machine is too slow even for the lowest rung, or it is idle */
+            sum.used > 0.9) { /* excluded: the machine is too slow even for the lowest rung, or it is idle */
             assert_true(cost <= 1.1001 * may_take(period * share, truth.fixed));
             assert_true(sum.most <= 1.25 * sum.least);
             reached++;
@@ -163,7 +163,7 @@ static void parts_are_equal_on_any_machine(void **state)
     assert_true(reached > 60 && seen <= 40);
 }
 
-/* A session whose frame waits long for other sessions is not taken for one at rest. */
+/* A session whose frame waits long for other sessions does not count as one at rest. */
 static void who_waits_is_not_taken_for_resting(void **state)
 {
     (void)state;
@@ -305,7 +305,7 @@ static void who_asks_for_little_gets_little(void **state)
         print_message("another asks after %.0f ms: %.1f and %.1f frames/s, a share of %.2f, scale %g\n", pause,
                       rate(one, 60e3), rate(&d.sharers[1], 60e3), one->sim.governor.share, one->sim.last.scale);
         assert_true(rate(one, 60e3) > 22 && one->seen <= 2 && one->sim.governor.share > 0.55);
-        assert_true(pause < 200 || one->sim.last.scale == 0.625); /* the same rate as alone */
+        assert_true(pause < 200 || one->sim.last.scale == 0.625); /* this session has the same rate as alone */
     }
 }
 
@@ -334,7 +334,7 @@ static void clients_share_before_sessions(void **state)
 /* Refinement */
 
 /* A picture that takes long to refine yields to moving ones. If both belong to one client, it gets a fifth of that
- * client's time. If it belongs to another client, it gets the half of the time that is due to that client. */
+ * client's time. If two clients own them, each client gets half of the time. */
 static void refinement_makes_way(void **state)
 {
     (void)state;

@@ -26,12 +26,12 @@ typedef struct kd_frame_cost machine(const struct simulation *s, const struct kd
 
 /* A machine whose frames have a cost by rays, a cost by pixels and a fixed cost, with noise and spikes. */
 struct truth {
-    /* ms of a frame of the scene as requested: to trace its rays, to reuse their lens map, and for its pixels */
+    /* ms of a full-size frame: for tracing its rays; for reusing their lens map; for its pixels */
     double traced, reused, pixels;
-    double fixed, hidden; /* ms independent of the size: reported, and not reported */
-    double noise;         /* relative to the time, uniformly distributed */
+    double fixed, hidden; /* ms of a frame at any size: a part that frames report, and a part that they do not report */
+    double noise;         /* largest deviation relative to the time, uniformly distributed */
     double spikes, spike; /* rate of spikes, and the factor by which a spike lengthens a frame */
-    bool silent;          /* reports only the total */
+    bool silent;          /* true: frames report only their total time */
 };
 
 struct simulation {
@@ -40,14 +40,14 @@ struct simulation {
     struct truth truth;
     machine *cost;
     double now;
-    /* changes: changes of rung, of both kinds of frames; climbs: changes upwards */
+    /* changes: number of changes of rung, over both kinds of frames; climbs: number of those upwards */
     uint64_t frames, changes, climbs;
     double last_change, sum, load, least_pause; /* least_pause: shortest time between a change and the next climb */
     uint64_t summed;
-    uint32_t lens;             /* counter of the scene's lens map */
-    uint32_t kept[4][3], next; /* cached lens maps: lens, width, samples */
+    uint32_t lens;             /* number of the scene's current lens map; a change that needs a new map increases it */
+    uint32_t kept[4][3], next; /* cached lens maps: number of the map, width, samples */
     struct kd_quality last;    /* quality of the last frame rendered */
-    bool forgets;              /* never caches a lens map */
+    bool forgets;              /* true: lens maps are never cached */
 };
 
 static double rays_of(const struct kd_scene *scene)
@@ -175,7 +175,7 @@ static inline double mean_over(struct simulation *s, enum pattern pattern, doubl
     return s->sum / (double)s->summed;
 }
 
-/* True cost of a rung, without noise. */
+/* True cost of a frame on a rung, without noise. */
 static inline double true_cost(const struct simulation *s, uint32_t rung, bool reused)
 {
     struct simulation quiet = *s;
@@ -187,7 +187,7 @@ static inline double true_cost(const struct simulation *s, uint32_t rung, bool r
 
 static inline struct truth some_truth(void)
 {
-    double all = exp(log(3) + uniform() * log(1000)); /* milliseconds of a frame as requested: 3 ms to 3 s */
+    double all = exp(log(3) + uniform() * log(1000)); /* ms of a full-size frame: from 3 ms to 3 s */
     double fixed = uniform() < 0.5 ? 0 : exp(7 * uniform()), hidden = uniform() < 0.5 ? 0 : 30 * uniform() * uniform();
     double rays = all * (0.3 + 0.6 * uniform());
     return (struct truth) { .traced = rays,

@@ -12,8 +12,8 @@ import sys
 
 
 def compile_alone(header, compiler, flags):
-    """The compiler's error message, empty if there is none."""
-    # Included twice, to test the include guard as well.
+    """The compiler's error message, or an empty text."""
+    # The header is included twice, which also tests its include guard.
     text = f'#include "{header}"\n#include "{header}"\ntypedef int not_empty;\n'
     done = subprocess.run(
         [

@@ -17,7 +17,8 @@
 #define UAS (M_PI / 180 / 3.6e9)
 enum { WIDTH = 201, HEIGHT = 160 };
 
-static const struct kd_fourier_grid grid = { WIDTH, HEIGHT, 1 * UAS, 90.5, 83.25 }; /* the hole is off centre */
+/* the hole is not at the centre of the picture */
+static const struct kd_fourier_grid grid = { WIDTH, HEIGHT, 1 * UAS, 90.5, 83.25 };
 
 static void near(double got, double want, double bound)
 {
@@ -25,10 +26,10 @@ static void near(double got, double want, double bound)
         fail_msg("%.12g, not %.12g", got, want);
 }
 
-/* Light of a pixel by its position, in microarcseconds east and north of the centre of the figure. */
+/* Light at a point. Coordinates: microarcseconds east and north of the figure's centre. */
 typedef double light_of(double x, double y);
 
-/* The mean over 15 x 15 places of each pixel, so that edges are resolved to a fifteenth. */
+/* For each pixel, the mean over 15 x 15 points, so that edges are resolved to a fifteenth of a pixel. */
 static void draw(float *map, light_of *light, double east, double north)
 {
     for (int j = 0; j < HEIGHT; j++)
@@ -54,10 +55,10 @@ static double pixel_turns(double u, double v)
     return (a == 0 ? 1 : sin(a) / a) * (b == 0 ? 1 : sin(b) / b);
 }
 
-/* x = 2 pi q a for a baseline of q wavelengths and a radius of a uas. */
+/* x = 2 pi q a, for a baseline of q wavelengths and a radius of a in microarcseconds. */
 static double argument(double u, double v, double a) { return 2 * M_PI * hypot(u, v) * 1e9 * a * UAS; }
 
-/* Transform of a thin ring: the mean of the J0 of its circles, weighted by their light. */
+/* Transform of a thin ring: the mean of J0 over its circles, weighted by their light. */
 static double ring_transform(double u, double v)
 {
     double sum = 0, all = 0;
@@ -112,15 +113,16 @@ static void test_transforms_are_the_closed_forms(void **state)
     print_message("visibilities off by at most: disk %.1e, ring %.1e, Gaussian %.1e\n", worst[0], worst[1], worst[2]);
 }
 
-/* East is left, north is up: a point there has the phase exp(-2 pi i (u x + v y)). Several maps are summed at once. */
+/* East is to the left and north is up. A point at x east and y north has the phase exp(-2 pi i (u x + v y)). Several
+ * maps are summed at once. */
 static void test_a_point_turns(void **state)
 {
     static float left[WIDTH * HEIGHT], top[WIDTH * HEIGHT];
     const float *const maps[] = { left, top };
     double scratch[2 * WIDTH], sum[2][2];
     (void)state;
-    left[80 * WIDTH + 40] = 2; /* 50.5 east, 3.25 north */
-    top[10 * WIDTH + 90] = 1;  /* 0.5 east, 73.25 north */
+    left[80 * WIDTH + 40] = 2; /* 50.5 uas east, 3.25 uas north */
+    top[10 * WIDTH + 90] = 1;  /* 0.5 uas east, 73.25 uas north */
     for (int k = 0; k < 50; k++) {
         const double u = 3.7 * k - 60, v = 100 - 5.3 * k, a = -2 * M_PI * 1e9 * UAS * (u * 50.5 + v * 3.25),
                      b = -2 * M_PI * 1e9 * UAS * (u * 0.5 + v * 73.25);

@@ -45,7 +45,8 @@ struct spirv {
 };
 #define SPIRV(name) { #name, kd_spv_##name, sizeof kd_spv_##name / 4 }
 
-/* Finds the next instruction with this opcode whose first operand is `id` (0: any), from *at on; NULL at the end. */
+/* Finds the next instruction, from *at on, with this opcode and with `id` as its first operand (0: any). Returns NULL
+ * at the end. */
 static const uint32_t *next(const struct spirv *s, size_t *at, uint32_t opcode, uint32_t id)
 {
     while (*at < s->n) {
@@ -59,7 +60,8 @@ static const uint32_t *next(const struct spirv *s, size_t *at, uint32_t opcode, 
     return NULL;
 }
 
-/* The struct as laid out in a buffer. If variables use the struct as well, it occurs a second time, without offsets. */
+/* The struct with the offsets of a buffer. If variables use the struct too, the module has a second copy without
+ * offsets. */
 static uint32_t struct_called(const struct spirv *s, const char *name)
 {
     size_t at = 5;

@@ -1,5 +1,5 @@
-/* Tests of JPEG in strips: libjpeg decodes it like the same picture in one scan, and the bytes are the same for any
- * number of threads. */
+/* Tests of JPEG files that are encoded in strips. libjpeg decodes such a file to the same pixels as a file of one scan.
+ * The bytes do not depend on the number of threads. */
 #include "image/jpeg.h"
 #include "base/parallel.h"
 
@@ -45,12 +45,12 @@ static uint8_t *decode(const uint8_t *file, size_t size, uint32_t width, uint32_
         jpeg_read_scanlines(&info, &row, 1);
     }
     assert_true(jpeg_finish_decompress(&info));
-    assert_int_equal(errors.num_warnings, 0); /* each restart marker is at its place, without surplus bytes */
+    assert_int_equal(errors.num_warnings, 0); /* each restart marker is at the right position, without surplus bytes */
     jpeg_destroy_decompress(&info);
     return pixels;
 }
 
-/* The pixels after libjpeg encoded them in one scan, with the settings named in jpeg.h. */
+/* The pixels that result if libjpeg encodes them in one scan, with the settings in jpeg.h, and decodes them. */
 static uint8_t *expected(const uint8_t *pixels, uint32_t width, uint32_t height, unsigned quality)
 {
     struct jpeg_compress_struct info;
@@ -117,7 +117,7 @@ static void intervals_are_one_scan(void **state)
 {
     (void)state;
     check(640, 360, 75, 1);
-    check(1280, 720, 50, 1); /* its tables are those of the whole picture */
+    check(1280, 720, 50, 1); /* the strip has the tables of the whole picture */
     check(1280, 720, 75, 4);
     check(1280, 720, 90, 4);
     check(1280, 721, 75, 4);

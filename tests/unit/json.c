@@ -79,7 +79,7 @@ static void test_lines(void **state)
     kd_buffer_finish(&out);
 }
 
-/* Whichever allocation fails, the buffer keeps its contents and nothing is added to it. */
+/* If any allocation fails, the buffer keeps its contents, and no part of the document is added. */
 static void test_no_memory(void **state)
 {
     int failures = 0;

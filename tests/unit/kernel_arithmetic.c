@@ -1,7 +1,7 @@
 /* Tests that kernels restrict what a driver may do with their arithmetic. Vulkan 1.2 lets a driver fuse, reorder and
  * expand floating-point operations unless they are decorated NoContraction, and behave as if NaN and infinity did not
- * exist (no kernel uses SignedZeroInfNanPreserve). On a driver that does neither, pictures cannot show this, so the
- * SPIR-V is inspected. The inspection is done before and after shaders/compile.py inlines the functions. */
+ * exist (no kernel uses SignedZeroInfNanPreserve). A driver that does none of this cannot show a missing decoration in
+ * a picture. The test therefore inspects the SPIR-V, before and after shaders/compile.py inlines the functions. */
 #include <stdint.h>
 
 #define KD_SPIRV_PLAIN
@@ -40,7 +40,7 @@ struct spirv {
     const char *kernel;
     const uint32_t *words;
     size_t n;
-    bool motion; /* the kernel follows rays by steps */
+    bool motion; /* true if the kernel traces rays step by step */
 };
 #define PLAIN(name, motion) { #name, kd_spv_##name##_plain, sizeof kd_spv_##name##_plain / 4, motion },
 #define FINAL(name, motion) { #name, kd_spv_##name, sizeof kd_spv_##name / 4, motion },
@@ -112,7 +112,7 @@ static void count(const struct spirv *s, const char *name, int *all, int *precis
     }
 }
 
-/* at least ten functions still have the searched names */
+/* checks that at least ten functions still have these names */
 static void what_must_not_be_reordered(void **state)
 {
     (void)state;

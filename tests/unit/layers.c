@@ -184,7 +184,8 @@ static void what_cannot_be_is_refused(void **state)
     }
 }
 
-/* A picture format takes one layer, and NPY takes all. A table of rows takes no layers, and its plan has none. */
+/* A picture format accepts one layer, and NPY accepts all. A table of rows accepts none, so that its plan has no
+ * layers. */
 static void formats_take_what_they_hold(void **state)
 {
     (void)state;
@@ -226,7 +227,7 @@ static void plans_have_what_is_asked_for(void **state)
     assert_int_equal(plan.lens.orders, 3); /* rays are traced although the scene has no light */
 }
 
-/* A synthetic frame gives records in the order of the words, each number at its place. */
+/* A synthetic frame gives records in the order of the words, with each number in the right field. */
 static void npy_has_the_numbers(void **state)
 {
     (void)state;

@@ -54,10 +54,16 @@ static void letters_are_strokes(void **state)
         char letter;
         double x, y, distance;
     } points[] = {
-        { 'L', 0, 0, 0 },        { 'L', 0, 2.5, 0 },     { 'L', 0.5, 3, 0.5 },
-        { 'L', -0.75, 6, 0.75 }, { 'L', 4.6, 6.8, 1 },   { 'L', 0.5, 5.5, 0.5 }, /* the corner is cut if this is 0 */
-        { 'X', 1.5, 2.5, 0 },                                                    /* between dots across */
-        { 'X', 2, 0, 1 },        { '.', 2.5, 5.5, 0.5 },
+        { 'L', 0, 0, 0 },
+        { 'L', 0, 2.5, 0 },
+        { 'L', 0.5, 3, 0.5 },
+        /* the corner of the stroke is cut if this is 0 */
+        { 'L', -0.75, 6, 0.75 },
+        { 'L', 4.6, 6.8, 1 },
+        { 'L', 0.5, 5.5, 0.5 },
+        { 'X', 1.5, 2.5, 0 }, /* between dots across */
+        { 'X', 2, 0, 1 },
+        { '.', 2.5, 5.5, 0.5 },
     };
     for (size_t i = 0; i < sizeof points / sizeof *points; i++)
         assert_float_equal(kd_font_distance((uint32_t)points[i].letter, points[i].x, points[i].y), points[i].distance,
@@ -89,13 +95,13 @@ static void numbers_are_round(void **state)
     check_labels(&(struct kd_map_scale) { 1e-3, 10, true }, 24, "0.001 0.01 0.1 1 10");
     check_labels(&(struct kd_map_scale) { 1.03, 1.05, true }, 18, "1.03 1.04 1.05");
     check_labels(&(struct kd_map_scale) { 4, 4, false }, 18, "4");
-    /* an invalid scale gets no numbers, and the search for numbers ends at once */
+    /* an invalid scale has no numbers; the search for numbers ends at once */
     check_labels(&(struct kd_map_scale) { 0, 2, true }, 18, "");
     check_labels(&(struct kd_map_scale) { -1, 2, true }, 18, "");
     check_labels(&(struct kd_map_scale) { 1, INFINITY, true }, 18, "1");
 }
 
-/* For any scale, the bar has at least two numbers, at the right places, without touching each other. */
+/* For any scale, the bar has at least two numbers, at the right positions, and the numbers do not touch. */
 static void numbers_fit(void **state)
 {
     (void)state;

@@ -1,4 +1,4 @@
-/* Tests of the table of lessons, whose clocks are set back by the test. */
+/* Tests of the table of lessons. The test sets the times in the table back. */
 #include "base/clock.h"
 #include "server/lesson/lesson.h"
 

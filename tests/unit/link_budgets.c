@@ -61,8 +61,8 @@ static struct kd_link_budgets *opened(const char *folder)
     return all;
 }
 
-/* The file has each charge at once, so that no charge is lost if the server is killed. In the file too, entries of
- * expired links are reused. */
+/* Each charge is written to the file at once, so that no charge is lost if the server is killed. In the file, as in
+ * memory, entries of expired links are reused. */
 static void a_folder_keeps_them(void **state)
 {
     (void)state;
@@ -82,7 +82,7 @@ static void a_folder_keeps_them(void **state)
     kd_link_budgets_destroy(next);
     kd_link_budgets_destroy(killed);
     next = opened(folder);
-    assert_int_equal(kd_link_budget(next, &one, NOW), KD_LINK_LEFT); /* another link now has its entry */
+    assert_int_equal(kd_link_budget(next, &one, NOW), KD_LINK_LEFT); /* the entry now belongs to another link */
     assert_int_equal(kd_link_budget(next, &other, NOW), KD_LINK_SPENT);
     assert_int_equal(kd_link_budget(next, &late, NOW), KD_LINK_SPENT);
     kd_link_budgets_destroy(next);
@@ -97,8 +97,8 @@ static void write_file(const char *path, const void *data, size_t size)
     close(fd);
 }
 
-/* A file of another kind is refused and stays as it is. Damaged places count as unused. A truncated file is read as
- * far as it goes. */
+/* A file of another kind is refused and not changed. Damaged entries count as unused. A truncated file is read up to
+ * its end. */
 static void a_damaged_file(void **state)
 {
     (void)state;

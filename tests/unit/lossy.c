@@ -52,7 +52,8 @@ static void webp_pixels(void **state)
         assert_int_equal(width, WIDTH);
         assert_int_equal(height, HEIGHT);
         print_message("quality %u: %zu bytes, off by %.2f\n", quality, file.size, off(decoded));
-        assert_true(off(decoded) < fmin(before, 12)); /* a higher quality is closer, in more bytes */
+        /* at a higher quality, the pixels are closer to the picture and the file is larger */
+        assert_true(off(decoded) < fmin(before, 12));
         assert_true(file.size > size);
         before = off(decoded);
         size = file.size;
@@ -62,14 +63,14 @@ static void webp_pixels(void **state)
     assert_true(before < 1.5);
 }
 
-/* The peak of memory while noise is encoded is within the stated bound and not far below it. It is measured in a
+/* While noise is encoded, the peak of memory is below the stated bound, but not far below it. It is measured in a
  * separate process. */
 static void webp_memory(void **state)
 {
     enum { SIDE = 1200 };
     (void)state;
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
-    skip(); /* sanitizers use memory of their own */
+    skip(); /* not measured, because sanitizers use memory of their own */
 #endif
     const pid_t child = fork();
     if (!child) {

@@ -1,5 +1,5 @@
-/* Tests how the memory limit of a process is found. /proc and /sys are simulated, as they are on real machines and in
- * containers. */
+/* Tests how the memory limit of a process is determined. /proc and /sys are simulated, in the forms of real machines
+ * and of containers. */
 #include "base/memory_limit.h"
 
 #include <setjmp.h>

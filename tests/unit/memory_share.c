@@ -34,7 +34,7 @@ static void a_device_that_is_the_host(void **state)
     (void)state;
     struct kd_capacity c = device(18 * GIB, true);
     kd_memory_narrow(&c, &container, 0);
-    /* if the host has half as much memory, three quarters of it */
+    /* three quarters of the memory, if the host has half as much */
     assert_true(c.memory_bytes <= GIB && c.memory_bytes > GIB * 9 / 10);
     assert_string_equal(c.memory_by, "the memory.max of a control group");
     c = device(GIB / 2, true); /* the device has less memory than is free on the host */
@@ -93,7 +93,7 @@ static void plans_keep_to_it(void **state)
     assert_non_null(strstr(error.message, "GiB of host memory"));
 }
 
-/* Pixels on the host count if the device is the host. */
+/* Pixels on the host count against the device's memory if the device is the host. */
 static void frames_count(void **state)
 {
     (void)state;

@@ -32,7 +32,7 @@ NAME = re.compile(
 COMMENT = re.compile(r"/\*.*?\*/|//[^\n]*", re.S)
 STRING = re.compile(r'"(?:[^"\\\n]|\\.)*"')
 FIELD = re.compile(r'"/?(?:header\.|spacetime[./])?charge(?: is [^"]*)?"')
-# The other sense of the word: what clients use of their allowance.
+# The word "charge" in its other sense: use of a client's allowance.
 OTHERS = ("src/server/http", "src/server/render")
 PAGE = "docs/adding-a-metric.md"
 TOLD = re.compile(r"formulas of (\d+) files.*?named in (\d+) files", re.S)

@@ -146,7 +146,7 @@ static void refused(void **state)
     }
 }
 
-/* Every truncated file, or one with any byte of its start changed, gives a result and no crash. */
+/* A file that is cut anywhere, or has any byte of its start changed, gives a result or an error, and no crash. */
 static void damaged(void **state)
 {
     (void)state;

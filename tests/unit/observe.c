@@ -1,6 +1,6 @@
-/* Tests of observations. chi^2 of a model ring is computed for an observation of M87* (data/eht), from both of its
- * files, and compared with numbers by ehtim 1.3.2. Also tests searches for size, orientation and position, the
- * scattering kernel, and damaged files. */
+/* Tests of observations. chi^2 of a model ring is computed for an observation of M87* (data/eht), from its uvfits and
+ * its CSV file, and compared with results of ehtim 1.3.2. Other tests: searches for size, orientation and position; the
+ * scattering kernel; damaged files. */
 #include "observe/align.h"
 #include "observe/scattering.h"
 #include "observe/simulate.h"
@@ -42,8 +42,8 @@ static struct kd_observation read_observation(const char *name)
     return o;
 }
 
-/* The visibilities of a ring of 0.8 Jy that is brighter in the south. The picture is taken as piecewise linear (a
- * triangular pulse for each pixel), and the transform is a direct double sum over the pixels. */
+/* The visibilities of a ring of 0.8 Jy that is brighter in the south. The picture is interpolated linearly (a
+ * triangular pulse for each pixel). The transform is a direct double sum over the pixels. */
 static void transform(const struct kd_comparison *c, double (*out)[2])
 {
     double light[N][N], sum = 0;
@@ -66,7 +66,7 @@ static void transform(const struct kd_comparison *c, double (*out)[2])
 }
 
 /* ehtim: load_uvfits, avg_coherent, add_fractional_noise, flag_uvdist, chisq of ttype "direct". */
-enum { OLD = KD_PRODUCT_VISIBILITY }; /* the number of products that this table has */
+enum { OLD = KD_PRODUCT_VISIBILITY }; /* number of products in this table */
 static const struct {
     struct kd_comparison_params params;
     size_t n[OLD];
@@ -200,7 +200,7 @@ static void test_size_angle_and_position_are_found(void **state)
         struct kd_comparison seen = { .at = o.at, .n = o.n }, c;
         struct kd_error error = { 0 };
         double (*model)[2] = malloc(o.n * sizeof *model);
-        o.n = seen.n = 500; /* some hours of the night are enough */
+        o.n = seen.n = 500; /* some hours of the night suffice */
         sources_at(&seen, cases[i].size, cases[i].angle_deg, model);
         kd_align_shift(&seen, cases[i].east_uas * UAS, cases[i].north_uas * UAS, model);
         for (size_t k = 0; k < o.n; k++)
@@ -242,7 +242,8 @@ static void dark(void *user, double size, double angle_deg, double (*out)[2])
     memset(out, 0, ((const struct sources *)user)->c->n * sizeof *out);
 }
 
-/* A model without light has no finite chi^2 of log closure amplitudes, and no search of it converges. */
+/* For a model without light, chi^2 of log closure amplitudes is not finite, and a search with such a model does not
+ * converge. */
 static void test_a_search_without_light(void **state)
 {
     (void)state;
@@ -284,7 +285,7 @@ static void test_scattering_is_that_of_ehtim(void **state)
     assert_true(kd_scattering_at(&s, 1e18, -1e18) == 0);
 }
 
-/* FWHM in uas of the Gaussian whose visibility falls to a half where the kernel's does. */
+/* FWHM in uas of a Gaussian whose visibility is 1/2 at the same baseline as the kernel's. */
 static double kernel_width(double frequency_hz, double position_deg)
 {
     struct kd_scattering s;
@@ -411,7 +412,7 @@ static uint8_t *card(uint8_t *data, size_t size, const char *key)
     return NULL;
 }
 
-/* A change of one card in the primary header or in the header of the station table. */
+/* Changes one card in the primary header or in the header of the station table. */
 static void test_uvfits_that_is_refused(void **state)
 {
     (void)state;
@@ -483,7 +484,7 @@ static void test_a_table_that_is_shorter_than_its_rows(void **state)
     free(data);
 }
 
-/* A file that is cut anywhere is an error, except where the missing part is not read. Sanitizers detect a read beyond
+/* A file that is cut anywhere gives an error, except if the missing part is not read. Sanitizers detect a read beyond
  * the end. */
 static void test_files_that_are_cut(void **state)
 {
@@ -549,7 +550,7 @@ static void test_files_that_are_damaged(void **state)
 }
 
 /* The second group of the file has the time and the baseline of the first, BSCALE 2 and BZERO 0.5. The simulated file
- * has the model. The group that was left out has no data and is therefore flagged. */
+ * has the model. The group without data is flagged. */
 static void test_simulated_file(void **state)
 {
     (void)state;

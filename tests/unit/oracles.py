@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-# Files that may use the program, and why.
+# Files that may use the program, each with the reason.
 OTHERS = {"line_triangles.h": "its rays are those of the disk's image, which other oracles judge; its sums are its own"}
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 NAME = re.compile(r"\b(?:kd_|KD_(?!TESTS_))\w+")

@@ -14,7 +14,7 @@
 
 #define COUNT(x) (sizeof(x) / sizeof *(x))
 
-/* The copy has exactly the size of the text, so that a sanitizer notices a byte read beyond the end. */
+/* Copies the text to memory of exactly its size, so that a sanitizer detects a read beyond the end. */
 static enum kd_status read_exact(const char *text, size_t length, struct kd_orbit_request *request,
                                  struct kd_error *error)
 {
@@ -120,7 +120,7 @@ static void every_cut(void **state)
     }
 }
 
-/* Follows the orbit to its end, in pieces of `steps` steps; returns the samples. */
+/* Follows the orbit to its end, in pieces of `steps` steps. Returns the samples. */
 static struct kd_orbit_sample *follow(const char *text, uint64_t steps, struct kd_orbit_request *request,
                                       struct kd_orbit_run *run)
 {
@@ -137,7 +137,7 @@ static struct kd_orbit_sample *follow(const char *text, uint64_t steps, struct k
     return samples;
 }
 
-/* Equal to the bit, except for padding, whose content is undefined. */
+/* Compares to the bit, except for padding, whose content is undefined. */
 static void assert_same_samples(const struct kd_orbit_sample *a, const struct kd_orbit_sample *b, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
@@ -177,7 +177,7 @@ static void to_its_end_instead(void **state)
     (void)state;
 #define PLUNGE "{\"samples\":20,\"orbit\":{\"case\":\"plunge\"}"
 #define ESCAPE "{\"samples\":20,\"orbit\":{\"position\":{\"r\":10},\"velocity\":{\"v_r\":0.9}}"
-/* the body goes round more than twice; with L = 4 it would go round for ever */
+/* the body makes more than two turns; with L = 4 it would never fall in */
 #define WHIRL "{\"samples\":20,\"method\":\"rkn6\",\"orbit\":{\"energy\":1,\"angular_momentum\":3.9999999}"
 #define PERIODS ",\"duration\":{\"periods\":1,\"or_end\":true}}"
     static const char *const bodies[][2] = { { PLUNGE "}", PLUNGE PERIODS },
@@ -207,8 +207,8 @@ static void to_its_end_instead(void **state)
     free(samples);
 }
 
-/* The tolerance is per period. After ten periods the error is at most ten tolerances, and the error of t, compared with
- * the error of r, at most a hundred. */
+/* The tolerance is per period. After ten periods the error of r is at most ten tolerances, and the error of t at most a
+ * hundred. */
 static void methods_agree(void **state)
 {
     (void)state;

@@ -141,7 +141,7 @@ static void lets_go_before_infinity(void **state)
 
 /* If r_max is far away, the first search for the end takes steps that are too long for the whirl. With these values, in
  * an earlier version, the body fell through the circle instead of whirling. Expected values are from the quadrature of
- * tests/oracle/whirl_reference.py, from r_max to the whirl and back, with nodes that crowd towards infinity as well. */
+ * tests/oracle/whirl_reference.py, from r_max to the whirl and back. Its nodes are also dense towards infinity. */
 static void ends_where_r_max_is_far(void **state)
 {
     (void)state;

@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-/* A store of assets that all hold the same picture; the one named "none" does not exist. */
+/* A store of assets that all contain the same picture. An asset with the name "none" does not exist. */
 struct shelf {
     struct kd_buffer file;
     atomic_int taken;
@@ -60,7 +60,7 @@ static struct kd_scene scene_of(const char *image)
     return scene;
 }
 
-/* Gets the panorama of an image; returns how often the asset was read for that. */
+/* Gets the panorama of an image. Returns how often the asset was read for this. */
 static int fetch(struct kd_panoramas *all, const char *image, enum kd_status want)
 {
     const struct kd_scene scene = scene_of(image);
@@ -90,8 +90,8 @@ static void is_there_when_it_is_asked_for(void **state)
     kd_panoramas_finish(&all);
 }
 
-/* A panorama that is made ahead of requests uses only a free entry, and never evicts a requested one. A requested
- * panorama may evict it. */
+/* A panorama that is made ahead of requests uses only a free entry, and never evicts a requested one. It may itself be
+ * evicted by a requested panorama. */
 static void has_a_free_place_only(void **state)
 {
     struct kd_panoramas all;
@@ -126,7 +126,7 @@ static void what_fails_is_tried_again(void **state)
     kd_panoramas_finish(&all);
 }
 
-/* The texels of the Milky Way with this seed, as made by a process that keeps its file at this path. */
+/* The texels of the Milky Way with this seed. They are made by a process that stores its file at this path. */
 static uint32_t *milky_way(const char *path, int32_t seed)
 {
     const size_t bytes = kd_panorama_words(KD_MILKY_WAY_WIDTH, KD_MILKY_WAY_HEIGHT) * sizeof(uint32_t);
@@ -153,7 +153,7 @@ static void put(const char *path, long at, uint8_t byte)
     assert_int_equal(fclose(file), 0);
 }
 
-/* The file offset of the first word of a texel. */
+/* Offset in the file of the first word of a texel. */
 static long place(uint32_t row, uint32_t column) { return 32 + 4 * ((long)row * KD_MILKY_WAY_WIDTH + column); }
 
 /* A Milky Way read from the stored file equals the one that was made, to the bit. If the file is of another seed,
@@ -173,7 +173,7 @@ static void what_is_kept_is_what_was_made(void **state)
     assert_memory_equal(again, made, bytes);
     assert_false(kd_milky_way_recall(path, 2, kept));
 
-    put(path, place(300, 7), 0xa5); /* damage in a row that is not compared with a computed one */
+    put(path, place(300, 7), 0xa5); /* damages a row that kerrd does not compare with a computed one */
     assert_false(kd_milky_way_recall(path, 1, kept));
     memcpy(kept, made, bytes);
     /* the file is intact, but its values differ from those that the program computes */

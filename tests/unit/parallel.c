@@ -1,4 +1,4 @@
-/* Tests of kd_parallel: each item is done exactly once, whatever the number of items, also in nested calls. */
+/* Tests that kd_parallel processes each item exactly once, for any number of items, also in nested calls. */
 #include "base/cores.h"
 #include "base/parallel.h"
 

@@ -14,8 +14,8 @@
 
 #include <cmocka.h>
 
-/* The share that n equally weighted radii put on each row of the grid, divided between neighbouring rows by distance
- * as the kernel does it. */
+/* The share of n equally weighted radii in each row of the grid. A radius is divided between neighbouring rows by
+ * distance, as in the kernel. */
 static void spread(const struct kd_scene *scene, const struct kd_particle_grid *grid, uint32_t n, double *out)
 {
     double isco = kd_kerr_isco(kd_scene_hole(scene)), inner = isinf(scene->disk.inner) ? isco : scene->disk.inner;

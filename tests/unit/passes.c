@@ -65,7 +65,7 @@ static void names_are_names(void **state)
     assert_null(kd_pass_find("total"));
 }
 
-/* Users of GET /v1/device and older cache files rely on these names, so the names must not change. */
+/* These names must not change, because users of GET /v1/device and older cache files rely on them. */
 static void words_stay(void **state)
 {
     (void)state;
@@ -77,7 +77,7 @@ static void words_stay(void **state)
         assert_true(kd_figures[i].guess > 0);
 }
 
-/* A plan with footprints, as a caller may request. An emitter that needs them has the same effect. */
+/* A plan with footprints that the caller requests. An emitter that needs footprints has the same effect. */
 static struct kd_plan with_footprints(const struct kd_capacity *c)
 {
     struct kd_scene scene;
@@ -135,7 +135,7 @@ static void emitters_are_prepared(void **state)
     scene.disk.model = KD_DISK_PARTICLES;
     scene.disk.particles = 5000;
     assert_int_equal(kd_emit_invocations(&scene, KD_EMITTER_particles), 5000);
-    /* five particles to a cell, two words for each cell */
+    /* five particles in each cell, two words for each cell */
     assert_true(kd_emit_device_bytes(&scene) > 4 * 5000 / 5 * 2);
 }
 
@@ -225,7 +225,8 @@ static void estimates_are_of_a_class(void **state)
     };
     struct kd_capacity c = device();
     kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 1000);
-    kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 2000); /* their mean, weighted by 0.7 and 0.3, is 1300 */
+    /* the mean of these, with weights 0.7 and 0.3, is 1300 */
+    kd_cost_learn(&c, class_of(small), KD_PASS_TRANSFER, 2000);
     for (size_t i = 0; i < sizeof alike / sizeof *alike; i++) {
         const struct kd_plan plan = planned(alike[i], &c);
         assert_true(plan.cost.class == class_of(small));

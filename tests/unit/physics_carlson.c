@@ -39,7 +39,8 @@ static void symmetric(void **state)
     }
 }
 
-/* For z = y + iv: sqrt(z) + sqrt(conj z) = 2 Re sqrt(z), and |z|, without cancellation for either sign of y. */
+/* For z = y + iv, computes sqrt(z) + sqrt(conj z) = 2 Re sqrt(z), and |z|, without cancellation for either sign of y.
+ * */
 static struct kd_carlson_arg conjugate(double x, double y, double v)
 {
     double root = hypot(y, v);

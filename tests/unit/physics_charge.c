@@ -1,5 +1,5 @@
-/* Tests of light about charged holes. The closed form is compared with an integration by steps, with the first-order
- * equations as Carter wrote them, and with spherical photon orbits from R = R' = 0. */
+/* Tests of light about charged holes. The closed form is compared with three references: an integration by steps,
+ * Carter's first-order equations, and spherical photon orbits from R = R' = 0. */
 #include "physics/null/null_bend.h"
 #include "physics/null/null_course.h"
 #include "physics/null/null_radial.h"
@@ -128,7 +128,7 @@ static void rates(void **state)
     }
 }
 
-/* Crossings by the closed form and by steps. */
+/* Compares crossings by the closed form with crossings by steps. */
 static void crossings(void **state)
 {
     (void)state;
@@ -166,7 +166,8 @@ static void crossings(void **state)
     assert_true(met > 400);
 }
 
-/* The smallest charge changes no bit of the results. With the largest charge and spin no number is undefined. */
+/* With the smallest charge the results are the same to the bit. With the largest charge and spin no number is
+ * undefined. */
 static void extremes(void **state)
 {
     (void)state;
@@ -194,7 +195,7 @@ static void extremes(void **state)
     }
 }
 
-/* The direction of escape that kd_null_bend computes agrees with that of the closed form. The azimuths of the two are
+/* The direction of escape by kd_null_bend agrees with that of the closed form. The two methods compute the azimuth as
  * sums of different terms. */
 static void bends(void **state)
 {

@@ -50,7 +50,7 @@ static struct kd_hole random_hole(uint64_t *seed)
     return kd_hole_charged(0.9999 * size * cos(turn), 0.9999 * size * sin(turn));
 }
 
-/* The frequencies of orbits next to a circle, by the closed form of bound orbits. */
+/* Frequencies of orbits next to a circular orbit, from the closed form of bound orbits. */
 static void small_oscillations(void **state)
 {
     (void)state;
@@ -90,7 +90,8 @@ static void shear(void **state)
     }
 }
 
-/* Where E = V the radial velocity vanishes: g^tt E^2 - 2 g^tphi E L + g^phiphi L^2 = -mu^2. Extrema are circles. */
+/* At E = V the radial velocity is 0: g^tt E^2 - 2 g^tphi E L + g^phiphi L^2 = -mu^2. Extrema of V are circular orbits.
+ * */
 static void potentials(void **state)
 {
     (void)state;

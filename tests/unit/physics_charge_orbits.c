@@ -29,7 +29,7 @@ static void near(double got, double want, double allowed, const char *what, doub
                  want, got - want, allowed);
 }
 
-/* Near r = 1 the distance r - 1 keeps its digits, and not only r. */
+/* Near r = 1 the difference r - 1 must be accurate too, and not only r. */
 static void places(void **state)
 {
     (void)state;
@@ -42,7 +42,8 @@ static void places(void **state)
     }
 }
 
-/* Radii, and the edge of the shadow in the plane, of 135 holes up to a^2 + q^2 = 1 - 1e-12, all over the half disk. */
+/* Radii of orbits, and the edge of the shadow in the plane, for 135 holes over the whole half disk up to a^2 + q^2 = 1
+ * - 1e-12. */
 static void whole_disk(void **state)
 {
     (void)state;
@@ -62,7 +63,8 @@ static void whole_disk(void **state)
     assert_true(worst[0] < 1e-15 && worst[1] < 2e-15 && worst[2] < 2e-15 && worst[3] < 3e-15);
 }
 
-/* The allowed error of each number is its change from one double r to the next, because r is rounded to a double. */
+/* The allowed error of a number is its change from one double r to the next, because r itself is rounded to a double.
+ * */
 static void orbits(void **state)
 {
     (void)state;
@@ -103,7 +105,7 @@ static void small_charges(void **state)
     }
 }
 
-/* Plunging gas has the redshift of the circular orbit at the ISCO; inside, its velocity has u.u = -1. */
+/* At the ISCO, plunging gas has the redshift of the circular orbit. Inside the ISCO its velocity satisfies u.u = -1. */
 static void plunge(void **state)
 {
     (void)state;
@@ -184,7 +186,8 @@ static void at_rest(void **state)
     near(kd_kerr_ergosphere(&at.hole, 0), 1 + sqrt(0.75), 1e-15, "ergosphere", 0.6, 0.5, 0);
 }
 
-/* Rain into a hole without spin: r' = -sqrt(2r - q^2)/r, whose time is elementary. */
+/* Fall from rest at infinity ("rain") into a hole without spin: r' = -sqrt(2r - q^2)/r, whose integral is elementary.
+ * */
 static void rain(void **state)
 {
     (void)state;
@@ -199,7 +202,7 @@ static void rain(void **state)
     }
 }
 
-/* About a charged hole, a ray just inside the critical curve falls in and one just outside it escapes. */
+/* For a charged hole, a ray just inside the critical curve falls in, and a ray just outside it escapes. */
 static void curve(void **state)
 {
     (void)state;
@@ -233,7 +236,7 @@ static void curve(void **state)
                                  o.cos_theta, k, side > 0 ? "outside" : "inside");
                     seen++;
                 }
-                if (!isinf(o.radius)) { /* this is the direction of the light with these labels */
+                if (!isinf(o.radius)) { /* direction in which light with these labels is seen */
                     const struct kd_vantage at = { o.hole, o.radius, o.cos_theta, c.sine };
                     struct kd_covector photon = { 1, -p.alpha, p.beta, 0 };
                     const double r = o.radius, l = -p.alpha * at.s, a = e->a, q2 = e->q * e->q,
@@ -249,7 +252,8 @@ static void curve(void **state)
     assert_true(seen > 5000);
 }
 
-/* Without spin: a circle of radius r^2/sqrt(r^2 - 2r + q^2), r = (3 + sqrt(9 - 8 q^2))/2 (Eiroa et al. 2002). */
+/* Without spin the curve is a circle of radius r^2/sqrt(r^2 - 2r + q^2), with r = (3 + sqrt(9 - 8 q^2))/2 (Eiroa et al.
+ * 2002). */
 static void circles(void **state)
 {
     (void)state;
@@ -292,7 +296,7 @@ static void edges_of_the_shadow(void **state)
     assert_true(both >= 7);
 }
 
-/* The shell's labels by the usual form, in extended precision. */
+/* Labels of the photon shell by the usual formula, in extended precision. */
 static void shell(void **state)
 {
     (void)state;

@@ -18,7 +18,7 @@
 
 #define COUNT(x) (sizeof(x) / sizeof *(x))
 
-static double random_unit(uint64_t *seed) /* splitmix64: the same orbits on every machine */
+static double random_unit(uint64_t *seed) /* splitmix64, so that the orbits are the same on every machine */
 {
     uint64_t z = *seed += 0x9e3779b97f4a7c15u;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
@@ -57,7 +57,7 @@ static void near(const struct kd_orbit *o, const char *what, double got, double 
         describe(o, what, got, want, allowed);
 }
 
-/* The norm of the momentum in the equatorial plane is that of a unit mass at both turning points. */
+/* At both turning points in the equatorial plane, the norm of the momentum is that of a unit mass. */
 static void norm_at_the_turning_points(void **state)
 {
     (void)state;
@@ -141,7 +141,7 @@ static void bound_orbits(void **state)
     }
 }
 
-/* Bodies that fall in or fly off. They start at a place with a velocity that an observer there measures. */
+/* Bodies that fall in or escape. A body starts at a point, with a velocity measured by an observer there. */
 static void free_motion(void **state)
 {
     (void)state;
@@ -244,7 +244,7 @@ static void lanes_are_scalar_paths(void **state)
     }
 }
 
-/* The smallest charge changes no bit, and the largest leaves no number undefined. */
+/* With the smallest charge the results are the same to the bit. With the largest, no number is undefined. */
 static void extremes(void **state)
 {
     (void)state;
@@ -311,8 +311,8 @@ static void rates_about_close_horizons(void **state)
     }
 }
 
-/* On the way, in the plane: phi is the integral of a (2E r - aL - q^2 E)/Delta + L over Mino time, by Simpson's rule.
- */
+/* Phi along the orbit in the plane: the integral of a (2E r - aL - q^2 E)/Delta + L over Mino time, by Simpson's rule.
+ * */
 static void way_about_close_horizons(void **state)
 {
     enum { STEPS = 400 };

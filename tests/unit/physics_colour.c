@@ -26,8 +26,8 @@ static struct xy chromaticity(struct kd_colour_xyz c)
     return (struct xy) { c.x / sum, c.y / sum };
 }
 
-/* Sums of the three functions from 380 to 780 nm in steps of 5 nm as CIE 15:2004 prints them. y-bar is
- * V(lambda), 1 at 555 nm. */
+/* Sums of the three colour-matching functions from 380 to 780 nm in steps of 5 nm, as printed in CIE 15:2004. y-bar is
+ * V(lambda), and is 1 at 555 nm. */
 static void the_standard_observer(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void published_chromaticities(void **state)
         { 5000, 0.3451, 0.3516, 3e-4 },
         { 6500, 0.3135, 0.3237, 3e-4 },
         { 10000, 0.2807, 0.2884, 3e-4 },
-        { 1e9, 0.2399, 0.2341, 3e-4 }, /* the last row is the limit of infinite T */
+        { 1e9, 0.2399, 0.2341, 3e-4 }, /* last row: the limit of infinite T */
     };
     for (size_t i = 0; i < COUNT(table); i++) {
         struct xy c = chromaticity(kd_colour_blackbody(table[i].t));
@@ -70,8 +70,8 @@ static void published_chromaticities(void **state)
     }
 }
 
-/* Rational cubics that approximate the Planckian locus (Kim et al., US patent 7024034); their fit itself is good to
- * about 1e-3 in x and y. */
+/* Rational cubics that approximate the Planckian locus (Kim et al., US patent 7024034). The error of their fit is about
+ * 1e-3 in x and y. */
 static void along_the_locus(void **state)
 {
     (void)state;
@@ -94,9 +94,9 @@ static double radiance(double wavelength, double temperature)
     return c1l / pow(wavelength, 5) / (exp(c2 / (wavelength * temperature)) - 1);
 }
 
-/* A second quadrature: the colour-matching functions interpolated linearly, and their product with the radiance is
- * sampled ten times as finely. The two sums differ by the curvature within a step: the radiance changes by 5 % a step
- * at 2000 K, and both peaks of x-bar and that of z-bar are narrow. */
+/* A second quadrature, which interpolates the colour-matching functions linearly, and samples their product with the
+ * radiance ten times as finely. It differs from the first by the curvature within a step: the radiance changes by 5 % a
+ * step at 2000 K, and both peaks of x-bar and that of z-bar are narrow. */
 static struct kd_colour_xyz second_opinion(double temperature)
 {
     struct kd_colour_xyz c = { 0, 0, 0 };
@@ -118,12 +118,12 @@ static void stefan_and_boltzmann(void **state)
     for (double t = 2000; t < 1e6; t *= 1.5) {
         double total = 0;
         const int n = 4000;
-        for (int i = 0; i < n; i++) { /* midpoints in ln(lambda), lambda T from 1e-4 to 1e3 m K */
+        for (int i = 0; i < n; i++) { /* midpoints in ln(lambda); lambda T ranges from 1e-4 to 1e3 m K */
             double y = log(1e-4 / t) + (i + 0.5) / n * log(1e7);
             total += radiance(exp(y), t) * exp(y) * log(1e7) / n;
         }
         double want = 5.670374419e-8 * pow(t, 4) / M_PI;
-        near("total radiance", t, total / want, 1, 1e-8); /* the published constants have nine digits */
+        near("total radiance", t, total / want, 1, 1e-8); /* tolerance: the published constants have nine digits */
         struct kd_colour_xyz got = kd_colour_blackbody(t), fine = second_opinion(t);
         near("X", t, got.x / fine.x, 1, 3e-4);
         near("Y", t, got.y / fine.y, 1, 3e-4);
@@ -190,7 +190,7 @@ static void the_printed_matrix(void **state)
     }
 }
 
-/* The unit colour is never outside the gamut, has luminance 1, and is redder the cooler the body. */
+/* The unit colour is always inside the gamut and has luminance 1. It is redder for a cooler body. */
 static void unit_colours(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void unit_colours(void **state)
             fail_msg("%g K: redder than the cooler body before it", t);
         last = c.r;
     }
-    /* at this temperature the red and the blue of a black body are nearest to equal */
+    /* at this temperature, the red and the blue component of a black body are most nearly equal */
     struct kd_colour_rgb white = kd_colour_blackbody_unit(6600);
     near("red of the whitest", 6600, white.r, 1, 0.06);
     near("green of the whitest", 6600, white.g, 1, 0.06);

@@ -1,6 +1,6 @@
-/* Tests of coronae and of their echoes. On the axis a corona is compared with the lamp; in flat space with closed
- * forms; elsewhere with photons that are spread evenly over the source's sky and integrated in Kerr-Schild coordinates
- * (tests/oracle/kerr_schild.h). */
+/* Tests of coronae and of their echoes. A corona on the axis is compared with the lamp, and a corona in flat space with
+ * closed forms. Other coronae are compared with photons that are spread evenly over the source's sky and integrated in
+ * Kerr-Schild coordinates (tests/oracle/kerr_schild.h). */
 #include "physics/disk/corona.h"
 #include "physics/disk/echo.h"
 #include "physics/disk/lamppost.h"
@@ -35,7 +35,7 @@ static struct kd_corona_source source_of(const struct kd_hole *hole, double radi
     return source;
 }
 
-/* A ring of radius 0 equals the lamp, and a ring tends to the lamp as its radius tends to 0. */
+/* A ring of radius 0 equals the lamp. A ring approaches the lamp as its radius goes to 0. */
 static void test_axis(void **state)
 {
     static const double holes[][2] = { { 0, 0 }, { 0.9, 0 }, { 0.998, 0 }, { -0.7, 0 }, { 0.6, 0.7 } },
@@ -110,7 +110,8 @@ static void test_direct_time(void **state)
         }
         within("direct time", 0, h, direct.time, time - h - 2 * log(h), 2e-4);
         within("redshift", 0, h, direct.g, sqrt(1 - 2 / h), 1e-10);
-        /* the light of the ring is that in the solid angle between neighbouring rays: sin(delta) = b sqrt(1 - 2/h)/h */
+        /* the ring's light is that between neighbouring rays, whose solid angle follows from sin(delta) = b sqrt(1 -
+         * 2/h)/h */
         for (int side = 0; side < 2; side++) {
             const double other = b * (side ? 1.001 : 0.999);
             turn[side] = 0;
@@ -161,8 +162,8 @@ static void test_shapes(void **state)
     }
 }
 
-/* A photon of the oracle. r, delay: where and when it meets the disk. u: the cosine of the inclination to which it
- * escapes, or NAN. weight: the photons that arrive for one that the source emits. */
+/* A photon of the oracle. r, delay: radius and delay at which it meets the disk. u: cosine of the inclination to which
+ * it escapes, or NAN. weight: number of photons that arrive for each emitted photon. */
 struct photon { double r, delay, u, weight; };
 
 struct metric { double tt, tp, pp; };
@@ -173,7 +174,7 @@ static struct metric metric_at(double a, double r, double u)
     return (struct metric) { f - 1, -f * a * s2, (r * r + a * a + f * a * a * s2) * s2 };
 }
 
-/* u^t of a motion with this angular velocity. */
+/* u^t of a circular motion with this angular velocity. */
 static double ut_of(const struct metric *g, double omega)
 {
     return 1 / sqrt(-g->tt - omega * (2 * g->tp + omega * g->pp));
@@ -228,16 +229,15 @@ static const struct {
 enum { PHOTONS = 12000 };
 static struct photon photons[PHOTONS];
 
-/* Relative error of a count of n photons. Evenly spread points have a smaller error than the square root of n that
- * random ones have.
- */
+/* Relative error of a count of n photons. For evenly spread points it is smaller than for random points, whose count
+ * has the error sqrt(n). */
 static double scatter(int n) { return 0.003 + 3 * pow(n, -0.75); }
 
 /* Compares with the oracle the number of photons that arrive between rings of the disk, their mean time, and the number
  * that escapes between two inclinations. */
 static void test_photons(void **state)
 {
-    const double bins[] = { 1, 1.7, 3, 6, 20, 100 }; /* in units of the ISCO */
+    const double bins[] = { 1, 1.7, 3, 6, 20, 100 }; /* radii of the rings in units of the ISCO */
     (void)state;
     for (size_t k = 0; k < COUNT(rings); k++) {
         const double a = rings[k].a, isco = kd_kerr_isco(kd_hole(a));
@@ -323,7 +323,7 @@ static void test_echo(void **state)
     enum { BINS = 4, TIMES = 6, ACROSS = 70, AROUND = 60, NEAR = 12 };
     const double edges[BINS + 1] = { 0.2, 0.6, 0.85, 1, 1.5 }, i = 50, outer = 60, step = 12;
     (void)state;
-    for (size_t k = 1; k < COUNT(rings); k += 3) { /* one of these is a ring, the other a lamp */
+    for (size_t k = 1; k < COUNT(rings); k += 3) { /* the first source is a ring, the second a lamp */
         const double a = rings[k].a, isco = kd_kerr_isco(kd_hole(a)), c = cos(i * RADIAN), s = sin(i * RADIAN);
         const struct kd_echo_params params = { isco, outer, 2.4, KD_LIMB_ISOTROPIC,
                                                source_of(kd_hole(a), rings[k].radius, rings[k].height,

@@ -1,6 +1,5 @@
-/* Tests of the course of a ray, place by place. It is compared with the Hamiltonian integrated in Kerr-Schild
- * coordinates, which is another method in other coordinates, without a formula in common. Places between crossings are
- * checked by rays that start from there. */
+/* Tests of the course of a ray, point by point. It is compared with the Hamiltonian integrated in Kerr-Schild
+ * coordinates, a method without a formula in common. Points between crossings are checked by rays that start there. */
 #include "physics/null/null_course.h"
 
 #include "kerr_schild.h"
@@ -53,7 +52,7 @@ static void check_neighbours(const struct kd_null_ray *ray, const struct kd_null
                              const struct kd_null_place *q)
 {
     const double s = sqrt((1 - p->u) * (1 + p->u)), t = sqrt((1 - q->u) * (1 + q->u));
-    if (s < 0.05 || t < 0.05 || fabs(ray->hole.a) > 0.01) /* skipped, because frame dragging turns places as well */
+    if (s < 0.05 || t < 0.05 || fabs(ray->hole.a) > 0.01) /* skipped, because frame dragging changes the azimuths too */
         return;
     const double apart = acos(fmin(1, p->u * q->u + s * t * cos(p->phi - q->phi)));
     if (apart > 0.035)
@@ -94,7 +93,7 @@ static void judge(const struct kd_null_ray *ray, const struct ks_photon *photon)
             say(ray, "phi of crossing", n, p->phi, oracle.phi[n], phi);
         if (!(fabs(p->delay - oracle.delay[n]) <= delay))
             say(ray, "delay of crossing", n, p->delay, oracle.delay[n], delay);
-        if (!(fabs(p->phi - closed.crossing[n].phi) <= phi)) /* the azimuths include the number of turns */
+        if (!(fabs(p->phi - closed.crossing[n].phi) <= phi)) /* azimuths include whole turns */
             say(ray, "turns of crossing", n, p->phi, closed.crossing[n].phi, phi);
     }
     int there = 0; /* crossings beyond the ends of the path, at larger or smaller radii, are not part of it */
@@ -115,8 +114,8 @@ static void from_infinity(void **state)
     }
 }
 
-/* The photon of `ray` at the ray's radius; false if there is none, or if the start of the reference integration is
- * inaccurate there. */
+/* The photon of `ray` at the ray's radius. Returns false if there is none, or if the reference integration would start
+ * inaccurately there. */
 static bool photon_of(const struct kd_null_ray *ray, struct ks_photon *photon)
 {
     const double a = ray->hole.a, u = ray->cos_theta, r = ray->radius, lambda = -ray->alpha * sqrt((1 - u) * (1 + u));
@@ -155,7 +154,7 @@ static void from_nearby(void **state)
     assert_true(compared > 1000);
 }
 
-/* Every place of a path lies on the ray. A ray in closed form that starts from the place with the same constants has
+/* Every point of a path lies on the ray: a ray in closed form that starts at the point, with the same constants, has
  * the same remaining crossings. Their azimuths and delays are those of the first ray minus the part already covered. */
 static void between_crossings(void **state)
 {
@@ -232,7 +231,7 @@ static void without_a_course(void **state)
     assert_int_equal(course.n, 10);
 }
 
-/* The place of the n-th crossing; NULL if the course has fewer crossings. */
+/* Position of the n-th crossing, or NULL if the course has fewer crossings. */
 static const struct kd_null_place *crossing_of(const struct kd_null_course *course, const struct kd_null_place *places,
                                                int n)
 {
@@ -273,7 +272,7 @@ static void from_within(void **state)
         const struct ks_path oracle = ks_follow(&at, p, ORDERS);
         const struct kd_null_course course =
             kd_null_course_ingoing(&ray, c[0] < 0, INFINITY, 1e-3 * horizon(a), places, MOST);
-        struct kd_null_ray moved = ray; /* moved by 1e-8: measures how much the ray amplifies errors */
+        struct kd_null_ray moved = ray; /* a ray shifted by 1e-8, which shows how much errors are amplified */
         moved.alpha *= 1 + 1e-8, moved.beta *= 1 + 1e-8;
         const struct kd_null_course beside =
             kd_null_course_ingoing(&moved, c[0] < 0, INFINITY, 1e-3 * horizon(a), others, MOST);

@@ -1,6 +1,6 @@
 /* Tests of the critical curve, spherical photon orbits and local frames. They are compared with searches in 60 digits
- * for the ray that just does not turn (tests/oracle/critical_reference.py), with published values, and with closed-form
- * rays on both sides of the curve. */
+ * for the ray at the limit between rays that turn and rays that fall in (tests/oracle/critical_reference.py), with
+ * published values, and with closed-form rays on both sides of the curve. */
 #include "physics/null/critical.h"
 
 #include "physics/null/null_geodesic.h"

@@ -28,7 +28,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "docs/examples"
 HAPROXY = shutil.which("haproxy") or shutil.which("haproxy", path="/usr/sbin")
 JUPYTER = ROOT / "venv-jupyter/bin/jupyter-server"
-USER = "/user/someone@example.org/"  # the path that JupyterHub gives to a user
+USER = "/user/someone@example.org/"  # path that JupyterHub gives to a user's server
 TINY = {"image": {"width": 64, "height": 36}, "motion": {"time_rate": 1}}
 
 
@@ -163,7 +163,7 @@ class Behind(browser.Browser):
 
 
 class Forwards:
-    """A proxy that passes everything on unchanged, and redirects the bare prefix to the page."""
+    """A proxy that forwards everything unchanged, and redirects the bare prefix to the page."""
 
     moves, streams = True, {}
 
@@ -194,7 +194,7 @@ class Passed(Forwards, Behind):
 
 
 class Jupyter(Behind):
-    """The user has logged in with Jupyter's token, and has a cookie since then."""
+    """The user has logged in with Jupyter's token. Since then the browser has a cookie."""
 
     moves, streams = False, {"Accept": "text/event-stream"}  # the proxy buffers any other answer until it has ended
     token = "b1a" * 8

@@ -1,6 +1,6 @@
 """Tests of the page in a headless browser, with the program itself as the server.
 
-Each view's tests are a file: FILE.py KERRD FOLDER, where screenshots go. They are skipped, with the reason, if
+Each view has a file of tests: FILE.py KERRD FOLDER. FOLDER is for screenshots. Tests are skipped, with the reason, if
 Playwright for Python, Chromium or a Vulkan device is missing.
 """
 
@@ -42,7 +42,7 @@ KERRD, SHOTS = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv.pop(2)) / "sc
 # KERRD_SLOW="4 400": scripts of every page run at a quarter of their speed, and every answer comes 400 ms late
 # (docs/web.md).
 SLOW, LATE_MS = map(float, os.environ.get("KERRD_SLOW", "1 0").split())
-# No GPU and no WebGL, because the page must need neither.
+# Neither a GPU nor WebGL is available, because the page must work without them.
 FLAGS = [
     "--no-sandbox",
     "--disable-gpu",
@@ -65,7 +65,7 @@ def rows(schema, before="", group=None):
     """(path, row, group) of each field of a schema. A list is represented by the rows of its first element."""
     for name, spec in schema["properties"].items():
         if before + name == "image.tile":
-            continue  # the page shows whole pictures
+            continue  # excluded, because the page always shows whole pictures
         if "x-nature" in spec:
             yield before + name, spec, spec.get("x-group", group)
         elif "properties" in spec and "deprecated" not in spec:
@@ -106,7 +106,7 @@ class Browser(unittest.TestCase):
             raise AssertionError(f"kerrd exited with {code}")
 
     def leave(self, context):
-        """Ends the sessions of a page. chromium-headless-shell closes a page without telling it."""
+        """Ends the sessions of a page. chromium-headless-shell sends the page no event when it closes it."""
         for page in context.pages:
             page.goto("about:blank", wait_until="commit")
         context.close()
@@ -135,7 +135,7 @@ class Browser(unittest.TestCase):
             + "#"
             + ("" if "pace=" in fragment else "pace=fast&")
             + (fragment if "preset=" in fragment else "preset=default&" + fragment)
-        )  # with a preset, the scene does not depend on the first view
+        )  # a preset is given, so that the scene does not depend on the first view
         page.wait_for_selector(wait, timeout=PATIENCE_MS, state="attached")
         return page
 
@@ -237,8 +237,8 @@ class Browser(unittest.TestCase):
         )
 
     def quiet(self, page, ms=1500):
-        """Waits until a page has requested nothing for the given time. A request for a picture that was sent while
-        something moved waits for 600 ms, and then another one follows (flight.js). The default is longer than that."""
+        """Waits until a page has requested nothing for the given time. The default is longer than 600 ms: a request for
+        a picture that was sent while something moved waits that long, and then another request follows (flight.js)."""
 
         def still():
             before = len(self.requests)
@@ -258,7 +258,8 @@ class Browser(unittest.TestCase):
             )
 
     def no_wider(self, page):
-        """A page is as narrow as its window: it scrolls in one direction only (WCAG 2.2, 1.4.10)."""
+        """Checks that a page is not wider than its window, so that it scrolls in one direction only (WCAG 2.2,
+        1.4.10)."""
         wide = """() => [...document.querySelectorAll('body *')].filter(node => node.getBoundingClientRect().right > innerWidth + 1)
             .map(node => node.outerHTML.slice(0, 120)).slice(0, 5)"""
         scrolls = "document.documentElement.scrollWidth > innerWidth"

@@ -1,4 +1,5 @@
-"""A page of another site, for tests of embedding. The site is localhost; kerrd is 127.0.0.1, another site to a browser."""
+"""A page of another site, for tests of embedding. The page is on localhost and kerrd on 127.0.0.1, which are different
+sites to a browser."""
 
 import http.server
 import threading

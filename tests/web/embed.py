@@ -29,7 +29,7 @@ class Embed(Browser):
         cls.origin = cls.site.origin
         super().setUpClass("--embed-origin", cls.origin if cls.listed else "https://elsewhere.example")
 
-    def tearDown(self):  # the pages' requests go to the other site as well
+    def tearDown(self):  # the log also has the requests that the pages send to the other site
         for context in self.contexts:
             for page in context.pages:
                 page.goto("about:blank")
@@ -164,7 +164,7 @@ class Listed(Embed):
         page.evaluate("document.body.style.columns = 3")  # several pictures are visible
         buttons = page.get_by_role("button", name="Move it")
         page.wait_for_timeout(500)
-        page.evaluate("shift = 0")  # columns move the elements in them
+        page.evaluate("shift = 0")  # a layout in columns moves the elements within it
         for k in range(3):
             buttons.nth(k if k < 2 else 1).click()
             page.wait_for_timeout(1500)
@@ -217,7 +217,8 @@ class Listed(Embed):
         self.shot(page, "embed-frame")
 
     def test_axe(self):
-        """Tests the page for a frame, opened by itself, as a picture and live; and an element in another page."""
+        """Tests two uses: the page for a frame, opened by itself, as a picture and live; and an element in another
+        page."""
         for viewport in {"width": 640, "height": 360}, {"width": 320, "height": 256}:
             page = self.page(self.context(viewport=viewport))
             page.goto(self.base + "embed/" + code_of("preset=smooth"))

@@ -35,8 +35,8 @@ class Falling(Browser):
         return asked().response().json()["images"]
 
     def rain_time(self, r):
-        """The ingoing Kerr-Schild time of rain without spin, from r on, up to its end: dt = dT + dr/(1 +
-        (r/2)^(1/2)), where Painleve's T is rain's own time."""
+        """The ingoing Kerr-Schild time from r to the end of the fall, for an observer that falls from rest at infinity
+        ("rain") without spin: dt = dT + dr/(1 + (r/2)^(1/2)), where Painleve's T is the observer's own time."""
         x = math.sqrt(r / 2)
         return 4 * x**3 / 3 + 4 * x - 4 * math.log(1 + x)
 
@@ -185,7 +185,7 @@ class Falling(Browser):
                 if stable < r:
                     self.assertIn(stable, [below for below, text in all_of if "no gas can stay" in text])
 
-    last = 0.05  # radius at which a fall without spin ends
+    last = 0.05  # radius at which the fall ends without spin
 
     def test_what_is_on_its_way_is_said(self):
         page, held = self.open(), []
@@ -249,9 +249,10 @@ class Falling(Browser):
             self.shot(page, f"guide-{width}")
 
     def test_the_disk_at_the_horizon(self):
-        """Light at the edge of the disk has b = 27^(1/2) M; rain, of velocity v = (2/r)^(1/2) past flat slices, sees it
-        at an angle from straight ahead with r sin = b (1 - v cos): 42.1 degrees at r = 2. Starlight comes from there at
-        1/(1 - v cos) of its frequency."""
+        """Light at the edge of the disk has b = 27^(1/2) M; An observer that falls from rest at infinity has the
+        velocity v = (2/r)^(1/2) relative to flat slices. This observer sees that light at an angle from straight ahead
+        with r sin = b (1 - v cos), which is 42.1 degrees at r = 2. Starlight from there has 1/(1 - v cos) of its
+        frequency."""
         page = self.open(
             SKY + "&camera.observer=infall&camera.r=2.001",
             viewport={"width": 400, "height": 300},
@@ -266,7 +267,8 @@ class Falling(Browser):
         self.assertAlmostEqual(value(part.split(" %")[0]), 50 * (1 - math.cos(half)), delta=0.55)
         least, most = (value(word) for word in self.told(page, "sky")[2:].split(" to "))
         self.assertAlmostEqual(least, 1 / (1 + speed), delta=1e-3)  # light from behind
-        self.assertAlmostEqual(most, 1 / (1 - speed * math.cos(half)), delta=0.02)  # light next to the disk
+        # position of light next to the dark disk
+        self.assertAlmostEqual(most, 1 / (1 - speed * math.cos(half)), delta=0.02)
         self.assertTrue(daemon.eventually(lambda: self.told(page, "where") == "Falling freely"))
         page.focus("#fall-at")
         page.keyboard.press("ArrowRight")
@@ -280,7 +282,7 @@ class Falling(Browser):
         """The button stops and continues the fall. The numbers shown, the link and the saved picture are for the
         visible place."""
         page = self.open(
-            # slow, because a busy machine shows few pictures of the fall
+            # slow motion, because a busy machine shows few pictures of the fall
             "lang=en&preset=infall&motion.proper_time_rate=0.3",
             "#stage[data-final]",
             viewport={"width": 400, "height": 400},
@@ -348,7 +350,7 @@ class Falling(Browser):
         wide = page.evaluate('document.getElementById("stage").clientWidth')
         self.assertAlmostEqual(
             yaw, -100 * 2 / wide * 180 / math.pi, delta=0.02
-        )  # 90 degrees wide: the tangent is 1 at the edge
+        )  # the view is 90 degrees wide, so that the tangent is 1 at its edge
         self.assertAlmostEqual(pitch, 50 * 2 / wide * 180 / math.pi, delta=0.02)
         self.assertEqual((azimuth, tilt), (0, 82))
         page.keyboard.press("Shift+ArrowUp")
@@ -418,7 +420,7 @@ class Falling(Browser):
         self.assertFalse(page.is_visible("#star"), lost)
 
     def test_a_name_stays_while_the_picture_turns(self):
-        """The pointer rests where a star passes. The mark moves with the star, at the speed of the picture."""
+        """The pointer rests where a star passes. The mark moves with the star's image."""
         page = self.open(
             SKY + "&camera.r=60&camera.inclination_deg=90&sky.orientation=equatorial&motion.azimuth_rate_deg=0.5",
             wait="#stage[data-final]",

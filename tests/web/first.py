@@ -29,8 +29,8 @@ class First(Browser):
         return page
 
     def test_it_is_gas_that_turns_before_stars(self):
-        """Compared with the default scene: the sky is black between the stars, there is a disk, and after some time
-        other parts of the gas are seen. At rest the picture has all pixels of the window."""
+        """The first view differs from the default scene: the sky is black between the stars, there is a disk, and the
+        visible gas changes with time. At rest the picture has all pixels of the window."""
         for lang, width, height in (("en", 1440, 900), ("it", 390, 844)):
             page = self.page(self.context(viewport={"width": width, "height": height}))
             page.goto(self.base + f"#lang={lang}")
@@ -108,7 +108,7 @@ class First(Browser):
         self.assertGreater(posts[0][1]["camera"]["field_m"], usual)
 
     def test_the_still_of_a_wide_window(self):
-        """It has at least half the view's width in pixels, and fills the view."""
+        """The still has at least half the view's width in pixels, and fills the view."""
         context, held = self.context(viewport={"width": 2560, "height": 1440}), []
         page = self.page(context)
         page.route("**/frame?*", lambda route: held.append(route) if held is not None else route.continue_())
@@ -149,7 +149,7 @@ class First(Browser):
     LOOP = "#loop:not([hidden])"
 
     def landed(self, fulfil, fragment="", **options):
-        """The first view; fulfil(n) says whether the n-th request for a picture is answered. Returns the page, and a
+        """Opens the first view. fulfil(n): true if the n-th request for a picture is answered. Returns the page, and a
         function that answers all waiting and further requests."""
         page, held, let, patches, n = self.page(self.context(**options)), [], [], [], itertools.count()
         page.on(
@@ -221,7 +221,7 @@ class First(Browser):
         self.assertEqual(page.inner_text("#play"), "Play")
 
     def test_a_recording_that_comes_after_a_live_picture(self):
-        """The recording does not begin, and the live pictures stay."""
+        """The recording does not begin, and live pictures are shown throughout."""
         page, release, _ = self.landed(lambda n: False)
         films = []
         page.route("**/first.webm", lambda route: films.append(route))

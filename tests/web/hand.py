@@ -89,11 +89,11 @@ class Hand(Browser):
         self.assertEqual(cross()[0][:2], "70", "pinned")
 
     def test_which_way_gas_goes(self):
-        """On the left the gas approaches the observer, and its light is bluer; on the right it recedes."""
+        """Gas on the left approaches the observer, so that its light is bluer. Gas on the right recedes."""
         page = self.open(FACE_ON.replace("inclination_deg=0", "inclination_deg=70"), viewport=SIZE)
         wide = page.locator("#stage").bounding_box()["width"]
         left = self.tap(page, -0.25 * wide, 0)
-        page.keyboard.press("Escape")  # the card covers this place
+        page.keyboard.press("Escape")  # skipped, because the card covers this point
         right = self.tap(page, 0.25 * wide, 0)
         towards = re.search(
             r"from the hole, coming towards you at (\S+) c\. Its light is \S+ % bluer and \S+ times brighter\.", left

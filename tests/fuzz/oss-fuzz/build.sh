@@ -1,6 +1,6 @@
 #!/bin/bash -eu
-# OSS-Fuzz calls this with CC, CXX, CFLAGS, LIB_FUZZING_ENGINE, SRC and OUT: it puts into OUT each target with its
-# seeds, its dictionary and the libraries that it needs. To run it by hand, from the folder of kerrd:
+# OSS-Fuzz runs this script with CC, CXX, CFLAGS, LIB_FUZZING_ENGINE, SRC and OUT. The script puts each target into OUT,
+# with its seeds, its dictionary and the libraries that it needs. To run it by hand, from the folder of kerrd:
 #
 #   SRC=.. OUT=/tmp/out WORK=/tmp/work CC=clang CXX=clang++ CFLAGS=-fsanitize=fuzzer-no-link,address,undefined LIB_FUZZING_ENGINE=-fsanitize=fuzzer tests/fuzz/oss-fuzz/build.sh
 source_folder=$(CDPATH= cd -- "$(dirname -- "${BASH_SOURCE[0]}")/../../.." 2> /dev/null && pwd)
@@ -15,7 +15,8 @@ for program in "$build"/tests/fuzz/fuzz_*; do
   [ -f "$program" ] || continue
   name=${program##*/fuzz_}
   cp "$program" "$OUT/"
-  # The image that runs the targets lacks these libraries. It has the loader and the C library, which are not copied.
+  # Copies libraries that are missing in the image that runs the targets. The image has the dynamic loader and the C
+  # library.
   ldd "$program" | awk '$2 == "=>" && $3 ~ /^\// { print $3 }' | grep -Ev '/(libc|libm|libdl|libpthread|librt|libresolv|libgcc_s|ld-linux[^/]*)\.so' | xargs -r cp -nLt "$OUT/lib"
   ! command -v patchelf > /dev/null || patchelf --force-rpath --set-rpath '$ORIGIN/lib' "$OUT/fuzz_$name"
   seeds=()

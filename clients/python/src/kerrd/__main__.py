@@ -32,8 +32,7 @@ DUMP_OPTIONS = (
 
 
 def report(found: Imported, everything: bool) -> str:
-    """A line for each key: by default only for those whose fate is "not said"; with `everything` for all. At the end, a
-    line with the counts."""
+    """One line for each key whose fate is "not said"; with `everything`, for each key. The last line has the counts."""
     notes = found.notes if everything else found.not_said
     lines = []
     for note in notes:
@@ -45,12 +44,12 @@ def report(found: Imported, everything: bool) -> str:
 
 
 def dump_options(asked: argparse.Namespace) -> dict[str, Any]:
-    """The options for dumps that are given."""
+    """The given options for dumps, as keyword arguments of kerrd.matter."""
     return {name: getattr(asked, name) for name, _, _ in DUMP_OPTIONS if getattr(asked, name) is not None}
 
 
 def import_dump(asked: argparse.Namespace) -> int:
-    """Writes the grid of a simulation's dump, and prints the choices made for it on standard error."""
+    """Writes the grid of a simulation's dump, and prints on standard error how it was converted."""
     given = dump_options(asked)
     try:
         if asked.output is None or asked.output == "-":

@@ -22,17 +22,17 @@ from .result import Sweep
 
 T = TypeVar("T")
 FRAME_WAIT_MS = 25_000
-AGAIN_S = 1  # seconds before a request whose connection broke is sent again
+AGAIN_S = 1  # seconds to wait before a request is sent again after its connection broke
 
 
 class AsyncClient:
     """A client of the server at an address such as "http://127.0.0.1:8080/".
 
     timeout: seconds without a byte after which a request fails. patience: seconds for which a request is repeated while
-    the server is busy (429, 503, 507), at the intervals that it asks for, before the refusal is raised. For the same
-    time, a request for a job or a session is sent again if its connection breaks. The server creates the job or session
-    only once. headers: sent with each request. access: the access token for a server with a token file. trust_env:
-    whether proxies and certificates are read from the environment.
+    the server is busy (429, 503, 507), at the intervals in the server's Retry-After. After that the refusal is raised.
+    A request for a job or a session is also sent again within this time if its connection breaks; the server then
+    creates the job or session only once. headers: sent with each request. access: the access token for a server with a
+    token file. trust_env: whether proxies and certificates are read from the environment.
 
     Methods raise Problem if the server refuses the request, Unreachable if there is no connection, and NoKerrd if
     another program answers.
@@ -94,8 +94,8 @@ class AsyncClient:
             await asyncio.sleep(wait)
 
     async def approximations(self) -> dict[str, str]:
-        """The sentences of all approximations, by their names as in Kerrd-Approximations. They are requested
-        once."""
+        """The sentence of each approximation, by its name in the header Kerrd-Approximations. All are requested once,
+        and kept."""
         if not self._sentences:
             told = await self._run(calls.get("/v1/approximations"))
             self._sentences = {one["name"]: one["sentence"] for one in told["approximations"]}
@@ -333,7 +333,7 @@ class AsyncClient:
     ) -> answers.Comparison:
         """Compares a scene with an observation. Returns chi^2, and `columns` as arrays. The observation is a file
         (uvfits, or the EHT's CSV) or its bytes. It may also be the hash of an asset on the server, or the name of an
-        observation that the server has: compare("m87-2017-04-05-lo", preset="m87", average_s=600)."""
+        observation that is built into the server: compare("m87-2017-04-05-lo", preset="m87", average_s=600)."""
         document = await self._observed(observation, scene, settings)
         told: answers.Comparison = await self._run(calls.compare(document))
         return told
@@ -370,8 +370,8 @@ class AsyncClient:
         form: Literal["uvfits", "csv"] = "uvfits",
         **settings: Any,
     ) -> bytes:
-        """The data of observe() as the bytes of a file, uvfits or the EHT's CSV. For uvfits, the given observation must
-        be a uvfits file too."""
+        """The data of observe() as the bytes of a file, uvfits or the EHT's CSV. If the result is uvfits, the given
+        observation must be a uvfits file too."""
         if form not in ("uvfits", "csv"):
             raise ValueError(f"form is {form!r}; it must be 'uvfits' or 'csv'")
         document = await self._observed(observation, scene, settings)
@@ -381,7 +381,8 @@ class AsyncClient:
     async def _observed(
         self, observation: str | bytes | os.PathLike[str], scene: SceneLike, settings: dict[str, Any]
     ) -> dict[str, Any]:
-        """The request for a comparison or a simulation. Uploads the observation unless the server knows it by name."""
+        """The request for a comparison or a simulation. Uploads the observation, unless it is named by a text that the
+        server knows."""
         name = observation if calls.is_observation_name(observation) else None
         if name is None:
             name = await self.put_asset(*calls.observed(observation))
@@ -531,7 +532,7 @@ async def _close(client: AsyncClient, kind: str, name: str, token: str) -> None:
     try:
         await client._run(calls.close(kind, name, token))
     except Problem as problem:
-        if problem.status != 404:  # the server has already ended the session or playground
+        if problem.status != 404:  # not an error: the server has already ended the session or playground
             raise
 
 
@@ -544,12 +545,12 @@ class AsyncSession:
         self.token: str = opened["token"]
         self.scene: dict[str, Any] = opened["scene"]
         self.revision: int = opened["revision"]
-        # scenes by revision; contains only revisions that a later frame may show
+        # scene of each revision that a later frame may still show
         self._scenes = {self.revision: self.scene}
         self.quality = quality
-        self.frame_wait = FRAME_WAIT_MS / 1000  # seconds for which an iteration waits for a frame before it asks again
+        self.frame_wait = FRAME_WAIT_MS / 1000  # seconds that one request of an iteration waits for a frame
         self._seen = 0
-        self._final = 0  # the revision whose final frame has been received
+        self._final = 0  # newest revision whose final frame has been received
 
     def __repr__(self) -> str:
         return f"<kerrd.{type(self).__name__} {self.id} at {self.client.url}, revision {self.revision}>"
@@ -563,7 +564,7 @@ class AsyncSession:
         await self.close()
 
     async def close(self) -> None:
-        """Ends the session at the server."""
+        """Ends the session on the server."""
         await _close(self.client, "sessions", self.id, self.token)
 
     async def patch(self, change: SceneLike = None, **changes: Any) -> int:
@@ -573,8 +574,7 @@ class AsyncSession:
             change: a merge patch of the scene (RFC 7396).
             changes: fields of the scene by section, such as spacetime={"spin": 0.9}.
 
-        Returns:
-            The new revision, which frames of the changed scene have.
+        Returns: The revision number that frames of the changed scene have.
         """
         told = await self.client._run(calls.patch(self.id, self.token, scene_of(change, changes)))
         self._take(told)
@@ -589,7 +589,7 @@ class AsyncSession:
 
     def _take(self, told: Mapping[str, Any]) -> None:
         if told["revision"] < self.revision:
-            return  # the answer to a later change has arrived already
+            return  # keeps the newer scene: the answer to a later change has arrived already
         self.scene = told["scene"]
         self.revision = told["revision"]
         self._scenes[self.revision] = self.scene
@@ -618,7 +618,7 @@ class AsyncSession:
             if frame is not None:
                 yield frame
             elif self._final == self.revision:
-                return  # time runs, but the picture does not change
+                return  # ends, because time runs but changes nothing in the picture
 
     @property
     def moves(self) -> bool:
@@ -646,7 +646,7 @@ class AsyncJob:
         await self.close()
 
     async def close(self) -> None:
-        """Ends the job at the server and deletes its files."""
+        """Ends the job on the server, which deletes its files."""
         await _close(self.client, "jobs", self.id, self.token)
 
     async def status(self) -> answers.Job:
@@ -654,8 +654,8 @@ class AsyncJob:
         return await self.client._run(calls.job(self.id))
 
     async def wait(self, *, progress: bool = False, every: float = 0.1) -> AsyncJob:
-        """Waits until the job is done. JobFailed if it fails. progress: shows a bar, if the package tqdm is installed.
-        every: seconds between two requests."""
+        """Waits until the job is done. Raises JobFailed if the job fails. progress: shows a bar, if the package tqdm is
+        installed. every: seconds between two requests for the job's state."""
         with calls.bar(progress) as told:
             while True:
                 status = await self.status()

@@ -1,4 +1,4 @@
-"""Requests to a server, and parsers of the answers. It opens no connection: Client and AsyncClient do."""
+"""Requests to a server, and parsers of the answers. Client and AsyncClient open the connections."""
 
 from __future__ import annotations
 
@@ -55,22 +55,22 @@ class Call(Generic[T_co]):
 
 
 def retry_after(answer: Answer) -> float | None:
-    """Seconds to wait before a request is repeated, if the server is busy or still works on the same request. None for
-    any other answer, and for an answer that names no time."""
+    """Seconds to wait before the request is repeated, if the answer says that the server is busy or still works on this
+    request. None for any other answer, and if the answer states no time."""
     said = answer.headers.get("retry-after", "")
     return float(said) if answer.status in (409, 429, 503, 507) and said.replace(".", "", 1).isdigit() else None
 
 
 def may_be_sent_again(call: Call[Any], error: httpx.TransportError) -> bool:
-    """Whether to send a request again after this error. The connection must have broken while the request was under
-    way, and the request must have an Idempotency-Key, which makes a second sending safe."""
+    """True if the request may be sent again after this error: its connection broke while the request was under way, and
+    its Idempotency-Key makes a second sending safe."""
     broken = httpx.ReadError, httpx.WriteError, httpx.RemoteProtocolError
     return ONCE in call.headers and isinstance(error, broken)
 
 
 def checked(answer: Answer, url: str) -> Answer:
-    """Returns the answer if it is a success. Otherwise raises its problem document as Problem. If it has none, another
-    program answers at this address, and NoKerrd is raised."""
+    """Returns the answer if it is a success. Otherwise raises its problem document as Problem. Raises NoKerrd if the
+    answer has no problem document, because then another program answers at this address."""
     if 200 <= answer.status < 300:
         return answer
     try:
@@ -152,7 +152,7 @@ def _frame(answer: Answer) -> Frame:
 
 
 def shown(frame: Frame, scenes: Mapping[int, Document]) -> Frame:
-    """A session's frame with the scene that it shows: the scene of the frame's revision, at the frame's own time and
+    """A session's frame, together with its scene: the scene of the frame's revision, at the frame's own time and
     azimuth."""
     if frame.revision not in scenes:
         return frame
@@ -203,8 +203,8 @@ def bearer(token: str | None) -> dict[str, str]:
 
 
 def admitted(access: str | None) -> dict[str, str]:
-    """The access token in a header of its own, because Authorization carries the tokens of sessions, jobs and
-    assets."""
+    """The header with the access token. It has its own header, because Authorization carries the tokens of sessions,
+    jobs and assets."""
     return {"Kerrd-Access": access} if access else {}
 
 
@@ -232,12 +232,12 @@ TILED: Document = {
     "/image/legend": False,
     "/image/layer_min": 0,
     "/image/layer_max": 1,
-}  # fields that a tile supports at one value only: pointer and value
+}  # fields for which a tile allows only one value: JSON pointer and that value
 
 
 def of_a_tile(problem: Problem, document: Document) -> Document | None:
-    """The document with the refused field set to the only value that a tile supports. None if the server refused it for
-    a reason other than the tile."""
+    """The document with the refused field set to the only value that a tile supports. None if the refusal has another
+    reason."""
     if problem.pointer not in TILED:
         return None
     _, section, field = problem.pointer.split("/")
@@ -316,7 +316,7 @@ def is_hash(text: str) -> bool:
 
 def is_observation_name(observation: object) -> bool:
     """True if the server knows the observation by this text: the hash of an asset, or the name of an observation that
-    the server has, such as "m87-2017-04-05-lo". The path of a file is told apart by its extension."""
+    the server has, such as "m87-2017-04-05-lo". A text with a file extension is a path."""
     return isinstance(observation, str) and not pathlib.Path(observation).suffix and "/" not in observation
 
 
@@ -332,8 +332,8 @@ def physics(name: str, parameters: Mapping[str, Any]) -> Call[answers.Quantity]:
 
 
 def _ranged(name: str, value: Any) -> str:
-    """A parameter in the form that a query takes. An array must be evenly spaced, as from numpy.linspace; it becomes
-    first:last:count."""
+    """A parameter as text for a query. An array becomes first:last:count; its values must be evenly spaced, as from
+    numpy.linspace."""
     if isinstance(value, str) or np.ndim(value) == 0:
         return str(value)
     listed = np.asarray(value, dtype=np.float64)
@@ -421,7 +421,7 @@ def read_curve(body: bytes) -> dict[str, NDArray[np.float64]]:
 
 
 def read_cube(body: bytes) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
-    """The arrays of a sweep's NPZ file by name, including its axes, and its notes.json: scene, axes, units,
+    """The arrays of a sweep's NPZ file by name, including the axes; and notes.json: scene, axes, units,
     approximations."""
     with np.load(io.BytesIO(body), allow_pickle=False) as file:
         notes: dict[str, Any] = json.loads(file["notes.json"])
@@ -429,7 +429,7 @@ def read_cube(body: bytes) -> tuple[dict[str, NDArray[Any]], dict[str, Any]]:
 
 
 def finished(status: Mapping[str, Any]) -> bool:
-    """True if a job is done. JobFailed if it has failed."""
+    """True if a job is done. Raises JobFailed if the job has failed."""
     if status["state"] == "failed":
         raise JobFailed(dict(status))
     return bool(status["state"] == "done")

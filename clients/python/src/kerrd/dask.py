@@ -1,8 +1,8 @@
 """Renders scenes on the workers of a Dask cluster, each of which has its own server.
 
-Dask's scheduler distributes the scenes, reassigns those of a worker that died, and shows the progress on its dashboard.
-A worker plugin starts a server beside each worker, and starts it again if it dies. Needs the package distributed (pip
-install kerrd[dask]).
+Dask's scheduler distributes the scenes, gives the scenes of a dead worker to other workers, and shows the progress on
+its dashboard. A worker plugin starts a server beside each worker, and starts it again if it dies. Needs the package
+distributed (pip install kerrd[dask]).
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ from .local import local
 
 
 class Servers(WorkerPlugin):
-    """The plugin that runs one server for each worker, started with the worker's first scene. options: binary, build,
-    device, args, env, timeout and patience, as for kerrd.local. A cluster has one such plugin for each set of
-    options."""
+    """The plugin that runs one server beside each worker. A server starts with its worker's first scene. options:
+    binary, build, device, args, env, timeout and patience, as for kerrd.local. A cluster has one such plugin for each
+    set of options."""
 
     idempotent = True
 
@@ -70,8 +70,8 @@ class Servers(WorkerPlugin):
         return {"options": self.options, "name": self.name}
 
     def hole(self, *, other_than: local | None = None) -> local:
-        """The worker's server; a new one if the last has died. other_than: a server whose connection broke; if it ends
-        within a second, it counts as dead."""
+        """Returns the worker's server. Starts a new one if the last has died. other_than: a server whose connection
+        broke. It counts as dead if it ends within a second."""
         with self._lock:
             if self._hole is not None and self._hole is other_than:
                 try:
@@ -93,9 +93,9 @@ def _render_all(
     layers: Sequence[str],
     paths: Sequence[str | None],
 ) -> list[Any]:
-    """The task: renders some scenes one after the other. If a scene is refused, the Problem is returned as the last
-    element of the list. It is not raised, because Dask would then retry the task on another worker, which would refuse
-    the scene too."""
+    """The task: renders some scenes one after the other. If the server refuses a scene, the Problem becomes the last
+    element of the returned list. Raising it would make Dask retry the task on another worker, which would refuse the
+    scene too."""
     got: list[Any] = []
     try:
         for document, path in zip(documents, paths):
@@ -106,9 +106,9 @@ def _render_all(
 
 
 def _render(plugin_name: str, document: Document, preset: str | None, layers: Sequence[str], to: str | None) -> Any:
-    """On a worker: renders a picture's bytes or a scene's layers. With `to` they are written into that file, and its
-    name is returned. If the server dies, it is started again once."""
-    if to is not None and os.path.exists(to):  # written by a worker that died with this task
+    """Runs on a worker. Renders a scene's picture (bytes) or layers. With `to`, writes them into that file and returns
+    its name. If the server dies, it is restarted once."""
+    if to is not None and os.path.exists(to):  # already written by a worker that died before it finished this task
         return to
     plugin = cast(Servers, get_worker().plugins[plugin_name])
     hole = plugin.hole()
@@ -138,7 +138,7 @@ def _ask(
         return hole.layers(document, layers, preset=preset) if layers else hole.render(document, preset=preset).png
     except Problem:
         if (document.get("image") or {}).get("tile"):
-            hole._may_be_tiled(document, preset)  # raises a Problem that names all fields that a tile does not support
+            hole._may_be_tiled(document, preset)  # raises a Problem that names every field that a tile does not support
         raise
 
 
@@ -174,10 +174,10 @@ def sweep(
     scene is an error. zarr: a store shared by all workers, with one array (scenes, height, width[, 3]) for each layer;
     returns its group. Needs the package zarr, and scenes of one size.
 
-    batch: number of scenes in a task; None: such that there are some thirty tasks for each thread, with at most 16
-    scenes each. retries: how often a task is repeated if its worker has died; its unfinished scenes go to other
-    workers. Raises Problem for a scene that is refused, ValueError without scenes or for a batch below 1, and
-    KerrdError for a folder with other scenes.
+    batch: number of scenes in a task; None: chosen so that each thread gets some thirty tasks, with at most 16 scenes
+    in a task. retries: how often a task is repeated if its worker has died; its unfinished scenes go to other workers.
+    Raises Problem for a scene that is refused, ValueError without scenes or for a batch below 1, and KerrdError for a
+    folder with other scenes.
     """
     if isinstance(layers, str):
         raise TypeError(f"layers is {layers!r}; it must be a list, as in [{layers!r}]")
@@ -210,7 +210,7 @@ def sweep(
     got = _refused(_gather(cluster, futures))
     if folder is None:
         return got
-    for left in Path(folder).glob("*.part"):  # left by workers that died
+    for left in Path(folder).glob("*.part"):  # incomplete files of workers that died
         left.unlink(missing_ok=True)
     return paths
 
@@ -225,7 +225,7 @@ def _refused(tasks: Iterable[list[Any]]) -> list[Any]:
 
 
 def _files(folder: Path, documents: Sequence[Document], preset: str | None, layers: Sequence[str]) -> list[str | None]:
-    """The names of the files. Existing files are checked against sweep.json, which has the hashes of their scenes."""
+    """The names of the files. sweep.json has the hash of each file's scene; existing files are checked against it."""
     folder.mkdir(parents=True, exist_ok=True)
     names = [f"{k:06}.{'npz' if layers else 'png'}" for k in range(len(documents))]
     wanted = {

@@ -16,14 +16,14 @@ from .scene import Scene
 
 Document: TypeAlias = dict[str, Any]
 SceneLike: TypeAlias = Scene | Mapping[str, Any] | None
-# type of the keywords beside **changes; with a narrower type, type checkers refuse **{"camera.r": 60}
+# type of the keywords beside **changes; a narrower type would make type checkers refuse **{"camera.r": 60}
 Open: TypeAlias = Any
 T = TypeVar("T")
 
 
 def plain(value: Any) -> Any:
-    """Converts a value to JSON's types. It may hold dataclasses, tuples, and numpy arrays and scalars. Fields of a
-    dataclass that are None are left out."""
+    """Converts a value to types of JSON. The value may contain dataclasses, tuples, and numpy arrays and scalars.
+    Fields of a dataclass that are None are left out."""
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
         fields = {field.name: getattr(value, field.name) for field in dataclasses.fields(value)}
         return {name: plain(part) for name, part in fields.items() if part is not None}
@@ -35,8 +35,8 @@ def plain(value: Any) -> Any:
 
 
 def finite(value: Any, path: str = "") -> Any:
-    """Returns the document unchanged. Raises ValueError, naming the field, for NaN or infinity, which JSON cannot
-    hold."""
+    """Returns the document unchanged. Raises ValueError, with the field's name, for NaN or infinity, which JSON cannot
+    express."""
     for name, part in value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ():
         finite(part, f"{path}.{name}" if path else str(name))
     if isinstance(value, float) and not math.isfinite(value):
@@ -45,7 +45,8 @@ def finite(value: Any, path: str = "") -> Any:
 
 
 def _merge(document: Document, change: Mapping[str, Any]) -> Document:
-    """Merges a change as RFC 7396 does, except that null is kept: on the server it resets a field to its default."""
+    """Merges a change as RFC 7396 does, except that null is kept, because the server resets a field to its default for
+    null."""
     for name, value in change.items():
         if isinstance(value, Mapping) and isinstance(document.get(name), Mapping):
             _merge(document[name], value)
@@ -115,8 +116,8 @@ def tile_of(document: Document, window: Window) -> Document:
 
 
 def _widths(document: Document) -> tuple[Any, Any]:
-    """The picture's width in M and in microarcseconds. If changes set only one of the two, that one counts, as in
-    src/scene/sky_scale.h of the server."""
+    """The picture's width in M and in microarcseconds. If the changes set only one of these, the other is ignored, as
+    in src/scene/sky_scale.h of the server."""
     camera = document.get("camera") or {}
     return camera.get("field_m"), camera.get("field_uas")
 

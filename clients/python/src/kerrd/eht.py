@@ -30,7 +30,7 @@ def _width_m(camera: dict[str, Any]) -> float:
 
 
 def _polarised(frame: Frame, flux: NDArray[np.float32]) -> list[NDArray[np.float64]]:
-    """Stokes Q, U and V in Jy a pixel; only those that the frame has."""
+    """Stokes Q, U and V in Jy a pixel, for those of the three that the frame has."""
     names = [name for name in STOKES if name in frame.layers]
     if names not in ([], list(STOKES[:2]), list(STOKES)):
         raise ValueError(

@@ -62,7 +62,7 @@ class Problem(KerrdError):
         super().__init__(f"{status} {self.title}: {self.detail}" + (f" ({self.pointer})" if self.pointer else ""))
 
     def __reduce__(self) -> tuple[type[Problem], tuple[int, dict[str, Any], float | None]]:
-        return Problem, self._made_of  # for pickling between processes
+        return Problem, self._made_of  # lets Problem be pickled for another process
 
 
 class JobFailed(KerrdError):

@@ -1,4 +1,4 @@
-"""Fields of the scene by name, from the server's schema: the values each accepts, and what its slider needs. It opens
+"""Fields of the scene by name, from the server's schema: accepted values, and positions of sliders. This module opens
 no connection."""
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from .document import Document
 from .errors import KerrdError
 
 MOST_POSITIONS = 400
-DECADES = 30  # a slider is logarithmic if the ratio of its ends exceeds this
+DECADES = 30  # largest ratio of a slider's ends for which its scale is linear; above this it is logarithmic
 PER_DECADE = 40
 UNITS = re.compile(r"_(deg|k|uas|pc|msun|edd|m|jy|ghz|cm3)$")
 
@@ -24,9 +24,9 @@ class Field:
     """A field of the scene.
 
     kind: "number", "integer", "choice" or "switch"; or "other", such as a file or a list of words, which has no
-    control. low, high: the range that the server accepts; span: the useful part of it. word: the word that is allowed
-    instead of a number, such as "infinity". first: the number that a control shows at first when a number replaces the
-    word.
+    control. low, high: the range that the server accepts. span: the useful part of that range. word: a word that is
+    allowed instead of a number, such as "infinity". first: the number that a control shows when the user switches from
+    the word to a number.
     """
 
     path: str
@@ -43,7 +43,8 @@ class Field:
 
     @property
     def label(self) -> str:
-        """Name in words, without the unit. The name of a field in a list includes the number of its element, from 1."""
+        """The name in words, without the unit. For a field in a list, the name includes the number of the list's
+        element, from 1."""
         name = UNITS.sub("", self.path.rsplit(".", 1)[-1]).replace("_", " ")
         section = self.path.split(".")[0]
         element = re.match(r"[a-z]+\.(\d+)\.", self.path)
@@ -53,7 +54,7 @@ class Field:
 
     def positions(self) -> list[float]:
         """The positions of a slider, including the ends: evenly spaced round numbers, or a logarithmic scale if the
-        range spans many decades. There are about MOST_POSITIONS at most."""
+        range spans many decades. The number of positions is at most about MOST_POSITIONS."""
         low, high = self.span
         if self.kind == "integer" and high - low <= MOST_POSITIONS:
             return [float(n) for n in range(math.ceil(low), math.floor(high) + 1)]
@@ -64,7 +65,7 @@ class Field:
             inner = [
                 0.0,
                 *_factors(self._usual() / 100, high),
-            ]  # 0 is "off"; the next position is a hundredth of the default
+            ]  # position 0 means "off"; the position after it is a hundredth of the default
         else:
             step = next(
                 size * 10.0**power
@@ -109,13 +110,14 @@ class Fields:
     def __init__(self, schema: Mapping[str, Any]) -> None:
         self.paths = {
             path: spec for path, spec in _leaves(schema, "") if not path.startswith("image.tile.")
-        }  # not a field of a session, which shows whole pictures
+        }  # no control for this field, because a session always shows whole pictures
         self.folders = {
             name for name, spec in schema["properties"].items() if not spec.get("deprecated") and name not in self.paths
         }
 
     def path(self, name: str) -> str:
-        """The whole path of a field, or the name of a section. KerrdError, with similar names, if there is none."""
+        """The whole path of a field, or the name of a section. Raises KerrdError, with similar names, if neither
+        exists."""
         said = name.replace("__", ".")
         general = re.sub(r"\.\d+(?=\.)", ".*", said)
         if said in self.folders or general in self.paths:
@@ -130,11 +132,11 @@ class Fields:
         raise KerrdError(f"a scene has no field {name}" + (f"; similar fields are {', '.join(near)}" if near else ""))
 
     def document(self, changes: Mapping[str, Any]) -> Document:
-        """The same changes with full paths; `size` is kept."""
+        """The same changes, with each field's full path. `size` is kept as it is."""
         return {name if name == "size" else self.path(name): value for name, value in changes.items()}
 
     def control(self, name: str) -> Field:
-        """The field for a control. KerrdError for a section, or for a field that cannot have one."""
+        """The field for a control. Raises KerrdError for a section, and for a field that can have no control."""
         path = self.path(name)
         spec = self.paths.get(re.sub(r"\.\d+(?=\.)", ".*", path))
         if spec is None:

@@ -19,7 +19,8 @@ from .document import plain
 from .errors import KerrdError
 from .local import find_binary
 
-LOCK_WAIT_S = 120  # seconds to wait for the lock that a process may hold for a moment after its worker has died
+# seconds to wait for the film's lock, because a process may hold it for a moment after its worker has died
+LOCK_WAIT_S = 120
 
 
 def _run(arguments: Sequence[str], request: bytes, binary: str | None) -> dict[str, Any]:
@@ -62,9 +63,9 @@ def film(
     from it. rate: frames a second. options: further options of `kerrd film`, such as ("--samples", "8"). batch: number
     of frames in a task. retries: how often a task is repeated. binary: the program on the workers (find_binary).
 
-    The workers' devices must be of one kind, or their frames are refused. A process ends with its worker; other workers
-    render its unfinished frames. Raises KerrdError, with the message of the process, if a process fails; ValueError for
-    a batch below 1.
+    The workers' devices must be of one kind; frames of another kind of device are refused. A process ends with its
+    worker, and other workers render its unfinished frames. Raises KerrdError, with the message of the process, if a
+    process fails; ValueError for a batch below 1.
     """
     if batch < 1:
         raise ValueError(f"batch is {batch}; it must be at least 1 frame")

@@ -1,4 +1,4 @@
-"""Fits of scenes to an observation of an interferometer: the best parameters by scipy, their posterior by emcee.
+"""Fits of scenes to an interferometer's observation: scipy finds the best parameters, and emcee samples the posterior.
 
     from kerrd.fit import Fit
 
@@ -32,7 +32,7 @@ from .document import SceneLike
 
 Product = Literal["amplitude", "closure_phase", "log_closure_amplitude", "visibility"]
 Progress = Callable[[int, int, float], None]
-SETS = 256  # parameter sets in a request; more would take too long
+SETS = 256  # largest number of parameter sets in a request, which limits its duration
 
 
 def _needs(package: str, what: str) -> Any:
@@ -59,9 +59,9 @@ def _teller(progress: bool | Progress) -> Progress:
 
 @dataclass(frozen=True)
 class Maximum:
-    """The best parameters. values: by name. chi2: of all data; data: their number. converged: whether the search's
-    steps became small. at_bounds: parameters that are closer to a bound than a thousandth of their range. The least
-    chi^2 may lie beyond that bound."""
+    """The best parameters. values: value of each parameter, by name. chi2: chi^2 of all data. data: number of data.
+    converged: true if the steps of the search became small. at_bounds: parameters that are within a thousandth of their
+    range of a bound, so that the least chi^2 may lie beyond it."""
 
     values: dict[str, float]
     chi2: float
@@ -73,7 +73,8 @@ class Maximum:
 
 @dataclass(frozen=True)
 class Posterior:
-    """Samples of a posterior. chain: (steps, walkers, parameters); log_probability: (steps, walkers)."""
+    """Samples of a posterior. chain: array of shape (steps, walkers, parameters). log_probability: array of shape
+    (steps, walkers)."""
 
     names: tuple[str, ...]
     chain: NDArray[np.float64]
@@ -81,13 +82,13 @@ class Posterior:
     acceptance: float
 
     def samples(self, burn: float = 0.5) -> NDArray[np.float64]:
-        """All samples except the first share `burn` of the steps. Shape (samples, parameters), as for
-        corner.corner()."""
+        """All samples after the first part of the chain. burn: that part as a fraction of the steps. Shape (samples,
+        parameters), as for corner.corner()."""
         return self.chain[round(burn * len(self.chain)) :].reshape(-1, len(self.names))
 
     def interval(self, name: str, share: float = 0.95, burn: float = 0.5) -> tuple[float, float, float]:
-        """Lower end, median and upper end of the central interval that holds this share of the samples, for one
-        parameter."""
+        """For one parameter: lower end, median and upper end of the central interval that contains this share of the
+        samples."""
         if name not in self.names:
             raise ValueError(f"there is no parameter {name}; there are {', '.join(self.names)}")
         column = self.samples(burn)[:, self.names.index(name)]
@@ -95,8 +96,8 @@ class Posterior:
         return float(low), float(middle), float(high)
 
     def holds(self, log_probability: float, share: float = 0.95, burn: float = 0.5) -> bool:
-        """True if a point with this log probability is inside the region of highest density that holds this share of
-        the samples."""
+        """True if a point of this log probability lies in the region of highest density that contains this share of the
+        samples."""
         seen = self.log_probability[round(burn * len(self.chain)) :]
         return bool(log_probability >= np.quantile(seen, 1 - share))
 
@@ -235,9 +236,9 @@ class Fit:
     ) -> Maximum:
         """The point of the least chi^2, by differential evolution over the bounds and then the simplex method.
 
-        population: points a generation for each parameter. tolerance: largest difference of chi^2 within the last
-        simplex. progress: True prints a line; a function is called with generation, generations and chi^2. ImportError
-        without scipy.
+        population: number of points of a generation, for each parameter. tolerance: largest difference of chi^2 within
+        the last simplex. progress: True: prints a line; a function: is called with generation, generations and chi^2.
+        ImportError without scipy.
         """
         optimize = _needs("scipy.optimize", "Fit.maximum")
         tell, seen = _teller(progress), [0]
@@ -280,7 +281,8 @@ class Fit:
         return Maximum(values, float(best.fun), self.data, bool(fine.success), seen[0], at_bounds)
 
     def _described(self, walkers: int, seed: int | None) -> str:
-        """A text of all settings that determine a chain. A file is continued only by a fit with the same text."""
+        """A text of all settings that determine a chain. Only a fit with the same text may continue the chain's
+        file."""
         parts = [
             self.observation,
             self.parameters,

@@ -1,5 +1,5 @@
-"""A session that is watched and changed at once, with one thread that sends changes and one that fetches frames. It is
-independent of Jupyter."""
+"""A session that is watched and changed at the same time: one thread sends changes, another fetches frames. It does not
+depend on Jupyter."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from .document import Document, SceneLike, patch_of, scene_of
 from .errors import KerrdError, Problem
 from .frame import Frame
 
-MOST_UNSHOWN = 2  # frames sent to the viewer that it has not acknowledged yet
-DEAF_S = 0.25  # seconds after which a frame counts as shown while a running cell blocks acknowledgements
+MOST_UNSHOWN = 2  # largest number of frames that were sent to the viewer but not acknowledged yet
+DEAF_S = 0.25  # seconds after which a frame counts as shown while a running cell prevents acknowledgements
 # seconds without a message after which a viewer counts as gone; a hidden page sends a message each minute
 PRESENCE_S = 150
 AGAIN_S = 2.0  # seconds between two attempts to reach the server
@@ -35,18 +35,18 @@ def _end(session: Session) -> None:
     try:
         session.close()
     except (KerrdError, httpx.HTTPError, RuntimeError):
-        pass  # the server ends the session within a minute
+        pass  # no error is raised here, because the server ends the session within a minute
 
 
 class Follower:
     """Keeps a session, and opens a new one with the same scene if the server has ended it. Frames are fetched only
     while there is a viewer or a call that waits for a frame.
 
-    Callbacks: took(scene) when the scene has changed; show(frame, serial) to show a frame, which the viewer
-    acknowledges by shown(serial); complain(text) with an error, or with "" when the error is over. At most MOST_UNSHOWN
-    frames are sent without acknowledgement. Of the frames that arrive in the meantime only the newest is kept. The
-    callbacks run on any thread; calls of `took` never overlap. The constructor raises Problem if the server refuses the
-    scene.
+    Callbacks: took(scene) is called when the scene has changed. show(frame, serial) shows a frame, which the viewer
+    then acknowledges by shown(serial). complain(text) gets an error message, or "" when the error is over. At most
+    MOST_UNSHOWN frames are sent without acknowledgement. Of the frames that arrive in the meantime only the newest is
+    kept. The callbacks run on any thread; calls of `took` never overlap. The constructor raises Problem if the server
+    refuses the scene.
     """
 
     def __init__(
@@ -65,18 +65,18 @@ class Follower:
         self.complain: Callable[[str], None] = lambda text: None
         self._session: Session = client.session(scene_of(scene, changes), preset=preset, quality=quality)
         self.scene: Document = self._session.scene
-        self._patching = threading.RLock()  # keeps scenes in order
-        self._sending = threading.RLock()  # keeps frames in order
+        self._patching = threading.RLock()  # held while a change is sent, so that scenes arrive in order
+        self._sending = threading.RLock()  # held while a frame is sent, so that frames arrive in order
         self._state = threading.Condition()  # guards all members below
         self._waiting: dict[str, Any] = {}
         self._answers: list[Callable[[], None]] = []
         self._views: dict[str, float] = {}
         self._waiters = 0
-        self._unshown: list[tuple[int, float]] = []  # serial number of each frame, and the time at which it was sent
+        self._unshown: list[tuple[int, float]] = []  # serial number and time of sending of each unacknowledged frame
         self._unsent = False
         self._serial = 0
         self._frame: Frame | None = None
-        self._of: Session | None = None  # the session of the frame
+        self._of: Session | None = None  # session that the newest frame belongs to
         self._faults = {"change": "", "frame": ""}
         self._failures = 0
         self._closed = False
@@ -91,7 +91,7 @@ class Follower:
             thread.start()
 
     def close(self) -> None:
-        """Ends the session and both threads. Further calls do nothing."""
+        """Ends the session and both threads. A second call does nothing."""
         with self._state:
             if self._closed:
                 return
@@ -104,12 +104,13 @@ class Follower:
                 thread.join(2)
 
     def change(self, patch: Callable[[Document], Document]) -> None:
-        """Changes the scene now, by the merge patch that patch(scene) returns. Raises Problem if it is refused."""
+        """Sends the merge patch that patch(scene) returns, and waits for the answer. Raises Problem if the server
+        refuses the patch."""
         self._attempt(lambda: self._patch(patch(self.scene)))
 
     def replace(self, scene: Callable[[Document], Document]) -> None:
-        """Replaces the scene by what scene(current) returns. Raises Problem if it is refused. It opens a new session,
-        since a patch cannot express "as if nothing had been set"."""
+        """Replaces the scene by what scene(current) returns. Raises Problem if the server refuses the new scene. Opens
+        a new session, because a merge patch cannot remove settings."""
         self._attempt(lambda: self._exchange(scene(self.scene)))
 
     def later(self, changes: Mapping[str, Any], answer: Callable[[], None]) -> None:
@@ -136,15 +137,15 @@ class Follower:
             self._views.pop(view, None)
 
     def shown(self, serial: int) -> None:
-        """Acknowledges a frame, and all before it."""
+        """Acknowledges a frame and all frames before it."""
         with self._state:
             self._unshown = [sent for sent in self._unshown if sent[0] > serial]
             self._state.notify_all()
         self._send()
 
     def deaf(self) -> None:
-        """To be called while the caller's thread cannot receive acknowledgements. The oldest frame then counts as shown
-        after DEAF_S seconds, so that a loop in a cell is animated."""
+        """To be called while the caller's thread cannot receive acknowledgements. From then on the oldest frame counts
+        as shown after DEAF_S seconds. Without this, a loop in a cell would show no animation."""
         with self._state:
             if self._unshown and monotonic() - self._unshown[0][1] > DEAF_S:
                 del self._unshown[0]
@@ -152,8 +153,8 @@ class Follower:
         self._send()
 
     def frame(self, *, final: bool, timeout: float) -> Frame:
-        """The newest frame of the current scene. final: wait for the finest frame; for a moving scene, the newest frame
-        is returned. timeout: seconds to wait. KerrdError if none comes."""
+        """The newest frame of the current scene. final: waits for the finest frame; of a moving scene, returns the
+        newest frame. timeout: seconds to wait. Raises KerrdError if no frame comes."""
 
         def there() -> bool:
             session, frame = self._session, self._frame
@@ -207,7 +208,7 @@ class Follower:
             self._session.patch(patch)
 
     def _reopen(self, ended: Session) -> None:
-        """Opens a new session in place of one that has ended, unless another thread has done so."""
+        """Opens a new session in place of one that has ended, unless another thread has already opened one."""
         with self._patching:
             if self._session is ended and not self._closed:
                 self._session = self.client.session(self.scene, quality=self.quality)
@@ -234,7 +235,7 @@ class Follower:
                 self._waiting, self._answers = {}, []
             try:
                 self.change(lambda scene: patch_of(scene, changes))
-            except Exception:  # the error was reported already; the scene is unchanged
+            except Exception:  # continues: the error was reported already, and the scene is unchanged
                 pass
             for answer in answers:
                 answer()
@@ -289,8 +290,8 @@ class Follower:
                 self.took(self.scene)
 
     def _send(self) -> None:
-        """Sends the newest frame, unless it was sent already or too many frames are unacknowledged. One thread at a
-        time does so, so that no frame overtakes another."""
+        """Sends the newest frame, unless it was sent already or too many frames are unacknowledged. Only one thread
+        sends at a time, so that no frame overtakes another."""
         with self._sending:
             self._send_newest()
 

@@ -25,7 +25,7 @@ HEADER = 33  # length of a PNG's signature and IHDR chunk
 
 
 def items(header: str | None) -> list[str]:
-    """The names in a header that is a list, such as Kerrd-Approximations."""
+    """The names in a header whose value is a list, such as Kerrd-Approximations."""
     return [name for name in map(str.strip, (header or "").split(",")) if name]
 
 
@@ -47,13 +47,14 @@ def passes(header: str | None) -> dict[str, float]:
 
 
 def _with_text(png: bytes, name: str, text: str) -> bytes:
-    """The bytes of the PNG with one more text, as an iTXt chunk (PNG 1.2, section 4.2.3)."""
+    """The bytes of the PNG with an additional text, as an iTXt chunk (PNG 1.2, section 4.2.3)."""
     body = b"iTXt" + name.encode("latin-1") + b"\0\0\0\0\0" + text.encode()
     return png[:HEADER] + struct.pack(">I", len(body) - 4) + body + struct.pack(">I", zlib.crc32(body)) + png[HEADER:]
 
 
 class Picture(PngImageFile):
-    """A Pillow image that keeps the PNG's texts, among them the scene, when it is saved as a PNG again."""
+    """A Pillow image. When it is saved as a PNG again, the texts of the original PNG, among them the scene, are
+    kept."""
 
     def __init__(self, data: bytes) -> None:
         super().__init__(io.BytesIO(data))
@@ -79,9 +80,9 @@ class Frame:
     """A picture, with its headers and numbers.
 
     data: bytes of the file; kind: its media type. layers: the layers that were requested, by name, float32 of shape
-    (height, width), "rgb" of shape (height, width, 3). shows: the scene of a session's frame, which the frame's file
-    does not hold; None for other frames. accuracy: numbers of the header Kerrd-Accuracy. timing: milliseconds of each
-    pass. quality, number and revision: of frames of a session only.
+    (height, width), "rgb" of shape (height, width, 3). shows: for a session's frame, its scene, because the frame's
+    file does not contain it; None for other pictures. accuracy: numbers of the header Kerrd-Accuracy. timing:
+    milliseconds of each pass. quality, number and revision: set for frames of a session only.
     """
 
     data: bytes
@@ -101,8 +102,8 @@ class Frame:
 
     @property
     def png(self) -> bytes:
-        """Bytes of the PNG with its scene, from which `kerrd render --from` renders it again. ValueError if the picture
-        is a JPEG, as frames of a moving scene may be."""
+        """The bytes of the PNG including its scene, so that `kerrd render --from` can render it again. Raises
+        ValueError if the picture is a JPEG, as frames of a moving scene may be."""
         if self.kind != "image/png":
             raise ValueError(f"this picture came as {self.kind}; only the last one of a scene that rests is a PNG")
         return self.data if self.shows is None else _with_text(self.data, "kerrd:scene", json.dumps(self.shows))
@@ -139,7 +140,7 @@ class Frame:
 
     @property
     def approximations(self) -> list[str]:
-        """Omissions and approximations of the picture, in sentences."""
+        """What the picture omits or approximates, in sentences."""
         return [self.sentences[name] for name in items(self.headers.get("kerrd-approximations"))]
 
     @property
@@ -149,7 +150,7 @@ class Frame:
 
     @property
     def etag(self) -> str:
-        """The header ETag, or "" without one."""
+        """The header ETag, or "" if there is none."""
         return self.headers.get("etag", "")
 
     @property
@@ -174,7 +175,7 @@ class Frame:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the file in its own format, PNG (with the scene) or JPEG; the ending of path must match, otherwise
-        KerrdError is raised. For other formats of pictures use `image` and Pillow, for files of numbers `kerrd
+        KerrdError is raised. For other picture formats use `image` and Pillow. For files of numbers use `kerrd
         render`."""
         kinds = {"image/png": ("png",), "image/jpeg": ("jpg", "jpeg")}
         if self.kind not in kinds:

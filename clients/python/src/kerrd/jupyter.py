@@ -1,7 +1,7 @@
 """A live view in a notebook's cell: kerrd.widget(...). Needs the package anywidget (pip install kerrd[jupyter]).
 
 Frames go from the server's session to the kernel (follow.py), and from there over the kernel's comm to widget.js. The
-browser therefore need not reach the server.
+browser therefore needs no connection to the server.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from .names import checked
 from .scene import Scene
 
 USUAL = ("spacetime.spin", "camera.inclination_deg", "disk.outer", "style.exposure")
-WIDTH = 640  # pixels, the default width of a picture
-PATIENCE_S = 60.0  # seconds to wait for a frame that is requested
-# seconds to wait for the finest frame, and then for any frame, to save a picture in the notebook
+WIDTH = 640  # default width of a picture, in pixels
+PATIENCE_S = 60.0  # seconds to wait for a requested frame
+# when a notebook saves a picture: seconds to wait for the finest frame, and then for any frame
 FINEST_S, SHOW_S = 2.0, 10.0
 
 _starting = threading.Lock()
@@ -37,7 +37,7 @@ _own: local | None = None
 
 
 def own_server() -> Client:
-    """The server that all widgets of this process share by default; a new one if the last has died."""
+    """The server that all widgets of this process share by default. A new one is started if the last has died."""
     global _own
     with _starting:
         if _own is not None and _own.process.poll() is not None:
@@ -49,7 +49,7 @@ def own_server() -> Client:
 
 
 class _Taken:
-    """A scene that the server has accepted, to be set as the trait's value."""
+    """A scene that the server has already accepted. The trait takes it without sending it."""
 
     def __init__(self, document: Document) -> None:
         self.scene = dataclass_of(document, Scene)
@@ -97,7 +97,7 @@ class Widget(anywidget.AnyWidget):
         try:
             self._begin(document)
             for field in wanted:
-                patch_of(self._follower.scene, {field.path: None})  # KeyError for an element that does not exist
+                patch_of(self._follower.scene, {field.path: None})  # raises KeyError for an element that does not exist
         except BaseException:
             self._follower.close()
             raise
@@ -145,7 +145,7 @@ class Widget(anywidget.AnyWidget):
         self._follower.client.render(self._follower.scene).save(path)
 
     def close(self) -> None:
-        """Removes the widget and ends its session. The end of the kernel has the same effect."""
+        """Removes the widget and ends its session. Both also happen when the kernel ends."""
         super().close()
         if hasattr(self, "_follower"):
             self._follower.close()
@@ -185,7 +185,7 @@ class Widget(anywidget.AnyWidget):
             self._follower.leave(message["view"])
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        """The widget, and a still picture that the notebook shows without its kernel."""
+        """What the notebook shows: the widget, and a still picture for when no kernel runs."""
         bundle: Any = super()._repr_mimebundle_(**kwargs)
         frame = self._within(FINEST_S, final=True) or self._within(SHOW_S, final=False)
         if frame is None:
@@ -201,7 +201,7 @@ class Widget(anywidget.AnyWidget):
 
 
 def _encoded(frame: Frame, kind: str, height: int | None = None) -> bytes:
-    """The frame as a file of another format. height: the picture is scaled to this height, in pixels."""
+    """The frame as a file of another format. height: height in pixels to which the picture is scaled."""
     file = io.BytesIO()
     image = frame.image.convert("RGB")
     if height is not None and height != image.height:

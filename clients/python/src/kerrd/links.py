@@ -8,8 +8,8 @@ import time
 from typing import Optional, Union
 from urllib.parse import parse_qsl, quote, unquote, urlsplit
 
-# The routes that take links, at the end of a path, below any base path. A file below /web/ may be in a folder, and the
-# base path may itself be /web.
+# Ends of the paths of routes that accept links; a base path may come before. A file below /web/ may be in a folder, and
+# the base path itself may be /web.
 _ROUTES = re.compile(
     r"/v1/render\Z|/v1/share/[^/]+/picture\.png\Z|/v1/physics/[^/]+\Z|/v1/jobs/[^/]+/result\Z|/s/[^/]+\Z"
 )
@@ -28,10 +28,10 @@ def sign(
     """A signed link for an address. Anybody may GET it until it expires.
 
     address: of a picture, /v1/render?...; of a shared scene, /s/...; of a quantity, /v1/physics/...; or of a job's
-    result. key and signer: the two words of the line `signer link key` in the server's token file. expires: seconds
-    from now, a timedelta, or a datetime (without a time zone: local time). budget: device time in seconds that all
-    pictures requested by the link may use together; None: no limit. ValueError if an argument is not valid. The server
-    checks the signature only when the link is used."""
+    result. signer and key: from the line `signer link key` in the server's token file. expires: seconds from now, a
+    timedelta, or a datetime (without a time zone: local time). budget: device time in seconds that all pictures
+    requested by the link may use together; None: no limit. ValueError if an argument is not valid. The server checks
+    the signature only when the link is used."""
     at = urlsplit(address)
     path = unquote(at.path)
     route = _ROUTES.search(path) or _FILES.search(path)

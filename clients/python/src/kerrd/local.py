@@ -1,4 +1,4 @@
-"""A server of your own on this machine."""
+"""A client with a server of its own on this machine."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .errors import KerrdError, NoBinary
 
 
 def _installed() -> str | None:
-    """The program in the wheel of this package, wherever pip has installed it; None if there is none."""
+    """The program in this package's wheel, where pip has installed it; None if there is none."""
     try:
         files = metadata.files("kerrd") or []
     except metadata.PackageNotFoundError:
@@ -39,11 +39,11 @@ def _checkout() -> Path | None:
 
 
 def _build(tree: Path) -> None:
-    """Builds the program; only one process at a time does so. The build's output goes to standard error, because a
-    build takes minutes."""
+    """Builds the program; only one process at a time does so. A build takes minutes, so its output is shown on standard
+    error."""
     try:
         import fcntl
-    except ImportError as missing:  # where there is no fcntl (no POSIX), kerrd cannot be built either
+    except ImportError as missing:  # a system without fcntl is not POSIX, and kerrd cannot be built there
         raise NoBinary(
             f"{tree} cannot be built on this system: kerrd runs on Linux; kerrd.Client(url) uses a server elsewhere"
         ) from missing
@@ -59,8 +59,8 @@ def _build(tree: Path) -> None:
 def find_binary(binary: str | os.PathLike[str] | None = None, *, build: bool = False) -> str:
     """The path of the program: the argument, or without an argument $KERRD. If neither is given: the program of this
     package's wheel, otherwise the one in the PATH, otherwise, for a package installed with -e, the build of its source
-    tree. build: if no program exists, build that source tree by scripts/setup, which may install packages. Raises
-    NoBinary if there is no program."""
+    tree. build: true: if no program exists, builds that source tree by scripts/setup, which may install packages.
+    Raises NoBinary if there is no program."""
     for said in (binary, os.environ.get("KERRD")):
         if said:
             found = shutil.which(os.fspath(said))
@@ -113,8 +113,8 @@ class local(Client):
             *(["--device", device] if device else []),
             *args,
         ]
-        # The server has a process group of its own. An interrupt of a cell or a script then reaches Python alone, and
-        # the server lives until atexit functions have run at the end of a kernel.
+        # The server has a process group of its own. An interrupt of a cell or a script therefore reaches only Python.
+        # At the end of a kernel the server lives until the atexit functions have run.
         self.process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,

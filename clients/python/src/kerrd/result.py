@@ -68,5 +68,5 @@ class Sweep:
 
 
 def _words(values: NDArray[Any]) -> NDArray[Any]:
-    """Converts bytes to texts, which files of arrays can hold; numbers and texts are returned unchanged."""
+    """Converts bytes to texts, because the files can store texts. Numbers and texts are returned unchanged."""
     return values if values.dtype.kind in "fiub" else values.astype(str)

@@ -1,12 +1,12 @@
-// The live view in a notebook's cell; jupyter.py is its other half. Frames come over the kernel's comm, and each is
-// acknowledged when it is shown. At most one change is sent at a time. Changes made in the meantime wait; for each
-// field only the last one is sent. The camera is moved by hand as on the page (clients/web/controls/view.js).
+// The live view in a notebook's cell; jupyter.py is the part in the kernel. Frames arrive over the kernel's comm. Each
+// frame is acknowledged when it is shown. At most one change is sent at a time. Later changes wait for its answer, and
+// only the last change of each field is sent. The user moves the camera as on the page (clients/web/controls/view.js).
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 const turn = x => x - 360 * Math.round(x / 360);
 const round = (x, digits) => Number(x.toFixed(digits));
 const radians = Math.PI / 180;
 const near_r = 10; // radius in M within which a drag looks around
-const presence_ms = 30_000; // time between two messages by which this view tells the kernel that it is still open
+const presence_ms = 30_000; // time between two messages that tell the kernel that this view is still open
 
 function el(name, attributes = {}, ...children) {
   const node = document.createElement(name);
@@ -16,13 +16,13 @@ function el(name, attributes = {}, ...children) {
   return node;
 }
 
-// The kernel's scene, overlaid by the changes that this view has requested.
+// The kernel's scene, with the changes that this view has requested applied to it.
 function state(model, id, show) {
   const asked = new Map();
   let scene = model.get('scene'),
     waiting = null,
     under_way = false,
-    held = false; // the picture is being dragged
+    held = false; // true while the picture is being dragged
 
   function push() {
     if (under_way || !waiting) return;
@@ -58,7 +58,7 @@ function state(model, id, show) {
   };
 }
 
-// Drag, pinch, wheel and keys. The wheel scrolls the notebook until the picture has been touched.
+// Handles drag, pinch, wheel and keys. Until the user has touched the picture, the wheel scrolls the notebook instead.
 function hands(stage, scene) {
   const pointers = new Map();
   let begin = null;
@@ -100,7 +100,7 @@ function hands(stage, scene) {
       });
   }
 
-  // The picture follows the pointer.
+  // The dragged point of the picture follows the pointer.
   function drag(right, down) {
     const { clientWidth: width, clientHeight: height } = stage;
     if (!looks()) return step((-right * 180) / width, (down * 180) / height, begin);
@@ -121,7 +121,7 @@ function hands(stage, scene) {
   const at = event => ({ x: event.clientX, y: event.clientY });
   stage.addEventListener('pointerdown', event => {
     if (event.button) return;
-    event.preventDefault(); // keeps the focus here; otherwise the notebook would take it
+    event.preventDefault(); // keeps the focus on the picture; otherwise the notebook would take it
     stage.focus({ preventScroll: true });
     stage.setPointerCapture(event.pointerId);
     pointers.set(event.pointerId, at(event));
@@ -164,7 +164,7 @@ function hands(stage, scene) {
   });
 }
 
-// A slider with the kernel's numbers from the field's range, and a box that takes any number.
+// A slider at the positions that the kernel chose for the field's range, and a box that accepts any number.
 function numberControl({ path, positions, low, high, unit, word, first, kind }, scene, about) {
   const slider = el('input', { type: 'range', min: 0, max: positions.length - 1, step: 1, ...about }),
     box = el('input', { type: 'number', min: low, max: high, step: kind === 'integer' ? 1 : 'any', ...about });
@@ -179,7 +179,8 @@ function numberControl({ path, positions, low, high, unit, word, first, kind }, 
     show(scene.get(path));
   }
   box.addEventListener('change', taken);
-  box.addEventListener('keydown', event => event.key === 'Enter' && taken()); // JupyterLab suppresses the change event
+  // needed because JupyterLab suppresses the change event
+  box.addEventListener('keydown', event => event.key === 'Enter' && taken());
   check?.addEventListener('change', () => give(check.checked ? word : first));
   const distance = (a, b) => Math.abs(a - b);
   function show(value) {

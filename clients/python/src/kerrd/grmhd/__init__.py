@@ -70,7 +70,7 @@ def matter(
     row_step: int = 1,
 ) -> Matter:
     """The matter of a simulation's dump, as the file that volume.grid names. A list of dumps in the order of their
-    times becomes a series, which volume.slow_light shows in slow light.
+    times becomes a series in time. With volume.slow_light, light then takes time to cross the changing matter.
 
     mass_msun, m_unit: mass of the hole, and the code's unit of mass, g; together they give the density in cm^-3 and the
     field in gauss. Without m_unit the largest density is 1e6 cm^-3, and the scene's volume.grid_scale or
@@ -79,11 +79,11 @@ def matter(
     the temperature stored by KORAL. gamma_e, gamma_p: adiabatic indices of electrons and ions; None: those in the file,
     or 4/3 and 5/3 if it has none. sigma_cut: zones with a larger b^2/rho have no matter; None: no such cut. rho_floor:
     zones whose density in the code's units is at most this have no matter, because there the density is the
-    simulation's floor; None: no such cut. outer: rows beyond this r are left out. row_step: one of this number of rows
-    is kept. every: one of this number of dumps of a series is kept. code: "iharm3d", "kharma", "koral" or "athena++";
-    None: found by the contents. spin, gamma: of the hole, and the gas's adiabatic index: needed for Athena++, whose
-    files have neither. DumpProblem, with file and name, for a file that cannot be read; ValueError for another
-    argument; ImportError without the package h5py.
+    simulation's floor; None: no such cut. outer: rows beyond this r are left out. row_step: n keeps every n-th row.
+    every: n keeps every n-th dump of a series. code: "iharm3d", "kharma", "koral" or "athena++"; None: found by the
+    contents. spin, gamma: of the hole, and the gas's adiabatic index: needed for Athena++, whose files have neither.
+    DumpProblem, with file and name, for a file that cannot be read; ValueError for another argument; ImportError
+    without the package h5py.
     """
     if code is not None and code not in CODES:
         raise ValueError(f"code is {code!r}; it must be {', '.join(CODES)} or None")

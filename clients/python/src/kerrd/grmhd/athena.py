@@ -19,14 +19,14 @@ Numbers = NDArray[np.float64]
 FIELDS = ("rho", "press", "vel1", "vel2", "vel3", "Bcc1", "Bcc2", "Bcc3")
 LEVELS_MOST = 12
 BLOCKS_MOST = 1 << 20
-EVEN = 1e-3  # fraction of a step: tolerance for geometric radii and even azimuths
+EVEN = 1e-3  # tolerance for geometric radii and even azimuths, as a fraction of a step
 TURN = 1e-5
 
 
 @dataclass(frozen=True)
 class Mesh:
-    """Blocks of zones, of several levels of refinement. size: zones of a block along r, theta and phi; whole: zones of
-    the whole mesh at the finest level."""
+    """Blocks of zones at several levels of refinement. size: number of zones of a block along r, theta and phi. whole:
+    number of zones of the whole mesh along r, theta and phi at the finest level."""
 
     file: DumpFile
     size: tuple[int, int, int]
@@ -36,18 +36,18 @@ class Mesh:
     finest: int
 
     def factor(self, block: int, axis: int) -> int:
-        """Number of zones of the finest level, along an axis, in one zone of the block."""
+        """For one axis: number of zones of the finest level that one zone of the block covers."""
         return 1 if self.whole[axis] == 1 else 1 << (self.finest - self.levels[block])
 
     def span(self, block: int, axis: int) -> slice:
-        """Zones of the finest level that the block covers."""
+        """The zones of the finest level that the block covers, as slices."""
         width = self.size[axis] * self.factor(block, axis)
         first = int(self.places[block, axis]) * width
         return slice(first, first + width)
 
     def faces(self, axis: int) -> Numbers:
-        """Bounds of the zones of the finest level. Where the mesh has only coarser zones, these are divided evenly (r
-        in log r)."""
+        """Bounds of the zones of the finest level. Coarser zones are divided evenly; in r they are divided evenly in
+        log r."""
         name = f"x{axis + 1}f"
         read = self.file.part(name, self.file.array(name, (len(self.levels), self.size[axis] + 1)), slice(None))
         if not (np.isfinite(read).all() and (np.diff(read, axis=1) > 0).all() and (axis or (read > 0).all())):
@@ -109,7 +109,7 @@ def _wholes(file: DumpFile, name: str, shape: tuple[int, ...], high: int) -> NDA
 
 
 def _variables(file: DumpFile, mesh: Mesh) -> dict[str, tuple[str, Any, int]]:
-    """For each variable, the name of its dataset and its index there."""
+    """For each variable: the name of its dataset, and its index in that dataset."""
     datasets = file.attribute_texts("DatasetNames", 64)
     counts = file.attribute_wholes("NumVariables", len(datasets), 1, 256)
     names = file.attribute_texts("VariableNames", 256)
@@ -131,7 +131,8 @@ def _variables(file: DumpFile, mesh: Mesh) -> dict[str, tuple[str, Any, int]]:
 
 
 def _gather(file: DumpFile, mesh: Mesh) -> dict[str, NDArray[np.float32]]:
-    """Each variable on the finest level, along r, theta and phi. Zones of coarser blocks are repeated."""
+    """Each variable at the finest level, along r, theta and phi. Values of a coarser block are repeated for all fine
+    zones that it covers."""
     variables = _variables(file, mesh)
     out = {name: np.empty(mesh.whole, np.float32) for name in FIELDS}
     covered = np.zeros(mesh.whole, bool)

@@ -1,4 +1,4 @@
-"""A simulation's fields on its own grid of r, theta and phi, in the ingoing coordinates of Kerr and Schild."""
+"""A simulation's fields on its own grid of r, theta and phi, in ingoing Kerr-Schild coordinates."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Dump:
 
     @property
     def shape(self) -> tuple[int, int, int]:
-        """Rows, columns and layers."""
+        """Number of rows, columns and layers."""
         return len(self.r), self.theta.shape[-1], 1 if self.phi is None else len(self.phi)
 
     def angles(self, row: int) -> NDArray[np.float64]:

@@ -1,4 +1,4 @@
-"""Reads HDF5 files of simulations with limits: memory is allocated only after its size has been checked."""
+"""Reads HDF5 files of simulations. Memory is allocated only after its size has been checked against a limit."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 from ..errors import KerrdError
 
 MAGIC = b"\x89HDF\r\n\x1a\n"
-NODES_MOST = 1 << 26  # most nodes of a dump; the server's limit stands in src/render/emit/matter_grid.h
+NODES_MOST = 1 << 26  # largest number of nodes of a dump; the server's limit is in src/render/emit/matter_grid.h
 SIDE_MOST = 65536
-TEXT_MOST = 256  # largest number of bytes of an element of a dataset or an attribute, such as a text of fixed length
+TEXT_MOST = 256  # largest size in bytes of one element of a dataset or an attribute, such as a text of fixed length
 LIST_MOST = 4096  # largest number of elements of an attribute
 
 
 def printable(text: str) -> str:
-    """The text with escapes for characters that would control a terminal."""
+    """The text with control characters escaped, because they could control a terminal."""
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
 
 
@@ -37,7 +37,7 @@ class DumpProblem(KerrdError, ValueError):
 
 
 def is_hdf5(path: str | os.PathLike[str]) -> bool:
-    """True if a file begins as HDF5 does."""
+    """True if the file starts with the signature of HDF5."""
     try:
         with open(path, "rb") as file:
             return file.read(len(MAGIC)) == MAGIC
@@ -56,7 +56,8 @@ def _h5py() -> Any:
 
 
 class DumpFile:
-    """An open file. Each method that reads raises DumpProblem with the name, the value and what it must be."""
+    """An open file. A method that reads raises DumpProblem with the name of the element, its value, and the allowed
+    values."""
 
     def __init__(self, path: str | os.PathLike[str]) -> None:
         self.path = os.fspath(path)
@@ -88,12 +89,12 @@ class DumpFile:
             raise self.problem(name, f"cannot be read: {_reason(error)}") from error
 
     def _attributes(self, name: str) -> tuple[Any, str]:
-        """The attributes that contain the named one, of the file or of a group, and its name there."""
+        """Where the named attribute is stored: the attributes of the file or of a group, and the name in these."""
         group, _, last = name.rpartition("/")
         return (self.root[group] if group else self.root).attrs, last
 
     def has_attribute(self, name: str) -> bool:
-        """True if there is an attribute: of the file, or of a group as in "Info/Time"."""
+        """True if the attribute exists: in the file, or in a group for a name such as "Info/Time"."""
         if "/" in name and name.rpartition("/")[0] not in self:
             return False
         try:
@@ -125,7 +126,7 @@ class DumpFile:
             raise self.problem(name, f"has elements of {kind.itemsize} bytes; they must have at most {most}")
 
     def read(self, name: str, found: Any, at: Any = ()) -> NDArray[Any]:
-        """Elements of a dataset, which `dataset` returned."""
+        """Reads elements of a dataset that the method `dataset` returned."""
         try:
             return np.asarray(found[at])
         except (OSError, RuntimeError, TypeError, ValueError) as error:
@@ -175,7 +176,7 @@ class DumpFile:
         return [self._text(name, value) for value in self.read(name, found)]
 
     def array(self, name: str, shape: tuple[int, ...]) -> Any:
-        """A dataset of numbers with this shape; `part` reads its elements."""
+        """A dataset of numbers with this shape. Its elements are read by `part`."""
         found = self.dataset(name)
         if tuple(found.shape) != shape:
             raise self.problem(name, f"has the shape {tuple(found.shape)}; it must be {shape}")
@@ -184,11 +185,11 @@ class DumpFile:
         return found
 
     def part(self, name: str, found: Any, at: Any) -> NDArray[np.float64]:
-        """Elements of a dataset that `array` returned."""
+        """Reads elements of a dataset that the method `array` returned."""
         return np.asarray(self.read(name, found, at), dtype=np.float64)
 
     def attribute(self, name: str, most: int = TEXT_MOST) -> NDArray[Any]:
-        """An attribute of the file, or of a group, as a list. most: bytes of an element."""
+        """An attribute of the file, or of a group, as a list. most: largest size of an element in bytes."""
         try:
             attributes, last = self._attributes(name)
             found = attributes.get_id(last)

@@ -33,15 +33,16 @@ UNITS = {
 }
 ARRAYS = tuple(UNITS)[2:]
 KIND = "application/x-npz"
-NODES_MOST, SIDE_MOST, FRAMES_MOST = 1 << 25, 4096, 1024  # limits of a grid, as in src/render/emit/matter_grid.h
+# limits of a grid, equal to those in src/render/emit/matter_grid.h
+NODES_MOST, SIDE_MOST, FRAMES_MOST = 1 << 25, 4096, 1024
 
 
 @dataclass(frozen=True)
 class Matter:
     """A grid of matter. spin, charge: of the hole; the scene's spacetime.spin and spacetime.charge must equal them.
-    r, theta, phi: of the nodes. arrays: each of the shape (rows, columns) or (rows, columns, layers). time: of each
-    frame of a series, whose arrays have a leading axis of frames; None: the grid shows one moment. notes: what was
-    chosen, cut and left out."""
+    r, theta, phi: coordinates of the nodes. arrays: quantities by name, each of the shape (rows, columns) or (rows,
+    columns, layers). time: time of each frame of a series, whose arrays have the frames as first axis; None: the grid
+    is one moment in time. notes: sentences about what was chosen, cut and left out."""
 
     spin: float
     r: NDArray[np.float64]
@@ -65,8 +66,8 @@ class Matter:
 
     @staticmethod
     def series(dumps: Callable[[int], AbstractContextManager[Dump]], time: list[float], plasma: Plasma) -> Matter:
-        """The matter of dumps with the same nodes, in the order of their times, which have been checked. dumps: opens a
-        dump by its number."""
+        """The matter of a series of dumps in the order of their times, whose nodes are the same. The caller has checked
+        times and nodes. dumps: opens a dump by its number."""
         with dumps(0) as first:
             arrays = {name: np.empty((len(time), *first.shape), np.float32) for name in ARRAYS}
         empty = 0
@@ -79,7 +80,7 @@ class Matter:
         return replace(_finished(first, plasma, arrays, empty), time=np.array(time))
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the file that `--asset NAME=FILE` and client.put_asset take."""
+        """Writes the file, which can be given to `--asset NAME=FILE` and client.put_asset."""
         with open(path, "wb") as file:
             self._write(file)
 
@@ -103,7 +104,7 @@ class Matter:
 
 
 def _check_electrons(dump: Dump, plasma: Plasma) -> None:
-    """Refuses a stored entropy or temperature that the dump does not have."""
+    """Refuses the name of a stored entropy or temperature that is not in the dump."""
     stored = (*dump.electrons, *dump.kelvin)
     if plasma.electrons != "ratio" and plasma.electrons not in stored:
         names = " or ".join(f'"{name}"' for name in ("ratio", *stored))
@@ -111,7 +112,7 @@ def _check_electrons(dump: Dump, plasma: Plasma) -> None:
 
 
 def _fill(arrays: dict[str, NDArray[np.float32]], dump: Dump, plasma: Plasma) -> int:
-    """Fills the arrays in the code's units. Returns the number of zones without matter because of a cut."""
+    """Fills the arrays, in the code's units. Returns the number of zones that a cut leaves without matter."""
     empty = 0
     with np.errstate(all="ignore"):  # _check_single finds overflows
         for i in range(dump.shape[0]):
@@ -130,7 +131,7 @@ def _fill(arrays: dict[str, NDArray[np.float32]], dump: Dump, plasma: Plasma) ->
 
 
 def _finished(dump: Dump, plasma: Plasma, arrays: dict[str, NDArray[np.float32]], empty: int) -> Matter:
-    """The matter of filled arrays; all frames have the same units."""
+    """The matter of the filled arrays, with the same units for all frames."""
     _scale(arrays, plasma.density_unit)
     _check_single(dump, plasma, arrays)
     if dump.phi is None:
@@ -172,7 +173,7 @@ def check_size(dump: Dump) -> None:
 
 
 def _nothing(dump: Dump, plasma: Plasma, by_cuts: bool) -> Exception:
-    """The error if no zone has a density."""
+    """The error that is raised if no zone has a density."""
     if not by_cuts:
         return DumpProblem(
             dump.file, "rho", "is 0 in single precision wherever no cut applies; it must be above 1.4e-45"
@@ -194,7 +195,7 @@ def _scale(arrays: dict[str, NDArray[np.float32]], unit: float | None) -> None:
 
 
 def _check_single(dump: Dump, plasma: Plasma, arrays: dict[str, NDArray[np.float32]]) -> None:
-    """Refuses numbers that single precision, in which a grid is stored, cannot express."""
+    """Refuses numbers outside the range of single precision, in which a grid is stored."""
     for name, values in arrays.items():
         bad = ~np.isfinite(values)
         if not bad.any():

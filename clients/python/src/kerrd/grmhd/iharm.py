@@ -22,14 +22,15 @@ FIELDS = ("RHO", "UU", "U1", "U2", "U3", "B1", "B2", "B3")
 METRICS = ("MKS", "MMKS", "FMKS")
 PRIMS_MOST = 64
 R_LEAST, R_MOST = 0.1, 1e6  # as in src/render/emit/matter_grid.c
-BLOCK = 1 << 22  # numbers that are read at once if a row has fewer
-ROW_MOST = 1 << 25  # largest number of numbers in a row
+BLOCK = 1 << 22  # number of values to read at once; whole rows are read, at least one
+ROW_MOST = 1 << 25  # largest number of values in a row
 GEOMETRY = "header/geom/"
 
 
 @dataclass(frozen=True)
 class Coordinates:
-    """theta of X1 and X2, and its derivatives by both; r is exp(X1). turn: factor of X2 in the formula."""
+    """theta as a function of X1 and X2, and its derivatives by X1 and X2; r = exp(X1). turn: factor of X2 in the
+    formula."""
 
     slope: float
     start: float = 0.0
@@ -58,7 +59,8 @@ class Coordinates:
 
 
 def embed(row: Row, coordinates: Coordinates, x1: float, x2: Numbers) -> Row:
-    """The row with its vectors along r, theta and phi: dx^i/dX^j times the components along X1, X2 and X3."""
+    """The row with vectors converted to components along r, theta and phi: dx^i/dX^j times the components along X1, X2
+    and X3."""
     _, by1, by2 = coordinates.theta(x1, x2)
     for kind in ("U", "B"):
         first, second = row[kind + "1"], row[kind + "2"]
@@ -68,7 +70,7 @@ def embed(row: Row, coordinates: Coordinates, x1: float, x2: Numbers) -> Row:
 
 
 def _coordinates(file: DumpFile, metric: str) -> tuple[Coordinates, float]:
-    """The coordinates, and the spin."""
+    """The coordinates, and the spin of the hole."""
     names = ("mks",) if metric == "MKS" else ("mmks", "fmks")
     group = next((f"{GEOMETRY}{name}/" for name in names if f"{GEOMETRY}{name}" in file), f"{GEOMETRY}{names[0]}/")
     spin, slope = file.number(group + "a", -1, 1), file.number(group + "hslope", 0, 2)
@@ -97,7 +99,7 @@ def _reader(
 ) -> Callable[[int], Row]:
     prims = file.array("prims", shape)
     rows = max(1, BLOCK // math.prod(shape[1:]))
-    block: dict[int, Numbers] = {}  # the rows that were read last, by the index of the first one
+    block: dict[int, Numbers] = {}  # the rows read last, and the index of the first of them
 
     def row(i: int) -> Row:
         first = i - i % rows
@@ -112,7 +114,7 @@ def _reader(
 
 
 def read(file: DumpFile, outer: float | None = None) -> Dump:
-    """The dump of an open file. Its rows are read when they are requested."""
+    """The dump of an open file. A row is read when it is requested."""
     metric = file.text("header/metric")
     if metric not in METRICS:
         raise file.must("header/metric", f'"{metric[:40]}"', "MKS, MMKS or FMKS")

@@ -1,4 +1,4 @@
-"""Vectors in the ingoing coordinates of Kerr and Schild: the four-velocity and the magnetic field of HARM's variables.
+"""Vectors in ingoing Kerr-Schild coordinates: the four-velocity and the magnetic field of HARM's variables.
 
 C. F. Gammie, J. C. McKinney & G. Toth 2003 (ApJ 589, 444): b^t = B^i u_i, b^i = (B^i + b^t u^i)/u^t; the velocity
 relative to the normal observer U^i = u^i - gamma beta^i/alpha, whose norm gives gamma^2 = 1 + U.U (also J. C. McKinney
@@ -16,7 +16,8 @@ Numbers = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Flow:
-    """u^r, u^theta and u_phi, the same of b, and b^2. These components are also those of Boyer and Lindquist."""
+    """u^r, u^theta and u_phi; b^r, b^theta and b_phi; and b^2. These components are the same in Boyer-Lindquist
+    coordinates."""
 
     u: tuple[Numbers, Numbers, Numbers]
     b: tuple[Numbers, Numbers, Numbers]
@@ -24,7 +25,7 @@ class Flow:
 
 
 def flow(a: float, r: float, theta: Numbers, U: tuple[Numbers, ...], B: tuple[Numbers, ...]) -> Flow:
-    """At one r and the angles theta, which broadcast to the shape of the components U^i and B^i."""
+    """The metric at one r and at the angles theta. The arrays broadcast to the shape of the components U^i and B^i."""
     s2 = np.sin(theta) ** 2
     sigma = r * r + a * a * np.cos(theta) ** 2
     h = 2 * r / sigma

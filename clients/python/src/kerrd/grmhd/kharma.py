@@ -22,16 +22,17 @@ ENTROPIES = ("Kel_Constant", "Kel_Howes", "Kel_Kawazura", "Kel_Rowan", "Kel_Shar
 BASES = ("spherical_ks", "ks")
 TRANSFORMS = {"exponential": "eks", "exp": "eks", "modified": "mks", "funky": "fmks"}
 DECK = "Input/File"
-DECK_MOST = 1 << 20  # largest number of bytes of the input file
+DECK_MOST = 1 << 20  # largest size of the input file in bytes
 BLOCKS_MOST = 1 << 20
-EDGES_MOST = 1 << 24  # largest number of edges of zones along an axis, of all blocks
+EDGES_MOST = 1 << 24  # largest number of edges of zones along an axis, summed over all blocks
 GHOSTS_MOST = 16
 NEAR = 1e-3  # tolerance, as a fraction of a zone
 
 
 @dataclass(frozen=True)
 class Deck:
-    """The parameters of a run, by block and name: lines "<block>" and "name = value", comments after "#"."""
+    """The parameters of a run by block and name. The text has lines "<block>" and "name = value", and comments after
+    "#"."""
 
     file: DumpFile
     values: dict[tuple[str, str], str]
@@ -74,8 +75,8 @@ class Deck:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Blocks of equal zones. size: zones of a block along X1, X2 and X3, without ghost zones; ghosts: number of ghost
-    zones on each side; places: the first zone of each block."""
+    """Blocks of zones of equal size. size: number of zones of a block along X1, X2 and X3, without ghost zones. ghosts:
+    number of ghost zones on each side. places: index of each block's first zone in the whole mesh."""
 
     file: DumpFile
     whole: tuple[int, int, int]
@@ -87,7 +88,7 @@ class Mesh:
         return slice(self.ghosts[axis], self.ghosts[axis] + self.size[axis])
 
     def stored(self) -> tuple[int, int, int]:
-        """Zones of a block in the file, along X3, X2 and X1."""
+        """Number of zones of a block in the file, along X3, X2 and X1."""
         one, two, three = (n + 2 * g for n, g in zip(self.size, self.ghosts))
         return three, two, one
 
@@ -135,7 +136,8 @@ def _mesh(file: DumpFile, whole: tuple[int, int, int], bounds: list[tuple[float,
 
 
 def _array(file: DumpFile, name: str, count: int, mesh: Mesh) -> tuple[Any, int | None]:
-    """The dataset of a field, and the axis of its components, which older versions have elsewhere."""
+    """The dataset of a field, and the axis of its components, because older versions put the components on another
+    axis."""
     zones = mesh.stored()
     blocks = len(mesh.places)
     forms: dict[tuple[int, ...], int | None] = {(blocks, *zones, count): 4, (blocks, count, *zones): 1}
@@ -147,7 +149,7 @@ def _array(file: DumpFile, name: str, count: int, mesh: Mesh) -> tuple[Any, int 
 
 
 def _gather(file: DumpFile, mesh: Mesh, fields: dict[str, tuple[str, ...]]) -> dict[str, NDArray[np.float32]]:
-    """Each field along X1, X2 and X3."""
+    """The values of each field, along X1, X2 and X3."""
     out = {name: np.empty(mesh.whole, np.float32) for names in fields.values() for name in names}
     zones = (mesh.inside(2), mesh.inside(1), mesh.inside(0))
     for field, names in fields.items():
@@ -161,7 +163,7 @@ def _gather(file: DumpFile, mesh: Mesh, fields: dict[str, tuple[str, ...]]) -> d
 
 
 def _coordinates(deck: Deck) -> tuple[Coordinates, float]:
-    """The coordinates, and the largest X2."""
+    """The coordinates, and the largest value of X2."""
     base, transform = deck.word("coordinates", "base"), deck.word("coordinates", "transform")
     if base not in BASES:
         raise deck.file.must(f"{DECK} <coordinates> base", f'"{base[:40]}"', " or ".join(BASES))

@@ -1,6 +1,6 @@
 """Files of KORAL for analysis (ana*.h5), as fprint_anaout_hdf5 of its fileop.c writes them (achael/koral_lite):
-density, pressure, u^mu and b^mu in code units, in the coordinates of Kerr and Schild or of Boyer and Lindquist, and r,
-theta and phi of each zone."""
+density, pressure, u^mu and b^mu in code units, in Kerr-Schild or Boyer-Lindquist coordinates, and r, theta and phi of
+each zone."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Numbers = NDArray[np.float64]
 METRIC = "header/metric_out"
 FIELDS = ("rho", "pgas", "u0", "u1", "u2", "u3", "b0", "b1", "b2", "b3")
 KELVIN = "te"
-EVEN = 1e-3  # fraction of a step: tolerance for geometric radii and even azimuths
+EVEN = 1e-3  # tolerance for geometric radii and even azimuths, as a fraction of a step
 
 
 def _even(file: DumpFile, name: str, values: Numbers, must: str) -> None:
@@ -63,7 +63,7 @@ def _schild(a: float, r: float, v: list[Numbers]) -> list[Numbers]:
 
 
 def read(file: DumpFile, outer: float | None = None) -> Dump:
-    """The dump of an open file. Its rows are read when they are requested."""
+    """The dump of an open file. A row is read when it is requested."""
     metric = file.text(METRIC)
     if metric not in ("KS", "BL"):
         raise file.must(METRIC, f'"{metric[:40]}"', "KS or BL")

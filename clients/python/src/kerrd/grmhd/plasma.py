@@ -1,4 +1,4 @@
-"""Units, temperature of electrons and cuts, which a simulation in scale-free units does not determine."""
+"""Units, temperature of the electrons, and cuts. A simulation in scale-free units does not determine them."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from .dump import Dump, Row
 
 Numbers = NDArray[np.float64]
 
-# CODATA 2018 and IAU 2015 B3, CGS, as in src/physics/math/constants.h of the server.
+# CODATA 2018 and IAU 2015 B3, in CGS units; equal to those in src/physics/math/constants.h of the server.
 C, K = 2.99792458e10, 1.380649e-16
 PROTON, ELECTRON = 1.67262192369e-24, 9.1093837015e-28
 GM_SUN = 1.3271244e26
-THETA_LEAST = 1e-3  # limit of k T/(m_e c^2), as in ipole
-PEAK = 1e6  # the largest density in cm^-3 if the code's unit is unknown
+THETA_LEAST = 1e-3  # upper limit of k T/(m_e c^2), as in ipole
+PEAK = 1e6  # value in cm^-3 that the largest density gets if the code's unit is unknown
 
 
 @dataclass(frozen=True)
 class Plasma:
-    """The arguments of kerrd.matter of the same names."""
+    """Arguments of kerrd.matter, by the same names."""
 
     electrons: str = "ratio"
     r_low: float = 1.0
@@ -35,7 +35,7 @@ class Plasma:
     rho_floor: float | None = None
 
     def check(self) -> None:
-        """ValueError for an argument that is out of range."""
+        """Raises ValueError for an argument that is out of range."""
         for name, value, low, high in (
             ("r_low", self.r_low, 0, 1e9),
             ("r_high", self.r_high, 0, 1e9),
@@ -53,19 +53,17 @@ class Plasma:
 
     @property
     def density_unit(self) -> float | None:
-        """Density in g cm^-3 that is 1 in the code's units: m_unit (c^2/GM)^3."""
+        """Density in g cm^-3 of one code unit: m_unit (c^2/GM)^3."""
         if self.m_unit is None or self.mass_msun is None:
             return None
         return self.m_unit / (GM_SUN * self.mass_msun / C**2) ** 3
 
     def kelvin(self, dump: Dump, row: Row, b2: Numbers) -> Numbers:
-        """Temperature of the electrons.
-
-        By a ratio R of ion and electron temperature, R = (R_low + R_high beta^2)/(1 + beta^2), beta = 2 (gamma - 1)
-        u/b^2 (M. Moscibrodzka, H. Falcke & H. Shiokawa 2016, A&A 586, A38), with an adiabatic index for ions and one
-        for electrons: Theta = m_p/m_e (gamma_e - 1)(gamma_p - 1)/((gamma_p - 1) + (gamma_e - 1) R) u/rho, as in ipole's
-        model/iharm. By the file's own temperature. By the entropy K: Theta = m_p/m_e K rho^(gamma_e - 1) (S. M. Ressler
-        et al. 2015, MNRAS 454, 1848).
+        """Temperature of the electrons, in one of three ways. (1) From a ratio R of ion and electron temperature, R =
+        (R_low + R_high beta^2)/(1 + beta^2), beta = 2 (gamma - 1) u/b^2 (M. Moscibrodzka, H. Falcke & H. Shiokawa 2016,
+        A&A 586, A38), with an adiabatic index for ions and one for electrons: Theta = m_p/m_e (gamma_e - 1)(gamma_p -
+        1)/((gamma_p - 1) + (gamma_e - 1) R) u/rho, as in ipole's model/iharm. (2) The temperature stored in the file.
+        (3) From the stored entropy K: Theta = m_p/m_e K rho^(gamma_e - 1) (S. M. Ressler et al. 2015, MNRAS 454, 1848).
         """
         if self.electrons in dump.kelvin:
             return np.maximum(row[self.electrons], THETA_LEAST * (ELECTRON * C**2 / K))
@@ -81,12 +79,12 @@ class Plasma:
         return np.maximum(PROTON / ELECTRON * theta, THETA_LEAST) * (ELECTRON * C**2 / K)
 
     def cut(self, rho: Numbers, b2: Numbers) -> NDArray[np.bool_]:
-        """True if each node is without matter because of a cut."""
+        """For each node: true if a cut leaves it without matter."""
         none = np.zeros(rho.shape, bool) if self.rho_floor is None else rho <= self.rho_floor
         return none if self.sigma_cut is None else none | (b2 > self.sigma_cut * rho)
 
     def said(self, dump: Dump) -> list[str]:
-        """Sentences about the choices."""
+        """Sentences that describe the chosen units, temperature and cuts."""
         unit = self.density_unit
         out = [
             f"density 1 is {unit:.6g} g/cm^3"
@@ -106,5 +104,5 @@ class Plasma:
 
 
 def field_unit(density_unit: float) -> float:
-    """Magnetic field in gauss that is 1 in the code's units, which contain the factor sqrt(4 pi)."""
+    """Magnetic field in gauss of one code unit. The code's unit contains the factor sqrt(4 pi)."""
     return C * math.sqrt(4 * math.pi * density_unit)

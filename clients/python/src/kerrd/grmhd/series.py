@@ -1,4 +1,4 @@
-"""A series in time: dumps of one run, whose nodes are the same, in even steps of their times."""
+"""A series in time: dumps of one run with the same nodes, at evenly spaced times."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from .file import DumpProblem
 from .grid import FRAMES_MOST, NODES_MOST, Matter, check_size
 from .plasma import Plasma
 
-STEADY = 1e-2  # tolerance of the times as a fraction of a step, as in src/render/emit/matter_grid.c
+STEADY = 1e-2  # tolerance of the times as a fraction of a step, equal to that in src/render/emit/matter_grid.c
 
 
 def series(paths: Sequence[str], dumps: Callable[[int], AbstractContextManager[Dump]], plasma: Plasma) -> Matter:
-    """The matter of the dumps in this order. All times and nodes are checked before a field is read."""
+    """The matter of the dumps in this order. Checks the times and nodes of all dumps before it reads any field."""
     if not 2 <= len(paths) <= FRAMES_MOST:
         raise ValueError(f"a series has {len(paths)} dumps; it must have 2 to {FRAMES_MOST}")
     times: list[float] = []
@@ -50,7 +50,7 @@ def _check_time(dump: Dump, times: list[float], paths: Sequence[str]) -> None:
 
 
 def _check_same(first: Dump, dump: Dump) -> None:
-    """Refuses a dump of another hole or with other nodes than the first one."""
+    """Refuses a dump whose hole or nodes differ from those of the first dump."""
     for name, of, want in (("spin", dump.spin, first.spin), ("adiabatic index", dump.gamma, first.gamma)):
         if of != want:
             raise DumpProblem(dump.file, None, f"has the {name} {of:g}; it must be {want:g}, as in {first.file}")

@@ -13,7 +13,7 @@ from .sheet import Draft, Entry, Imported, ImportProblem, Sheet, shown
 PIVOT_HZ = 230e9  # frequency to which volume.gold_emission and volume.gold_absorption refer
 GOLD_OUTER_M = 80  # exp(-(80/10)^2/2) = 1e-14 of the largest density, as in the presets gold-1 to gold-5
 
-# The first version called the camera's keys image_*.
+# In the first version of Blacklight, the camera's keys were called image_*.
 OLD_NAMES = {
     "image_camera": "camera_type",
     **{
@@ -25,7 +25,7 @@ FORMULA = {f"formula_{name}" for name in ("mass", "spin", "r0", "h", "l0", "q", 
 CAMERA = set(OLD_NAMES.values())
 CUTS = ("rho", "n_e", "p_gas", "theta_e", "b", "sigma", "beta_inverse")
 
-# Keys about Blacklight's own method and files, by type: words, whole numbers, numbers and flags.
+# Keys about Blacklight's own method and files, by the type of their values: words, whole numbers, numbers and flags.
 METHOD_WORDS = {
     "ray_terminate": ("photon", "multiplicative", "additive"),
     "ray_integrator": ("dp", "rk4", "rk2"),
@@ -67,7 +67,7 @@ METHOD_FLAGS = (
 )
 METHOD_TEXTS = ("output_file", "checkpoint_geodesic_file", "checkpoint_sample_file")
 
-# Flags for maps of other quantities than light, and what kerrd has instead.
+# Flags that request maps of quantities other than light; for each, the part of kerrd that computes such a quantity.
 MAPS = {
     "image_time": "the layer delay has the time of arrival of light from the disk's plane alone",
     "image_length": "kerrd has no map of the length of rays",
@@ -133,7 +133,7 @@ NUMBERED = re.compile(r"render_[0-9]+_(num_features|[0-9]+_\w+)|adaptive_region_
 
 
 def _entries(name: str, data: bytes) -> dict[str, Entry]:
-    """Blacklight removes white space, and all text after a #."""
+    """White space, and all text after a #, are ignored, as in Blacklight."""
     entries: dict[str, Entry] = {}
     for number, line in enumerate(text.lines(name, data), 1):
         told = re.sub(r"\s", "", line).split("#")[0]
@@ -259,7 +259,7 @@ def _simulation(sheet: Sheet) -> float:
 
 
 def _camera(sheet: Sheet, spin: float) -> Received:
-    """Sets the camera. Returns the frequency and motion of its observer."""
+    """Sets the camera. Returns the frequency and the motion of Blacklight's observer."""
 
     def named(key: str) -> str:
         return next((old for old, new in OLD_NAMES.items() if new == key and old in sheet), key)
@@ -286,7 +286,7 @@ def _camera(sheet: Sheet, spin: float) -> Received:
     if theta in (0, 180) and (u3 or k3):
         raise sheet.wrong(key["th"], "between the poles, because a phi component is not 0")
     seen = received(spin, r, math.radians(theta), (u1, u2, u3), (k1, k2, k3))
-    if "volume" in sheet.draft.document:  # Blacklight leaves out matter beyond the camera
+    if "volume" in sheet.draft.document:  # Blacklight ignores matter beyond the camera's radius
         sheet.draft.put("volume.outer", min(GOLD_OUTER_M, r))
     for name, value in zip(photon, (k1, k2, k3)):
         if name == photon[0] or value == 0:

@@ -40,7 +40,7 @@ def read(name: str, data: bytes) -> Imported:
 
 
 def _metric(draft: Draft, element: xml.Element) -> tuple[Units, float]:
-    """The units of the other sections, and the spin."""
+    """The units of values in the other sections, and the spin."""
     metric = section(draft, element, "Metric/")
     metric.kind(METRICS, "kerrd's spacetime is that of Kerr")
     metric.known({"Spin", "Mass", *METRIC_NUMBERS, *(name for pair in METRIC_SWITCHES for name in pair)})

@@ -13,7 +13,7 @@ from .kerr import eddington_kg_s, efficiency, isco, kepler
 from .sheet import Draft, ImportProblem, shown
 from .units import Units
 
-OUTER_M = 1e6  # outer edge in M for a disk that has none in GYOTO
+OUTER_M = 1e6  # outer edge in M that a disk gets if it has none in GYOTO
 # Kinds of matter that kerrd does not have.
 OTHERS = (
     *"Blob DeformedTorus DirectionalDisk Disk3D Disk3D_BB DynamicalDisk DynamicalDisk3D DynamicalDiskBolometric".split(),
@@ -63,7 +63,7 @@ class Matter:
         self.draft, self.units, self.spin, self.coordinates = draft, units, spin, coordinates
         self.stokes = any(name.startswith("SpectrumStokes") for name in quantities)
         self.disks = 0
-        self.against = False  # a disk that turns against the spin
+        self.against = False  # true if a disk turns against the spin
         draft.put("disk.model", "none")
 
     def add(self, element: xml.Element, name: str) -> None:
@@ -98,7 +98,7 @@ class Matter:
             )(element, name, kind)
 
     def finish(self, camera: Camera) -> None:
-        """Sets the fields that depend on all objects: the time, and the sense in which the disk turns."""
+        """Sets the fields that depend on all objects together: the time, and the direction of the disk's rotation."""
         document, screen = self.draft.document, camera.screen
         moving = document.get("spots") or document.get("bodies")
         if moving and camera.time is not None:
@@ -108,7 +108,7 @@ class Matter:
             screen.ignore("Time", "nothing in the scene moves")
         if not self.against:
             return
-        # kerrd's disk always turns towards +phi, so the hole is turned over instead.
+        # kerrd's disk always turns towards +phi. For the opposite rotation, the hole is turned upside down.
         document["spacetime"]["spin"] = -self.spin or 0.0
         view = document["camera"]
         view["inclination_deg"] = 180 - camera.inclination_deg
@@ -122,11 +122,11 @@ class Matter:
             self.draft.lacks("the scene is without its spots, which turn against the disk")
 
     def _full(self, name: str, most: int) -> str | None:
-        """The reason why the scene cannot have another of these objects; None if it can."""
+        """The reason why the scene cannot have one more object of this kind, or None."""
         return f"a scene has at most {most} {name}" if len(self.draft.document.get(name, [])) >= most else None
 
     def _generic(self, sheet: Section) -> tuple[bool, bool]:
-        """Sets whether light is redshifted and whether matter is transparent."""
+        """Sets whether kerrd redshifts light, and whether matter is transparent."""
         for pair in GENERIC_SWITCHES:
             sheet.switch(*pair, default=False)
         for key in ("RMax", "DeltaMaxInsideRMax"):
@@ -221,8 +221,8 @@ class Matter:
             sheet.say(key, "disk.mdot_edd", rate * 1e-3 * efficiency(spin) / eddington_kg_s(self.units.mass_msun))
 
     def _path(self, sheet: Section, fixed: bool = False) -> Path:
-        """The path from the keys Position (t, r, theta, phi) and Velocity (dr/dt, dtheta/dt, dphi/dt), or from the same
-        keys in Kerr-Schild x, y, z."""
+        """The orbit from the keys Position (t, r, theta, phi) and Velocity (dr/dt, dtheta/dt, dphi/dt). In Kerr-Schild
+        coordinates these keys have x, y and z instead of r, theta and phi."""
         t, *place = [0.0, *sheet.numbers("Position", 3)] if fixed else sheet.numbers("Position", 4)
         velocity = sheet.numbers("Velocity", 3) if "Velocity" in sheet else [0.0, 0.0, 0.0]
         if self.coordinates == "KerrKS":
@@ -242,7 +242,7 @@ class Matter:
         return Path(r, round(math.degrees(theta), 9), turn(math.degrees(phi - omega * t)), motion)
 
     def _place_problem(self, sheet: Section, path: Path) -> str:
-        """The reason why the scene cannot have an object there, or ""."""
+        """The reason why the scene cannot have an object at this position, or ""."""
         if self.coordinates == "KerrKS" and self.spin != 0:
             return "in Kerr-Schild coordinates about a spinning hole its azimuth is another than kerrd's"
         if path.r < 1.05 * (1 + math.sqrt(1 - self.spin**2)):

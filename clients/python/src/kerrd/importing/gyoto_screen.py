@@ -12,7 +12,8 @@ from .kerr import UAS
 from .sheet import Draft, ImportProblem, shown
 from .units import ANGLES, Units
 
-NEAREST_INFINITE_M = 1e5  # distance beyond which the camera is placed at infinity, with the same width at the hole
+# distance beyond which kerrd's camera is placed at infinity, with the same width of the picture at the hole
+NEAREST_INFINITE_M = 1e5
 DMAX_M = 1e7  # if the screen is farther away than this, GYOTO starts its rays here
 FIELD_RAD = 0.1 * math.pi  # GYOTO's standard
 RESOLUTION = 1001  # GYOTO's standard
@@ -41,7 +42,7 @@ KNOWN = {
 
 @dataclass
 class Camera:
-    """r in M; time: the scene's time at which light arrives, in M, or None."""
+    """r in M. time: scene time in M at which the light arrives, or None."""
 
     r: float
     inclination_deg: float
@@ -52,7 +53,7 @@ class Camera:
 
 
 def turn(degrees: float) -> float:
-    """The angle in the range -180 (excluded) to 180. It is rounded, because sums of radians are not exact."""
+    """The angle in the range from -180 (excluded) to 180. It is rounded to remove errors of sums in radians."""
     return round(180 - (180 - degrees) % 360, 9) + 0.0
 
 
@@ -68,7 +69,7 @@ def read(draft: Draft, element: xml.Element, units: Units, spin: float, coordina
         draft.put(path, value)
     if "Time" in screen:
         camera.time = units.time(screen, "Time")
-        if camera.r > NEAREST_INFINITE_M:  # kerrd subtracts r + 2 ln r from a delay from infinity
+        if camera.r > NEAREST_INFINITE_M:  # for an observer at infinity, kerrd subtracts r + 2 ln r from a delay
             camera.time -= camera.r + 2 * math.log(min(camera.r, DMAX_M))
     side = screen.whole("Resolution", RESOLUTION, 1)
     draft.put("image.width", side)
@@ -82,7 +83,7 @@ def read(draft: Draft, element: xml.Element, units: Units, spin: float, coordina
 
 
 def _place(screen: Section, units: Units, spin: float, coordinates: str) -> Camera:
-    """Later keys replace what earlier ones have set, as in GYOTO."""
+    """A later key overrides what earlier keys have set, as in GYOTO."""
     r: float | None = None
     theta, phi, nodes = math.pi, -math.pi / 2, 0.0
     by: dict[str, str] = {}
@@ -147,8 +148,8 @@ def _check_number(screen: Section, key: str, value: str, must: str) -> None:
 
 
 def _spherical(place: list[float], spin: float) -> tuple[float, float, float]:
-    """Kerr-Schild x, y, z as Boyer-Lindquist r and theta, and the azimuth: r^4 - (x^2 + y^2 + z^2 - a^2) r^2 - a^2 z^2
-    = 0."""
+    """Converts Kerr-Schild x, y, z to Boyer-Lindquist r and theta, and an azimuth. r solves r^4 - (x^2 + y^2 + z^2 -
+    a^2) r^2 - a^2 z^2 = 0."""
     x, y, z = place
     half = (x * x + y * y + z * z - spin * spin) / 2
     r = math.sqrt(half + math.hypot(half, spin * z))

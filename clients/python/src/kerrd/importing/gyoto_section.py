@@ -13,7 +13,8 @@ ATTRIBUTES = {
     "Spectrometer": {"kind", "plugin", "nsamples", "unit"},
     **{name: {"kind", "plugin"} for name in ("Metric", "Screen", "Astrobj", "SubAstrobj", "Spectrum", "Opacity")},
 }
-# Properties that the path of any light or matter has in GYOTO: numbers, whole numbers, words, switches.
+# Properties that the path of any light or matter has in GYOTO, by the type of their values: numbers, whole numbers,
+# words, switches.
 WORLDLINE_NUMBERS = ("RelTol", "AbsTol", "DeltaMaxOverR", "DeltaMax", "DeltaMin", "Delta", "MinimumTime")
 WORLDLINE_SWITCHES = (
     ("Adaptive", "NonAdaptive"),
@@ -29,7 +30,7 @@ WORLDLINE_METHOD = {
 
 
 class Section(Sheet):
-    """elements: the children by name, as well as the entries."""
+    """Entries of a section. elements: the children by name."""
 
     def __init__(self, draft: Draft, element: Element, name: str, entries: dict[str, Entry]) -> None:
         super().__init__(draft, entries, name)
@@ -40,7 +41,7 @@ class Section(Sheet):
         super().known(keys, what)
 
     def kind(self, kinds: Iterable[str], why: str) -> str:
-        """The attribute `kind`, if it is one of these."""
+        """The attribute `kind`; refused unless it is one of these words."""
         said = self.element.attributes.get("kind", "")
         if said not in kinds:
             raise ImportProblem(
@@ -60,7 +61,7 @@ class Section(Sheet):
         return [part.number(key) for part in parts]
 
     def switch(self, on: str, off: str, default: bool) -> bool:
-        """True if the empty element <on/> is present rather than <off/>; the default if neither is."""
+        """True if the section has the empty element <on/>, false if it has <off/>; the default if it has neither."""
         for key in (on, off):
             if self.entries.get(key, Entry("", 0)).value:
                 raise self.wrong(key, f"empty, as in <{key}/>")
@@ -69,7 +70,7 @@ class Section(Sheet):
         return on in self or (default and off not in self)
 
     def method(self) -> None:
-        """Notes the use of the properties of paths."""
+        """Records that the properties of paths were used."""
         for key in WORLDLINE_NUMBERS:
             self.number(key, 0.0)
         self.whole("MaxIter", 0, 0)
@@ -88,8 +89,8 @@ class Section(Sheet):
 def section(
     draft: Draft, element: Element, name: str, containers: Iterable[str] = (), several: Iterable[str] = ()
 ) -> Section:
-    """The children of an element as entries. containers: children that have children; several: children that may occur
-    more than once; they are not entries."""
+    """The children of an element as entries. containers: names of children that have children of their own. several:
+    names of children that may occur more than once. Children of either kind are not entries."""
     entries: dict[str, Entry] = {}
     for child in element.children:
         allowed = ATTRIBUTES.get(child.name, {"unit"})

@@ -1,7 +1,8 @@
 """Parameter files of ipole (M. Moscibrodzka & C. F. Gammie 2018, MNRAS 475, 43; github.com/AFD-Illinois/ipole): lines
 `key value`.
 
-A file does not name its model, which is compiled into the program. It is found by the keys that only one model has.
+The model is compiled into ipole, and a file does not name it. Keys that only one model has tell which model the file is
+for.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from . import text
 from .kerr import UAS, efficiency, field_m, horizon
 from .sheet import Draft, Entry, Imported, ImportProblem, Sheet, shown
 
-LONGEST_LINE = 254  # ipole reads lines into a buffer of 255 bytes
+LONGEST_LINE = 254  # ipole reads each line into a buffer of 255 bytes
 MODELS = ("analytic", "riaf", "thin_disk", "grmhd")
 # The numbers of the five tests of Gold et al. 2020 (ApJ 897, 148), table 1: A, alpha, h, l0, spin.
 GOLD = {
@@ -23,7 +24,7 @@ GOLD = {
     5: (1e6, 0, 100 / 3, 1, 0.9),
 }
 GOLD_HZ, GOLD_EMISSION, GOLD_OUTER_M = 230e9, 3e-18, 80
-# Magnetic pressure over a proton's rest energy per electron at 1 M in the model riaf: 0.1/6.
+# Model riaf: magnetic pressure divided by a proton's rest energy per electron, at 1 M: 0.1/6.
 RIAF_MAGNETISATION = 0.1 / 6
 DISK_OUTER_M, DISK_HARDENING, DISK_EFFICIENCY = 100, 1.8, 0.1  # constants of the model thin_disk
 STANDARD = {"rcam": 1000.0, "thetacam": 90.0, "phicam": 0.0, "rotcam": 0.0, "dsource": 16.9e6, "field_uas": 160.0}
@@ -36,7 +37,7 @@ METHOD_WHOLES = (
 )
 METHOD_NUMBERS = "eps refine_abs refine_rel refine_cut img_cadence restart_int".split()
 METHOD_TEXTS = "outfile trace_outf histo_outf".split()
-# Numbers that kerrd supports at one value only: that value, and what kerrd always does.
+# Numbers for which kerrd supports one value only: the value, and a sentence about what kerrd does.
 OFF = {
     "counterjet": (0, "volumes shine in both hemispheres"),
     "target_nturns": (-1, "light of volumes is not divided by image order"),
@@ -67,7 +68,7 @@ ALWAYS = "not used by this model of ipole"
 
 
 def _entries(name: str, data: bytes) -> dict[str, Entry]:
-    """ipole reads the first two words of a line. What begins with a # is a comment."""
+    """Like ipole, reads the first two words of a line. A line that starts with # is a comment."""
     entries: dict[str, Entry] = {}
     for number, line in enumerate(text.lines(name, data), 1):
         words = line.split(None, 2)
@@ -152,7 +153,7 @@ def _analytic(sheet: Sheet) -> float:
     sheet.said("emission_type", "volume.model")
     hertz = sheet.positive("freqcgs")
     sheet.draft.put("spacetime.spin", spin)
-    # ipole's emission refers to freqcgs, kerrd's to 230 GHz.
+    # ipole's emission coefficient refers to freqcgs, and kerrd's to 230 GHz.
     up = GOLD_HZ / hertz
     emission = sheet.number("rho_unit", GOLD_EMISSION)
     for field, value in (
@@ -266,7 +267,7 @@ def _thin_disk(sheet: Sheet) -> float:
     }
     for field, value in disk.items():
         sheet.draft.put(f"disk.{field}", value)
-    # ipole's Eddington rate assumes an efficiency of 0.1; kerrd's has the efficiency of the spin.
+    # ipole's Eddington rate assumes an efficiency of 0.1. kerrd's uses the efficiency that follows from the spin.
     rate = sheet.positive("Mdot", 0.01) * efficiency(spin) / DISK_EFFICIENCY
     sheet.draft.put("disk.mdot_edd", rate)
     sheet.say("Mdot", "disk.mdot_edd", rate)
@@ -318,8 +319,8 @@ def _camera(sheet: Sheet, model: str) -> None:
 
 
 def _field(sheet: Sheet, mass: float, distance: float) -> None:
-    """The width on the sky, as par.c and main.c of ipole read it: in microarcseconds, or in M, or by default 160
-    microarcseconds."""
+    """The picture's width on the sky, read as in par.c and main.c of ipole: in microarcseconds or in M. The default is
+    160 microarcseconds."""
 
     def given(*names: str) -> tuple[str | None, float]:
         keys = [key for key in names if key in sheet]

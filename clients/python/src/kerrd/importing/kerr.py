@@ -1,5 +1,5 @@
-"""Numbers of a hole that the codes compute themselves instead of reading them from input files: orbits, and the light
-that an observer near the hole receives."""
+"""Quantities of the hole that the other codes compute instead of reading them from input files: orbits, and the
+frequency and direction of light for an observer near the hole."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ def isco(a: float) -> float:
 
 
 def efficiency(a: float) -> float:
-    """Share of the rest energy that gas radiates before it reaches the ISCO: 1 - E, E^2 = 1 - 2/(3 r)."""
+    """Fraction of its rest energy that gas radiates before it reaches the ISCO: 1 - E, with E^2 = 1 - 2/(3 r)."""
     return 1 - math.sqrt(1 - 2 / (3 * isco(a)))
 
 
 def eddington_kg_s(mass_msun: float) -> float:
-    """L_Edd/c^2 = 4 pi G M m_p/(sigma_T c)."""
+    """Eddington luminosity over c^2: L_Edd/c^2 = 4 pi G M m_p/(sigma_T c)."""
     return 4 * math.pi * GM_SUN * mass_msun * PROTON_KG / (THOMSON_M2 * C_M_S)
 
 
@@ -48,7 +48,7 @@ def field_m(angle_rad: float, mass_msun: float, distance_pc: float) -> float:
 @dataclass(frozen=True)
 class Received:
     """Frequency and motion of an observer. infinity: a photon's frequency at infinity over its frequency at the
-    observer. still: whether the observer is at rest with respect to infinity. velocity: r, theta and phi components
+    observer. still: true if the observer is at rest with respect to infinity. velocity: r, theta and phi components
     relative to the local observer of zero angular momentum, c."""
 
     infinity: float
@@ -59,11 +59,12 @@ class Received:
 def received(
     a: float, r: float, theta: float, past_normal: tuple[float, float, float], photon: tuple[float, float, float]
 ) -> Received:
-    """For an observer in spherical Kerr-Schild coordinates. past_normal: its contravariant velocity components r, theta,
-    phi beyond those of the normal observer. photon: the covariant components k_r, k_theta, k_phi of an outgoing photon.
+    """Frequency and motion of an observer that is given in spherical Kerr-Schild coordinates. past_normal:
+    contravariant components r, theta, phi of its velocity, minus those of the normal observer. photon: the covariant
+    components k_r, k_theta, k_phi of an outgoing photon.
 
-    C. J. White 2022 (ApJS 262, 28), 2.1, gives a camera by these numbers. theta must not be a pole unless the phi
-    components are 0.
+    C. J. White 2022 (ApJS 262, 28), section 2.1, describes a camera by these numbers. theta must not be a pole unless
+    the phi components are 0.
     """
     s, c = math.sin(theta), math.cos(theta)
     sigma, delta = r * r + a * a * c * c, r * r - 2 * r + a * a
@@ -78,11 +79,11 @@ def received(
         + ((r * r + a * a + h * a * a * s * s) * s * s - (1 + h) * (a * s * s) ** 2) * up * up
     )
     u0, u1, u2, u3 = energy / lapse, ur - shift / lapse * energy, ut, up
-    # Null: g^tt k_t^2 + 2 g^tr k_r k_t + g^ij k_i k_j = 0, with g^tt = -(1 + h), g^tr = h.
+    # Null condition, which gives k_t: g^tt k_t^2 + 2 g^tr k_r k_t + g^ij k_i k_j = 0, with g^tt = -(1 + h), g^tr = h.
     square = (delta * kr * kr + 2 * a * kr * kp + kt * kt) / sigma + (kp * kp / (sigma * s * s) if kp else 0.0)
     k0 = (h * kr - math.sqrt(h * h * kr * kr + (1 + h) * square)) / (1 + h)
     local = -(k0 * u0 + kr * u1 + kt * u2 + kp * u3)
-    # In Boyer-Lindquist coordinates, relative to the observer of zero angular momentum.
+    # From here on in Boyer-Lindquist coordinates, relative to the observer of zero angular momentum.
     t, phi = u0 - 2 * r / delta * u1, u3 - a / delta * u1
     area = (r * r + a * a) ** 2 - a * a * delta * s * s
     gamma = math.sqrt(sigma * delta / area) * t

@@ -1,5 +1,5 @@
-"""Keys and values of another code's input file, each with its line, and the fate of each: said by fields of the scene,
-ignored, or not said."""
+"""Keys and values of another code's input file, each with its line and its fate: said by fields of the scene, ignored,
+or not said."""
 
 from __future__ import annotations
 
@@ -14,12 +14,13 @@ from ..document import Document, dataclass_of
 from ..errors import KerrdError
 from ..scene import Scene
 
-LARGEST_BYTES = 1 << 20  # as the version of a scene document
+LARGEST_BYTES = 1 << 20  # largest size of an input file: 1 MiB
 LONGEST_SHOWN = 60
 NUMBER = re.compile(r"[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]{1,4})?")
 WHOLE = re.compile(r"[+-]?[0-9]{1,9}")
 
-# Ranges and words of the fields that are set here, as in src/scene/fields.h. A test compares this list with the schema.
+# Ranges and words of the fields that the import sets, copied from src/scene/fields.h. A test compares this list with
+# the schema.
 LIMITS: Mapping[str, tuple[float, float]] = {
     "spacetime.spin": (-0.999999999999, 0.999999999999),
     "spacetime.mass_msun": (1e-3, 1e12),
@@ -80,9 +81,10 @@ class ImportProblem(KerrdError, ValueError):
 class Note:
     """How a key was used.
 
-    key: its name, with its sections as in Screen/Distance; "" for something that the file does not have. line: its
-    line, from 1, or None. fate: "said" by fields of the scene; "ignored", because it is about the other code's method
-    or files, or switched off; "not said", because kerrd has no such thing. text: the fields that say it, or a sentence.
+    key: its name, with its sections as in Screen/Distance; "" for a value that the file does not state. line: its line,
+    from 1, or None. fate: "said": fields of the scene express the key; "ignored": the key is about the other code's
+    method or files, or is switched off; "not said": kerrd cannot express the key. text: the fields that express it, or
+    a sentence.
     """
 
     key: str
@@ -95,8 +97,8 @@ class Note:
 class Imported:
     """A scene that was made from another code's input file.
 
-    scene: for any method that takes one; a copy can be changed. document: the same as JSON. code: "gyoto", "ipole" or
-    "blacklight". notes: what became of each key, by line. not_said, ignored: the notes of that fate.
+    scene: a Scene, for any method of the client; change a copy only. document: the scene as JSON. code: "gyoto",
+    "ipole" or "blacklight". notes: what became of each key, by line. not_said, ignored: the notes of that fate.
     """
 
     file: str
@@ -141,7 +143,7 @@ class Draft:
     notes: list[Note] = field(default_factory=list)
 
     def put(self, path: str, value: Any) -> None:
-        """Sets a field, or adds an element to a list where the path is "spots" or "bodies"."""
+        """Sets a field. If the path is "spots" or "bodies", adds an element to that list."""
         *sections, last = path.split(".")
         here = self.document
         for name in sections:
@@ -173,7 +175,7 @@ class Sheet:
         return key in self.entries
 
     def known(self, keys: Iterable[str], what: str) -> None:
-        """Refuses an entry whose key is not in keys. what: names the file that has them, as in "an input file of
+        """Refuses an entry whose key is not in `keys`. what: words for the file in the message, as in "an input file of
         ipole"."""
         keys = set(keys)
         for key, entry in self.entries.items():
@@ -188,7 +190,7 @@ class Sheet:
                 )
 
     def wrong(self, key: str, must: str) -> ImportProblem:
-        """The refusal of a value. must: what it must be."""
+        """The error for a refused value. must: what the value must be."""
         entry = self.entries.get(key)
         name = self.section + key
         if entry is None:
@@ -196,7 +198,7 @@ class Sheet:
         value = shown(entry.value) + (f" {entry.unit}" if entry.unit else "")
         return ImportProblem(self.draft.file, entry.line, name, f"{name} is {value}; it must be {must}")
 
-    # Values of keys. Each method refuses a missing key, unless the key has a default.
+    # Reads values of keys. Each method refuses a file without the key, unless the key has a default.
 
     def text(self, key: str, default: str | None = None) -> str:
         if key not in self.entries:
@@ -249,7 +251,7 @@ class Sheet:
             return default
         return self.word(key, ("true", "false")) == "true"
 
-    # Methods that record the use of a key.
+    # Methods that record how a key was used.
 
     def say(self, key: str, path: str, value: Any) -> None:
         """Sets a field of the scene from a key. Refuses a number that the field does not accept."""
@@ -258,7 +260,7 @@ class Sheet:
         self.said(key, path)
 
     def fits(self, key: str, path: str, value: Any) -> Any:
-        """The value, if the field accepts it."""
+        """The value; refused if the field does not accept it."""
         low, high = LIMITS.get(path, (-math.inf, math.inf))
         if isinstance(value, (int, float)) and not low <= value <= high:
             raise self.wrong(key, f"such that {path}, {value:.9g}, is from {low:.13g} to {high:.13g}")

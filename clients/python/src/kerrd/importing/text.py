@@ -1,4 +1,4 @@
-"""Reads another code's input file, with limits on its size, and finds out which code it is for."""
+"""Reads another code's input file, with limits on its size, and determines the code by the contents."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .sheet import LARGEST_BYTES, Entry, ImportProblem, shown
 
 
 def read(path: str | os.PathLike[str]) -> bytes:
-    """The bytes of a file. ImportProblem if it cannot be read, or is larger than 1 MiB."""
+    """The bytes of a file. Raises ImportProblem if the file cannot be read, or is larger than 1 MiB."""
     name = os.fspath(path)
     try:
         with open(name, "rb") as file:
@@ -24,7 +24,7 @@ def read(path: str | os.PathLike[str]) -> bytes:
 
 
 def lines(name: str, data: bytes) -> list[str]:
-    """The lines of a text file. ImportProblem if it is not text in UTF-8."""
+    """The lines of a text file. Raises ImportProblem if the file is not text in UTF-8."""
     for number, line in enumerate(data.split(b"\n"), 1):
         try:
             text = line.decode("utf-8")
@@ -41,7 +41,7 @@ def lines(name: str, data: bytes) -> list[str]:
 
 
 def add(name: str, entries: dict[str, Entry], key: str, entry: Entry) -> None:
-    """Adds an entry; a key that is given twice is refused."""
+    """Adds an entry. Refuses a key that is given twice."""
     if key in entries:
         raise ImportProblem(
             name,
@@ -54,7 +54,7 @@ def add(name: str, entries: dict[str, Entry], key: str, entry: Entry) -> None:
 
 
 def code_of(name: str, data: bytes) -> str:
-    """The code that the file is for, by its contents. ImportProblem if the contents fit none."""
+    """The code that the file is for, determined by its contents. Raises ImportProblem if no code fits."""
     start = data.lstrip(b"\xef\xbb\xbf \t\r\n\f\v")
     if start.startswith((b"<", b"\xff\xfe", b"\xfe\xff")):
         return "gyoto"

@@ -32,7 +32,7 @@ ANGLES = {
 
 
 class Units:
-    """Converts values of a section; mass_msun: the hole's mass, or None if the file does not have it."""
+    """Converts values of a section. mass_msun: the hole's mass, or None if the file does not state it."""
 
     def __init__(self, mass_msun: float | None) -> None:
         self.mass_msun = mass_msun
@@ -51,7 +51,7 @@ class Units:
         return sheet.number(key) * _factor(sheet, key, ANGLES, "rad")
 
     def length(self, sheet: Sheet, key: str, default: str) -> float:
-        """The length in M. default: the unit of a value that has none."""
+        """The length in M. default: unit of a value without a unit."""
         unit = sheet.entries[key].unit or default
         if unit == "geometrical":
             return sheet.number(key)
@@ -59,7 +59,7 @@ class Units:
         return metres / self._hole_m(sheet, key)
 
     def time(self, sheet: Sheet, key: str) -> float:
-        """The time in M. A length is converted to the time that light needs to travel it."""
+        """The time in M. A value in units of length is the time that light needs for that length."""
         unit = sheet.entries[key].unit or "s"
         if unit in ("geometrical_time", "geometrical"):
             return sheet.number(key)
@@ -67,7 +67,7 @@ class Units:
         return sheet.number(key) * _factor(sheet, key, seconds, "s") * C_M_S / self._hole_m(sheet, key)
 
     def field(self, sheet: Sheet, key: str, distance_m: float) -> float:
-        """Radians, from an angle, or from a length at the hole. distance_m: of the hole, in M."""
+        """The angle in radians, from an angle or from a length at the hole. distance_m: the hole's distance in M."""
         unit = sheet.entries[key].unit
         if unit == "geometrical" or unit in LENGTHS:
             return self.length(sheet, key, "geometrical") / distance_m

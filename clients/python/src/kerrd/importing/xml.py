@@ -1,5 +1,5 @@
-"""Parses XML into elements with their line numbers, by Python's expat. Document types are refused, and with them
-entities."""
+"""Parses XML into elements with their line numbers, by Python's expat. Document types are refused, so that a file
+cannot define entities."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ MOST_ELEMENTS = 10000
 
 @dataclass
 class Element:
-    """text: the text before the first child, without white space at its ends."""
+    """An element. text: the text before the first child, stripped of white space."""
 
     name: str
     line: int
@@ -24,7 +24,7 @@ class Element:
 
 
 def parse(file: str, data: bytes) -> Element:
-    """The root element. ImportProblem, with the line, if the text is not XML or has a document type."""
+    """The root element. Raises ImportProblem, with the line, if the text is not XML or has a document type."""
     parser = expat.ParserCreate()
     parser.buffer_text = True
     open_elements: list[Element] = []
