@@ -15,9 +15,9 @@
 
 enum {
     N = KD_RETURNING_RINGS,
-    /* number of crossings of the plane that are computed. Without spin, each further crossing has e^-pi of the
-     * light of the one before; next to a = 1 it has more: at a = 0.998 the sixth has 1e-5 of the ISCO's light. */
-    ORDERS = 5,
+    ORDERS = 5, /* number of crossings of the plane that are computed. Without spin, each further crossing has e^-pi
+                 * of the light of the one before; next to a = 1 it has more: at a = 0.998 the sixth has 1e-5 of the
+                 * ISCO's light. */
     SIDES = 16, /* number of Gauss points in chi, in each of at most PANELS panels */
     PANELS = 3,
     DEPTH = 12, /* number of Gauss points along each chi */

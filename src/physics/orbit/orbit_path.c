@@ -13,8 +13,8 @@ static inline void add(struct kd_exact *to, double x)
     to->value = sum;
 }
 
-/* Half of W'. If both ends of the range of w are known, it is computed from the distances to them, so that a circular
- * orbit, whose ends coincide, stays circular for ever. */
+/* Half of W'. If both ends of the range of w are known, it is computed from the distances of w to these ends. So a
+ * circular orbit, whose ends coincide, stays circular for ever. */
 static double radial_force(const struct kd_orbit_path *p, double w, double rest)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -30,8 +30,8 @@ static double pull_of_spring(const struct kd_spring *s, double q, double rest)
     return s->strength * ((q - s->centre) + rest);
 }
 
-/* The derivatives of the rates at a place. They are the forces without those of the springs, and then the rates of
- * proper time, t and chi. rest: the rounding error of w. */
+/* The derivatives of the rates at a place: first the forces, without those of the springs; then the rates of proper
+ * time, t and chi. rest: rounding error of w. */
 static void pull(const struct kd_orbit_path *p, const double *q, double rest, double *f)
 {
     const struct kd_orbit *o = &p->orbit;
@@ -41,7 +41,7 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
     f[KD_PATH_Y] = y * (2 * flat * o->z * y2 + p->stiff);
     f[KD_PATH_PROPER] = far + up;
     double turn = p->twist != 0 ? p->twist * (1 - y2) / (1 - p->nu * y2) : 0;
-    if (p->ingoing) { /* (P - sqrt R)/Delta = (r^2 + K)/(P + sqrt R) with P = E(r^2 + a^2) - aL */
+    if (p->ingoing) { /* (P - sqrt R)/Delta, computed as (r^2 + K)/(P + sqrt R), with P = E(r^2 + a^2) - aL */
         double speed = sqrt(fmax(kd_orbit_radial(o, w), 0)), past = o->energy * (1 + a2w2) - a * o->momentum * w2;
         double slow = (1 + o->k * w2) / (past + speed);
         f[KD_PATH_T] = (1 + a2w2) * far * slow + a * o->momentum - a * a * o->energy + o->energy * up;
@@ -54,13 +54,14 @@ static void pull(const struct kd_orbit_path *p, const double *q, double rest, do
         o->energy * (far + 2 * w * far + o->four + up) + (o->near * w - 4 * a2w2 * o->energy - o->nearer * w2) * hole;
 }
 
-/* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits, from his three equations by Newton's method. */
+/* The weights w3, w2, w1, w0 of Yoshida's solution A, to 25 digits. They were computed from his three equations by
+ * Newton's method. */
 const double kd_orbit_kicks[4] = { 0.7845136104775572638194976, 0.2355732133593581336847932,
                                    -1.177679984178871006946416, 1.31518632068391121888425 };
 
 static int kick_of(int stage) { return stage < 4 ? stage : 6 - stage; }
 
-/* Duration of a drift: half of a leapfrog plus half of the next one. */
+/* Duration of the drift between two stages: half of one leapfrog plus half of the next. */
 static double drift_of(int stage)
 {
     if (stage == 0 || stage == 7)
