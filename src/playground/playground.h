@@ -138,19 +138,22 @@ bool kd_playground_lost_momentum(const struct kd_playground *p);
 
 /* Sums over all bodies at present. */
 struct kd_playground_totals {
-    double mass, kinetic, potential, mutual; /* potential: in the hole's field; mutual: of the pairs */
+    /* masses and energies; potential: energy in the hole's field; mutual: energy of the pairs */
+    double mass, kinetic, potential, mutual;
     double energy, momentum[3], angular[3];
-    double h_plus, h_cross; /* strain times distance, seen along +z: the second derivative of the quadrupole */
+    /* gravitational-wave strain times distance, seen along +z, from the second derivative of the quadrupole */
+    double h_plus, h_cross;
     double separation,
-        /* Both are of the closest bound pair of bodies or, if there is none, of the innermost body and the hole; NAN
-         * without bodies. */
+        /* Distance and wave frequency of the closest bound pair of bodies or, if there is no such pair, of the
+         * innermost body and the hole; NAN without bodies. */
         wave_frequency;
 };
 struct kd_playground_totals kd_playground_totals(struct kd_playground *p);
 
 /* Writes the present values as a row of `series`. */
 void kd_playground_series_row(struct kd_playground *p, double row[KD_SERIES_N]);
-/* Restarts the series at the present time. span: its length in M; 0, the default: open-ended (series.h). */
+/* Restarts the series at the present time. span: its length in M, or 0 (the default) for an open-ended series
+ * (series.h). */
 void kd_playground_series_begin(struct kd_playground *p, double span);
 
 /* Writes the approximations that are in use, as an array of strings. */
